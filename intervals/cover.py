@@ -1,0 +1,37 @@
+"""Adaptive subdivision that provably covers."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
+
+from intervals.errors import Undecided
+
+_Part = TypeVar("_Part")
+_Answer = TypeVar("_Answer")
+
+
+def cover(
+    parts: Iterable[_Part],
+    decide: Callable[[_Part], _Answer | None],
+    split: Callable[[_Part], Iterable[_Part]],
+    *,
+    limit: int = 10_000,
+) -> Iterator[tuple[_Part, _Answer]]:
+    """Yield (part, answer) until the given parts are used up, in their order.
+
+    Hypothesis: the union of split(part) contains the part. Conclusion: the union of what was
+    yielded contains the union of `parts`, and `decide` answered each. A part that it does not
+    answer (None) is split; after `limit` decisions the error Undecided names the part at hand,
+    so an incomplete cover is never taken for a cover.
+    """
+    waiting = list(parts)[::-1]
+    for _ in range(limit):
+        if not waiting:
+            return
+        part = waiting.pop()
+        answer = decide(part)
+        if answer is None:
+            waiting.extend(list(split(part))[::-1])
+        else:
+            yield part, answer
+    if waiting:
+        raise Undecided(f"{limit} parts do not suffice; the next one is {waiting[-1]}")

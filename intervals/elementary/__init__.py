@@ -1,0 +1,1 @@
+"""Elementary functions with proved remainders, one family a file."""

@@ -1,0 +1,13 @@
+"""What can go wrong, named: each error is a hypothesis that did not hold."""
+
+
+class IntervalError(ArithmeticError):
+    """The root of every error that this package raises on purpose."""
+
+
+class DomainError(IntervalError):
+    """An argument leaves the natural domain of the function (division by an interval with 0, ...)."""
+
+
+class Undecided(IntervalError):  # noqa: N818 (a public name: it is an outcome, not a fault)
+    """A comparison or a proof step that the enclosures at hand do not decide."""

@@ -1,0 +1,201 @@
+"""Interval arithmetic on rows: arrays (-lower, upper) of shape (2, ...), see `rounding`.
+
+The formulas below give each bound as the largest of correctly signed candidates, each rounded
+once; the outward step that follows makes an upper bound of it. Rounding is monotone, so the
+largest rounded candidate is the rounded largest candidate, in every rounding mode that treats
+x and -x alike; in the others it is still a neighbour of it, which the step allows.
+"""
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from intervals.errors import DomainError
+from intervals.exact import fraction
+from intervals.rounding import Rows, float_down, float_up, outward
+
+if TYPE_CHECKING:
+    from intervals.interval import Interval
+
+
+def aligned(a: Rows, b: Rows) -> tuple[Rows, Rows]:
+    """Give both the same number of axes, the missing element axes (length 1) on the left."""
+    return _with_axes(a, b.ndim), _with_axes(b, a.ndim)
+
+
+def _with_axes(rows: Rows, ndim: int) -> Rows:
+    if rows.ndim >= ndim:
+        return rows
+    return rows.reshape(2, *(1,) * (ndim - rows.ndim), *rows.shape[1:])
+
+
+def is_thin(rows: Rows) -> bool:
+    """Return whether every interval is a point."""
+    return np.array_equal(-rows[0], rows[1])
+
+
+def product(a: Rows, b: Rows) -> Rows:
+    """Return rows that contain x y for x in A, y in B.
+
+    With a = (-l, u) and b = (-m, v): a0 b0 = l m, a1 b1 = u v, a0 b1 = -l v, a1 b0 = -u m, and
+    x y lies between the least and the largest of l m, u v, l v, u m.
+    """
+    if is_thin(a):
+        a, b = b, a
+    if not is_thin(b):
+        return outward(_hull_of_four(a * b, a * b[::-1]))
+    if is_thin(a):
+        point = a[1] * b[1]
+        return outward(np.stack((-point, point)))
+    scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
+    return outward(np.maximum(scaled, -scaled[::-1]))
+
+
+def quotient(a: Rows, b: Rows) -> Rows:
+    """Return rows that contain x / y for x in A, y in B; DomainError if 0 is in a divisor.
+
+    Monotone in x and in y, x / y lies between the least and the largest of the four quotients
+    of endpoints; the signs are those of the products.
+    """
+    if not ((b[0] < 0.0) | (b[1] < 0.0)).all():
+        raise DomainError("division by an interval that contains 0")
+    a, b = aligned(a, b)
+    return outward(_hull_of_four(a / b, a / b[::-1]))
+
+
+def _hull_of_four(same: Rows, cross: Rows) -> Rows:
+    """Return (-least, largest) of same[0], same[1], -cross[0], -cross[1]."""
+    rows = np.empty_like(same)
+    np.maximum(np.maximum(cross[0], cross[1]), -np.minimum(same[0], same[1]), out=rows[0])
+    np.maximum(np.maximum(same[0], same[1]), -np.minimum(cross[0], cross[1]), out=rows[1])
+    return rows
+
+
+def magnitude(rows: Rows) -> Rows:
+    """Return the rows of |X|: (-mig, mag), mag = max(-l, u), mig = max(0, l, -u)."""
+    low, high = rows
+    return np.stack((np.minimum(0.0, np.minimum(low, high)), np.maximum(low, high)))
+
+
+def power(rows: Rows, n: int) -> Rows:
+    """Return rows that contain x^n, n >= 2.
+
+    On the rows p of X (n odd) or |X| (n even), p |p|^(n-1) is the row of the result. An upper
+    bound of p |p|^k times |p| >= 0 is an upper bound of p |p|^(k+1), and stays one outward.
+    """
+    rows = rows if n % 2 else magnitude(rows)
+    size = np.abs(rows)
+    result = rows
+    for _ in range(n - 1):
+        result = outward(result * size)
+    return result if n % 2 else nonnegative(result)
+
+
+def square_root(rows: Rows) -> Rows:
+    """Return rows that contain sqrt x (IEEE's is correctly rounded); DomainError below 0."""
+    low, high = 0.0 - rows[0], rows[1]
+    if not (low >= 0.0).all():
+        raise DomainError("sqrt of an interval with negative numbers")
+    return nonnegative(outward(np.stack((-np.sqrt(low), np.sqrt(high)))))
+
+
+def nonnegative(rows: Rows) -> Rows:
+    """Cut off what the outward step added below 0, in place: for values known to be >= 0."""
+    np.minimum(rows[0], 0.0, out=rows[0])
+    return rows
+
+
+def elementwise(rows: Rows, function: Callable[["Interval"], "Interval"]) -> Rows:
+    """Apply a function of `Interval` to each element, at 80 bits; the result is rounded outward."""
+    from intervals.interval import Interval
+
+    flat = rows.reshape(2, -1)
+    result = np.empty_like(flat)
+    for index, (low, high) in enumerate(zip((-flat[0]).tolist(), flat[1].tolist(), strict=True)):
+        y = function(Interval(Fraction(low), Fraction(high), precision=80))
+        result[:, index] = -float_down(y.inf), float_up(y.sup)
+    return result.reshape(rows.shape)
+
+
+# -- numbers into rows ---------------------------------------------------------------------------
+
+
+def scalar_rows(value: object) -> Rows | None:
+    """Return the tightest rows, shape (2,), of an int, Fraction or Interval; None if it is none.
+
+    A float, or an array of numpy, raises TypeError.
+    """
+    if isinstance(value, float | np.floating | np.ndarray):
+        raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
+    if isinstance(value, int | Fraction | np.integer) or _is_interval(value):
+        return np.array(_enclosure(value))
+    return None
+
+
+def _is_interval(value: object) -> bool:
+    """Return whether `value` has exact endpoints `inf` and `sup`, as an Interval has."""
+    return isinstance(getattr(value, "inf", None), Fraction)
+
+
+def exact_rows(values: Any) -> Rows:
+    """Return rows of (nested lists of) exact numbers and pairs, as `IntervalArray.from_exact`."""
+    pairs = np.array(_nested(values), dtype=np.float64)
+    if pairs.size == 0:
+        pairs = pairs.reshape(*pairs.shape, 2)
+    return np.ascontiguousarray(np.moveaxis(pairs, -1, 0))
+
+
+def _nested(values: Any) -> Any:
+    """Replace the elements in nested lists by their pairs (-lower, upper)."""
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    if isinstance(values, list | range):
+        return [_nested(value) for value in values]
+    if not isinstance(values, tuple):
+        return _enclosure(values)
+    if len(values) != 2:
+        raise ValueError(f"a tuple is a pair (lower, upper), a list is an axis: {values!r}")
+    lower, upper = values
+    if _endpoint(lower, "inf") > _endpoint(upper, "sup"):
+        raise ValueError(f"reversed interval: {lower} > {upper}")
+    return (_enclosure(lower)[0], _enclosure(upper)[1])
+
+
+def _endpoint(value: Any, name: str) -> Fraction:
+    """Return the exact endpoint `name` of an Interval, or the exact number itself."""
+    if _is_interval(value):
+        end: Fraction = getattr(value, name)
+        return end
+    if isinstance(value, float | np.floating):
+        raise TypeError(f"{value!r} is a float, not a decimal: a string, or from_floats")
+    return fraction(int(value) if isinstance(value, np.integer) else value)
+
+
+def _enclosure(value: Any) -> tuple[float, float]:
+    """Return (-lower, upper), the tightest, of an exact number or an Interval."""
+    return -float_down(_endpoint(value, "inf")), float_up(_endpoint(value, "sup"))
+
+
+def float_rows(lower: Any, upper: Any) -> Rows:
+    """Return rows of binary64 bounds, as `IntervalArray.from_floats`."""
+    low, high = np.broadcast_arrays(_binary64(lower), _binary64(upper))
+    rows = np.stack((-low, high))
+    if not (np.isfinite(rows).all() and (low <= high).all()):
+        raise ValueError("bounds must be finite, with lower <= upper")
+    return rows
+
+
+def _binary64(values: Any) -> NDArray[np.float64]:
+    """Return floats as an array, unchanged; ints that binary64 does not hold raise ValueError."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float64:
+        return values
+    objects = np.asarray(values, dtype=object)
+    if not all(isinstance(x, float | int | np.floating | np.integer) for x in objects.flat):
+        raise TypeError("from_floats takes binary64 numbers only: use the constructor for others")
+    floats = objects.astype(np.float64)
+    if not (np.isnan(floats) | (floats == objects)).all():
+        raise ValueError("from_floats takes binary64 numbers only: one of these needs more bits")
+    return floats

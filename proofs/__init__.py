@@ -1,0 +1,1 @@
+"""Machine-checked verdicts on a paper about an oscillator that bounces on a vibrating table."""

@@ -1,0 +1,270 @@
+"""The checker's own numbers: intervals of integers in fixed point, and their dual numbers.
+
+Enclosure(lo, hi, bits) is the set of reals x with lo <= x 2^bits <= hi. Every result contains
+all results for the numbers inside the operands: sums are exact, products, quotients and
+functions are rounded down and up. Nothing here is shared with the package `intervals`.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+
+class Unproved(ArithmeticError):  # noqa: N818 (an outcome: the step proves nothing)
+    """A hypothesis of a rule could not be established."""
+
+
+class Enclosure:
+    """A closed interval of reals with integer endpoints in units of 2^-bits."""
+
+    __slots__ = ("bits", "hi", "lo")
+
+    def __init__(self, lo: int, hi: int, bits: int) -> None:
+        self.lo, self.hi, self.bits = lo, hi, bits
+
+    @classmethod
+    def of(cls, low: Fraction, high: Fraction, bits: int) -> Enclosure:
+        """Return the tightest enclosure of [low, high]."""
+        lo = (low.numerator << bits) // low.denominator
+        return cls(lo, -((-high.numerator << bits) // high.denominator), bits)
+
+    @property
+    def range(self) -> tuple[Fraction, Fraction]:
+        """The endpoints, exact."""
+        unit = 1 << self.bits
+        return Fraction(self.lo, unit), Fraction(self.hi, unit)
+
+    def _like(self, other: Enclosure | int) -> Enclosure:
+        if isinstance(other, int):
+            return Enclosure(other << self.bits, other << self.bits, self.bits)
+        if other.bits != self.bits:
+            raise ValueError("enclosures of different precision do not mix")
+        return other
+
+    def __neg__(self) -> Enclosure:
+        return Enclosure(-self.hi, -self.lo, self.bits)
+
+    def __add__(self, value: Enclosure | int) -> Enclosure:
+        if isinstance(value, Dual):
+            return NotImplemented
+        other = self._like(value)
+        return Enclosure(self.lo + other.lo, self.hi + other.hi, self.bits)
+
+    __radd__ = __add__
+
+    def __sub__(self, value: Enclosure | int) -> Enclosure:
+        if isinstance(value, Dual):
+            return NotImplemented
+        other = self._like(value)
+        return Enclosure(self.lo - other.hi, self.hi - other.lo, self.bits)
+
+    def __rsub__(self, value: int) -> Enclosure:
+        return -self + value
+
+    def __mul__(self, value: Enclosure | int) -> Enclosure:
+        if isinstance(value, int):
+            ends = (self.lo * value, self.hi * value)
+            return Enclosure(min(ends), max(ends), self.bits)
+        if isinstance(value, Dual):
+            return NotImplemented
+        other = self._like(value)
+        products = (
+            self.lo * other.lo,
+            self.lo * other.hi,
+            self.hi * other.lo,
+            self.hi * other.hi,
+        )
+        return Enclosure(min(products) >> self.bits, -(-max(products) >> self.bits), self.bits)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, value: Enclosure | int) -> Enclosure:
+        if isinstance(value, Dual):
+            return NotImplemented
+        other = self._like(value)
+        if other.lo <= 0 <= other.hi:
+            raise Unproved("division by an enclosure of 0")
+        quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
+        low = min(a // b for a, b in quotients)
+        return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
+
+    def __pow__(self, n: int) -> Enclosure:
+        result = self
+        for _ in range(n - 1):
+            result = result * self
+        return result
+
+    def hull(self, other: Enclosure) -> Enclosure:
+        """Return the smallest enclosure of both."""
+        return Enclosure(min(self.lo, other.lo), max(self.hi, other.hi), self.bits)
+
+    def sincos(self) -> tuple[Enclosure, Enclosure]:
+        """Return (sin X, cos X): the hull of the values at the ends and the extrema between.
+
+        The multiples m pi/2 in X satisfy floor(lo) < m <= floor(hi) in quarter turns; where an
+        end is too close to one to tell, the extremum is put in, which is outward.
+        """
+        sin, cos, first, _ = _sincos(self.lo, self.bits)
+        if self.lo == self.hi:
+            return sin, cos
+        sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
+        sin, cos = sin.hull(sin_hi), cos.hull(cos_hi)
+        one = 1 << self.bits
+        for turn in range(first + 1, min(last, first + 4) + 1):
+            target = (cos, sin)[turn & 1]
+            if turn & 2:
+                target.lo = -one
+            else:
+                target.hi = one
+        return sin, cos
+
+
+def rational(value: Fraction, bits: int) -> Enclosure:
+    """Return the tightest enclosure of one rational."""
+    return Enclosure.of(value, value, bits)
+
+
+@lru_cache(maxsize=32)
+def pi(bits: int) -> Enclosure:
+    """Enclose pi = 48 atan(1/18) + 32 atan(1/57) - 20 atan(1/239) (Gauss)."""
+    work = bits + 16
+    total = lost = 0
+    for weight, n in ((48, 18), (32, 57), (-20, 239)):
+        value, error = _atan_inverse(n, work)
+        total += weight * value
+        lost += abs(weight) * error
+    return Enclosure((total - lost) >> 16, -((-total - lost) >> 16), bits)
+
+
+def _atan_inverse(n: int, bits: int) -> tuple[int, int]:
+    """Return atan(1/n) in fixed point and a bound on its error, n >= 2.
+
+    sum (-1)^k / ((2k+1) n^(2k+1)): each term is one floor of an exact quotient; the terms
+    alternate and decrease, so the tail is below the first term left out, one unit.
+    """
+    total, k = 0, 0
+    while term := (1 << bits) // ((2 * k + 1) * n ** (2 * k + 1)):
+        total += -term if k & 1 else term
+        k += 1
+    return total, k + 1
+
+
+def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
+    """Return sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last.
+
+    Proof. With g = 12 + (bit length of x above the point) guard bits, x is exact, k the nearest
+    multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. exp(ir) is summed as
+    t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
+    most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
+    2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
+    """
+    guard = 12 + max(0, abs(x).bit_length() - bits)
+    work = bits + guard
+    half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
+    x <<= guard
+    k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
+    doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
+    r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
+    sums, term, n = [0, 1 << work], 1 << work, 0
+    while term not in (0, -1):
+        n += 1
+        term = (term * r >> work) // n
+        if n & 2:
+            sums[1 - (n & 1)] -= term
+        else:
+            sums[1 - (n & 1)] += term
+    error = 3 * n + 2 + (r_hi - r)
+    sin, cos = (Enclosure((v - error) >> guard, -((-v - error) >> guard), bits) for v in sums)
+    one = 1 << bits
+    for value in (sin, cos):
+        value.lo, value.hi = max(value.lo, -one), min(value.hi, one)
+    turned = ((sin, cos), (cos, -sin), (-sin, -cos), (-cos, sin))[k & 3]
+    return *turned, k - (r <= 0), k - (r_hi < 0)
+
+
+def log(value: Fraction, bits: int) -> Enclosure:
+    """Enclose the logarithm of a positive rational: value = m 2^n, m in [2/3, 4/3]."""
+    n = value.numerator.bit_length() - value.denominator.bit_length()
+    scaled = value / Fraction(2) ** n
+    while 3 * scaled > 4:
+        scaled, n = scaled / 2, n + 1
+    while 3 * scaled < 2:
+        scaled, n = scaled * 2, n - 1
+    log2 = _log1(Fraction(4, 3), bits) - _log1(Fraction(2, 3), bits)
+    return _log1(scaled, bits) + log2 * n
+
+
+def _log1(m: Fraction, bits: int) -> Enclosure:
+    """Enclose log m = 2 atanh((m - 1) / (m + 1)) for 2/3 <= m <= 4/3, so |z| <= 1/5."""
+    z = rational((m - 1) / (m + 1), bits)
+    square, power, total, k = z * z, z, z, 1
+    while max(abs(power.lo), abs(power.hi)) > 1:
+        power, k = power * square, k + 2
+        total = total + power / k
+    # the tail: |z|^(k+2) / (k+2) / (1 - z^2), below the last power, at most one unit
+    return 2 * Enclosure(total.lo - 1, total.hi + 1, bits)
+
+
+def exp(x: Enclosure) -> Enclosure:
+    """Enclose exp X for |X| < 64: Taylor at X / 2^k with |X / 2^k| < 1/16, squared k times."""
+    if max(abs(x.lo), abs(x.hi)) >> x.bits >= 64:
+        raise Unproved("exponent out of range")
+    k = 10
+    small = Enclosure(x.lo >> k, -(-x.hi >> k), x.bits)
+    term = total = Enclosure(1 << x.bits, 1 << x.bits, x.bits)
+    n = 0
+    while max(abs(term.lo), abs(term.hi)) > 1:
+        n += 1
+        term = term * small / n
+        total = total + term
+    total = Enclosure(total.lo - 1, total.hi + 1, x.bits)  # tail < last term / 15
+    for _ in range(k):
+        total = total * total
+    return total
+
+
+class Dual:
+    """value + derivative * (small): first derivatives through the shared equations."""
+
+    __slots__ = ("derivative", "value")
+
+    def __init__(self, value: Enclosure, derivative: Enclosure) -> None:
+        self.value, self.derivative = value, derivative
+
+    def _like(self, other: Dual | Enclosure | int) -> Dual:
+        if isinstance(other, Dual):
+            return other
+        zero = Enclosure(0, 0, self.value.bits)
+        return Dual(zero + other, zero)
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.value, -self.derivative)
+
+    def __add__(self, value: Dual | Enclosure | int) -> Dual:
+        other = self._like(value)
+        return Dual(self.value + other.value, self.derivative + other.derivative)
+
+    __radd__ = __add__
+
+    def __sub__(self, value: Dual | Enclosure | int) -> Dual:
+        return self + -self._like(value)
+
+    def __rsub__(self, value: Enclosure | int) -> Dual:
+        return -self + value
+
+    def __mul__(self, value: Dual | Enclosure | int) -> Dual:
+        other = self._like(value)
+        slope = self.derivative * other.value + self.value * other.derivative
+        return Dual(self.value * other.value, slope)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, value: Dual | Enclosure | int) -> Dual:
+        other = self._like(value)
+        quotient = self.value / other.value
+        return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+
+    def sincos(self) -> tuple[Dual, Dual]:
+        """Return (sin, cos) with their derivatives."""
+        sin, cos = self.value.sincos()
+        return Dual(sin, cos * self.derivative), Dual(cos, -sin * self.derivative)

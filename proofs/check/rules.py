@@ -1,0 +1,295 @@
+"""The inference rules: each turns a witness into a conclusion, or raises Unproved.
+
+A rule's docstring is its theorem. Conclusions are recomputed from exact data by
+`proofs.check.arithmetic`; the equations are the shared ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from proofs.certificate import Reader
+from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
+from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.statements import Parameters, PointFact, Range, SlopeRange
+
+COVER_BITS = 80
+_MAX_BITS = 2000
+_LATEST = 10**6
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The gap of all launches in `phases`, in the checker's arithmetic."""
+
+    side: int
+    eta: Fraction
+    nu: Fraction
+    phases: Range
+    bits: int = COVER_BITS
+
+    def start(self) -> Launch:
+        """Return the launch states."""
+        return self._launch(Enclosure.of(*self.phases, self.bits))
+
+    def _launch(self, phi: Enclosure | Dual) -> Launch:
+        return launch(self.side, self._eta(), rational(self.nu, self.bits), phi)
+
+    def _eta(self) -> Enclosure:
+        return rational(self.eta, self.bits)
+
+    def clock(self, time: Range) -> Clock:
+        """Return the time functions over an interval of times."""
+        return clock(self._eta(), Enclosure.of(*time, self.bits))
+
+    def gap(self, start: Launch, time: Range, order: int = 0) -> Enclosure:
+        """Enclose a time derivative of the gap."""
+        value = gap(start, self.clock(time), order)
+        return value if isinstance(value, Enclosure) else rational(Fraction(value), self.bits)
+
+    def slope(self, time: Range) -> Enclosure:
+        """Enclose f' for impacts at times in `time`."""
+        value: Enclosure = slope(self.start(), self.clock(time))
+        return value
+
+    def curvature(self, time: Range) -> Enclosure:
+        """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
+        one = rational(Fraction(1), self.bits)
+        now = Dual(Enclosure.of(*time, self.bits), self.slope(time) - 1)
+        start = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
+        bent: Dual = slope(start, clock(self._eta(), now))
+        return bent.derivative
+
+
+@dataclass(frozen=True)
+class FirstImpact:
+    """Every launch in motion.phases has its first impact, at a time in one of `windows`."""
+
+    motion: Motion
+    windows: tuple[Range, ...]
+    transversal: bool
+
+
+@dataclass(frozen=True)
+class Avoids:
+    """No phase in `phases` has its first impact at a phase in `target`, mod 2 pi."""
+
+    phases: Range
+    target: Range
+
+
+@dataclass(frozen=True)
+class MoranRoot:
+    """The one root s > 0 of ratios[0]^s + ratios[1]^s = 1 lies in `root`."""
+
+    ratios: Range
+    root: Range
+
+
+Conclusion = FirstImpact | SlopeRange | Avoids | PointFact | MoranRoot
+Known = dict[str, Conclusion]
+
+
+def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
+    """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}.
+
+    Hypotheses: gap'' > 0 on phases x [0, t_1]; gap < 0 at t_n. A piece [t_j, t_(j+1)] of width
+    w is closed if min(gap(t_j), gap(t_(j+1))) > w^2/8 max(0, sup gap'') on it, else open.
+    Conclusion: since gap = gap' = 0 at launch, gap > 0 on (0, t_1]; by the error of linear
+    interpolation gap > 0 on closed pieces; so each launch has a first impact, in an open piece.
+    It is transversal (unique, smooth in the phase) if the open pieces are one interval that ends
+    at t_n, with gap' < 0 on it.
+    """
+    phases_of, times_of = reader.fields("phases", "times")
+    times = times_of.numbers(least=2)
+    if times[-1] > _LATEST:
+        raise times_of.fail(f"times beyond {_LATEST} are not examined")
+    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, phases_of.range())
+    start = motion.start()
+    before, value = Fraction(0), None
+    windows: list[Range] = []
+    for now in times:
+        if now <= before:
+            raise times_of.fail("times must increase from 0")
+        acceleration = motion.gap(start, (before, now), 2)
+        following = motion.gap(start, (now, now))
+        if value is None:
+            if acceleration.lo <= 0:
+                raise Unproved("the launches are not proved to leave the table")
+        else:
+            bend = max(0, acceleration.range[1]) * (now - before) ** 2 / 8
+            if min(value.range[0], following.range[0]) <= bend:
+                begin = windows.pop()[0] if windows and windows[-1][1] == before else before
+                windows.append((begin, now))
+        before, value = now, following
+    if value is None or value.hi >= 0:
+        raise Unproved("the gap is not proved negative at the last time")
+    single = len(windows) == 1 and windows[0][1] == times[-1]
+    return FirstImpact(
+        motion, tuple(windows), single and motion.gap(start, windows[0], 1).hi < 0
+    )
+
+
+def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:
+    """Return the transversal first-impact step of that name, which must contain `phases`."""
+    step = known.get(name.string())
+    if not isinstance(step, FirstImpact):
+        raise name.fail("names no earlier first-impact step")
+    if not step.transversal:
+        raise Unproved("the first impact is not transversal")
+    if phases[0] < step.motion.phases[0] or phases[1] > step.motion.phases[1]:
+        raise name.fail("the step is about other phases")
+    return step
+
+
+def _bits_for(time: Range) -> int:
+    """Return the precision that a bracket of this width deserves."""
+    width = time[1] - time[0]
+    if width == 0:
+        raise Unproved("an empty bracket")
+    return min(_MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+
+
+def _bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
+    """Return the motion, proved to have its impacts in `time` for all launches in `phases`.
+
+    In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
+    lower end and gap < 0 at the upper one bracket it.
+    """
+    window, motion = step.windows[0], step.motion
+    if time[0] < window[0] or time[1] > window[1]:
+        raise Unproved("a bracket leaves the window of the first impact")
+    inner = Motion(motion.side, motion.eta, motion.nu, phases, _bits_for(time))
+    start = inner.start()
+    if inner.gap(start, (time[0], time[0])).lo <= 0 or inner.gap(start, (time[1], time[1])).hi >= 0:
+        raise Unproved("a bracket does not have the signs +, - at its ends")
+    return inner
+
+
+def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
+    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi)."""
+    low, high = (pi(bits) * 2).range
+    total = phase + time[0]
+    turns = total // low
+    if total < turns * high:  # the multiple is not decided: take the smaller one
+        turns -= 1
+    return phase + time[0] - turns * high, phase + time[1] - turns * low
+
+
+def point(of: Parameters, known: Known, reader: Reader) -> PointFact:
+    """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
+
+    Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
+    """
+    flight, phase_of, time_of = reader.fields("flight", "phase", "time")
+    phase, time = phase_of.number(), time_of.range()
+    motion = _bracketed(_transversal(known, flight, (phase, phase)), (phase, phase), time)
+    return PointFact(phase, motion.slope(time).range, phase_after(phase, time, motion.bits))
+
+
+def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
+    """Rule `slope-range`: {points: [{flight, phase, time}], pieces: [{flight, time}]}.
+
+    Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
+    first-impact step that contains it, and a bracket for all its launches. Conclusion: f is C^1
+    on each piece, hence on [x_0, x_n] (at a shared end the first impact is the same), and with
+    f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0, w] and
+    f'(x_(i+1)) - f'' [0, w] (mean value theorem).
+    """
+    points_of, pieces_of = reader.fields("points", "pieces")
+    entries = points_of.items(least=2)
+    facts = [point(of, known, entry) for entry in entries]
+    pieces = []
+    for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
+        flight, time = entry.fields("flight", "time")
+        left, right = facts[index], facts[index + 1]
+        if left.phase >= right.phase:
+            raise points_of.fail("phases must increase")
+        phases = (left.phase, right.phase)
+        motion = _bracketed(_transversal(known, flight, phases), phases, time.range())
+        low, high = motion.curvature(time.range()).range
+        width = right.phase - left.phase
+        pieces.append(
+            (
+                max(
+                    left.slope[0] + min(0, low) * width,
+                    right.slope[0] - max(0, high) * width,
+                ),
+                min(
+                    left.slope[1] + max(0, high) * width,
+                    right.slope[1] - min(0, low) * width,
+                ),
+            )
+        )
+    return SlopeRange(
+        tuple(fact.phase for fact in facts),
+        tuple(fact.slope for fact in facts),
+        tuple(fact.image for fact in facts),
+        tuple(pieces),
+    )
+
+
+def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
+    """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
+
+    Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
+    for every k. Conclusion: no phase of the union has its first impact in the target.
+    """
+    flights_of, target_of = reader.fields("flights", "target")
+    target = target_of.range()
+    if not 0 <= target[0] <= target[1] < 7:
+        raise target_of.fail("a target is an interval of phases from 0 to 2 pi")
+    steps: list[FirstImpact] = []
+    for name in flights_of.items(least=1):
+        step = known.get(name.string())
+        if not isinstance(step, FirstImpact):
+            raise name.fail("names no earlier first-impact step")
+        if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
+            raise name.fail("its phases do not continue those of the step before")
+        steps.append(step)
+        for window in step.windows:
+            if _meets(step.motion.phases, window, target):
+                raise Unproved(f"a window of {name.string()} is not proved to miss the target")
+    return Avoids((steps[0].motion.phases[0], steps[-1].motion.phases[1]), target)
+
+
+def _meets(phases: Range, time: Range, target: Range) -> bool:
+    """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
+    low, high = (pi(COVER_BITS) * 2).range
+    arrival = (phases[0] + time[0], phases[1] + time[1])
+    turns = arrival[0] // low - 1
+    while turns * low + target[0] <= arrival[1]:  # arrival times are positive: turns >= -1
+        lower, upper = sorted((turns * low, turns * high))
+        if not (arrival[1] < lower + target[0] or upper + target[1] < arrival[0]):
+            return True
+        turns += 1
+    return False
+
+
+def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
+    """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
+
+    F(s) = r0^s + r1^s - 1 decreases from 1 to -1, so F(l) > 0 > F(u) brackets its one root.
+    """
+    ratios_of, root_of = reader.fields("ratios", "root")
+    ratios, root = ratios_of.numbers(2, 2), root_of.range()
+    if not all(0 < ratio < 1 for ratio in ratios) or root[0] <= 0:
+        raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
+    bits = _bits_for(root)
+    logs = [log(ratio, bits) for ratio in ratios]
+    low, high = (
+        exp(rational(s, bits) * logs[0]) + exp(rational(s, bits) * logs[1]) - 1 for s in root
+    )
+    if low.lo <= 0 or high.hi >= 0:
+        raise Unproved("the bracket of the root does not have the signs +, -")
+    return MoranRoot((ratios[0], ratios[1]), root)
+
+
+RULES = {
+    "first-impact": first_impact,
+    "point": point,
+    "slope-range": slope_range,
+    "avoids": avoids,
+    "moran-root": moran_root,
+}

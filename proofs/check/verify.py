@@ -1,0 +1,207 @@
+"""From a certificate's text to verdicts: every step re-derived, every field accounted for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from proofs.certificate import SCHEMA, Malformed, Reader, parameters_from_json, parse
+from proofs.check.arithmetic import Unproved
+from proofs.check.rules import (
+    RULES,
+    Avoids,
+    Conclusion,
+    Known,
+    MoranRoot,
+)
+from proofs.statements import (
+    HORSESHOE,
+    PAPER,
+    STATEMENTS,
+    Facts,
+    Parameters,
+    PointFact,
+    SlopeRange,
+    Verdict,
+    decide,
+    quantities,
+    theorem,
+)
+
+
+class Rejected(ValueError):  # noqa: N818 (the outcome of a check)
+    """The certificate is well-formed and does not prove what it says."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One claim that the checker derived by itself."""
+
+    id: str
+    verdict: Verdict
+    statement: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that a certificate proves."""
+
+    parameters: Parameters
+    claims: tuple[Checked, ...]
+    theorem: str | None
+
+    @property
+    def is_paper(self) -> bool:
+        """Whether the claims are the paper's own, at its printed numbers."""
+        return self.parameters == PAPER
+
+
+def check(source: str) -> Report:
+    """Re-derive everything in a certificate's text.
+
+    Raises Malformed where it is no certificate, Rejected where a step, a bound or a verdict
+    does not follow from the witnesses.
+    """
+    root = parse(source)
+    schema, parameters_of, steps_of, claims_of, corrected_of = root.fields(
+        "schema", "parameters", "steps", "claims", "corrected"
+    )
+    if schema.string() != SCHEMA:
+        raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
+    parameters = parameters_from_json(parameters_of)
+    known = _derive_steps(parameters, steps_of)
+    used: set[str] = set()
+    theorem_text = None
+    if not corrected_of.is_null():
+        theorem_text = _check_corrected(parameters, known, corrected_of, used)
+    claims = [
+        _check_claim(parameters, known, entry, used, theorem_text)
+        for entry in claims_of.items(least=1)
+    ]
+    if len({claim.id for claim in claims}) != len(claims):
+        raise claims_of.fail("a claim appears twice")
+    unused = sorted(set(known) - _closure(steps_of, used))
+    if unused:
+        raise steps_of.fail(f"steps that nothing uses: {', '.join(unused)[:80]}")
+    return Report(parameters, tuple(claims), theorem_text)
+
+
+def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
+    known: Known = {}
+    for name, step in steps_of.members():
+        rule_of, witness = step.fields("rule", "witness")
+        rule = RULES.get(rule_of.string())
+        if rule is None:
+            raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
+        try:
+            known[name] = rule(of, known, witness)
+        except Unproved as error:
+            raise Rejected(f"{step.path}: {error}") from None
+    return known
+
+
+def _closure(steps_of: Reader, used: set[str]) -> set[str]:
+    """Return the steps used, and the steps that these name."""
+    reached = set(used)
+    for name, step in reversed(list(steps_of.members())):
+        if name in reached:
+            reached.update(step.mentioned())
+    return reached
+
+
+def _facts(of: Parameters, conclusions: Iterable[Conclusion]) -> Facts:
+    """Collect what the steps prove about one set of parameters."""
+    facts = Facts()
+    for step in conclusions:
+        if isinstance(step, SlopeRange):
+            facts.add_slopes(of, step)
+        elif isinstance(step, Avoids):
+            facts.add_avoided(of, step.phases, step.target)
+        elif isinstance(step, PointFact):
+            facts.points.append(step)
+        elif isinstance(step, MoranRoot):
+            facts.add_root(of, step.ratios, step.root)
+    return facts
+
+
+def _check_claim(
+    of: Parameters, known: Known, entry: Reader, used: set[str], theorem_text: str | None
+) -> Checked:
+    id_of, statement, verdict_of, proof, witness, corrected, bounds = entry.fields(
+        "id", "statement", "verdict", "proof", "witness", "corrected", "quantities"
+    )
+    claim = id_of.string()
+    if claim not in STATEMENTS:
+        raise id_of.fail(f"unknown claim {claim[:20]!r}")
+    if statement.string() != STATEMENTS[claim].says(of):
+        raise Rejected(f"{statement.path}: this is not what {claim} says at these parameters")
+    facts = _facts(of, _named(known, proof, used))
+    if not witness.is_null():
+        _take_witness(witness, facts, known, proof)
+    verdict, why = decide(claim, of, facts)
+    if verdict_of.string() != verdict.value:
+        raise Rejected(
+            f"{verdict_of.path}: {claim} is given as {verdict_of.string()[:20]}, "
+            f"its proof makes it {verdict.value} ({why})"
+        )
+    if not corrected.is_null() and corrected.string() != theorem_text:
+        raise Rejected(f"{corrected.path}: not the corrected theorem that was proved")
+    _check_quantities(claim, facts, bounds)
+    return Checked(claim, verdict, STATEMENTS[claim].says(of), why)
+
+
+def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) -> None:
+    """Read the witness that a refutation points at: an interval J, or a step about a phase."""
+    if "interval" in dict(witness.members()):
+        (interval,) = witness.fields("interval")
+        facts.missed = interval.range()
+        return
+    name, phase = witness.fields("point", "phase")
+    step = known.get(name.string())
+    if not isinstance(step, PointFact) or name.string() not in set(proof.mentioned()):
+        raise name.fail("names no point step of this proof")
+    if step.phase != phase.number():
+        raise phase.fail("is not the phase of that step")
+
+
+def _named(known: Known, names: Reader, used: set[str]) -> list[Conclusion]:
+    """Return the named conclusions and mark them, and the first impacts, as used."""
+    result = []
+    for name in names.items():
+        if name.string() not in known:
+            raise name.fail(f"names no step: {name.string()[:40]!r}")
+        used.add(name.string())
+        result.append(known[name.string()])
+    return result
+
+
+def _check_quantities(claim: str, facts: Facts, bounds: Reader) -> None:
+    """Reject a printed bound that the checker's own enclosure does not imply."""
+    own = quantities(claim, facts)
+    for name, value in bounds.members():
+        if name not in own:
+            raise Rejected(f"{value.path}: {claim} proves no quantity of this name")
+        lower, upper = value.decimals()
+        if not (lower <= own[name][0] and own[name][1] <= upper):
+            raise Rejected(f"{value.path}: the bounds do not contain the proved enclosure")
+
+
+def _check_corrected(
+    paper: Parameters, known: Known, corrected: Reader, used: set[str]
+) -> str:
+    """Check H1-H6 at the corrected sets; return the theorem that follows from them."""
+    parameters_of, statement, proof = corrected.fields("parameters", "theorem", "proof")
+    of = parameters_from_json(parameters_of)
+    if (of.eta, of.nu) != (paper.eta, paper.nu):
+        raise Rejected(f"{parameters_of.path}: a correction is about the same eta and nu")
+    facts = _facts(of, _named(known, proof, used))
+    if of.slopes[0] <= 1:
+        raise Rejected(f"{parameters_of.path}: the corrected slopes do not expand")
+    for claim in HORSESHOE:
+        verdict, why = decide(claim, of, facts)
+        if verdict is not Verdict.VERIFIED:
+            raise Rejected(f"{corrected.path}: {claim} is {verdict.value} there ({why})")
+    if statement.string() != theorem(of):
+        raise Rejected(f"{statement.path}: not the theorem at these numbers")
+    return theorem(of)

@@ -1,0 +1,1 @@
+"""Methods of proof for any map: they are given f(box) and f'(box), and see no oscillator."""

@@ -1,0 +1,82 @@
+"""Enclose the minimum and the maximum of a differentiable function on an interval."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from intervals import DomainError, Interval, Undecided
+from intervals.cover import cover
+
+Range = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """g at points low = x_0 < ... < x_n = high, and enclosures of g over the n pieces between."""
+
+    points: tuple[Fraction, ...]
+    values: tuple[Interval, ...]
+    pieces: tuple[Interval, ...]
+
+    @property
+    def minimum(self) -> Range:
+        """Bounds on min g: the least lower bound of a piece, the least upper one at a point."""
+        return min(p.inf for p in self.pieces), min(v.sup for v in self.values)
+
+    @property
+    def maximum(self) -> Range:
+        """Bounds on max g."""
+        return max(v.inf for v in self.values), max(p.sup for p in self.pieces)
+
+
+def piece_range(left: Interval, right: Interval, slope: Interval, width: Fraction) -> Interval:
+    """Enclose g over [x, x + width] from g(x), g(x + width) and g' over the piece.
+
+    g lies in g(x) + g' [0, w] and in g(x + w) - g' [0, w] (mean value theorem, both ends); where
+    g' has one sign, the intersection is the hull of the two values: no loss by monotonicity.
+    """
+    reach = slope * Interval(0, width, precision=slope.precision)
+    common = (left + reach).intersection(right - reach)
+    if common is None:
+        raise Undecided("the enclosures of a piece contradict each other")
+    return common
+
+
+def extremes(
+    g: Callable[[Fraction], Interval],
+    dg: Callable[[Fraction, Fraction], Interval],
+    points: Sequence[Fraction],
+    tolerance: Fraction = Fraction(1, 10**12),
+) -> Extremes:
+    """Enclose min g and max g over [points[0], points[-1]].
+
+    A piece is final where g' has one sign on it or its range is narrower than `tolerance`;
+    others are halved. A piece on which dg raises DomainError is halved too. Raises Undecided
+    if that does not end.
+    """
+    known: dict[Fraction, Interval] = {}
+
+    def at(x: Fraction) -> Interval:
+        if x not in known:
+            known[x] = g(x)
+        return known[x]
+
+    def decide(piece: Range) -> Interval | None:
+        low, high = piece
+        try:
+            slope = dg(low, high)
+        except DomainError:
+            return None
+        values = piece_range(at(low), at(high), slope, high - low)
+        return values if not slope.contains_zero() or values.wid < tolerance else None
+
+    def split(piece: Range) -> tuple[Range, Range]:
+        middle = (piece[0] + piece[1]) / 2
+        return (piece[0], middle), (middle, piece[1])
+
+    pieces = list(zip(points, points[1:], strict=False))
+    done = list(cover(pieces, decide, split, limit=2000))
+    ends = (*(low for (low, _), _ in done), points[-1])
+    return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

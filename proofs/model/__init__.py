@@ -1,0 +1,1 @@
+"""The impact oscillator: its equations, and rigorous enclosures of its impact map."""

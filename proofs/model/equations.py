@@ -1,0 +1,122 @@
+"""The equations of the impact oscillator, each written once, for every number type.
+
+Scaled as in the paper: time psi = omega t, lengths in units of -p, nu = -beta / p,
+eta = omega_n / omega. The mass is at x, the table at z = 1 + nu sin(psi). An impact at phase
+phi starts a flight; t >= 0 is the time since then. Equations (8)-(10), (14) and (15) are one
+statement: the mass is a harmonic oscillator of frequency eta about 0, the table one of
+frequency 1 about 1, both start at the same place, and their distance vanishes at the impact.
+
+Numbers are anything with + - * / and `sincos()`: Interval, IntervalArray, Jet, the checker's
+own; floats too. Other types (sympy's) register themselves with `sincos`.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import singledispatch
+from typing import Any, NamedTuple
+
+Number = Any
+
+
+@singledispatch
+def sincos(x: Number) -> tuple[Number, Number]:
+    """Return (sin x, cos x) by the number's own method."""
+    pair: tuple[Number, Number] = x.sincos()
+    return pair
+
+
+@sincos.register
+def _(x: float) -> tuple[float, float]:
+    return math.sin(x), math.cos(x)
+
+
+class Launch(NamedTuple):
+    """The state right after an impact at phase phi.
+
+    lift = nu sin(phi): the table above its mean; rate = nu cos(phi): its velocity; kick: the
+    velocity of the mass relative to the table, None (exactly 0) after a plastic impact. side = +1 or -1, the
+    sign of nu: p > 0 exactly if nu < 0, and x - z > 0 means side (X - Z) > 0 in scaled lengths.
+    """
+
+    side: int
+    eta: Number
+    lift: Number
+    rate: Number
+    kick: Number | None = None
+
+
+class Clock(NamedTuple):
+    """sin(eta t), cos(eta t), sin(t), cos(t) at a time t of the flight."""
+
+    mass_sin: Number
+    mass_cos: Number
+    table_sin: Number
+    table_cos: Number
+
+
+AT_LAUNCH = Clock(0, 1, 0, 1)
+
+
+def launch(side: int, eta: Number, nu: Number, phi: Number) -> Launch:
+    """Return the state after a plastic impact, epsilon = 0: mass and table move as one."""
+    sin, cos = sincos(phi)
+    return Launch(side, eta, nu * sin, nu * cos)
+
+
+def launch_with_restitution(
+    side: int, eta: Number, nu: Number, phi: Number, epsilon: Number, gamma: Number
+) -> Launch:
+    """Return the state after an impact with velocity gamma = v / (omega_n p) of the mass.
+
+    Source: (5). The relative velocity before the impact, -eta gamma - nu cos(phi) in scaled
+    units, is multiplied by -epsilon.
+    """
+    plastic = launch(side, eta, nu, phi)
+    return plastic._replace(kick=epsilon * (eta * gamma + plastic.rate))
+
+
+def clock(eta: Number, t: Number) -> Clock:
+    """Return the four functions of time that a flight is made of."""
+    return Clock(*sincos(eta * t), *sincos(t))
+
+
+def gap(start: Launch, now: Clock, order: int = 0) -> Number:
+    """Return the distance x - z (in units of |p|), or its time derivative of the given order.
+
+    Source: (10) and (14), with 1 + nu sin(psi_k + t) expanded by the addition theorem, so that
+    phase and time separate; derivatives (order 1: relative velocity, 2: acceleration, ...) by
+    (d/dt)^k cos(wt) = w^k cos(wt + k pi/2). Flight means gap > 0, an impact gap = 0.
+    """
+    side, eta, lift, rate, kick = start
+    big_s, big_c, s, c = now
+    turn = order % 4
+    scale = eta**order if order > 1 else (1, eta)[order]
+    mass_cos = scale * (big_c, -big_s, -big_c, big_s)[turn]
+    mass_sin = scale * (big_s, big_c, -big_s, -big_c)[turn] / eta
+    table_cos = (c, -s, -c, s)[turn]
+    table_sin = (s, c, -s, -c)[turn]
+    total = lift * (mass_cos - table_cos) + rate * (mass_sin - table_sin) + mass_cos
+    if order == 0:
+        total = total - 1
+    if kick is not None:
+        total = total + kick * mass_sin
+    return total if side > 0 else -total
+
+
+def launch_acceleration(start: Launch) -> Number:
+    """Return the relative acceleration at launch: the plastic mass sticks where it is < 0.
+
+    It is side * (nu (1 - eta^2) sin(phi) - eta^2), so it vanishes at the paper's phi_s.
+    """
+    return gap(start._replace(kick=None), AT_LAUNCH, 2)
+
+
+def slope(start: Launch, now: Clock) -> Number:
+    """Return the derivative f' of the plastic impact map at an impact `now` after `start`.
+
+    Theorem. Let g(phi, t) be the plastic gap. Then dg/dt - dg/dphi = sin(eta t) / eta times the
+    launch acceleration, and where g = 0 and dg/dt < 0, the next impact phase phi + t(phi) has
+    derivative 1 - (dg/dphi) / (dg/dt) = (sin(eta t) / eta) launch_acceleration / (dg/dt).
+    """
+    return now.mass_sin / start.eta * launch_acceleration(start) / gap(start, now, 1)

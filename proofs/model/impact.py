@@ -1,0 +1,255 @@
+"""Rigorous enclosures of the plastic impact map: the first impact after every launch in a set."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from intervals import Interval, Jet, Undecided
+from intervals.cover import cover
+from intervals.newton import Roots, newton
+from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.model.system import System
+
+Range = tuple[Fraction, Fraction]
+HORIZON = Fraction(1000)
+_TINIEST = Fraction(1, 2**200)
+
+
+class NoImpact(Undecided):
+    """No impact was found up to the horizon (or the mass never separates from the table)."""
+
+
+@dataclass(frozen=True)
+class Flight:
+    """All flights that start at a phase of `phases`, evaluated at `precision` bits.
+
+    `separating` asserts that every launch acceleration is known to be >= 0 from elsewhere, as
+    it is at the separation phase, where it vanishes.
+    """
+
+    system: System
+    phases: Range
+    precision: int = 64
+    separating: bool = False
+
+    @cached_property
+    def eta(self) -> Interval:
+        """The frequency ratio at this precision."""
+        return Interval(self.system.eta, precision=self.precision)
+
+    @cached_property
+    def phi(self) -> Interval:
+        """The launch phases at this precision."""
+        return Interval(*self.phases, precision=self.precision)
+
+    @cached_property
+    def start(self) -> Launch:
+        """The launch states."""
+        return self._launch(self.phi)
+
+    def _launch(self, phi: Interval | Jet) -> Launch:
+        nu = Interval(self.system.nu, precision=self.precision)
+        return launch(self.system.side, self.eta, nu, phi)
+
+    def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
+        """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
+        return clock(self.eta, Interval(low, high, precision=self.precision))
+
+    def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
+        """Enclose a time derivative of the gap over all launches and the times given."""
+        return gap(self.start, self.clock(low, high), order)  # type: ignore[no-any-return]
+
+    def slope(self, time: Range) -> Interval:
+        """Enclose f' over all launches, impact times in `time`."""
+        return slope(self.start, self.clock(*time))  # type: ignore[no-any-return]
+
+    def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
+        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ..."""
+        first = self.slope(time)
+        one = Interval(1, precision=self.precision)
+        along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
+        return first, slope(self._launch(Jet(self.phi, one)), along).derivative()
+
+    @property
+    def leaves(self) -> bool:
+        """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
+        return self.separating or launch_acceleration(self.start).is_positive()
+
+
+@dataclass(frozen=True)
+class FirstImpact:
+    """What `first_impact` proved for all launches of one flight.
+
+    times: 0 = t_0 < ... < t_n with gap < 0 at t_n; windows: the runs of pieces on which a zero
+    of the gap was not excluded, so every first impact lies in one of them, the last ends at t_n.
+    transversal: there is one window, and gap' < 0 on it. Then the impact is unique there, is
+    the first one, and depends smoothly on the phase.
+    """
+
+    flight: Flight
+    times: tuple[Fraction, ...]
+    windows: tuple[Range, ...]
+    transversal: bool
+
+    @property
+    def window(self) -> Range:
+        """The last window, the only one if `transversal`."""
+        return self.windows[-1]
+
+
+def first_impact(
+    flight: Flight, horizon: Fraction = HORIZON, finest: Fraction = Fraction(1, 8)
+) -> FirstImpact:
+    """Exclude impacts from time zero on until one is certain, for all launches at once.
+
+    On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0 (at
+    the separation phase gap'' >= 0 at 0 and gap''' > 0 give the same). On [t_j, t_{j+1}] by
+    the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error).
+    Steps adapt down to `finest`; what is then not excluded opens a window.
+
+    Raises NoImpact at the horizon, Undecided where the launch itself is not decided.
+    """
+    if not flight.leaves:
+        raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
+    times = [Fraction(0), _first_step(flight)]
+    open_pieces: list[Range] = []
+    value = flight.gap(times[-1])
+    step, certain = times[-1], False
+    while not certain:
+        now = times[-1]
+        if now >= horizon:
+            raise NoImpact(f"no impact is certain up to time {float(horizon):g} (the horizon)")
+        ahead = now + step
+        next_value = flight.gap(ahead)
+        if _positive_between(flight, now, value, ahead, next_value):
+            step *= 2
+        elif step > finest:
+            step = max(step / 2, finest)
+            continue
+        else:
+            certain = next_value.is_negative()
+            joined = open_pieces and open_pieces[-1][1] == now
+            begin = open_pieces.pop()[0] if joined else now
+            open_pieces.append((begin, ahead))
+            step = step if certain else step + finest
+        times.append(ahead)
+        value = next_value
+    transversal = len(open_pieces) == 1 and flight.gap(*open_pieces[0], order=1).is_negative()
+    return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
+
+
+def _first_step(flight: Flight) -> Fraction:
+    step = Fraction(1)
+    while step > _TINIEST:
+        if flight.gap(Fraction(0), step, order=2).is_positive():
+            return step
+        if flight.separating and flight.gap(Fraction(0), step, order=3).is_positive():
+            return step
+        step /= 2
+    raise Undecided("the launch acceleration is too close to 0 at this precision")
+
+
+def _positive_between(
+    flight: Flight, low: Fraction, at_low: Interval, high: Fraction, at_high: Interval
+) -> bool:
+    if not (at_low.is_positive() and at_high.is_positive()):
+        return False
+    bend = flight.gap(low, high, order=2).sup
+    return min(at_low.inf, at_high.inf) > max(bend, Fraction(0)) * (high - low) ** 2 / 8
+
+
+def resolved_first_impact(
+    flight: Flight, horizon: Fraction = HORIZON, attempts: int = 4
+) -> FirstImpact:
+    """Return `first_impact` at steps fine enough to be transversal, else at the finest tried."""
+    for attempt in range(attempts):
+        found = first_impact(flight, horizon, Fraction(1, 8 ** (attempt + 1)))
+        if found.transversal:
+            break
+    return found
+
+
+def cover_by_impacts(
+    system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
+) -> list[FirstImpact]:
+    """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
+
+    def decide(part: Range) -> FirstImpact | None:
+        try:
+            found = first_impact(Flight(system, part), horizon)
+        except Undecided:
+            return None
+        return found if found.transversal else None
+
+    return [found for _, found in cover([phases], decide, halves, limit=limit)]
+
+
+def halves(part: Range) -> tuple[Range, Range]:
+    """Cut an interval in the middle."""
+    middle = (part[0] + part[1]) / 2
+    return (part[0], middle), (middle, part[1])
+
+
+def time_range(impact: FirstImpact, phases: Range, steps: int = 14) -> Range:
+    """Enclose the impact times of all launches in `phases`, a part of a transversal impact's.
+
+    The gap decreases through its one zero in the window: where it is > 0 for all launches no
+    zero lies before, where it is < 0 none lies after. Both ends move by bisection.
+    """
+    flight = replace(impact.flight, phases=phases)
+    low, high = impact.window
+    inner = high
+    for _ in range(steps):
+        middle = (low + inner) / 2
+        low, inner = (middle, inner) if flight.gap(middle).is_positive() else (low, middle)
+    inner = low
+    for _ in range(steps):
+        middle = (inner + high) / 2
+        inner, high = (inner, middle) if flight.gap(middle).is_negative() else (middle, high)
+    return low, high
+
+
+def impact_time(impact: FirstImpact, phase: Fraction, bits: int) -> Range:
+    """Enclose the impact time of one launch in an interval of width 2^(1 - bits).
+
+    The ends are multiples of 2^-bits with gap > 0 at the lower and gap < 0 at the upper one,
+    found by interval Newton in the window of a transversal impact.
+    """
+    flight = replace(impact.flight, phases=(phase, phase), precision=bits + 30)
+    window = Interval(*impact.window, precision=flight.precision)
+    result = newton(
+        lambda t: flight.gap(t.inf, t.sup), lambda t: flight.gap(t.inf, t.sup, order=1), window
+    )
+    if result.outcome is not Roots.UNIQUE or result.box is None:
+        raise Undecided(f"the impact time at phase {float(phase)} is not isolated: {result.reason}")
+    unit = Fraction(1, 2**bits)
+    centre = round(result.box.mid / unit) * unit
+    low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
+    if not (flight.gap(low).is_positive() and flight.gap(high).is_negative()):
+        raise Undecided(f"the gap's sign is lost to rounding next to the impact of {float(phase)}")
+    return low, high
+
+
+def turn(precision: int) -> Interval:
+    """Enclose 2 pi."""
+    return Interval.pi(precision=precision) * 2
+
+
+def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
+    """Enclose phase + time mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
+    whole = turn(precision)
+    turns = (phase + time[0]) // whole.sup
+    return phase + time[0] - turns * whole.sup, phase + time[1] - turns * whole.inf
+
+
+def misses(arrival: Range, target: Range) -> bool:
+    """Whether arrival times are proved to be at no phase of `target`, a part of [0, 2 pi)."""
+    low, high = phase_after(Fraction(0), arrival, 64)
+    whole = turn(64)
+    if high - low >= whole.inf:
+        return False
+    return not any(
+        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1)
+    )

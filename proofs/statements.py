@@ -1,0 +1,484 @@
+"""What the claims of the paper are, and when numbers decide them. Trusted, and shared.
+
+The prover and the checker each find `Facts` by an arithmetic of their own; `decide` turns facts
+into a verdict, for both. Nothing else in the project says what claim H5 means.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+
+Range = tuple[Fraction, Fraction]
+
+_TURN = Fraction("6.283185307")  # a little less than 2 pi
+
+
+class Verdict(Enum):
+    """The outcome of a claim: proved, proved false, or neither."""
+
+    VERIFIED = "VERIFIED"
+    REFUTED = "REFUTED"
+    UNDECIDED = "UNDECIDED"
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """One statement's numbers, exact: the oscillator, I0 = left, I1 = right, I, slope bounds.
+
+    `ratios` are eta0, eta1 of section 3.2 as printed, without them they are 1 / slopes;
+    `printed_s0` the digits printed for s_0, if any.
+    """
+
+    eta: Fraction
+    nu: Fraction
+    left: Range
+    right: Range
+    interval: Range
+    slopes: Range
+    ratios: Range | None = None
+    printed_s0: str | None = None
+
+    def __post_init__(self) -> None:
+        """Raise ValueError, one line, where the numbers do not describe a horseshoe."""
+        if self.eta <= 0:
+            raise ValueError(f"eta must be positive, not {show(self.eta)}")
+        if self.nu == 0:
+            raise ValueError("nu must not be 0: the table would stand still")
+        for name in ("left", "right", "interval"):
+            low, high = getattr(self, name)
+            if low >= high:
+                raise ValueError(f"{name} interval reversed or empty: {show(low)} >= {show(high)}")
+            if low < 0 or high > _TURN:
+                raise ValueError(f"{name} interval {show_range((low, high))} leaves [0, 2 pi)")
+        if self.left[1] >= self.right[0]:
+            raise ValueError("left and right intervals overlap, or are in the wrong order")
+        if self.left[0] < self.interval[0] or self.right[1] > self.interval[1]:
+            raise ValueError("left and right intervals must lie in the interval I")
+        for name in ("slopes", "ratios"):
+            low, high = getattr(self, name) or (1, 1)
+            if not 0 < low <= high:
+                raise ValueError(f"{name} must be positive and in increasing order")
+
+    @property
+    def gap(self) -> Range:
+        """The phases between I0 and I1 (open)."""
+        return self.left[1], self.right[0]
+
+    @property
+    def reciprocals(self) -> Range:
+        """1 / slopes, the contraction ratios, larger slope first as in the paper."""
+        return 1 / self.slopes[1], 1 / self.slopes[0]
+
+    @property
+    def moran_ratios(self) -> Range:
+        """eta0, eta1 of the equation for s_0."""
+        return self.ratios or self.reciprocals
+
+
+PAPER = Parameters(
+    eta=Fraction("0.2121"),
+    nu=Fraction("-0.2"),
+    left=(Fraction("1.11"), Fraction("1.15")),
+    right=(Fraction("1.27"), Fraction("1.32")),
+    interval=(Fraction("1.11"), Fraction("1.32")),
+    slopes=(Fraction("4.2"), Fraction("5.25")),
+    ratios=(Fraction("0.1905"), Fraction("0.2381")),
+    printed_s0="0.449",
+)
+
+
+@dataclass(frozen=True)
+class PointFact:
+    """A phase with a proved transversal first impact: f'(phase) and f(phase) mod 2 pi."""
+
+    phase: Fraction
+    slope: Range
+    image: Range
+
+
+@dataclass(frozen=True)
+class SlopeRange:
+    """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between."""
+
+    points: tuple[Fraction, ...]
+    slopes: tuple[Range, ...]
+    images: tuple[Range, ...]
+    pieces: tuple[Range, ...]
+
+
+@dataclass
+class Facts:
+    """What has been proved, as rational enclosures; empty where nothing has.
+
+    Keys 0 and 1 stand for I0 and I1. slope_min, slope_max: the extremes of f' on the closed
+    interval, where f is C^1, every phase's first impact being transversal. images: f(left end)
+    and f(right end), mod 2 pi. avoided: f maps the closed gap outside I. s0: the root for
+    `moran_ratios`, s0_reciprocal: the root for 1 / slopes. points, missed: witnesses to look
+    at, the second an interval J that may have no preimage.
+    """
+
+    slope_min: dict[int, Range] = field(default_factory=dict)
+    slope_max: dict[int, Range] = field(default_factory=dict)
+    images: dict[int, tuple[Range, Range]] = field(default_factory=dict)
+    avoided: bool = False
+    points: list[PointFact] = field(default_factory=list)
+    missed: Range | None = None
+    s0: Range | None = None
+    s0_reciprocal: Range | None = None
+
+    def add_slopes(self, of: Parameters, found: SlopeRange) -> None:
+        """Take what `found` says about I0 and I1, where their ends are among its points.
+
+        The minimum of f' lies between the least lower bound over the pieces and the least
+        upper bound at the points, the maximum likewise.
+        """
+        for index, domain in enumerate((of.left, of.right)):
+            if not set(domain) <= set(found.points):
+                continue
+            first, last = (found.points.index(end) for end in domain)
+            slopes, pieces = found.slopes[first : last + 1], found.pieces[first:last]
+            self.slope_min[index] = (
+                min(low for low, _ in pieces),
+                min(high for _, high in slopes),
+            )
+            self.slope_max[index] = (
+                max(low for low, _ in slopes),
+                max(high for _, high in pieces),
+            )
+            self.images[index] = (found.images[first], found.images[last])
+
+    def add_avoided(self, of: Parameters, phases: Range, target: Range) -> None:
+        """Take that no phase of `phases` has its first impact in `target`."""
+        whole = phases[0] <= of.gap[0] and of.gap[1] <= phases[1]
+        if whole and target[0] <= of.interval[0] and of.interval[1] <= target[1]:
+            self.avoided = True
+
+    def add_root(self, of: Parameters, ratios: Range, root: Range) -> None:
+        """Take a bracket of the root of ratios[0]^s + ratios[1]^s = 1."""
+        if ratios == of.moran_ratios:
+            self.s0 = root
+        if ratios == of.reciprocals:
+            self.s0_reciprocal = root
+
+    @property
+    def slopes_known(self) -> bool:
+        """Whether f' is bounded on both I0 and I1."""
+        return len(self.slope_min) == 2
+
+
+Outcome = tuple[Verdict, str]
+
+
+def show(value: Fraction) -> str:
+    """Write an exact rational as a plain decimal where it is one, else as p/q."""
+    rest, twos, fives = value.denominator, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    places = max(twos, fives)
+    if rest != 1 or places > 40:
+        return str(value)
+    digits = str(abs(value.numerator) * (10**places // value.denominator)).rjust(places + 1, "0")
+    sign = "-" if value < 0 else ""
+    return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
+
+
+def show_range(values: Range) -> str:
+    """Write a closed interval of exact rationals."""
+    return f"[{show(values[0])}, {show(values[1])}]"
+
+
+def _about(value: Fraction) -> str:
+    return f"{float(value):.6g}"
+
+
+def _undecided(missing: str) -> Outcome:
+    return Verdict.UNDECIDED, missing
+
+
+_NO_SLOPES = "no proof that f is differentiable on I0 and I1 with bounded slope"
+
+
+def _inside(point: PointFact, of: Parameters) -> bool:
+    """Whether a witness lies in the interior of I0 or of I1."""
+    return any(low < point.phase < high for low, high in (of.left, of.right))
+
+
+def _lower_slope(of: Parameters, facts: Facts) -> Outcome:
+    bound = of.slopes[0]
+    for point in facts.points:
+        if _inside(point, of) and point.slope[1] < bound:
+            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+    if not facts.slopes_known:
+        return _undecided(_NO_SLOPES)
+    least = min(low for low, _ in facts.slope_min.values())
+    if least >= bound:
+        return Verdict.VERIFIED, f"min f' = {_about(least)}, margin {_about(least - bound)}"
+    return _undecided(f"min f' >= {_about(least)} only, {_about(bound - least)} short")
+
+
+def _upper_slope(of: Parameters, facts: Facts) -> Outcome:
+    bound = of.slopes[1]
+    for point in facts.points:
+        if _inside(point, of) and point.slope[0] > bound:
+            return Verdict.REFUTED, f"f'({show(point.phase)}) > {_about(point.slope[0])}"
+    if not facts.slopes_known:
+        return _undecided(_NO_SLOPES)
+    greatest = max(high for _, high in facts.slope_max.values())
+    if greatest <= bound:
+        return Verdict.VERIFIED, f"max f' = {_about(greatest)}, margin {_about(bound - greatest)}"
+    return _undecided(f"max f' <= {_about(greatest)} only, {_about(greatest - bound)} over")
+
+
+def _increasing(of: Parameters, facts: Facts) -> Outcome:
+    for point in facts.points:
+        if _inside(point, of) and point.slope[1] < 0:
+            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+    if not facts.slopes_known:
+        return _undecided(_NO_SLOPES)
+    least = min(low for low, _ in facts.slope_min.values())
+    if least > 0:
+        return Verdict.VERIFIED, f"f' >= {_about(least)} > 0"
+    return _undecided(f"f' >= {_about(least)} only")
+
+
+def _gap_escapes(of: Parameters, facts: Facts) -> Outcome:
+    low, high = of.interval
+    for point in facts.points:
+        inside = of.gap[0] < point.phase < of.gap[1]
+        if inside and low <= point.image[0] and point.image[1] <= high:
+            return Verdict.REFUTED, f"f({show(point.phase)}) is in I"
+    if facts.avoided:
+        return Verdict.VERIFIED, "no phase of the gap has its first impact in I"
+    return _undecided("no proof that the first impacts of the gap avoid I, and no witness")
+
+
+
+
+def image_arcs(of: Parameters, facts: Facts) -> list[tuple[Range, Range] | None]:
+    """Return for I0 and I1 the ends (lower, upper) of the arc f(I_i), None where not proved.
+
+    Where f' has one sign on I_i and f(I_i) is shorter than the circle, f(I_i) is the arc
+    between the images of the ends, in the order of that sign.
+    """
+    arcs: list[tuple[Range, Range] | None] = []
+    for index, domain in enumerate((of.left, of.right)):
+        if index not in facts.images:
+            arcs.append(None)
+            continue
+        least, greatest = facts.slope_min[index][0], facts.slope_max[index][1]
+        short = max(abs(least), abs(greatest)) * (domain[1] - domain[0]) < _TURN
+        ends = facts.images[index]
+        if short and least > 0:
+            arcs.append(ends)
+        elif short and greatest < 0:
+            arcs.append((ends[1], ends[0]))
+        else:
+            arcs.append(None)
+    return arcs
+
+
+def _two_preimages(of: Parameters, facts: Facts) -> Outcome:
+    arcs = image_arcs(of, facts)
+    witness = facts.missed
+    if witness is not None and witness[0] < witness[1]:
+        inside = any(low <= witness[0] and witness[1] <= high for low, high in (of.left, of.right))
+        for name, arc in zip(("I0", "I1"), arcs, strict=True):
+            # an arc shorter than the circle, from phase u up to v with u < v < 2 pi, is [u, v]
+            if inside and arc is not None and arc[0][1] < arc[1][0] and arc[1][1] < _TURN:
+                if witness[1] < arc[0][0] or arc[1][1] < witness[0]:
+                    return Verdict.REFUTED, f"{show_range(witness)} has no preimage in {name}"
+    low, high = of.interval
+    margins = []
+    for arc in arcs:
+        if arc is None:
+            return _undecided("no proof that f is monotone on I0 and on I1")
+        margins.append(min(low - arc[0][1], arc[1][0] - high))
+    if min(margins) < 0:
+        return _undecided(f"an image falls short of I by up to {_about(-min(margins))}")
+    if of.interval != (of.left[0], of.right[1]):
+        return _undecided("I reaches beyond I0 and I1: nothing is proved about the rest")
+    if not facts.avoided:
+        return _undecided("f(I0) and f(I1) cover I; the gap is not proved to escape")
+    return Verdict.VERIFIED, f"f(I0) and f(I1) cover I, margin {_about(min(margins))}"
+
+
+def _short_preimages(of: Parameters, facts: Facts) -> Outcome:
+    bound = of.slopes[0]
+    for point in facts.points:
+        lands = any(
+            low < point.image[0] and point.image[1] < high for low, high in (of.left, of.right)
+        )
+        if _inside(point, of) and lands and 0 < point.slope[0] and point.slope[1] < bound:
+            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+    if not facts.slopes_known:
+        return _undecided(_NO_SLOPES)
+    least = min(low for low, _ in facts.slope_min.values())
+    if least > bound:
+        return Verdict.VERIFIED, f"each is at most |J| / {_about(least)} long"
+    return _undecided(f"f' >= {_about(least)} only")
+
+
+def _rounds_to(value: Fraction, printed: str) -> bool:
+    places = len(printed.partition(".")[2])
+    return abs(value - Fraction(printed)) * 2 * 10**places < 1
+
+
+def _truncates_to(value: Fraction, printed: str) -> bool:
+    places = len(printed.partition(".")[2])
+    return 0 <= value - Fraction(printed) < Fraction(1, 10**places)
+
+
+def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
+    """Return whether the printed digits are the root's, (rounded, truncated); None: undecided."""
+    answers = []
+    for holds in (_rounds_to, _truncates_to):
+        ends = {holds(end, printed) for end in root}
+        answers.append(ends.pop() if len(ends) == 1 and root[1] - root[0] < 1 else None)
+    return answers[0], answers[1]
+
+
+def _moran_root(of: Parameters, facts: Facts) -> Outcome:
+    if max(of.moran_ratios) >= 1:
+        return Verdict.REFUTED, "a ratio is at least 1, so the sum exceeds 1 for every s > 0"
+    if facts.s0 is None or facts.s0_reciprocal is None:
+        return _undecided("no bracket of s_0")
+    if of.printed_s0 is None:
+        return Verdict.VERIFIED, f"s_0 = {_about(facts.s0[0])}"
+    if of.ratios is not None:
+        for ratio, printed in zip(of.reciprocals, of.ratios, strict=True):
+            if not _rounds_to(ratio, show(printed)):
+                return Verdict.REFUTED, f"1 / slope is not {show(printed)} to the places printed"
+    both = [readings(root, of.printed_s0) for root in (facts.s0, facts.s0_reciprocal)]
+    if all(rounded for rounded, _ in both):
+        cut = "also" if all(truncated for _, truncated in both) else "not"
+        return Verdict.VERIFIED, f"rounded to the places printed; {cut} when truncated"
+    if all(reading == (False, False) for reading in both):
+        return Verdict.REFUTED, f"s_0 = {_about(facts.s0[0])} is not {of.printed_s0} in any reading"
+    return _undecided("the readings of the printed digits differ between the ratios")
+
+
+def _gap_function(of: Parameters, facts: Facts) -> Outcome:
+    del facts  # exact arithmetic on the ratios decides
+    if max(of.moran_ratios) >= 1:
+        return Verdict.REFUTED, "there is no s_0 > 0"
+    excess = 1 - sum(of.moran_ratios)
+    if excess <= 0:
+        return Verdict.REFUTED, "eta0 + eta1 >= 1, so s_0 >= 1 and q does not decrease"
+    return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = 1 - {_about(excess)}"
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A claim: its id in the catalogue, its text, the rule that decides it from facts."""
+
+    id: str
+    text: str
+    decide: Callable[[Parameters, Facts], Outcome]
+
+    def says(self, of: Parameters) -> str:
+        """Return the claim in words at the given numbers."""
+        return self.text.format(
+            eta=show(of.eta),
+            nu=show(of.nu),
+            i=show_range(of.interval),
+            i0=show_range(of.left),
+            i1=show_range(of.right),
+            gap=f"({show(of.gap[0])}, {show(of.gap[1])})",
+            lo=show(of.slopes[0]),
+            hi=show(of.slopes[1]),
+            r0=show(of.moran_ratios[0]),
+            r1=show(of.moran_ratios[1]),
+            s0=f", to {of.printed_s0} as printed (rounded)" if of.printed_s0 else "",
+        )
+
+
+_AT = "At (eta, nu) = ({eta}, {nu}): "
+
+STATEMENTS = {
+    statement.id: statement
+    for statement in (
+        Statement(
+            "H1", _AT + "f' >= {lo} on the interiors of I0 = {i0} and I1 = {i1}.", _lower_slope
+        ),
+        Statement(
+            "H2", _AT + "f' <= {hi} on the interiors of I0 = {i0} and I1 = {i1}.", _upper_slope
+        ),
+        Statement("H3", _AT + "f is increasing on I0 = {i0} and on I1 = {i1}.", _increasing),
+        Statement("H4", _AT + "f(phi) is outside I = {i} for every phi in {gap}.", _gap_escapes),
+        Statement(
+            "H5",
+            _AT + "the points of I = {i} that f maps into a closed interval J of positive length "
+            "in I0 = {i0} or I1 = {i1} form two closed intervals, one in I0 and one in I1.",
+            _two_preimages,
+        ),
+        Statement(
+            "H6",
+            _AT + "for each closed interval J of positive length in I0 = {i0} or I1 = {i1}, the "
+            "preimages of J in I0 and in I1 are shorter than |J| / {lo}.",
+            _short_preimages,
+        ),
+        Statement(
+            "H11",
+            "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0, equal{s0} to the bracket given; the "
+            "ratios are 1/{hi} and 1/{lo}, to their printed places.",
+            _moran_root,
+        ),
+        Statement(
+            "H16",
+            "With eta0 = {r0}, eta1 = {r1} and eta0^s_0 + eta1^s_0 = 1, the function q(x) = "
+            "((1 - eta1)/eta0 + x)^s_0 - 1 - x^s_0 decreases on x > 0 and q(eta1/eta0) = 0.",
+            _gap_function,
+        ),
+    )
+}
+
+HORSESHOE = ("H1", "H2", "H3", "H4", "H5", "H6")
+
+
+def decide(claim: str, of: Parameters, facts: Facts) -> Outcome:
+    """Return the verdict that the facts prove for a claim, and why."""
+    return STATEMENTS[claim].decide(of, facts)
+
+
+def quantities(claim: str, facts: Facts) -> dict[str, Range]:
+    """Return the enclosures that a claim reports, by the names of the machine form."""
+    result: dict[str, Range] = {}
+    for index, name in enumerate(("I0", "I1")):
+        if claim in ("H1", "H3", "H6") and index in facts.slope_min:
+            result[f"slope_min_{name}"] = facts.slope_min[index]
+        if claim == "H2" and index in facts.slope_max:
+            result[f"slope_max_{name}"] = facts.slope_max[index]
+        if claim == "H5" and index in facts.images:
+            result[f"image_left_{name}"], result[f"image_right_{name}"] = facts.images[index]
+    if claim == "H11" and facts.s0 is not None and facts.s0_reciprocal is not None:
+        result["s0"], result["s0_reciprocal_slopes"] = facts.s0, facts.s0_reciprocal
+    return result
+
+
+def theorem(of: Parameters) -> str:
+    """State what follows where H1-H6 hold; the proof is the paper's own for Theorem 2.
+
+    f is C^1 and increasing on I0 and I1, f' >= lo > 1, each image contains I, and the rest of I
+    leaves it. So the points of I with itinerary w_1 ... w_n form a closed interval, that f maps
+    onto the one of w_2 ... w_n, which is at least lo times longer; nested intervals shrink to
+    one point for every infinite word, and itineraries conjugate f to the shift.
+    """
+    low, high = of.slopes
+    return (
+        f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}) let I = {show_range(of.interval)}, "
+        f"I0 = {show_range(of.left)}, I1 = {show_range(of.right)}. The impact map f is "
+        f"continuously differentiable and increasing on I0 and on I1, with {show(low)} <= f' <= "
+        f"{show(high)}; f(I0) and f(I1) both contain I, and f maps every phase of "
+        f"({show(of.gap[0])}, {show(of.gap[1])}) outside I. Hence, for every n, each of the 2^n "
+        "words w_1 ... w_n over {0, 1} has its own closed interval of phases phi with "
+        "f^(k-1)(phi) in I_(w_k) for k = 1, ..., n, disjoint from those of the other words and at "
+        f"most |I| / {show(low)}^(n-1) long; the set of phases whose orbit stays in I is a Cantor "
+        "set, and on it f is topologically conjugate to the full one-sided shift on two symbols: "
+        "2^n points are fixed by f^n, there are periodic orbits of every period, uncountably many "
+        "nonperiodic ones, and a dense one."
+    )

@@ -1,0 +1,139 @@
+"""Proof steps of the plastic map: each proves something and records its witness.
+
+The steps are those of `proofs.check.rules`, by the same names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+from intervals import Interval
+from intervals.cover import cover
+from intervals.errors import Undecided
+from proofs.certificate import texts
+from proofs.methods.extremes import extremes
+from proofs.methods.moran import moran_root
+from proofs.model.impact import (
+    FirstImpact,
+    Flight,
+    cover_by_impacts,
+    first_impact,
+    halves,
+    impact_time,
+    misses,
+    phase_after,
+    time_range,
+)
+from proofs.model.system import System
+from proofs.statements import PointFact, Range, SlopeRange
+
+
+@dataclass
+class Prover:
+    """Collects proof steps; each is made once and named after its rule."""
+
+    system: System
+    digits: int
+    horizon: Fraction
+    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    @property
+    def bits(self) -> int:
+        """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
+        return self.digits * 10 // 3 + 16
+
+    def add(self, rule: str, witness: dict[str, Any]) -> str:
+        """Record a step and return its name."""
+        number = 1 + sum(step["rule"] == rule for step in self.steps.values())
+        name = f"{rule}-{number}"
+        self.steps[name] = {"rule": rule, "witness": witness}
+        return name
+
+    def add_impact(self, found: FirstImpact) -> str:
+        """Record a first impact."""
+        phases, times = texts(found.flight.phases), texts(found.times[1:])
+        return self.add("first-impact", {"phases": phases, "times": times})
+
+    def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
+        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
+        parts = cover_by_impacts(self.system, (points[0], points[-1]), horizon=self.horizon)
+        names = {part: self.add_impact(part) for part in parts}
+        cuts = sorted({*points, *(part.flight.phases[0] for part in parts)})
+        times: dict[Fraction | Range, Range] = {}
+
+        def part_of(low: Fraction, high: Fraction) -> FirstImpact:
+            return next(
+                p for p in parts if p.flight.phases[0] <= low and high <= p.flight.phases[1]
+            )
+
+        def at(phase: Fraction) -> Interval:
+            part = part_of(phase, phase)
+            times[phase] = impact_time(part, phase, self.bits)
+            thin = replace(part.flight, phases=(phase, phase), precision=self.bits + 30)
+            return thin.slope(times[phase])
+
+        def over(low: Fraction, high: Fraction) -> Interval:
+            part = part_of(low, high)
+            times[low, high] = time_range(part, (low, high))
+            wide = replace(part.flight, phases=(low, high))
+            return wide.slope_and_curvature(times[low, high])[1]
+
+        found = extremes(at, over, cuts)
+        pairs = list(zip(found.points, found.points[1:], strict=False))
+        witness = {
+            "points": [
+                {"flight": names[part_of(x, x)], "phase": str(x), "time": texts(times[x])}
+                for x in found.points
+            ],
+            "pieces": [{"flight": names[part_of(*p)], "time": texts(times[p])} for p in pairs],
+        }
+        images = (phase_after(x, times[x], self.bits + 30) for x in found.points)
+        return self.add("slope-range", witness), SlopeRange(
+            found.points,
+            tuple((value.inf, value.sup) for value in found.values),
+            tuple(images),
+            tuple((piece.inf, piece.sup) for piece in found.pieces),
+        )
+
+    def avoids(self, phases: Range, target: Range) -> str:
+        """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
+
+        def decide_part(part: Range) -> FirstImpact | None:
+            finest = _power_of_two_below(part[1] - part[0])
+            try:
+                found = first_impact(Flight(self.system, part), self.horizon, finest)
+            except Undecided:
+                return None
+            arrivals = ((part[0] + w[0], part[1] + w[1]) for w in found.windows)
+            return found if all(misses(arrival, target) for arrival in arrivals) else None
+
+        parts = [found for _, found in cover([phases], decide_part, halves, limit=400)]
+        flights = [self.add_impact(part) for part in parts]
+        return self.add("avoids", {"flights": flights, "target": texts(target)})
+
+    def point(self, phase: Fraction) -> tuple[str, PointFact]:
+        """Enclose f and f' at one phase (rule point)."""
+        (impact,) = cover_by_impacts(self.system, (phase, phase), horizon=self.horizon, limit=1)
+        time = impact_time(impact, phase, self.bits)
+        slope = replace(impact.flight, precision=self.bits + 30).slope(time)
+        witness = {
+            "flight": self.add_impact(impact),
+            "phase": str(phase),
+            "time": texts(time),
+        }
+        fact = PointFact(
+            phase, (slope.inf, slope.sup), phase_after(phase, time, self.bits + 30)
+        )
+        return self.add("point", witness), fact
+
+    def root(self, ratios: Range) -> tuple[str, Range]:
+        """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
+        bracket = moran_root(ratios, self.bits)
+        return self.add("moran-root", {"ratios": texts(ratios), "root": texts(bracket)}), bracket
+
+
+def _power_of_two_below(value: Fraction) -> Fraction:
+    """Return the largest 2^-k <= value that is at most 1/8."""
+    return Fraction(1, 1 << max(3, (1 / value).__ceil__().bit_length()))
