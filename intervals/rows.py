@@ -1,9 +1,8 @@
 """Interval arithmetic on rows: arrays (-lower, upper) of shape (2, ...), see `rounding`.
 
-The formulas below give each bound as the largest of correctly signed candidates, each rounded
-once; the outward step that follows makes an upper bound of it. Rounding is monotone, so the
-largest rounded candidate is the rounded largest candidate, in every rounding mode that treats
-x and -x alike; in the others it is still a neighbour of it, which the step allows.
+The formulas below give each bound as the largest x of some candidates, each rounded once in any
+mode. If e is the largest exact candidate and x < e, then its own rounded value, which is e or a
+neighbour of it and at most x, is x: so `outward`, which only asks that, makes an upper bound.
 """
 
 from collections.abc import Callable

@@ -1,0 +1,108 @@
+"""Directed rounding to binary64: exact conversions, and the outward step for arrays of bounds.
+
+An enclosure [a, b] is stored as the pair of rows (-a, b), so that both rows round upward and one
+formula serves both. u = 2^-53 is half the spacing of binary64 at 1, eta = 2^-1074 its least
+positive number. Nothing here changes the rounding mode of the processor.
+"""
+
+from fractions import Fraction
+from math import inf, nextafter
+
+import numpy as np
+from numpy.typing import NDArray
+
+Rows = NDArray[np.float64]
+
+ULP = 2.0**-52
+ETA = 2.0**-1074
+MAX = 2.0**1023 * (2.0 - ULP)
+
+_ONE = 1.0
+_LEAST_NORMAL = 2.0**-1022
+
+
+def float_down(value: Fraction | int) -> float:
+    """Return the largest finite binary64 number <= value.
+
+    The quotient of two ints is within one step of the result; exact comparisons settle it,
+    whatever the rounding mode. A value that rounds to no finite number raises OverflowError.
+    """
+    value = Fraction(value)
+    result = float(value)
+    while result > value:
+        result = nextafter(result, -inf)
+    return _finite(result)
+
+
+def float_up(value: Fraction | int) -> float:
+    """Return the smallest finite binary64 number >= value; OverflowError as in `float_down`."""
+    value = Fraction(value)
+    result = float(value)
+    while result < value:
+        result = nextafter(result, inf)
+    return _finite(result)
+
+
+def _finite(result: float) -> float:
+    if not -MAX <= result <= MAX:
+        raise OverflowError("the bound is beyond the range of binary64")
+    return result
+
+
+def outward(rows: Rows) -> Rows:
+    """Replace each x in `rows` by an upper bound of the exact e that it was rounded from.
+
+    Hypothesis: e <= x+, where x+ is the binary64 number after x; so it is if x is the result of
+    one operation of exact value e, with an error below one ulp, rounded in any mode. Conclusion:
+    e <= y = fl(x + fl(fl(|x| 2^-52) + eta)). Works in place and returns `rows`.
+
+    Proof. Let g be the gap of the binade of x: 2^(k-52) if 2^k <= |x| < 2^(k+1) is normal, eta
+    below. Then x + g is a binary64 number and x+ <= x + g. Rounding is monotone in every mode
+    and leaves binary64 numbers alone, so it suffices that fl(fl(|x| 2^-52) + eta) >= g, then
+    y >= fl(x + g) = x + g. Normal x: |x| 2^-52 >= 2^(k-52) = g, which is a binary64 number, so
+    fl(|x| 2^-52) >= g, and adding eta does not lower it. Other x: g = eta. Overflow: e > MAX
+    leaves y >= MAX, which `bounded` refuses. Flushing to zero breaks eta, and is refused here.
+    """
+    require_subnormals()
+    step = np.abs(rows)
+    step *= ULP
+    step += ETA
+    rows += step
+    return bounded(rows)
+
+
+def outward_sum(rows: Rows) -> Rows:
+    """Do the same for x that came from + or - of two binary64 numbers: y = fl(x + fl(|x| 2^-52)).
+
+    Proof. As for `outward` where x is normal. Elsewhere |x| < 2^-1022, the exact sum is a multiple
+    of eta below 2^-1022 + eta, hence x is exact; so is 0, and y >= x. Exact zeros stay exact.
+    """
+    require_subnormals()
+    step = np.abs(rows)
+    step *= ULP
+    rows += step
+    return bounded(rows)
+
+
+def bounded(rows: Rows) -> Rows:
+    """Return `rows` if all -lower, upper are < MAX, else raise OverflowError; NaN is refused too.
+
+    A bound that overflowed is inf, or MAX in the modes that round toward zero or down. With
+    lower <= upper, both rows < MAX also exclude -inf.
+    """
+    if not np.max(rows, initial=-MAX) < MAX:
+        raise OverflowError("a bound is beyond the range of binary64")
+    return rows
+
+
+def require_subnormals() -> None:
+    """Raise FloatingPointError where this thread flushes subnormal numbers to zero."""
+    if not _LEAST_NORMAL * 0.5 > 0.0:
+        raise FloatingPointError("subnormal numbers are flushed to zero in this thread")
+
+
+def require_nearest() -> None:
+    """Raise FloatingPointError unless this thread rounds to nearest, ties to even."""
+    require_subnormals()
+    if not (_ONE + 0.5 * ULP == 1.0 and _ONE + 0.75 * ULP > 1.0):
+        raise FloatingPointError("this thread does not round to nearest")

@@ -1,0 +1,331 @@
+"""sin and cos in binary64: the constants, the error bound, containment, extrema, the far range."""
+
+import math
+import random
+from fractions import Fraction
+from math import factorial
+
+import flint
+import numpy as np
+import pytest
+
+from intervals.array import IntervalArray
+from intervals.elementary import binary64
+from intervals.elementary.binary64 import CHUNK, LIMIT
+from intervals.elementary.constants import pi_fixed
+
+ETA = 2.0**-1074
+U = Fraction(1, 2**53)
+BOUND = Fraction(17, 10)  # in units of u times the result: the theorem of the module
+BITS = 2000
+HALF_PI = Fraction(pi_fixed(BITS), 2 ** (BITS + 1))  # below pi/2, by less than 2^-BITS
+NEAREST = float.fromhex("0x1.6c6cbc45dc8dep+5")  # next to 29 pi/2
+
+
+# -- the constants and the facts that the proof names ----------------------------------------------
+
+
+def test_parts_of_half_pi():
+    p1, p2, p3 = map(Fraction, (binary64._P1, binary64._P2, binary64._P3))
+    assert (p1 * 2**42).denominator == (p2 * 2**84).denominator == 1
+    assert abs(p2) < Fraction(1, 2**43)
+    assert abs(p3) < Fraction(1, 2**85)
+    assert abs(HALF_PI - p1 - p2 - p3) < Fraction(1, 2**141)
+    assert abs(Fraction(binary64._TWO_OVER_PI) * HALF_PI - 1) < U
+    assert np.array([binary64._SHIFT]).view(np.int64)[0] == binary64._SHIFT_BITS
+
+
+def test_coefficients_are_taylors_correctly_rounded():
+    for table, last in ((binary64._SIN, 3), (binary64._COS, 4)):
+        for k, coefficient in zip(range(last, 18, 2), reversed(table), strict=False):
+            exact = Fraction((-1) ** (k // 2), factorial(k))
+            assert abs(Fraction(coefficient) - exact) <= Fraction(math.ulp(coefficient)) / 2
+    assert (len(binary64._SIN), len(binary64._COS)) == (8, 7)
+
+
+def neighbours():
+    """The binary64 numbers around each n pi/2 in the range, n >= 1."""
+    for n in range(1, 653):
+        x = float(n * HALF_PI)
+        for y in (math.nextafter(x, 0), x, math.nextafter(x, math.inf)):
+            yield n, y
+
+
+def test_no_argument_is_nearer_to_a_multiple_than_the_proof_says():
+    distance, n, x = min((abs(Fraction(x) - n * HALF_PI), n, x) for n, x in neighbours())
+    assert distance > Fraction(1, 2**61)
+    assert (n, x) == (29, NEAREST)
+    assert Fraction(LIMIT) < Fraction(1305, 2) * HALF_PI  # so n <= 652
+
+
+def half_spacing(x):
+    """Half the spacing of the binary64 numbers of size x: the largest error of rounding there."""
+    return Fraction(math.ulp(float(x))) / 2
+
+
+def test_error_budget():
+    """Add up the proof's list of errors in exact arithmetic, with upper bounds of all sizes."""
+    s = HALF_PI / 2 + Fraction(1, 2**40)
+    z = s * s * (1 + U)
+    t = U / 2 + Fraction(1, 2**75)
+
+    def polynomial(table):
+        """The error of Horner's form, from the coefficients, the products and the sums."""
+        error, size = Fraction(0), Fraction(0)
+        for index, coefficient in enumerate(table):
+            product = z * size
+            error = z * error + (half_spacing(product) if index else 0) + half_spacing(coefficient)
+            size = product + abs(Fraction(coefficient))
+            error += half_spacing(size) if index else 0
+        return error
+
+    correction = z * z / 24
+    cos_error = (
+        half_spacing(z) / 2
+        + 4 * U * correction
+        + z * z * polynomial(binary64._COS)
+        + U * correction
+        + z**9 / factorial(18)
+        + t * s**3 / 6
+        + half_spacing(z / 2)
+        + U / 2
+        + U / 100
+    )
+    least_cos = Fraction(7071, 10000)
+    assert Fraction(11, 10) * U < cos_error < BOUND * U * least_cos * (1 - 2 * U)
+    correction = z / 6
+    sin_error = (
+        3 * U * correction
+        + z * polynomial(binary64._SIN)
+        + U * (correction + Fraction(1, 2**12))
+        + z**9 / factorial(19)
+        + U / 100
+    )
+    ratio = s / Fraction(7071, 10000)
+    assert Fraction(16, 10) * U < sin_error * ratio + U < BOUND * U * (1 - 2 * U)
+    step = Fraction(binary64._STEP)
+    assert step - U * (1 + 3 * U) - 2 * U * step > BOUND * U * (1 + 2 * U)
+
+
+# -- containment -----------------------------------------------------------------------------------
+
+
+def points(seed, count):
+    """Arguments with a bias to the edges: multiples of pi/2 and pi/4, 0, tiny, 1024."""
+    rng = random.Random(seed)
+    for _ in range(count):
+        kind = rng.randrange(7)
+        if kind == 0:
+            x = math.ldexp(rng.random(), rng.randrange(-1074, 0))
+        elif kind < 3:
+            x = float(rng.randrange(0, 1305) * HALF_PI / 2)
+            for _ in range(rng.randrange(3)):
+                x = math.nextafter(x, rng.choice([-1, 1]) * math.inf)
+        elif kind == 3:
+            x = rng.choice([0.0, ETA, 2.0**-1022, 1e-160, 2.0**-26, 1.0, NEAREST, LIMIT])
+        else:
+            x = rng.uniform(0, rng.choice([1, 10, LIMIT]))
+        yield rng.choice([-1, 1]) * min(x, LIMIT)
+
+
+def intervals(seed, count):
+    rng = random.Random(seed)
+    pairs = []
+    for x, other in zip(points(seed, count), points(seed + 1, count), strict=True):
+        narrow = math.ldexp(rng.random(), rng.randrange(-50, 0))
+        y = rng.choice([x, math.nextafter(x, math.inf), x + rng.uniform(0, 10), x + narrow, other])
+        pairs.append((min(x, y), min(max(x, y), LIMIT)))
+    lower, upper = (list(ends) for ends in zip(*pairs, strict=True))
+    return IntervalArray.from_floats(lower, upper)
+
+
+def inner_points(low, high, rng):
+    """The ends, a random point, and a multiple of pi/2 inside if there is one."""
+    yield from (low, high, min(high, max(low, low + (high - low) * rng.random())))
+    n = math.ceil(low / (math.pi / 2)) + rng.randrange(4)
+    x = float(n * HALF_PI)
+    if low <= x <= high:
+        yield x
+
+
+def assert_contains(x, sin, cos, seed=0):
+    rng = random.Random(seed)
+    columns = (x.inf, x.sup, sin.inf, sin.sup, cos.inf, cos.sup)
+    with flint.ctx.workprec(200):
+        for low, high, s0, s1, c0, c1 in zip(*(c.tolist() for c in columns), strict=True):
+            assert -1 <= s0 <= s1 <= 1
+            assert -1 <= c0 <= c1 <= 1
+            for point in inner_points(low, high, rng):
+                s, c = flint.arb(point).sin_cos()
+                assert flint.arb(s0) <= s, (low, high, point)
+                assert s <= flint.arb(s1), (low, high, point)
+                # for tiny points Arb's ball of cos reaches beyond 1
+                assert not c < flint.arb(c0), (low, high, point)
+                assert not c > flint.arb(c1), (low, high, point)
+
+
+def test_points_are_enclosed():
+    x = IntervalArray.from_floats(list(points(1, 20000)))
+    sin, cos = x.sincos()
+    assert_contains(x, sin, cos)
+    for y in (sin, cos):
+        size = np.maximum(np.abs(y.inf), np.abs(y.sup))
+        assert (y.wid <= 2.0**-50 * size + 4 * ETA).all()
+
+
+def test_intervals_are_enclosed():
+    x = intervals(2, 20000)
+    assert_contains(x, *x.sincos())
+
+
+def test_multiples_of_half_pi_are_enclosed():
+    rows = [x for _, x in neighbours() if x <= LIMIT]
+    x = IntervalArray.from_floats(rows + [-v for v in rows])
+    assert_contains(x, *x.sincos())
+    # [a, b] around n pi/2, one ulp wide, must hold the extremum exactly
+    pairs = []
+    for n in range(-651, 652):
+        y = float(n * HALF_PI)
+        pairs.append((math.nextafter(y, -math.inf), math.nextafter(y, math.inf)))
+    x = IntervalArray.from_floats(*(np.array(v) for v in zip(*pairs, strict=True)))
+    sin, cos = x.sincos()
+    n = np.arange(-651, 652) % 4
+    assert (sin.sup[n == 1] == 1).all()
+    assert (sin.inf[n == 3] == -1).all()
+    assert (cos.sup[n == 0] == 1).all()
+    assert (cos.inf[n == 2] == -1).all()
+    # and zeros of the other function inside
+    assert sin.contains(0)[n % 2 == 0].all()
+    assert cos.contains(0)[n % 2 == 1].all()
+
+
+def sup_is_one(low, high, quarter):
+    """Whether quarter pi/2 + 2 pi k is in [low, high] for some k, exactly."""
+    k = math.ceil((Fraction(low) / HALF_PI - quarter) / 4)
+    return (4 * k + quarter) * HALF_PI <= Fraction(high)
+
+
+def test_extrema_are_found_exactly_where_they_are():
+    x = intervals(3, 5000)
+    sin, cos = x.sincos()
+    margin = 2.0**-40
+    for i, (low, high) in enumerate(zip(x.inf.tolist(), x.sup.tolist(), strict=True)):
+        for bound, quarter in ((sin.sup, 1), (-sin.inf, 3), (cos.sup, 0), (-cos.inf, 2)):
+            if sup_is_one(low, high, quarter):
+                assert bound[i] == 1
+            elif not sup_is_one(low - 1e-5, high + 1e-5, quarter):
+                assert bound[i] < 1 - margin
+
+
+def test_wide_results_are_tight():
+    """The bounds are those at the ends, or +-1: never much more."""
+    x = intervals(4, 5000)
+    ends = [IntervalArray.from_floats(e).sincos() for e in (x.inf, x.sup)]
+    for name, quarters in ((0, (1, 3)), (1, (0, 2))):
+        y, hull = x.sincos()[name], ends[0][name].hull(ends[1][name])
+        for i, (low, high) in enumerate(zip(x.inf.tolist(), x.sup.tolist(), strict=True)):
+            assert y.sup[i] == (1 if sup_is_one(low, high, quarters[0]) else hull.sup[i])
+            assert y.inf[i] == (-1 if sup_is_one(low, high, quarters[1]) else hull.inf[i])
+
+
+def test_inclusion_isotonicity_up_to_the_error_bound():
+    x = intervals(5, 20000)
+    rng = np.random.default_rng(6)
+    lower = np.clip(x.inf + (x.mid - x.inf) * rng.random(x.shape), x.inf, x.mid)
+    upper = np.clip(x.mid + (x.sup - x.mid) * rng.random(x.shape), x.mid, x.sup)
+    part = IntervalArray.from_floats(lower, upper)
+    for small, large in zip(part.sincos(), x.sincos(), strict=True):
+        gap = 6 * 2.0**-53 * np.maximum(abs(large.inf), abs(large.sup)) + 2 * ETA
+        assert (small.inf >= large.inf - gap).all()
+        assert (small.sup <= large.sup + gap).all()
+
+
+def test_symmetries_hold_exactly():
+    x = intervals(7, 3000)
+    assert ((-x).sin() == -x.sin()).all()
+    assert ((-x).cos() == x.cos()).all()
+
+
+# -- the measured error ----------------------------------------------------------------------------
+
+
+def largest_error(x):
+    """The largest |computed - true| in units of u |computed| over points, of sin r and of cos r.
+
+    r is the reduced argument: odd quadrants exchange the two polynomials.
+    """
+    sin, cos, quadrant, _ = binary64._point_sincos(x)
+    odd = quadrant % 2 == 1
+    computed = np.where(odd, cos, sin).tolist(), np.where(odd, sin, cos).tolist()
+    worst = [0.0, 0.0]
+    with flint.ctx.workprec(200):
+        for point, swap, *values in zip(x.tolist(), odd.tolist(), *computed, strict=True):
+            exact = flint.arb(point).sin_cos()[:: -1 if swap else 1]
+            for k in range(2):
+                value = flint.arb(values[k])
+                if point != 0 and abs(point) > 1e-300:
+                    error = float(abs((exact[k] - value) / value).upper()) * 2.0**53
+                    worst[k] = max(worst[k], error)
+    return worst
+
+
+def random_points(count, seed):
+    rng = np.random.default_rng(seed)
+    third = count // 3
+    spread = rng.uniform(-LIMIT, LIMIT, third)
+    central = rng.uniform(-math.pi / 4, math.pi / 4, third)
+    edges = (rng.integers(-650, 650, third) + 0.5) * (math.pi / 2)  # |r| near pi/4: the worst
+    edges += rng.uniform(-0.02, 0.02, third)
+    return np.concatenate([spread, central, edges])
+
+
+def test_measured_error_is_within_the_proved_bound():
+    sin_error, cos_error = largest_error(random_points(60000, 8))
+    assert max(sin_error, cos_error) <= BOUND
+    # what this scheme of evaluation is known to reach: a term left out would show
+    assert 1.0 < sin_error < 1.2
+    assert 1.3 < cos_error < 1.5
+
+
+@pytest.mark.slow
+def test_measured_error_is_within_the_proved_bound_on_a_million_points():
+    assert max(largest_error(random_points(1_000_000, 9))) <= BOUND
+
+
+def test_the_reduction_is_exact_to_twice_the_precision():
+    x = np.array([v for _, v in neighbours() if v <= LIMIT])
+    assert max(largest_error(x)) <= BOUND
+
+
+# -- beyond the limit, and how arrays are split ----------------------------------------------------
+
+
+def test_beyond_the_limit():
+    above = math.nextafter(LIMIT, math.inf)
+    lower = [LIMIT, above, -above, 1000.0, -5e4, 1e300, -1e22, 0.5, -2e3, LIMIT]
+    upper = [LIMIT, above, -above, 1025.0, -5e4 + 1e-3, 1e300, -1e22, 0.75, 2e3, above]
+    x = IntervalArray.from_floats(lower, upper)
+    sin, cos = x.sincos()
+    assert_contains(x, sin, cos)
+    assert (sin.wid[[0, 1, 2, 5, 6, 9]] < 1e-12).all()
+    assert (sin[7] == IntervalArray.from_floats(0.5, 0.75).sin()).all()
+    assert (sin.inf[8], sin.sup[8], cos.inf[8], cos.sup[8]) == (-1, 1, -1, 1)
+    rng = np.random.default_rng(10)
+    lower = rng.choice([-1, 1], 300) * (LIMIT + rng.exponential(3, 300))
+    x = IntervalArray.from_floats(lower, lower + rng.uniform(0, 6, 300))
+    assert_contains(x, *x.sincos())
+
+
+def test_chunks_do_not_show():
+    rng = np.random.default_rng(11)
+    lower = rng.uniform(-20, 20, 2 * CHUNK + 17)
+    for upper in (lower, lower + 0.5):
+        x = IntervalArray.from_floats(lower, upper)
+        sin, cos = x.sincos()
+        parts = [x[i : i + 1000].sincos() for i in range(0, len(x), 1000)]
+        assert (IntervalArray.concatenate([p[0] for p in parts]) == sin).all()
+        assert (IntervalArray.concatenate([p[1] for p in parts]) == cos).all()
+        assert (x.reshape(1, -1).sin() == sin).all()
+    mixed = IntervalArray.from_floats(lower, np.where(np.arange(len(lower)) % 2, lower, lower + 1))
+    points_alone = IntervalArray.from_floats(lower).sin()
+    assert (mixed.sin() == points_alone)[1::2].all()

@@ -1,0 +1,188 @@
+"""Directed conversion and the outward step, also in foreign states of the floating-point unit."""
+
+import ctypes
+import math
+import platform
+from contextlib import contextmanager
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from intervals.array import IntervalArray
+from intervals.rounding import (
+    ETA,
+    MAX,
+    bounded,
+    float_down,
+    float_up,
+    outward,
+    outward_sum,
+    require_nearest,
+    require_subnormals,
+)
+
+DOWNWARD, UPWARD, TOWARD_ZERO = 0x400, 0x800, 0xC00
+x86_linux = pytest.mark.skipif(
+    platform.machine() != "x86_64" or platform.system() != "Linux", reason="needs glibc on x86-64"
+)
+finite = st.floats(allow_nan=False, allow_infinity=False)
+edges = st.sampled_from(
+    [0.0, ETA, 2.0**-1022, 2.0**-1022 - ETA, 2.0**-970, 1.0, 1.0 - 2.0**-53, 2.0**52, 2.0**1023]
+)
+numbers = finite | edges | edges.map(lambda x: -x)
+
+
+@contextmanager
+def rounding_mode(mode):
+    libm = ctypes.CDLL("libm.so.6")
+    libm.fesetround(mode)
+    try:
+        yield
+    finally:
+        libm.fesetround(0)
+
+
+@contextmanager
+def flush_to_zero():
+    libm = ctypes.CDLL("libm.so.6")
+    saved, changed = (ctypes.create_string_buffer(32) for _ in range(2))
+    libm.fegetenv(saved)
+    libm.fegetenv(changed)
+    word = int.from_bytes(changed.raw[28:32], "little") | 0x8040
+    ctypes.memmove(ctypes.addressof(changed) + 28, word.to_bytes(4, "little"), 4)
+    libm.fesetenv(changed)
+    try:
+        yield
+    finally:
+        libm.fesetenv(saved)
+
+
+@given(st.fractions() | finite.map(Fraction), st.integers(-1100, 1020))
+def test_conversions_are_the_tightest(value, exponent):
+    value *= Fraction(2) ** exponent
+    if abs(value) >= MAX:
+        return
+    low, high = float_down(value), float_up(value)
+    assert Fraction(low) <= value <= Fraction(high)
+    assert low == high == value or math.nextafter(low, math.inf) == high
+
+
+def test_conversions_at_the_ends_of_the_range():
+    top = Fraction(MAX)
+    assert float_down(top) == float_up(top) == MAX
+    assert float_down(top + 1) == MAX
+    assert float_up(-top - 1) == -MAX
+    for convert, value in (
+        (float_up, top + 1),
+        (float_down, -top - 1),
+        (float_up, 2 * top),
+        (float_down, 2 * top),
+        (float_down, 10**400),
+    ):
+        with pytest.raises(OverflowError):
+            convert(value)
+    tiny = Fraction(1, 2**2000)
+    assert (float_down(tiny), float_up(tiny)) == (0.0, ETA)
+    assert (float_down(-tiny), float_up(-tiny)) == (-ETA, 0.0)
+
+
+def test_integers_to_2_53_are_exact():
+    for n in (0, 1, -7, 2**53, -(2**53)):
+        assert float_down(n) == float_up(n) == n
+    assert (float_down(2**53 + 1), float_up(2**53 + 1)) == (2.0**53, 2.0**53 + 2)
+
+
+@given(numbers)
+def test_outward_passes_the_next_number(x):
+    if abs(x) > MAX / 2:
+        return
+    y = float(outward(np.array([x]))[0])
+    assert y >= math.nextafter(x, math.inf)
+    assert Fraction(y) - Fraction(x) <= abs(Fraction(x)) / 2**51 + Fraction(ETA)
+
+
+@given(numbers, numbers)
+def test_outward_sum_encloses_sums(x, y):
+    if abs(x) + abs(y) > MAX / 2:
+        return
+    exact = Fraction(x) + Fraction(y)
+    bound = Fraction(float(outward_sum(np.array([x + y]))[0]))
+    assert exact <= bound
+    assert (exact == 0) <= (bound == 0)
+    if abs(x + y) >= 2.0**-1022:
+        assert bound >= Fraction(math.nextafter(x + y, math.inf))
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, MAX])
+def test_out_of_range_is_refused(bad):
+    with pytest.raises(OverflowError):
+        bounded(np.array([0.0, bad]))
+    with np.errstate(all="ignore"), pytest.raises(OverflowError):
+        outward(np.array([bad]))
+    assert bounded(np.empty((2, 0))).size == 0
+
+
+def points():
+    rng = np.random.default_rng(20)
+    x, y = (rng.normal(size=400) * 2.0 ** rng.integers(-520, 500, 400) for _ in range(2))
+    x[:60], y[20:60] = (1.0 + np.arange(60) * 2.0**-52) * 2.0**-100, 2.0**-1050
+    return x, y
+
+
+def encloses(result, exact):
+    pairs = zip(result.inf.tolist(), exact, result.sup.tolist(), strict=True)
+    return all(Fraction(low) <= value <= Fraction(high) for low, value, high in pairs)
+
+
+@x86_linux
+@pytest.mark.parametrize("mode", [0, DOWNWARD, UPWARD, TOWARD_ZERO])
+def test_arithmetic_holds_in_every_rounding_mode(mode):
+    x, y = points()
+    wide = IntervalArray.from_floats(x, x + np.abs(x) / 8)
+    with rounding_mode(mode):
+        a, b = IntervalArray.from_floats(x), IntervalArray.from_floats(y)
+        results = a + b, a - b, a * b, a / b, abs(a).sqrt(), a.sqr(), wide * b, wide * wide
+    fx, fy = [Fraction(v) for v in x.tolist()], [Fraction(v) for v in y.tolist()]
+    pairs = list(zip(fx, fy, strict=True))
+    assert encloses(results[0], [p + q for p, q in pairs])
+    assert encloses(results[1], [p - q for p, q in pairs])
+    assert encloses(results[2], [p * q for p, q in pairs])
+    assert encloses(results[3], [p / q for p, q in pairs])
+    assert encloses(results[5], [p * p for p in fx])
+    assert encloses(results[6], [p * q for p, q in pairs])
+    assert encloses(results[7], [p * p for p in fx])
+    low, high = results[4].inf.tolist(), results[4].sup.tolist()
+    for p, bottom, top in zip(fx, low, high, strict=True):
+        assert Fraction(bottom) ** 2 <= abs(p) <= Fraction(top) ** 2
+
+
+@x86_linux
+@pytest.mark.parametrize("mode", [DOWNWARD, UPWARD, TOWARD_ZERO])
+def test_sin_refuses_other_rounding_modes(mode):
+    x = IntervalArray([1])
+    with rounding_mode(mode), pytest.raises(FloatingPointError):
+        x.sin()
+    require_nearest()
+
+
+@x86_linux
+def test_flushing_to_zero_is_refused():
+    x = IntervalArray([1])
+    with flush_to_zero():
+        for operation in (require_subnormals, require_nearest, lambda: x * x, lambda: x + x, x.sin):
+            with pytest.raises(FloatingPointError):
+                operation()
+    require_nearest()
+
+
+@x86_linux
+@pytest.mark.parametrize("mode", [DOWNWARD, UPWARD, TOWARD_ZERO])
+def test_overflow_is_refused_in_every_rounding_mode(mode):
+    x = IntervalArray.from_floats([1e300, -1e300])
+    with rounding_mode(mode):
+        for operation in (lambda: x * x, lambda: x * 10**10, lambda: x / IntervalArray(["1e-10"])):
+            with pytest.raises(OverflowError):
+                operation()
