@@ -22,8 +22,10 @@ from proofs.model.impact import (
     first_impact,
     halves,
     impact_time,
+    locate,
     misses,
     phase_after,
+    steps_for,
     time_range,
 )
 from proofs.model.system import System
@@ -70,7 +72,7 @@ class Prover:
 
         def at(phase: Fraction) -> Interval:
             part = part_of(phase, phase)
-            times[phase] = impact_time(part, phase, self.bits)
+            times[phase] = impact_time(part, (phase, phase), self.bits)
             thin = replace(part.flight, phases=(phase, phase), precision=self.bits + 30)
             return thin.slope(times[phase])
 
@@ -101,9 +103,8 @@ class Prover:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
 
         def decide_part(part: Range) -> FirstImpact | None:
-            finest = _power_of_two_below(part[1] - part[0])
             try:
-                found = first_impact(Flight(self.system, part), self.horizon, finest)
+                found = first_impact(Flight(self.system, part), self.horizon, steps_for(part))
             except Undecided:
                 return None
             arrivals = ((part[0] + w[0], part[1] + w[1]) for w in found.windows)
@@ -115,8 +116,8 @@ class Prover:
 
     def point(self, phase: Fraction) -> tuple[str, PointFact]:
         """Enclose f and f' at one phase (rule point)."""
-        (impact,) = cover_by_impacts(self.system, (phase, phase), horizon=self.horizon, limit=1)
-        time = impact_time(impact, phase, self.bits)
+        impact = locate(self.system, (phase, phase), horizon=self.horizon)
+        time = impact_time(impact, (phase, phase), self.bits)
         slope = replace(impact.flight, precision=self.bits + 30).slope(time)
         witness = {
             "flight": self.add_impact(impact),
@@ -133,7 +134,3 @@ class Prover:
         bracket = moran_root(ratios, self.bits)
         return self.add("moran-root", {"ratios": texts(ratios), "root": texts(bracket)}), bracket
 
-
-def _power_of_two_below(value: Fraction) -> Fraction:
-    """Return the largest 2^-k <= value that is at most 1/8."""
-    return Fraction(1, 1 << max(3, (1 / value).__ceil__().bit_length()))

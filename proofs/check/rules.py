@@ -14,7 +14,7 @@ from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rat
 from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.statements import Parameters, PointFact, Range, SlopeRange
 
-COVER_BITS = 80
+COVER_BITS = 64
 _MAX_BITS = 2000
 _LATEST = 10**6
 
@@ -105,13 +105,16 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     times = times_of.numbers(least=2)
     if times[-1] > _LATEST:
         raise times_of.fail(f"times beyond {_LATEST} are not examined")
-    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, phases_of.range())
+    if any(now <= before for before, now in zip((Fraction(0), *times), times, strict=False)):
+        raise times_of.fail("times must increase from 0")
+    # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
+    shortest = min(now - before for before, now in zip((Fraction(0), *times), times, strict=False))
+    bits = min(_MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, phases_of.range(), bits)
     start = motion.start()
     before, value = Fraction(0), None
     windows: list[Range] = []
     for now in times:
-        if now <= before:
-            raise times_of.fail("times must increase from 0")
         acceleration = motion.gap(start, (before, now), 2)
         following = motion.gap(start, (now, now))
         if value is None:

@@ -15,6 +15,7 @@ from proofs.model.system import System
 Range = tuple[Fraction, Fraction]
 HORIZON = Fraction(1000)
 _TINIEST = Fraction(1, 2**200)
+_NARROW = Fraction(1, 2**12)  # where no impact is certain for so few phases, cutting will not help
 
 
 class NoImpact(Undecided):
@@ -160,30 +161,53 @@ def _positive_between(
     return min(at_low.inf, at_high.inf) > max(bend, Fraction(0)) * (high - low) ** 2 / 8
 
 
-def resolved_first_impact(
-    flight: Flight, horizon: Fraction = HORIZON, attempts: int = 4
+def locate(
+    system: System, phases: Range, *, horizon: Fraction = HORIZON, separating: bool = False
 ) -> FirstImpact:
-    """Return `first_impact` at steps fine enough to be transversal, else at the finest tried."""
-    for attempt in range(attempts):
-        found = first_impact(flight, horizon, Fraction(1, 8 ** (attempt + 1)))
+    """Return the transversal first impact of (nearly) one launch, at the least precision it needs.
+
+    Close to grazing or to the onset of sticking steps and rounding must be finer; after eight
+    attempts Undecided says that the launch is too close to one.
+    """
+    for attempt in range(8):
+        flight = Flight(system, phases, 64 * (attempt + 1), separating)
+        try:
+            found = first_impact(flight, horizon, Fraction(1, 2 ** (3 + 5 * attempt)))
+        except NoImpact:
+            raise
+        except Undecided:
+            continue
         if found.transversal:
-            break
-    return found
+            return found
+    raise Undecided(
+        f"phase {float(phases[0]):.17g} grazes, or starts to stick, to within what was tried"
+    )
 
 
 def cover_by_impacts(
     system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
 ) -> list[FirstImpact]:
     """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
+    if phases[0] == phases[1]:
+        return [locate(system, phases, horizon=horizon)]
 
     def decide(part: Range) -> FirstImpact | None:
         try:
-            found = first_impact(Flight(system, part), horizon)
+            found = first_impact(Flight(system, part), horizon, steps_for(part))
+        except NoImpact:
+            if part[1] - part[0] < _NARROW:
+                raise
+            return None
         except Undecided:
             return None
         return found if found.transversal else None
 
     return [found for _, found in cover([phases], decide, halves, limit=limit)]
+
+
+def steps_for(phases: Range) -> Fraction:
+    """Return a finest time step that suits the width of the phases, a power of 2 up to 1/8."""
+    return Fraction(1, 1 << max(3, (1 / (phases[1] - phases[0])).__ceil__().bit_length()))
 
 
 def halves(part: Range) -> tuple[Range, Range]:
@@ -211,24 +235,25 @@ def time_range(impact: FirstImpact, phases: Range, steps: int = 14) -> Range:
     return low, high
 
 
-def impact_time(impact: FirstImpact, phase: Fraction, bits: int) -> Range:
-    """Enclose the impact time of one launch in an interval of width 2^(1 - bits).
+def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
+    """Enclose the impact time of (nearly) one launch in an interval of width 2^(1 - bits).
 
-    The ends are multiples of 2^-bits with gap > 0 at the lower and gap < 0 at the upper one,
-    found by interval Newton in the window of a transversal impact.
+    `phases` is a point or much narrower than 2^-bits. The ends are multiples of 2^-bits with
+    gap > 0 at the lower and gap < 0 at the upper one for all its launches, found by interval
+    Newton in the window of a transversal impact.
     """
-    flight = replace(impact.flight, phases=(phase, phase), precision=bits + 30)
+    flight = replace(impact.flight, phases=phases, precision=bits + 30)
     window = Interval(*impact.window, precision=flight.precision)
     result = newton(
         lambda t: flight.gap(t.inf, t.sup), lambda t: flight.gap(t.inf, t.sup, order=1), window
     )
     if result.outcome is not Roots.UNIQUE or result.box is None:
-        raise Undecided(f"the impact time at phase {float(phase)} is not isolated: {result.reason}")
+        raise Undecided(f"the impact time is not isolated: {result.reason}")
     unit = Fraction(1, 2**bits)
     centre = round(result.box.mid / unit) * unit
     low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
     if not (flight.gap(low).is_positive() and flight.gap(high).is_negative()):
-        raise Undecided(f"the gap's sign is lost to rounding next to the impact of {float(phase)}")
+        raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high
 
 

@@ -1,0 +1,259 @@
+"""The image of a phase, or of an interval of phases, under the plastic impact map."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from intervals import DomainError, Interval, Undecided
+from intervals.newton import Roots, newton
+from proofs.methods.extremes import extremes
+from proofs.model.equations import launch, launch_acceleration
+from proofs.model.impact import (
+    HORIZON,
+    FirstImpact,
+    Flight,
+    NoImpact,
+    Range,
+    cover_by_impacts,
+    first_impact,
+    halves,
+    impact_time,
+    locate,
+    phase_after,
+    steps_for,
+    time_range,
+    turn,
+)
+from proofs.model.system import System
+
+_ATTEMPTS = 6
+
+
+@dataclass(frozen=True)
+class Image:
+    """The next impact of all given phases: bounds on its time of flight, its phase, f'.
+
+    If `sticking`, all of them stick first: they dwell on the table until the separation phase,
+    the flight starts there, and f is constant. Phases are mod 2 pi, the lower end in [0, 2 pi).
+    """
+
+    flight: Range
+    phase: Range
+    slope: Range
+    sticking: bool
+    dwell: Range | None = None
+
+
+@dataclass(frozen=True)
+class PossibleImages:
+    """Where f is not continuous on the interval: every image is in one of these pairs."""
+
+    images: tuple[tuple[Range, Range], ...]
+    reason: str
+
+
+def separation_phase(system: System, precision: int) -> Range:
+    """Enclose the phase phi_s at which a sticking mass leaves, in [0, 2 pi).
+
+    It is the zero of the launch acceleration at which that increases: the sine is the paper's
+    eta^2 / (nu (1 - eta^2)), the cosine has the sign of 1 - eta^2. Raises NoImpact if the mass
+    never leaves, Undecided too close to the parameters where that begins.
+    """
+    sine = system.separation_sine
+    if system.sticking_arc == "all" or sine is None:
+        raise NoImpact("the mass sticks to the table forever")
+    guess = math.asin(float(sine))
+    centre = Fraction(guess if system.eta < 1 else math.pi - guess)
+    for exponent in (30, 40, 20, 10):
+        reach = Fraction(1, 2**exponent)
+        box = Interval(centre - reach, centre + reach, precision=precision + 10)
+        found = newton(lambda x: x.sin() - sine, lambda x: x.cos(), box)
+        if found.outcome is Roots.UNIQUE and found.box is not None:
+            low, high = found.box.inf, found.box.sup
+            return (low, high) if low >= 0 else phase_after(Fraction(0), _plus_turn(low, high), precision)
+    raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
+
+
+def _plus_turn(low: Fraction, high: Fraction) -> Range:
+    whole = turn(200)
+    return low + whole.inf, high + whole.sup
+
+
+def _sticks(system: System, phases: Range, precision: int = 128) -> bool | None:
+    """Whether all phases stick (True), none does (False), or neither is shown (None)."""
+    if system.sticking_arc != "some":
+        return system.sticking_arc == "all"
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    start = launch(system.side, eta, nu, Interval(*phases, precision=precision))
+    acceleration = launch_acceleration(start)
+    if acceleration.is_positive():
+        return False
+    return True if acceleration.is_negative() else None
+
+
+def image(
+    system: System, phases: Range, *, digits: int = 30, horizon: Fraction = HORIZON
+) -> Image | PossibleImages:
+    """Enclose the image of all phases in [phases[0], phases[1]], a point or an interval.
+
+    A point: every bound agrees with its partner to `digits` significant digits. An interval:
+    the ends of the true range to that many digits where flight time, phase and slope are
+    monotone, to 12 digits otherwise; where f is not shown to be continuous, the possible images.
+    Raises NoImpact where none is found up to the horizon, Undecided where nothing can be said.
+    """
+    sticks = _sticks(system, phases)
+    if sticks:
+        return _after_sticking(system, phases, digits, horizon)
+    if phases[0] == phases[1]:
+        return _at_point(system, phases, digits, horizon)
+    if sticks is None:
+        return _possible(system, phases, horizon, "some phases of the interval stick, some do not")
+    try:
+        parts = cover_by_impacts(system, phases, horizon=horizon)
+        return _over_interval(parts, digits)
+    except NoImpact:
+        raise
+    except (Undecided, DomainError):
+        return _possible(system, phases, horizon, "the interval seems to contain a grazing phase")
+
+
+def _agree(bounds: Range, digits: int) -> bool:
+    """Whether two bounds are equal to `digits` significant digits."""
+    return (bounds[1] - bounds[0]) * 10**digits <= min(abs(bounds[0]), abs(bounds[1]))
+
+
+def _bits(digits: int, attempt: int) -> int:
+    return (digits * 10 // 3 + 20) * (attempt + 2) // 2
+
+
+def _at_point(system: System, phases: Range, digits: int, horizon: Fraction) -> Image:
+    found = locate(system, phases, horizon=horizon)
+    for attempt in range(_ATTEMPTS):
+        bits = _bits(digits, attempt)
+        time = impact_time(found, phases, bits)
+        slope = replace(found.flight, precision=bits + 30).slope(time)
+        result = Image(
+            time, phase_after(phases[0], time, bits + 30), (slope.inf, slope.sup), sticking=False
+        )
+        if all(_agree(x, digits + 1) for x in (result.flight, result.phase, result.slope)):
+            return result
+    raise Undecided(f"{digits} digits are not reached: the result is too close to 0 or to grazing")
+
+
+def _after_sticking(system: System, phases: Range, digits: int, horizon: Fraction) -> Image:
+    zero = (Fraction(0), Fraction(0))
+    for attempt in range(_ATTEMPTS):
+        bits = _bits(digits, attempt)
+        leave = separation_phase(system, bits + 20)
+        found = locate(system, leave, horizon=horizon, separating=True)
+        time = impact_time(found, leave, bits)
+        arrival = (leave[0] + time[0], leave[1] + time[1])
+        dwell = _modulo_turn(leave[0] - phases[1], leave[1] - phases[0], bits)
+        result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
+        if _agree(result.flight, digits + 1) and _agree(result.phase, digits + 1):
+            return result
+    raise Undecided(f"{digits} digits are not reached")
+
+
+def _modulo_turn(low: Fraction, high: Fraction, bits: int) -> Range:
+    """Add 2 pi to a negative range."""
+    if low >= 0:
+        return low, high
+    whole = turn(bits + 30)
+    return low + whole.inf, high + whole.sup
+
+
+def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
+    """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
+    parts, bits = list(parts), _bits(digits, 0)
+    points = [part.flight.phases[0] for part in parts] + [parts[-1].flight.phases[1]]
+    times: dict[Range, Range] = {}
+
+    def flight(low: Fraction, high: Fraction) -> tuple[Flight, Range]:
+        """Return the launches in [low, high] and their impact times."""
+        part = next(p for p in parts if p.flight.phases[0] <= low and high <= p.flight.phases[1])
+        key, thin = (low, high), low == high
+        if key not in times:
+            times[key] = impact_time(part, key, bits) if thin else time_range(part, key)
+        return replace(part.flight, phases=key, precision=bits + 30 if thin else 64), times[key]
+
+    def time_at(x: Fraction) -> Interval:
+        return Interval(*flight(x, x)[1], precision=bits + 30)
+
+    def slope_at(x: Fraction) -> Interval:
+        launches, time = flight(x, x)
+        return launches.slope(time)
+
+    def slope_over(low: Fraction, high: Fraction) -> Interval:
+        launches, time = flight(low, high)
+        return launches.slope(time)
+
+    def bend_over(low: Fraction, high: Fraction) -> Interval:
+        launches, time = flight(low, high)
+        return launches.slope_and_curvature(time)[1]
+
+    slopes = extremes(slope_at, bend_over, points)
+    flights = extremes(time_at, lambda a, b: slope_over(a, b) - 1, points)
+    images = extremes(lambda x: time_at(x) + x, slope_over, points)
+    arrival = (images.minimum[0], images.maximum[1])
+    return Image(
+        (flights.minimum[0], flights.maximum[1]),
+        phase_after(Fraction(0), arrival, bits + 30),
+        (slopes.minimum[0], slopes.maximum[1]),
+        sticking=False,
+    )
+
+
+def _possible(
+    system: System, phases: Range, horizon: Fraction, reason: str, cuts: int = 5
+) -> PossibleImages:
+    """Collect windows of possible impacts over 2^cuts parts of the interval."""
+    parts = [phases]
+    for _ in range(cuts):
+        parts = [half for part in parts for half in halves(part)]
+    found: list[tuple[Range, Range]] = []
+    for part in parts:
+        sticks = _sticks(system, part)
+        if sticks:
+            rest = _after_sticking(system, part, 12, horizon)
+            found.append((rest.flight, rest.phase))
+            continue
+        launches = part if sticks is False else _leaving(system, part)
+        flight = Flight(system, launches, separating=sticks is None)
+        impact = first_impact(flight, horizon, steps_for(launches) / 16)
+        for low, high in impact.windows:
+            arrival = phase_after(Fraction(0), (launches[0] + low, launches[1] + high), 64)
+            found.append(((low, high), arrival))
+    return PossibleImages(_merged(found), reason)
+
+
+def _leaving(system: System, part: Range) -> Range:
+    """Return the launch phases of a part that contains the separation phase: [phi_s, part[1]]."""
+    leave = separation_phase(system, 100)
+    if not part[0] <= leave[1] <= part[1]:
+        raise Undecided(
+            "the interval contains the phase at which sticking begins: flights there are as "
+            "short as one likes, and f jumps; take an interval on one side of it"
+        )
+    return leave[0], part[1]
+
+
+def _merged(images: list[tuple[Range, Range]]) -> tuple[tuple[Range, Range], ...]:
+    """Join images whose flight times and phases both overlap."""
+    merged: list[tuple[Range, Range]] = []
+    for time, phase in sorted(images):
+        if merged:
+            last_time, last_phase = merged[-1]
+            near = time[0] <= last_time[1] and phase[0] <= last_phase[1]
+            if near and last_phase[0] <= phase[1]:
+                merged[-1] = (_hull(last_time, time), _hull(last_phase, phase))
+                continue
+        merged.append((time, phase))
+    return tuple(merged)
+
+
+def _hull(a: Range, b: Range) -> Range:
+    return min(a[0], b[0]), max(a[1], b[1])
