@@ -30,6 +30,7 @@ from proofs.model.impact import (
 from proofs.model.system import System
 
 _ATTEMPTS = 6
+_COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
 
 @dataclass(frozen=True)
@@ -223,7 +224,7 @@ def _possible(
             continue
         launches = part if sticks is False else _leaving(system, part)
         flight = Flight(system, launches, separating=sticks is None)
-        impact = first_impact(flight, horizon, steps_for(launches) / 16)
+        impact = first_impact(flight, horizon, max(steps_for(launches), _COARSE))
         for low, high in impact.windows:
             arrival = phase_after(Fraction(0), (launches[0] + low, launches[1] + high), 64)
             found.append(((low, high), arrival))

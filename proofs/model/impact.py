@@ -15,7 +15,6 @@ from proofs.model.system import System
 Range = tuple[Fraction, Fraction]
 HORIZON = Fraction(1000)
 _TINIEST = Fraction(1, 2**200)
-_NARROW = Fraction(1, 2**12)  # where no impact is certain for so few phases, cutting will not help
 
 
 class NoImpact(Undecided):
@@ -108,7 +107,8 @@ def first_impact(
     On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0 (at
     the separation phase gap'' >= 0 at 0 and gap''' > 0 give the same). On [t_j, t_{j+1}] by
     the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error).
-    Steps adapt down to `finest`; what is then not excluded opens a window.
+    Steps adapt down to `finest`; what is then not excluded opens a window, in which they grow
+    again, to 16 times that.
 
     Raises NoImpact at the horizon, Undecided where the launch itself is not decided.
     """
@@ -117,7 +117,7 @@ def first_impact(
     times = [Fraction(0), _first_step(flight)]
     open_pieces: list[Range] = []
     value = flight.gap(times[-1])
-    step, certain = times[-1], False
+    step, allowed, certain = times[-1], finest, False
     while not certain:
         now = times[-1]
         if now >= horizon:
@@ -125,16 +125,16 @@ def first_impact(
         ahead = now + step
         next_value = flight.gap(ahead)
         if _positive_between(flight, now, value, ahead, next_value):
-            step *= 2
-        elif step > finest:
-            step = max(step / 2, finest)
+            step, allowed = 2 * step, finest
+        elif step > allowed:
+            step = max(step / 2, allowed)
             continue
         else:
             certain = next_value.is_negative()
             joined = open_pieces and open_pieces[-1][1] == now
             begin = open_pieces.pop()[0] if joined else now
             open_pieces.append((begin, ahead))
-            step = step if certain else step + finest
+            step = allowed = min(2 * allowed, 16 * finest)
         times.append(ahead)
         value = next_value
     transversal = len(open_pieces) == 1 and flight.gap(*open_pieces[0], order=1).is_negative()
@@ -191,23 +191,29 @@ def cover_by_impacts(
     if phases[0] == phases[1]:
         return [locate(system, phases, horizon=horizon)]
 
+    narrowest = (phases[1] - phases[0]) / 2**16
+
     def decide(part: Range) -> FirstImpact | None:
+        narrow = part[1] - part[0] < narrowest
         try:
             found = first_impact(Flight(system, part), horizon, steps_for(part))
-        except NoImpact:
-            if part[1] - part[0] < _NARROW:
+        except Undecided:
+            if narrow:
                 raise
             return None
-        except Undecided:
-            return None
+        if narrow and not found.transversal:
+            raise Undecided(f"a grazing phase seems to lie near {float(part[0]):.12g}")
         return found if found.transversal else None
 
     return [found for _, found in cover([phases], decide, halves, limit=limit)]
 
 
 def steps_for(phases: Range) -> Fraction:
-    """Return a finest time step that suits the width of the phases, a power of 2 up to 1/8."""
-    return Fraction(1, 1 << max(3, (1 / (phases[1] - phases[0])).__ceil__().bit_length()))
+    """Return a finest time step that suits the width w of the phases: about sqrt(w) / 8.
+
+    At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
+    """
+    return Fraction(1, 1 << (3 + (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2))
 
 
 def halves(part: Range) -> tuple[Range, Range]:
