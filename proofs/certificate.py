@@ -16,7 +16,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from proofs.statements import Parameters, Range
+from proofs.facts import Parameters, Range
 
 SCHEMA = "impact-proofs.certificate/1"
 MAX_BYTES = 4_000_000

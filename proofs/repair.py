@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache
 from itertools import product
 
+from proofs.facts import Parameters, Range
 from proofs.model.candidate import next_impact
 from proofs.model.system import System
-from proofs.statements import Parameters, Range
 
 _REACH = 6  # units in the last printed place, in all
 
@@ -41,7 +41,7 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
     ends = (*of.left, *of.right)
     system = System(of.eta, of.nu)
 
-    @lru_cache(maxsize=None)
+    @cache
     def image(end: Fraction) -> tuple[float, float] | None:
         found = next_impact(system, float(end))
         return None if found is None else found[1:]

@@ -7,13 +7,21 @@ into a verdict, for both. Nothing else in the project says what claim H5 means.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-Range = tuple[Fraction, Fraction]
-
-_TURN = Fraction("6.283185307")  # a little less than 2 pi
+from proofs.facts import (
+    TURN,
+    Facts,
+    Parameters,
+    PointFact,
+    Range,
+    ceil_text,
+    floor_text,
+    show,
+    show_range,
+)
 
 
 class Verdict(Enum):
@@ -24,176 +32,7 @@ class Verdict(Enum):
     UNDECIDED = "UNDECIDED"
 
 
-@dataclass(frozen=True)
-class Parameters:
-    """One statement's numbers, exact: the oscillator, I0 = left, I1 = right, I, slope bounds.
-
-    `ratios` are eta0, eta1 of section 3.2 as printed, without them they are 1 / slopes;
-    `printed_s0` the digits printed for s_0, if any.
-    """
-
-    eta: Fraction
-    nu: Fraction
-    left: Range
-    right: Range
-    interval: Range
-    slopes: Range
-    ratios: Range | None = None
-    printed_s0: str | None = None
-
-    def __post_init__(self) -> None:
-        """Raise ValueError, one line, where the numbers do not describe a horseshoe."""
-        if self.eta <= 0:
-            raise ValueError(f"eta must be positive, not {show(self.eta)}")
-        if self.nu == 0:
-            raise ValueError("nu must not be 0: the table would stand still")
-        for name in ("left", "right", "interval"):
-            low, high = getattr(self, name)
-            if low >= high:
-                raise ValueError(f"{name} interval reversed or empty: {show(low)} >= {show(high)}")
-            if low < 0 or high > _TURN:
-                raise ValueError(f"{name} interval {show_range((low, high))} leaves [0, 2 pi)")
-        if self.left[1] >= self.right[0]:
-            raise ValueError("left and right intervals overlap, or are in the wrong order")
-        if self.left[0] < self.interval[0] or self.right[1] > self.interval[1]:
-            raise ValueError("left and right intervals must lie in the interval I")
-        for name in ("slopes", "ratios"):
-            low, high = getattr(self, name) or (1, 1)
-            if not 0 < low <= high:
-                raise ValueError(f"{name} must be positive and in increasing order")
-
-    @property
-    def gap(self) -> Range:
-        """The phases between I0 and I1 (open)."""
-        return self.left[1], self.right[0]
-
-    @property
-    def reciprocals(self) -> Range:
-        """1 / slopes, the contraction ratios, larger slope first as in the paper."""
-        return 1 / self.slopes[1], 1 / self.slopes[0]
-
-    @property
-    def moran_ratios(self) -> Range:
-        """eta0, eta1 of the equation for s_0."""
-        return self.ratios or self.reciprocals
-
-
-PAPER = Parameters(
-    eta=Fraction("0.2121"),
-    nu=Fraction("-0.2"),
-    left=(Fraction("1.11"), Fraction("1.15")),
-    right=(Fraction("1.27"), Fraction("1.32")),
-    interval=(Fraction("1.11"), Fraction("1.32")),
-    slopes=(Fraction("4.2"), Fraction("5.25")),
-    ratios=(Fraction("0.1905"), Fraction("0.2381")),
-    printed_s0="0.449",
-)
-
-
-@dataclass(frozen=True)
-class PointFact:
-    """A phase with a proved transversal first impact: f'(phase) and f(phase) mod 2 pi."""
-
-    phase: Fraction
-    slope: Range
-    image: Range
-
-
-@dataclass(frozen=True)
-class SlopeRange:
-    """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between."""
-
-    points: tuple[Fraction, ...]
-    slopes: tuple[Range, ...]
-    images: tuple[Range, ...]
-    pieces: tuple[Range, ...]
-
-
-@dataclass
-class Facts:
-    """What has been proved, as rational enclosures; empty where nothing has.
-
-    Keys 0 and 1 stand for I0 and I1. slope_min, slope_max: the extremes of f' on the closed
-    interval, where f is C^1, every phase's first impact being transversal. images: f(left end)
-    and f(right end), mod 2 pi. avoided: f maps the closed gap outside I. s0: the root for
-    `moran_ratios`, s0_reciprocal: the root for 1 / slopes. points, missed: witnesses to look
-    at, the second an interval J that may have no preimage.
-    """
-
-    slope_min: dict[int, Range] = field(default_factory=dict)
-    slope_max: dict[int, Range] = field(default_factory=dict)
-    images: dict[int, tuple[Range, Range]] = field(default_factory=dict)
-    avoided: bool = False
-    points: list[PointFact] = field(default_factory=list)
-    missed: Range | None = None
-    s0: Range | None = None
-    s0_reciprocal: Range | None = None
-
-    def add_slopes(self, of: Parameters, found: SlopeRange) -> None:
-        """Take what `found` says about I0 and I1, where their ends are among its points.
-
-        The minimum of f' lies between the least lower bound over the pieces and the least
-        upper bound at the points, the maximum likewise.
-        """
-        for index, domain in enumerate((of.left, of.right)):
-            if not set(domain) <= set(found.points):
-                continue
-            first, last = (found.points.index(end) for end in domain)
-            slopes, pieces = found.slopes[first : last + 1], found.pieces[first:last]
-            self.slope_min[index] = (
-                min(low for low, _ in pieces),
-                min(high for _, high in slopes),
-            )
-            self.slope_max[index] = (
-                max(low for low, _ in slopes),
-                max(high for _, high in pieces),
-            )
-            self.images[index] = (found.images[first], found.images[last])
-
-    def add_avoided(self, of: Parameters, phases: Range, target: Range) -> None:
-        """Take that no phase of `phases` has its first impact in `target`."""
-        whole = phases[0] <= of.gap[0] and of.gap[1] <= phases[1]
-        if whole and target[0] <= of.interval[0] and of.interval[1] <= target[1]:
-            self.avoided = True
-
-    def add_root(self, of: Parameters, ratios: Range, root: Range) -> None:
-        """Take a bracket of the root of ratios[0]^s + ratios[1]^s = 1."""
-        if ratios == of.moran_ratios:
-            self.s0 = root
-        if ratios == of.reciprocals:
-            self.s0_reciprocal = root
-
-    @property
-    def slopes_known(self) -> bool:
-        """Whether f' is bounded on both I0 and I1."""
-        return len(self.slope_min) == 2
-
-
 Outcome = tuple[Verdict, str]
-
-
-def show(value: Fraction) -> str:
-    """Write an exact rational as a plain decimal where it is one, else as p/q."""
-    rest, twos, fives = value.denominator, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    places = max(twos, fives)
-    if rest != 1 or places > 40:
-        return str(value)
-    digits = str(abs(value.numerator) * (10**places // value.denominator)).rjust(places + 1, "0")
-    sign = "-" if value < 0 else ""
-    return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
-
-
-def show_range(values: Range) -> str:
-    """Write a closed interval of exact rationals."""
-    return f"[{show(values[0])}, {show(values[1])}]"
-
-
-def _about(value: Fraction) -> str:
-    return f"{float(value):.6g}"
 
 
 def _undecided(missing: str) -> Outcome:
@@ -212,38 +51,44 @@ def _lower_slope(of: Parameters, facts: Facts) -> Outcome:
     bound = of.slopes[0]
     for point in facts.points:
         if _inside(point, of) and point.slope[1] < bound:
-            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+            return Verdict.REFUTED, f"f'({show(point.phase)}) <= {ceil_text(point.slope[1])}"
     if not facts.slopes_known:
         return _undecided(_NO_SLOPES)
     least = min(low for low, _ in facts.slope_min.values())
     if least >= bound:
-        return Verdict.VERIFIED, f"min f' = {_about(least)}, margin {_about(least - bound)}"
-    return _undecided(f"min f' >= {_about(least)} only, {_about(bound - least)} short")
+        return (
+            Verdict.VERIFIED,
+            f"min f' >= {floor_text(least)}, margin {floor_text(least - bound)}",
+        )
+    return _undecided(f"min f' >= {floor_text(least)} only, {ceil_text(bound - least)} short")
 
 
 def _upper_slope(of: Parameters, facts: Facts) -> Outcome:
     bound = of.slopes[1]
     for point in facts.points:
         if _inside(point, of) and point.slope[0] > bound:
-            return Verdict.REFUTED, f"f'({show(point.phase)}) > {_about(point.slope[0])}"
+            return Verdict.REFUTED, f"f'({show(point.phase)}) >= {floor_text(point.slope[0])}"
     if not facts.slopes_known:
         return _undecided(_NO_SLOPES)
     greatest = max(high for _, high in facts.slope_max.values())
     if greatest <= bound:
-        return Verdict.VERIFIED, f"max f' = {_about(greatest)}, margin {_about(bound - greatest)}"
-    return _undecided(f"max f' <= {_about(greatest)} only, {_about(greatest - bound)} over")
+        return (
+            Verdict.VERIFIED,
+            f"max f' <= {ceil_text(greatest)}, margin {floor_text(bound - greatest)}",
+        )
+    return _undecided(f"max f' <= {ceil_text(greatest)} only, {ceil_text(greatest - bound)} over")
 
 
 def _increasing(of: Parameters, facts: Facts) -> Outcome:
     for point in facts.points:
         if _inside(point, of) and point.slope[1] < 0:
-            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+            return Verdict.REFUTED, f"f'({show(point.phase)}) <= {ceil_text(point.slope[1])}"
     if not facts.slopes_known:
         return _undecided(_NO_SLOPES)
     least = min(low for low, _ in facts.slope_min.values())
     if least > 0:
-        return Verdict.VERIFIED, f"f' >= {_about(least)} > 0"
-    return _undecided(f"f' >= {_about(least)} only")
+        return Verdict.VERIFIED, f"f' >= {floor_text(least)} > 0"
+    return _undecided(f"f' >= {floor_text(least)} only")
 
 
 def _gap_escapes(of: Parameters, facts: Facts) -> Outcome:
@@ -255,8 +100,6 @@ def _gap_escapes(of: Parameters, facts: Facts) -> Outcome:
     if facts.avoided:
         return Verdict.VERIFIED, "no phase of the gap has its first impact in I"
     return _undecided("no proof that the first impacts of the gap avoid I, and no witness")
-
-
 
 
 def image_arcs(of: Parameters, facts: Facts) -> list[tuple[Range, Range] | None]:
@@ -271,7 +114,7 @@ def image_arcs(of: Parameters, facts: Facts) -> list[tuple[Range, Range] | None]
             arcs.append(None)
             continue
         least, greatest = facts.slope_min[index][0], facts.slope_max[index][1]
-        short = max(abs(least), abs(greatest)) * (domain[1] - domain[0]) < _TURN
+        short = max(abs(least), abs(greatest)) * (domain[1] - domain[0]) < TURN
         ends = facts.images[index]
         if short and least > 0:
             arcs.append(ends)
@@ -289,7 +132,7 @@ def _two_preimages(of: Parameters, facts: Facts) -> Outcome:
         inside = any(low <= witness[0] and witness[1] <= high for low, high in (of.left, of.right))
         for name, arc in zip(("I0", "I1"), arcs, strict=True):
             # an arc shorter than the circle, from phase u up to v with u < v < 2 pi, is [u, v]
-            if inside and arc is not None and arc[0][1] < arc[1][0] and arc[1][1] < _TURN:
+            if inside and arc is not None and arc[0][1] < arc[1][0] and arc[1][1] < TURN:
                 if witness[1] < arc[0][0] or arc[1][1] < witness[0]:
                     return Verdict.REFUTED, f"{show_range(witness)} has no preimage in {name}"
     low, high = of.interval
@@ -299,12 +142,12 @@ def _two_preimages(of: Parameters, facts: Facts) -> Outcome:
             return _undecided("no proof that f is monotone on I0 and on I1")
         margins.append(min(low - arc[0][1], arc[1][0] - high))
     if min(margins) < 0:
-        return _undecided(f"an image falls short of I by up to {_about(-min(margins))}")
+        return _undecided(f"an image falls short of I by up to {ceil_text(-min(margins))}")
     if of.interval != (of.left[0], of.right[1]):
         return _undecided("I reaches beyond I0 and I1: nothing is proved about the rest")
     if not facts.avoided:
         return _undecided("f(I0) and f(I1) cover I; the gap is not proved to escape")
-    return Verdict.VERIFIED, f"f(I0) and f(I1) cover I, margin {_about(min(margins))}"
+    return Verdict.VERIFIED, f"f(I0) and f(I1) cover I, margin {floor_text(min(margins))}"
 
 
 def _short_preimages(of: Parameters, facts: Facts) -> Outcome:
@@ -313,14 +156,14 @@ def _short_preimages(of: Parameters, facts: Facts) -> Outcome:
         lands = any(
             low < point.image[0] and point.image[1] < high for low, high in (of.left, of.right)
         )
-        if _inside(point, of) and lands and 0 < point.slope[0] and point.slope[1] < bound:
-            return Verdict.REFUTED, f"f'({show(point.phase)}) < {_about(point.slope[1])}"
+        if _inside(point, of) and lands and point.slope[0] > 0 and point.slope[1] < bound:
+            return Verdict.REFUTED, f"f'({show(point.phase)}) <= {ceil_text(point.slope[1])}"
     if not facts.slopes_known:
         return _undecided(_NO_SLOPES)
     least = min(low for low, _ in facts.slope_min.values())
     if least > bound:
-        return Verdict.VERIFIED, f"each is at most |J| / {_about(least)} long"
-    return _undecided(f"f' >= {_about(least)} only")
+        return Verdict.VERIFIED, f"each is at most |J| / {floor_text(least)} long"
+    return _undecided(f"f' >= {floor_text(least)} only")
 
 
 def _rounds_to(value: Fraction, printed: str) -> bool:
@@ -348,7 +191,7 @@ def _moran_root(of: Parameters, facts: Facts) -> Outcome:
     if facts.s0 is None or facts.s0_reciprocal is None:
         return _undecided("no bracket of s_0")
     if of.printed_s0 is None:
-        return Verdict.VERIFIED, f"s_0 = {_about(facts.s0[0])}"
+        return Verdict.VERIFIED, f"{floor_text(facts.s0[0])} <= s_0 <= {ceil_text(facts.s0[1])}"
     if of.ratios is not None:
         for ratio, printed in zip(of.reciprocals, of.ratios, strict=True):
             if not _rounds_to(ratio, show(printed)):
@@ -358,7 +201,10 @@ def _moran_root(of: Parameters, facts: Facts) -> Outcome:
         cut = "also" if all(truncated for _, truncated in both) else "not"
         return Verdict.VERIFIED, f"rounded to the places printed; {cut} when truncated"
     if all(reading == (False, False) for reading in both):
-        return Verdict.REFUTED, f"s_0 = {_about(facts.s0[0])} is not {of.printed_s0} in any reading"
+        return (
+            Verdict.REFUTED,
+            f"s_0 >= {floor_text(facts.s0[0])} is not {of.printed_s0} in any reading",
+        )
     return _undecided("the readings of the printed digits differ between the ratios")
 
 
@@ -369,7 +215,7 @@ def _gap_function(of: Parameters, facts: Facts) -> Outcome:
     excess = 1 - sum(of.moran_ratios)
     if excess <= 0:
         return Verdict.REFUTED, "eta0 + eta1 >= 1, so s_0 >= 1 and q does not decrease"
-    return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = 1 - {_about(excess)}"
+    return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = {show(1 - excess)} < 1"
 
 
 @dataclass(frozen=True)
@@ -393,7 +239,7 @@ class Statement:
             hi=show(of.slopes[1]),
             r0=show(of.moran_ratios[0]),
             r1=show(of.moran_ratios[1]),
-            s0=f", to {of.printed_s0} as printed (rounded)" if of.printed_s0 else "",
+            s0=f", s_0 = {of.printed_s0} to the places printed" if of.printed_s0 else "",
         )
 
 
@@ -424,8 +270,8 @@ STATEMENTS = {
         ),
         Statement(
             "H11",
-            "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0, equal{s0} to the bracket given; the "
-            "ratios are 1/{hi} and 1/{lo}, to their printed places.",
+            "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
+            "to the places given.",
             _moran_root,
         ),
         Statement(

@@ -13,6 +13,7 @@ from intervals import Interval
 from intervals.cover import cover
 from intervals.errors import Undecided
 from proofs.certificate import texts
+from proofs.facts import PointFact, Range, SlopeRange
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.model.impact import (
@@ -29,7 +30,6 @@ from proofs.model.impact import (
     time_range,
 )
 from proofs.model.system import System
-from proofs.statements import PointFact, Range, SlopeRange
 
 
 @dataclass
@@ -124,13 +124,10 @@ class Prover:
             "phase": str(phase),
             "time": texts(time),
         }
-        fact = PointFact(
-            phase, (slope.inf, slope.sup), phase_after(phase, time, self.bits + 30)
-        )
+        fact = PointFact(phase, (slope.inf, slope.sup), phase_after(phase, time, self.bits + 30))
         return self.add("point", witness), fact
 
     def root(self, ratios: Range) -> tuple[str, Range]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
         bracket = moran_root(ratios, self.bits)
         return self.add("moran-root", {"ratios": texts(ratios), "root": texts(bracket)}), bracket
-

@@ -10,6 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import lru_cache
 
+
 class Unproved(ArithmeticError):  # noqa: N818 (an outcome: the step proves nothing)
     """A hypothesis of a rule could not be established."""
 

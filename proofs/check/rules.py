@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
-from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
-from proofs.statements import Parameters, PointFact, Range, SlopeRange
+from proofs.facts import Parameters, PointFact, Range, SlopeRange
+from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
 
 COVER_BITS = 64
 _MAX_BITS = 2000
@@ -129,9 +129,7 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     if value is None or value.hi >= 0:
         raise Unproved("the gap is not proved negative at the last time")
     single = len(windows) == 1 and windows[0][1] == times[-1]
-    return FirstImpact(
-        motion, tuple(windows), single and motion.gap(start, windows[0], 1).hi < 0
-    )
+    return FirstImpact(motion, tuple(windows), single and motion.gap(start, windows[0], 1).hi < 0)
 
 
 def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:

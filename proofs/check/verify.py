@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from proofs.certificate import SCHEMA, Malformed, Reader, parameters_from_json, parse
+from proofs.certificate import SCHEMA, Reader, parameters_from_json, parse
 from proofs.check.arithmetic import Unproved
 from proofs.check.rules import (
     RULES,
@@ -14,19 +14,8 @@ from proofs.check.rules import (
     Known,
     MoranRoot,
 )
-from proofs.statements import (
-    HORSESHOE,
-    PAPER,
-    STATEMENTS,
-    Facts,
-    Parameters,
-    PointFact,
-    SlopeRange,
-    Verdict,
-    decide,
-    quantities,
-    theorem,
-)
+from proofs.facts import PAPER, Facts, Parameters, PointFact, SlopeRange
+from proofs.statements import HORSESHOE, STATEMENTS, Verdict, decide, quantities, theorem
 
 
 class Rejected(ValueError):  # noqa: N818 (the outcome of a check)
@@ -187,9 +176,7 @@ def _check_quantities(claim: str, facts: Facts, bounds: Reader) -> None:
             raise Rejected(f"{value.path}: the bounds do not contain the proved enclosure")
 
 
-def _check_corrected(
-    paper: Parameters, known: Known, corrected: Reader, used: set[str]
-) -> str:
+def _check_corrected(paper: Parameters, known: Known, corrected: Reader, used: set[str]) -> str:
     """Check H1-H6 at the corrected sets; return the theorem that follows from them."""
     parameters_of, statement, proof = corrected.fields("parameters", "theorem", "proof")
     of = parameters_from_json(parameters_of)

@@ -74,7 +74,11 @@ def separation_phase(system: System, precision: int) -> Range:
         found = newton(lambda x: x.sin() - sine, lambda x: x.cos(), box)
         if found.outcome is Roots.UNIQUE and found.box is not None:
             low, high = found.box.inf, found.box.sup
-            return (low, high) if low >= 0 else phase_after(Fraction(0), _plus_turn(low, high), precision)
+            return (
+                (low, high)
+                if low >= 0
+                else phase_after(Fraction(0), _plus_turn(low, high), precision)
+            )
     raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
 
 

@@ -33,7 +33,7 @@ class System:
 
     @property
     def sticking_arc(self) -> str:
-        """"none", "some" or "all": which phases stick after a plastic impact.
+        """ "none", "some" or "all": which phases stick after a plastic impact.
 
         The launch acceleration side (nu (1 - eta^2) sin(phi) - eta^2) changes sign on the
         circle exactly if |sin(phi_s)| < 1; else its sign is that of -side.

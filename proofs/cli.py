@@ -1,0 +1,66 @@
+"""What the command lines share: exact numbers, one-line errors, colour where it is wanted."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+from fractions import Fraction
+from typing import NoReturn
+
+from intervals import fraction
+from proofs.statements import Verdict
+
+USAGE_ERROR = 2
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose errors are one line, and that takes -1/5 and -2e-3 for numbers."""
+
+    def __init__(self, prog: str, description: str | None, epilog: str) -> None:
+        super().__init__(
+            prog=f"python -m {prog}",
+            description=description,
+            epilog=epilog,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        self._negative_number_matcher = re.compile(r"^-[0-9.]")
+
+    def error(self, message: str) -> NoReturn:
+        """Print one line and leave with status 2."""
+        self.exit(USAGE_ERROR, f"{self.prog}: {message}\n")
+
+
+def number(text: str) -> Fraction:
+    """Read an exact number for argparse."""
+    try:
+        return fraction(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def digits(text: str) -> int:
+    """Read a number of digits for argparse."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text[:9]) <= 1000:
+        raise argparse.ArgumentTypeError(f"digits is a whole number from 1 to 1000, not {text!r}")
+    return int(text)
+
+
+def positive(text: str) -> Fraction:
+    """Read a positive exact number for argparse."""
+    value = number(text)
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"a positive number is expected, not {text!r}")
+    return value
+
+
+_COLOURS = {Verdict.VERIFIED: "32", Verdict.REFUTED: "31", Verdict.UNDECIDED: "33"}
+
+
+def coloured(verdict: Verdict) -> str:
+    """Return the verdict padded, in colour on a terminal (and not where NO_COLOR is set)."""
+    word = f"{verdict.value:9}"
+    if sys.stdout.isatty() and "NO_COLOR" not in os.environ:
+        return f"\x1b[{_COLOURS[verdict]}m{word}\x1b[0m"
+    return word
