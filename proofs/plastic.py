@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 from time import perf_counter
-from typing import Any
+from typing import Any, TypeVar
 
 from intervals import DomainError, Undecided, decimal_bounds
 from proofs.certificate import (
@@ -36,6 +37,7 @@ from proofs.statements import (
 from proofs.steps import Prover
 
 CLAIMS = tuple(STATEMENTS)
+_Proved = TypeVar("_Proved")
 _NEEDS_SLOPES = {"H1", "H2", "H3", "H5", "H6"}
 _NEEDS_GAP = {"H4", "H5"}
 
@@ -71,38 +73,35 @@ class _Run:
     gap_steps: dict[str, tuple[Range, Range]] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
 
-    def attempt(self, make: Callable[[], None]) -> bool:
+    def attempt(self, make: Callable[[], _Proved]) -> _Proved | None:
         """Run one part of the proof; what cannot be proved leaves no step behind."""
         before = dict(self.prover.steps)
         try:
-            make()
+            return make()
         except (Undecided, DomainError) as failure:
             self.prover.steps = before
             self.failures.append(str(failure))
-            return False
-        return True
+            return None
 
     def prove_slopes(self, *sets: Parameters) -> bool:
         """Enclose f' on I0 and on I1, each the hull of those of the sets given."""
-        done = True
         for domains in ([one.left for one in sets], [one.right for one in sets]):
             points = sorted({end for domain in domains for end in domain})
             if not any(set(points) <= set(known.points) for known in self.slope_steps.values()):
-                done &= self.attempt(lambda p=points: self._add_slopes(p))  # type: ignore[misc]
-        return done
-
-    def _add_slopes(self, points: list[Fraction]) -> None:
-        name, found = self.prover.slopes(points)
-        self.slope_steps[name] = found
+                proved = self.attempt(partial(self.prover.slopes, points))
+                if proved is None:
+                    return False
+                self.slope_steps[proved[0]] = proved[1]
+        return True
 
     def prove_gap(self, *sets: Parameters) -> bool:
         """Prove that the gap, the hull of those of the sets given, avoids the hull of the Is."""
         phases = (min(one.gap[0] for one in sets), max(one.gap[1] for one in sets))
         target = (min(one.interval[0] for one in sets), max(one.interval[1] for one in sets))
-        return self.attempt(lambda: self._add_gap(phases, target))
-
-    def _add_gap(self, phases: Range, target: Range) -> None:
-        self.gap_steps[self.prover.avoids(phases, target)] = (phases, target)
+        name = self.attempt(partial(self.prover.avoids, phases, target))
+        if name is not None:
+            self.gap_steps[name] = (phases, target)
+        return name is not None
 
     def facts(self, of: Parameters) -> tuple[Facts, list[str], list[str]]:
         """Return what the steps so far prove about `of`, and the names of those that do."""
@@ -123,12 +122,13 @@ class _Run:
         """Decide one claim at the printed sets; return its row and its certificate entry."""
         began = perf_counter()
         facts, slopes, gaps = self.facts(self.of)
-        proof, witness = [], None
+        proof: list[str] = []
+        witness: dict[str, Any] | None = None
         if claim in _NEEDS_SLOPES:
             proof += slopes
         if claim == "H5":
             facts.missed = missed_interval(self.of, facts)
-            witness = facts.missed and {"interval": texts(facts.missed)}
+            witness = {"interval": texts(facts.missed)} if facts.missed else None
         if claim in _NEEDS_GAP and witness is None:
             proof += gaps
         if claim == "H11" and max(self.of.moran_ratios) < 1 and max(self.of.reciprocals) < 1:
@@ -170,9 +170,9 @@ class _Run:
             _, image, slope = (Fraction(value) for value in candidate)
             guess = Facts(points=[PointFact(phase, (slope, slope), (image, image))])
             if decide(claim, of, guess)[0] is Verdict.REFUTED:
-                proved: list[tuple[str, PointFact]] = []
-                if self.attempt(lambda x=phase: proved.append(self.prover.point(x))):  # type: ignore[misc]
-                    return proved[0]
+                proved = self.attempt(partial(self.prover.point, phase))
+                if proved is not None:
+                    return proved
         return None
 
     # -- the repair ----------------------------------------------------------------------------

@@ -125,16 +125,24 @@ def image_arcs(of: Parameters, facts: Facts) -> list[tuple[Range, Range] | None]
     return arcs
 
 
+def _disjoint(arc: tuple[Range, Range], interval: Range) -> bool:
+    """Whether an arc shorter than the circle misses an interval of [0, 2 pi).
+
+    From phase u up to phase v, where u < v < 2 pi, such an arc is [u, v].
+    """
+    (bottom, lowest), (highest, top) = arc
+    simple = lowest < highest and top < TURN
+    return simple and (interval[1] < bottom or top < interval[0])
+
+
 def _two_preimages(of: Parameters, facts: Facts) -> Outcome:
     arcs = image_arcs(of, facts)
     witness = facts.missed
     if witness is not None and witness[0] < witness[1]:
         inside = any(low <= witness[0] and witness[1] <= high for low, high in (of.left, of.right))
         for name, arc in zip(("I0", "I1"), arcs, strict=True):
-            # an arc shorter than the circle, from phase u up to v with u < v < 2 pi, is [u, v]
-            if inside and arc is not None and arc[0][1] < arc[1][0] and arc[1][1] < TURN:
-                if witness[1] < arc[0][0] or arc[1][1] < witness[0]:
-                    return Verdict.REFUTED, f"{show_range(witness)} has no preimage in {name}"
+            if inside and arc is not None and _disjoint(arc, witness):
+                return Verdict.REFUTED, f"{show_range(witness)} has no preimage in {name}"
     low, high = of.interval
     margins = []
     for arc in arcs:
@@ -188,24 +196,26 @@ def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
 def _moran_root(of: Parameters, facts: Facts) -> Outcome:
     if max(of.moran_ratios) >= 1:
         return Verdict.REFUTED, "a ratio is at least 1, so the sum exceeds 1 for every s > 0"
+    for ratio, given in zip(of.reciprocals, of.moran_ratios, strict=True):
+        if ratio != given and not _rounds_to(ratio, show(given)):
+            return Verdict.REFUTED, f"1 / slope does not round to {show(given)}"
     if facts.s0 is None or facts.s0_reciprocal is None:
         return _undecided("no bracket of s_0")
+    bounds = f"{floor_text(facts.s0[0])} <= s_0 <= {ceil_text(facts.s0[1])}"
     if of.printed_s0 is None:
-        return Verdict.VERIFIED, f"{floor_text(facts.s0[0])} <= s_0 <= {ceil_text(facts.s0[1])}"
-    if of.ratios is not None:
-        for ratio, printed in zip(of.reciprocals, of.ratios, strict=True):
-            if not _rounds_to(ratio, show(printed)):
-                return Verdict.REFUTED, f"1 / slope is not {show(printed)} to the places printed"
-    both = [readings(root, of.printed_s0) for root in (facts.s0, facts.s0_reciprocal)]
+        return Verdict.VERIFIED, bounds
+    return _digits_read(of.printed_s0, facts.s0, facts.s0_reciprocal, bounds)
+
+
+def _digits_read(printed: str, root: Range, other: Range, bounds: str) -> Outcome:
+    """Decide whether printed digits are those of s_0, for given and for exact ratios."""
+    both = [readings(root, printed), readings(other, printed)]
     if all(rounded for rounded, _ in both):
         cut = "also" if all(truncated for _, truncated in both) else "not"
-        return Verdict.VERIFIED, f"rounded to the places printed; {cut} when truncated"
+        return Verdict.VERIFIED, f"{bounds}: {printed} if rounded, {cut} if truncated"
     if all(reading == (False, False) for reading in both):
-        return (
-            Verdict.REFUTED,
-            f"s_0 >= {floor_text(facts.s0[0])} is not {of.printed_s0} in any reading",
-        )
-    return _undecided("the readings of the printed digits differ between the ratios")
+        return Verdict.REFUTED, f"{bounds}: not {printed} in any reading"
+    return _undecided(f"{bounds}: the readings of {printed} differ between the ratios")
 
 
 def _gap_function(of: Parameters, facts: Facts) -> Outcome:
@@ -270,8 +280,8 @@ STATEMENTS = {
         ),
         Statement(
             "H11",
-            "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
-            "to the places given.",
+            "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and "
+            "1/{lo}, to the places given.",
             _moran_root,
         ),
         Statement(

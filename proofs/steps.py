@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from intervals import Interval
@@ -83,7 +84,7 @@ class Prover:
             return wide.slope_and_curvature(times[low, high])[1]
 
         found = extremes(at, over, cuts)
-        pairs = list(zip(found.points, found.points[1:], strict=False))
+        pairs = list(pairwise(found.points))
         witness = {
             "points": [
                 {"flight": names[part_of(x, x)], "phase": str(x), "time": texts(times[x])}

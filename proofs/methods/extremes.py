@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 from intervals import DomainError, Interval, Undecided
 from intervals.cover import cover
@@ -76,7 +77,7 @@ def extremes(
         middle = (piece[0] + piece[1]) / 2
         return (piece[0], middle), (middle, piece[1])
 
-    pieces = list(zip(points, points[1:], strict=False))
+    pieces = list(pairwise(points))
     done = list(cover(pieces, decide, split, limit=2000))
     ends = (*(low for (low, _), _ in done), points[-1])
     return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

@@ -35,8 +35,9 @@ class Launch(NamedTuple):
     """The state right after an impact at phase phi.
 
     lift = nu sin(phi): the table above its mean; rate = nu cos(phi): its velocity; kick: the
-    velocity of the mass relative to the table, None (exactly 0) after a plastic impact. side = +1 or -1, the
-    sign of nu: p > 0 exactly if nu < 0, and x - z > 0 means side (X - Z) > 0 in scaled lengths.
+    velocity of the mass relative to the table, None (exactly 0) after a plastic impact. side:
+    the sign of nu, +1 or -1; p > 0 exactly if nu < 0, and x - z > 0 means side (X - Z) > 0 for
+    the scaled X, Z.
     """
 
     side: int
@@ -65,7 +66,7 @@ def launch(side: int, eta: Number, nu: Number, phi: Number) -> Launch:
 
 
 def launch_with_restitution(
-    side: int, eta: Number, nu: Number, phi: Number, epsilon: Number, gamma: Number
+    side: int, eta: Number, nu: Number, phi: Number, *, epsilon: Number, gamma: Number
 ) -> Launch:
     """Return the state after an impact with velocity gamma = v / (omega_n p) of the mass.
 

@@ -73,18 +73,8 @@ def separation_phase(system: System, precision: int) -> Range:
         box = Interval(centre - reach, centre + reach, precision=precision + 10)
         found = newton(lambda x: x.sin() - sine, lambda x: x.cos(), box)
         if found.outcome is Roots.UNIQUE and found.box is not None:
-            low, high = found.box.inf, found.box.sup
-            return (
-                (low, high)
-                if low >= 0
-                else phase_after(Fraction(0), _plus_turn(low, high), precision)
-            )
+            return _modulo_turn(found.box.inf, found.box.sup, precision)
     raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
-
-
-def _plus_turn(low: Fraction, high: Fraction) -> Range:
-    whole = turn(200)
-    return low + whole.inf, high + whole.sup
 
 
 def _sticks(system: System, phases: Range, precision: int = 128) -> bool | None:
@@ -93,7 +83,7 @@ def _sticks(system: System, phases: Range, precision: int = 128) -> bool | None:
         return system.sticking_arc == "all"
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     start = launch(system.side, eta, nu, Interval(*phases, precision=precision))
-    acceleration = launch_acceleration(start)
+    acceleration: Interval = launch_acceleration(start)
     if acceleration.is_positive():
         return False
     return True if acceleration.is_negative() else None
