@@ -5,7 +5,7 @@ The steps are those of `proofs.check.rules`, by the same names.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -74,13 +74,12 @@ class Prover:
         def at(phase: Fraction) -> Interval:
             part = part_of(phase, phase)
             times[phase] = impact_time(part, (phase, phase), self.bits)
-            thin = replace(part.flight, phases=(phase, phase), precision=self.bits + 30)
-            return thin.slope(times[phase])
+            return part.thin((phase, phase), self.bits).slope(times[phase])
 
         def over(low: Fraction, high: Fraction) -> Interval:
             part = part_of(low, high)
             times[low, high] = time_range(part, (low, high))
-            wide = replace(part.flight, phases=(low, high))
+            wide = part.part((low, high))
             return wide.slope_and_curvature(times[low, high])[1]
 
         found = extremes(at, over, cuts)
@@ -119,7 +118,7 @@ class Prover:
         """Enclose f and f' at one phase (rule point)."""
         impact = locate(self.system, (phase, phase), horizon=self.horizon)
         time = impact_time(impact, (phase, phase), self.bits)
-        slope = replace(impact.flight, precision=self.bits + 30).slope(time)
+        slope = impact.thin((phase, phase), self.bits).slope(time)
         witness = {
             "flight": self.add_impact(impact),
             "phase": str(phase),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from intervals import DomainError, Interval, Undecided
@@ -121,15 +121,18 @@ def _agree(bounds: Range, digits: int) -> bool:
 
 
 def _bits(digits: int, attempt: int) -> int:
-    return (digits * 10 // 3 + 20) * (attempt + 2) // 2
+    return (digits * 10 // 3 + 20) << attempt
 
 
 def _at_point(system: System, phases: Range, digits: int, horizon: Fraction) -> Image:
     found = locate(system, phases, horizon=horizon)
     for attempt in range(_ATTEMPTS):
         bits = _bits(digits, attempt)
-        time = impact_time(found, phases, bits)
-        slope = replace(found.flight, precision=bits + 30).slope(time)
+        try:
+            time = impact_time(found, phases, bits)
+            slope = found.thin(phases, bits).slope(time)
+        except (Undecided, DomainError):  # a slow impact asks for more bits
+            continue
         result = Image(
             time, phase_after(phases[0], time, bits + 30), (slope.inf, slope.sup), sticking=False
         )
@@ -144,7 +147,10 @@ def _after_sticking(system: System, phases: Range, digits: int, horizon: Fractio
         bits = _bits(digits, attempt)
         leave = separation_phase(system, bits + 20)
         found = locate(system, leave, horizon=horizon, separating=True)
-        time = impact_time(found, leave, bits)
+        try:
+            time = impact_time(found, leave, bits)
+        except Undecided:
+            continue
         arrival = (leave[0] + time[0], leave[1] + time[1])
         dwell = _modulo_turn(leave[0] - phases[1], leave[1] - phases[0], bits)
         result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
@@ -173,7 +179,7 @@ def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
         key, thin = (low, high), low == high
         if key not in times:
             times[key] = impact_time(part, key, bits) if thin else time_range(part, key)
-        return replace(part.flight, phases=key, precision=bits + 30 if thin else 64), times[key]
+        return part.thin(key, bits) if thin else part.part(key), times[key]
 
     def time_at(x: Fraction) -> Interval:
         return Interval(*flight(x, x)[1], precision=bits + 30)

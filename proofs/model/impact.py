@@ -9,6 +9,7 @@ from functools import cached_property
 from intervals import Interval, Jet, Undecided
 from intervals.cover import cover
 from intervals.newton import Roots, newton
+from proofs.methods.extremes import piece_range
 from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.model.system import System
 
@@ -61,6 +62,15 @@ class Flight:
         """Enclose a time derivative of the gap over all launches and the times given."""
         return gap(self.start, self.clock(low, high), order)  # type: ignore[no-any-return]
 
+    def velocity(self, low: Fraction, high: Fraction) -> Interval:
+        """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
+
+        Over a short time this is much narrower than gap' evaluated on the interval, which
+        cancels where the launch is close to sticking or the impact close to grazing.
+        """
+        bend = self.gap(low, high, order=2)
+        return piece_range(self.gap(low, order=1), self.gap(high, order=1), bend, high - low)
+
     def slope(self, time: Range) -> Interval:
         """Enclose f' over all launches, impact times in `time`."""
         return slope(self.start, self.clock(*time))  # type: ignore[no-any-return]
@@ -97,6 +107,20 @@ class FirstImpact:
     def window(self) -> Range:
         """The last window, the only one if `transversal`."""
         return self.windows[-1]
+
+    @cached_property
+    def loss(self) -> int:
+        """Bits that a slow impact costs: time is known to rounding / |gap'|."""
+        slowest = self.flight.velocity(*self.window).mig
+        return 0 if slowest == 0 else (1 / slowest).__ceil__().bit_length()
+
+    def thin(self, phases: Range, bits: int) -> Flight:
+        """Return (nearly) one of the launches, at the precision that times to 2^-bits need."""
+        return replace(self.flight, phases=phases, precision=bits + 30 + self.loss)
+
+    def part(self, phases: Range) -> Flight:
+        """Return some of the launches."""
+        return replace(self.flight, phases=phases)
 
 
 def first_impact(
@@ -137,7 +161,7 @@ def first_impact(
             step = allowed = min(2 * allowed, 16 * finest)
         times.append(ahead)
         value = next_value
-    transversal = len(open_pieces) == 1 and flight.gap(*open_pieces[0], order=1).is_negative()
+    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).is_negative()
     return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
 
 
@@ -228,7 +252,7 @@ def time_range(impact: FirstImpact, phases: Range, steps: int = 14) -> Range:
     The gap decreases through its one zero in the window: where it is > 0 for all launches no
     zero lies before, where it is < 0 none lies after. Both ends move by bisection.
     """
-    flight = replace(impact.flight, phases=phases)
+    flight = impact.part(phases)
     low, high = impact.window
     inner = high
     for _ in range(steps):
@@ -248,10 +272,10 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     gap > 0 at the lower and gap < 0 at the upper one for all its launches, found by interval
     Newton in the window of a transversal impact.
     """
-    flight = replace(impact.flight, phases=phases, precision=bits + 30)
+    flight = impact.thin(phases, bits)
     window = Interval(*impact.window, precision=flight.precision)
     result = newton(
-        lambda t: flight.gap(t.inf, t.sup), lambda t: flight.gap(t.inf, t.sup, order=1), window
+        lambda t: flight.gap(t.inf, t.sup), lambda t: flight.velocity(t.inf, t.sup), window
     )
     if result.outcome is not Roots.UNIQUE or result.box is None:
         raise Undecided(f"the impact time is not isolated: {result.reason}")

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
@@ -62,30 +61,34 @@ class Launches:
     def _launch(self, phases: IntervalArray | Jet) -> Launch:
         return launch(self.system.side, self.system.eta, self.system.nu, phases)
 
-    def clock(self, times: IntervalArray) -> Clock:
+    def clock(self, times: IntervalArray | Jet) -> Clock:
         """Return the time functions."""
         return clock(self.system.eta, times)
 
     def heights(self, times: Floats) -> IntervalArray:
-        """Enclose the gap over box i at times[i]: mean-value form, centre + slope x offset."""
+        """Enclose the gap over box i at times[..., i]: mean-value form, centre + slope x offset."""
         now = self.clock(IntervalArray.from_floats(times))
         at_centre: IntervalArray = gap(self.centre.start, now)
-        along: Jet = gap(self._tangent, now)
-        return at_centre + along.derivative() * self.offset
+        along: IntervalArray = gap(self._tangent, now).derivative()
+        return at_centre + along * self.offset
 
     def speeds(self, low: Floats, high: Floats) -> IntervalArray:
         """Enclose gap' over box i and the times from low[i] to high[i]."""
         now = self.clock(IntervalArray.from_floats(low, high))
-        return gap(self.start, now, 1)  # type: ignore[no-any-return]
+        speed: IntervalArray = gap(self.start, now, 1)
+        return speed
 
     def slopes(self, times: IntervalArray) -> IntervalArray:
         """Enclose f' over box i, impact times in times[i]."""
-        return slope(self.start, self.clock(times))  # type: ignore[no-any-return]
+        first: IntervalArray = slope(self.start, self.clock(times))
+        return first
 
-    def curvatures(self, times: IntervalArray) -> IntervalArray:
-        """Enclose f'' likewise: the slope formula along phi + s, t + (f' - 1) s + ..."""
-        along = self.clock(Jet(times, self.slopes(times) - 1))  # type: ignore[arg-type]
-        return slope(self._tangent, along).derivative()  # type: ignore[no-any-return]
+    def curvatures(self, times: IntervalArray, slopes: IntervalArray) -> IntervalArray:
+        """Enclose f'' likewise, given f': the slope formula along phi + s, t + (f' - 1) s + ..."""
+        second: IntervalArray = slope(
+            self._tangent, self.clock(Jet(times, slopes - 1))
+        ).derivative()
+        return second
 
 
 # -- the grid: no impact before ------------------------------------------------------------------
@@ -105,55 +108,51 @@ def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
     pieces = IntervalArray.from_floats(grid[:-1], grid[1:])
     widths = IntervalArray.from_floats(grid[1:]) - IntervalArray.from_floats(grid[:-1])
     at_ends = _separated(launches.system, ends, 0)
-    bends = [part * widths**2 / 8 for part in _separated(launches.system, pieces, 2)]
+    bends = [part * (widths**2 / 8) for part in _separated(launches.system, pieces, 2)]
     lift, rate = launches.start.lift, launches.start.rate
-    size = max(1, CHUNK // ends.size)
+    size = max(1, CHUNK // len(ends))
     for begin in range(0, len(launches.phases), size):
         part = slice(begin, begin + size)
-        left = lift[part], rate[part]
-        low = bilinear(left, at_ends[:2], at_ends[2]).inf
-        bend = bilinear(left, bends[:2], bends[2])
-        _require(launches, bend[:, 0].certainly_positive(), begin, _STICKS)
-        _require(launches, (low > 0.0).all(axis=1), begin, _NOT_EXCLUDED)
-        chord = np.minimum(low[:, :-1], low[:, 1:]) > bend.sup[:, 1:]
-        _require(launches, chord.all(axis=1), begin, _NOT_EXCLUDED)
+        of_phase = lift[part], rate[part]
+        low = bilinear(at_ends[:2], of_phase, at_ends[2]).inf
+        bend = bilinear(bends[:2], of_phase, bends[2])
+        high = bend.sup
+        _require(launches, bend[:1].certainly_positive(), begin, _STICKS)
+        _require(launches, low > 0.0, begin, _NOT_EXCLUDED)
+        _require(launches, np.minimum(low[:-1], low[1:]) > high[1:], begin, _NOT_EXCLUDED)
 
 
 def _separated(system: System, times: IntervalArray, order: int) -> list[IntervalArray]:
     """Return A, B, D of times such that the gap's derivative is lift A + rate B + D.
 
-    The gap is affine in lift and rate: A and B are its derivatives with respect to these at 0.
+    The gap is affine in lift and rate: A and B are its derivatives with respect to these.
     """
-    now = clock(system.eta, times)
-    by_lift: Jet = gap(Launch(system.side, system.eta, Jet(0, 1), 0), now, order)
-    by_rate: Jet = gap(Launch(system.side, system.eta, 0, Jet(0, 1)), now, order)
-    return [by_lift.derivative(), by_rate.derivative(), by_lift.value]
+    lift, rate = Jet(0, IntervalArray([[1], [0]])), Jet(0, IntervalArray([[0], [1]]))
+    form: Jet = gap(Launch(system.side, system.eta, lift, rate), clock(system.eta, times), order)
+    return [*form.derivative(), form.value]
 
 
 # -- the brackets: an impact here ----------------------------------------------------------------
 
 
-def prove_brackets(launches: Launches, last: float, low: Floats, high: Floats) -> None:
-    """Prove one zero of the gap on [last, high_i], in (low_i, high_i), gap' < 0, after box i.
+def prove_brackets(launches: Launches, last: Floats, low: Floats, high: Floats) -> None:
+    """Prove that after box i the gap has one zero in [last_i, high_i]; it is > low_i.
 
-    By gap(low) > 0 > gap(high) and gap' < 0 on [last, high], where last <= low < high: floats,
-    low and high one for each box. Raises Undecided with the first box on which this fails.
+    By gap(low) > 0 > gap(high) and gap' < 0 on [last, high], where last <= low < high, all of
+    shape (n,). Raises Undecided with the first box on which this fails.
     """
     ordered = np.asarray((last <= low) & (low < high) & (high < np.inf))
     _require(launches, ordered, 0, "the time bracket is not one")
-    speeds = launches.speeds(np.full_like(high, last), high)
+    speeds = launches.speeds(last, high)
     _require(launches, speeds.certainly_negative(), 0, "gap' < 0 is not proved up to the impact")
     signs = _signs(launches, low, high)
-    _require(launches, signs[0], 0, "gap > 0 is not proved where its time bracket begins")
-    _require(launches, signs[1], 0, "gap < 0 is not proved where its time bracket ends")
+    _require(launches, signs, 0, "the gap's signs at the ends of its time bracket are not proved")
 
 
-def _signs(launches: Launches, low: Floats, high: Floats) -> tuple[Mask, Mask]:
-    """Return on which boxes gap(low) > 0, and on which gap(high) < 0."""
-    return (
-        launches.heights(low).certainly_positive(),
-        launches.heights(high).certainly_negative(),
-    )
+def _signs(launches: Launches, low: Floats, high: Floats) -> Mask:
+    """Return masks, shape (2, n): on which boxes gap(low) > 0, and on which gap(high) < 0."""
+    heights = launches.heights(np.stack((low, high)))
+    return np.stack((heights[0].certainly_positive(), heights[1].certainly_negative()))
 
 
 def find_times(system: System, phases: Floats) -> Floats:
@@ -179,24 +178,38 @@ def find_times(system: System, phases: Floats) -> Floats:
     return times
 
 
-def find_brackets(
-    launches: Launches, last: float, about: tuple[Floats, Floats], spread: Floats | float = 0.0
-) -> tuple[Floats, Floats]:
-    """Return brackets that seem to pass `prove_brackets`, around [about[0], about[1]].
+def enclose_times(
+    launches: Launches, last: Floats, about: tuple[Floats, Floats], spread: Floats | float = 0.0
+) -> IntervalArray:
+    """Find time brackets near the candidates [about[0], about[1]] and prove them.
 
-    They are opened by `spread` and some rounding, and more where a sign is not yet proved.
+    They are opened by `spread` and some rounding, and more where a sign is not proved then.
     """
     low, high = about
-    open_low = open_high = np.asarray(_TIGHT * high + spread)
+    opening = _TIGHT * high + spread
+    bracket = np.maximum(low - opening, last), high + opening
+    try:
+        prove_brackets(launches, last, *bracket)
+    except Undecided:
+        bracket = find_brackets(launches, last, about, opening)
+        prove_brackets(launches, last, *bracket)
+    return IntervalArray.from_floats(*bracket)
+
+
+def find_brackets(
+    launches: Launches, last: Floats, about: tuple[Floats, Floats], opening: Floats
+) -> tuple[Floats, Floats]:
+    """Return brackets around [about[0], about[1]] that seem to pass `prove_brackets`.
+
+    Each end moves out by `opening`, twice as far again where its sign is not proved.
+    """
+    openings = np.stack((opening, opening))
     for _ in range(_ATTEMPTS):
-        bracket = np.maximum(low - open_low, last), high + open_high
-        above, below = _signs(launches, *bracket)
-        if above.all() and below.all():
+        bracket = np.maximum(about[0] - openings[0], last), about[1] + openings[1]
+        signs = _signs(launches, *bracket)
+        if signs.all():
             break
-        open_low, open_high = (
-            np.where(above, open_low, 2 * open_low),
-            np.where(below, open_high, 2 * open_high),
-        )
+        openings = np.where(signs, openings, 2.0 * openings)
     return bracket
 
 
@@ -208,7 +221,8 @@ class SlopeCover:
     """What `slope_cover` proved. All arrays have the shape (N,).
 
     boxes: binary64 boxes that cover `phases`, in order, neighbours touching. On each: f is the
-    first-impact map, C^1; the impact time lies in `times`, f' in `slopes`, f'' in `curvatures`.
+    first-impact map, C^1; the impact time lies in `times`, after `last`, the last time of its
+    grid, up to which gap > 0; f' lies in `slopes`, f'' in `curvatures`.
     evaluations: of the gap and gap'' over boxes x times of the grid, two a box and a time.
     """
 
@@ -217,6 +231,7 @@ class SlopeCover:
     times: IntervalArray
     slopes: IntervalArray
     curvatures: IntervalArray
+    last: Floats
     evaluations: int
 
     @property
@@ -245,9 +260,15 @@ def slope_cover(
     ]
     if len(covers) == 1:
         return covers[0]
-    names = ("boxes", "times", "slopes", "curvatures")
-    joined = (IntervalArray.concatenate([getattr(c, name) for c in covers]) for name in names)
-    return SlopeCover(phases, *joined, sum(c.evaluations for c in covers))
+    return SlopeCover(
+        phases,
+        IntervalArray.concatenate([one.boxes for one in covers]),
+        IntervalArray.concatenate([one.times for one in covers]),
+        IntervalArray.concatenate([one.slopes for one in covers]),
+        IntervalArray.concatenate([one.curvatures for one in covers]),
+        np.concatenate([one.last for one in covers]),
+        sum(one.evaluations for one in covers),
+    )
 
 
 def grid_of(impact: FirstImpact) -> list[float]:
@@ -274,17 +295,63 @@ def _cover(system: System, phases: Range, boxes: int, grid: Sequence[float]) -> 
     cuts = cut(phases, boxes)
     launches = Launches(system, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
     exclude_impacts(launches, grid)
-    last = float(grid[-1])
-    knots = np.sort(np.concatenate((cuts, launches.phases.mid)))
-    ends, middle = np.split(find_times(system, knots).reshape(-1)[: 2 * boxes], 1)[0], None
-    raise NotImplementedError
+    last = np.full(boxes, float(grid[-1]))
+    knots = np.empty(2 * boxes + 1)
+    knots[::2], knots[1::2] = cuts, launches.phases.mid
+    about = find_times(system, knots)
+    before, middle, after = about[:-1:2], about[1::2], about[2::2]
+    around = np.minimum(before, after), np.maximum(before, after)
+    bow = 2.0 * np.abs(middle - 0.5 * (before + after))
+    times = enclose_times(launches, last, around, bow)
+    at_centre = launches.centre.slopes(enclose_times(launches.centre, last, (middle, middle)))
+    slopes = launches.slopes(times)
+    curvatures = launches.curvatures(times, slopes)
+    slopes = slopes.intersection(at_centre + curvatures * launches.offset)
+    evaluations = 2 * boxes * len(grid)
+    return SlopeCover(phases, launches.phases, times, slopes, curvatures, last, evaluations)
+
+
+@dataclass(frozen=True)
+class SlopeExtremes:
+    """Bounds (lower, upper) on the minimum and on the maximum of f', and the cover behind them."""
+
+    minimum: tuple[float, float]
+    maximum: tuple[float, float]
+    cover: SlopeCover
+
+
+def slope_extremes(system: System, phases: Range, boxes: int = 8) -> SlopeExtremes:
+    """Enclose the extremes of f' over `phases` in binary64, by monotonicity where f'' has a sign.
+
+    On a box with f'' > 0 or f'' < 0, f' lies between its values at the two cuts; on others in
+    the cover's enclosure. The values at cuts, of thin phases and tight times, are attained. So
+    where f'' has one sign on all boxes, nothing is lost but the rounding of two evaluations.
+    """
+    cover = slope_cover(system, phases, boxes)
+    lower = cover.boxes.inf
+    ends = IntervalArray([phases[0], phases[1]])
+    cuts = IntervalArray.from_floats(
+        np.concatenate((ends.inf[:1], lower[1:], ends.inf[1:])),
+        np.concatenate((ends.sup[:1], lower[1:], ends.sup[1:])),
+    )
+    thin, last = Launches(system, cuts), np.append(cover.last, cover.last[-1])
+    about = find_times(system, cuts.mid)
+    at_cuts = thin.slopes(enclose_times(thin, last, (about, about)))
+    one_sign = cover.curvatures.certainly_positive() | cover.curvatures.certainly_negative()
+    others = cover.slopes[~one_sign]
+    low, high = at_cuts.inf, at_cuts.sup
+    return SlopeExtremes(
+        (float(np.concatenate((low, others.inf)).min()), float(high.min())),
+        (float(low.max()), float(np.concatenate((high, others.sup)).max())),
+        cover,
+    )
 
 
 def _require(launches: Launches, holds: Mask, begin: int, reason: str) -> None:
-    """Raise Undecided with the first box, counted from `begin`, on which it does not hold."""
+    """Raise Undecided unless all holds; the last axis of `holds` is boxes, counted from `begin`."""
     if holds.all():
         return
-    index = begin + int(np.argmin(holds))
+    index = begin + int(np.argmin(np.atleast_2d(holds).all(axis=0)))
     box = launches.phases[index]
     raise Undecided(
         f"{reason}: box {index} of {len(launches.phases)}, "
