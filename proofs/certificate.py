@@ -21,6 +21,8 @@ from proofs.facts import Parameters, Range
 SCHEMA = "impact-proofs.certificate/1"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
+_MAX_DIGITS_OF_PARAMETERS = 400
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
 _RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
 _DECIMAL = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 
@@ -67,7 +69,9 @@ class Reader:
         if not isinstance(self._value, dict):
             raise self.fail("an object is expected")
         for name, value in self._value.items():
-            yield name, Reader(value, f"{self.path}.{name[:40]}")
+            if not _NAME.fullmatch(name):
+                raise self.fail(f"not a name: {name[:40]!r}")
+            yield name, Reader(value, f"{self.path}.{name}")
 
     def items(self, least: int = 0, most: int = 10_000) -> list[Reader]:
         """Return the members of a list."""
@@ -183,7 +187,7 @@ def parameters_from_json(reader: Reader) -> Parameters:
         "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0"
     )
     try:
-        return Parameters(
+        parameters = Parameters(
             eta.number(),
             nu.number(),
             left.range(),
@@ -197,6 +201,9 @@ def parameters_from_json(reader: Reader) -> Parameters:
         raise
     except ValueError as error:
         raise reader.fail(str(error)) from None
+    if any(len(number) > _MAX_DIGITS_OF_PARAMETERS for number in reader.mentioned()):
+        raise reader.fail(f"a number of more than {_MAX_DIGITS_OF_PARAMETERS} digits")
+    return parameters
 
 
 def write_atomically(path: Path, content: str) -> None:

@@ -6,7 +6,7 @@ certificate of witnesses, and a repair where the printed numbers fail.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
@@ -71,16 +71,16 @@ class _Run:
     of: Parameters
     slope_steps: dict[str, SlopeRange] = field(default_factory=dict)
     gap_steps: dict[str, tuple[Range, Range]] = field(default_factory=dict)
-    failures: list[str] = field(default_factory=list)
+    failures: dict[str, str] = field(default_factory=dict)
 
-    def attempt(self, make: Callable[[], _Proved]) -> _Proved | None:
-        """Run one part of the proof; what cannot be proved leaves no step behind."""
+    def attempt(self, part: str, make: Callable[[], _Proved]) -> _Proved | None:
+        """Make one part of the proof; what cannot be proved leaves a reason and no step."""
         before = dict(self.prover.steps)
         try:
             return make()
         except (Undecided, DomainError) as failure:
             self.prover.steps = before
-            self.failures.append(str(failure))
+            self.failures[part] = str(failure)
             return None
 
     def prove_slopes(self, *sets: Parameters) -> bool:
@@ -88,7 +88,7 @@ class _Run:
         for domains in ([one.left for one in sets], [one.right for one in sets]):
             points = sorted({end for domain in domains for end in domain})
             if not any(set(points) <= set(known.points) for known in self.slope_steps.values()):
-                proved = self.attempt(partial(self.prover.slopes, points))
+                proved = self.attempt("slopes", partial(self.prover.slopes, points))
                 if proved is None:
                     return False
                 self.slope_steps[proved[0]] = proved[1]
@@ -98,7 +98,7 @@ class _Run:
         """Prove that the gap, the hull of those of the sets given, avoids the hull of the Is."""
         phases = (min(one.gap[0] for one in sets), max(one.gap[1] for one in sets))
         target = (min(one.interval[0] for one in sets), max(one.interval[1] for one in sets))
-        name = self.attempt(partial(self.prover.avoids, phases, target))
+        name = self.attempt("gap", partial(self.prover.avoids, phases, target))
         if name is not None:
             self.gap_steps[name] = (phases, target)
         return name is not None
@@ -144,8 +144,9 @@ class _Run:
                 proof += slopes if claim in _NEEDS_SLOPES else []
                 facts.points.append(found[1])
                 verdict, why = decide(claim, self.of, facts)
-        if verdict is Verdict.UNDECIDED and self.failures:
-            why += f" ({self.failures[-1]})"
+        if verdict is Verdict.UNDECIDED:
+            parts = ["slopes"] * (claim in _NEEDS_SLOPES) + ["gap"] * (claim in _NEEDS_GAP)
+            why = "; ".join([why] + [self.failures[x] for x in parts if x in self.failures])
         row = Row(claim, verdict, why, quantities(claim, facts), perf_counter() - began)
         return row, {
             "id": claim,
@@ -161,6 +162,14 @@ class _Run:
 
     def witness(self, claim: str) -> tuple[str, PointFact] | None:
         """Look for one phase that refutes a claim, by candidates, and prove it."""
+        for phase in islice(self.suspects(claim), 3):
+            proved = self.attempt("witness", partial(self.prover.point, phase))
+            if proved is not None:
+                return proved
+        return None
+
+    def suspects(self, claim: str) -> Iterator[Fraction]:
+        """Yield phases that refute a claim in floating point."""
         of = self.of
         domains = (of.gap,) if claim == "H4" else (of.left, of.right)
         for phase in (phase for domain in domains for phase in grid(domain)):
@@ -170,10 +179,7 @@ class _Run:
             _, image, slope = (Fraction(value) for value in candidate)
             guess = Facts(points=[PointFact(phase, (slope, slope), (image, image))])
             if decide(claim, of, guess)[0] is Verdict.REFUTED:
-                proved = self.attempt(partial(self.prover.point, phase))
-                if proved is not None:
-                    return proved
-        return None
+                yield phase
 
     # -- the repair ----------------------------------------------------------------------------
 
@@ -248,7 +254,7 @@ def prove(
     sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
     if needs_slopes and not run.prove_slopes(*sets):
         run.prove_slopes(of)
-    if needs_gap and not run.prove_gap(*sets):
+    if needs_gap and not any(run.suspects("H4")) and not run.prove_gap(*sets):
         run.prove_gap(of)
     decided = [run.claim(claim) for claim in wanted]
     refuted = [entry for row, entry in decided if is_repairable(row)]

@@ -75,13 +75,16 @@ def rounded_slopes(bounds: Range, digits: int) -> Range:
 
 
 def grid(domain: Range, finest: int = 64) -> Iterator[Fraction]:
-    """Yield interior points of an interval, coarse ones first: halves, quarters, ..."""
+    """Yield interior points of an interval: halves, quarters, ..., then ever closer to its ends."""
     low, high = domain
     parts = 2
     while parts <= finest:
         for index in range(1, parts, 2):
             yield low + (high - low) * index / parts
         parts *= 2
+    for exponent in range(finest.bit_length(), 30):
+        yield low + (high - low) / 2**exponent
+        yield high - (high - low) / 2**exponent
 
 
 def short_decimal(low: Fraction, high: Fraction) -> Fraction:

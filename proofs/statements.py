@@ -228,6 +228,12 @@ def _gap_function(of: Parameters, facts: Facts) -> Outcome:
     return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = {show(1 - excess)} < 1"
 
 
+def _base(ratio: Fraction) -> str:
+    """Write a number that is raised to a power."""
+    written = show(ratio)
+    return f"({written})" if "/" in written else written
+
+
 @dataclass(frozen=True)
 class Statement:
     """A claim: its id in the catalogue, its text, the rule that decides it from facts."""
@@ -247,8 +253,8 @@ class Statement:
             gap=f"({show(of.gap[0])}, {show(of.gap[1])})",
             lo=show(of.slopes[0]),
             hi=show(of.slopes[1]),
-            r0=show(of.moran_ratios[0]),
-            r1=show(of.moran_ratios[1]),
+            r0=_base(of.moran_ratios[0]),
+            r1=_base(of.moran_ratios[1]),
             s0=f", s_0 = {of.printed_s0} to the places printed" if of.printed_s0 else "",
         )
 

@@ -11,23 +11,18 @@ from itertools import pairwise
 from typing import Any
 
 from intervals import Interval
-from intervals.cover import cover
-from intervals.errors import Undecided
 from proofs.certificate import texts
-from proofs.facts import PointFact, Range, SlopeRange
+from proofs.facts import PointFact, Range, SlopeRange, show_range
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.model.impact import (
     FirstImpact,
-    Flight,
+    cover_by,
     cover_by_impacts,
-    first_impact,
-    halves,
     impact_time,
     locate,
     misses,
     phase_after,
-    steps_for,
     time_range,
 )
 from proofs.model.system import System
@@ -102,15 +97,12 @@ class Prover:
     def avoids(self, phases: Range, target: Range) -> str:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
 
-        def decide_part(part: Range) -> FirstImpact | None:
-            try:
-                found = first_impact(Flight(self.system, part), self.horizon, steps_for(part))
-            except Undecided:
-                return None
-            arrivals = ((part[0] + w[0], part[1] + w[1]) for w in found.windows)
-            return found if all(misses(arrival, target) for arrival in arrivals) else None
+        def accept(found: FirstImpact) -> bool:
+            low, high = found.flight.phases
+            return all(misses((low + w[0], high + w[1]), target) for w in found.windows)
 
-        parts = [found for _, found in cover([phases], decide_part, halves, limit=400)]
+        why = f"an impact in {show_range(target)} is possible"
+        parts = cover_by(self.system, phases, accept, obstacle=why, horizon=self.horizon)
         flights = [self.add_impact(part) for part in parts]
         return self.add("avoids", {"flights": flights, "target": texts(target)})
 

@@ -53,8 +53,8 @@ def extremes(
 ) -> Extremes:
     """Enclose min g and max g over [points[0], points[-1]].
 
-    A piece is final where g' has one sign on it or its range is narrower than `tolerance`;
-    others are halved. A piece on which dg raises DomainError is halved too. Raises Undecided
+    A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
+    or where values of g elsewhere make it useless for both extremes; others are halved. A piece on which dg raises DomainError is halved too. Raises Undecided
     if that does not end.
     """
     known: dict[Fraction, Interval] = {}
@@ -71,7 +71,10 @@ def extremes(
         except DomainError:
             return None
         values = piece_range(at(low), at(high), slope, high - low)
-        return values if not slope.contains_zero() or values.wid < tolerance else None
+        if not slope.contains_zero() or values.wid < tolerance:
+            return values
+        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
+        return values if least <= values.inf and values.sup <= greatest else None
 
     def split(piece: Range) -> tuple[Range, Range]:
         middle = (piece[0] + piece[1]) / 2

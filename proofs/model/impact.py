@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -20,6 +21,10 @@ _TINIEST = Fraction(1, 2**200)
 
 class NoImpact(Undecided):
     """No impact was found up to the horizon (or the mass never separates from the table)."""
+
+
+class Sticks(Undecided):
+    """All phases of a set stick to the table first: their flights start elsewhere."""
 
 
 @dataclass(frozen=True)
@@ -134,9 +139,12 @@ def first_impact(
     Steps adapt down to `finest`; what is then not excluded opens a window, in which they grow
     again, to 16 times that.
 
-    Raises NoImpact at the horizon, Undecided where the launch itself is not decided.
+    Raises NoImpact at the horizon, Sticks where all phases do, Undecided where the launch itself
+    is not decided.
     """
     if not flight.leaves:
+        if launch_acceleration(flight.start).is_negative():
+            raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
         raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
     times = [Fraction(0), _first_step(flight)]
     open_pieces: list[Range] = []
@@ -197,7 +205,7 @@ def locate(
         flight = Flight(system, phases, 64 * (attempt + 1), separating)
         try:
             found = first_impact(flight, horizon, Fraction(1, 2 ** (3 + 5 * attempt)))
-        except NoImpact:
+        except (NoImpact, Sticks):
             raise
         except Undecided:
             continue
@@ -215,19 +223,51 @@ def cover_by_impacts(
     if phases[0] == phases[1]:
         return [locate(system, phases, horizon=horizon)]
 
-    narrowest = (phases[1] - phases[0]) / 2**16
+    return cover_by(
+        system,
+        phases,
+        lambda found: found.transversal,
+        obstacle="grazing",
+        horizon=horizon,
+        limit=limit,
+    )
+
+
+def cover_by(
+    system: System,
+    phases: Range,
+    accept: Callable[[FirstImpact], bool],
+    *,
+    obstacle: str,
+    horizon: Fraction = HORIZON,
+    limit: int = 400,
+) -> list[FirstImpact]:
+    """Cut `phases` until `accept` takes the first impact of every part.
+
+    Undecided names a phase near which it does not, `obstacle` being the likely reason; a part
+    without impact up to the horizon is cut four times before that is taken for an answer.
+    """
+    width = phases[1] - phases[0]
 
     def decide(part: Range) -> FirstImpact | None:
-        narrow = part[1] - part[0] < narrowest
+        narrowed = width / (part[1] - part[0])
         try:
             found = first_impact(Flight(system, part), horizon, steps_for(part))
-        except Undecided:
-            if narrow:
+        except Sticks:
+            raise
+        except NoImpact:
+            if narrowed >= 2**4:
                 raise
             return None
-        if narrow and not found.transversal:
-            raise Undecided(f"a grazing phase seems to lie near {float(part[0]):.12g}")
-        return found if found.transversal else None
+        except Undecided:
+            if narrowed >= 2**16:
+                raise
+            return None
+        if accept(found):
+            return found
+        if narrowed >= 2**16:
+            raise Undecided(f"{obstacle} near phase {float(part[0]):.9g}")
+        return None
 
     return [found for _, found in cover([phases], decide, halves, limit=limit)]
 
@@ -240,13 +280,18 @@ def steps_for(phases: Range) -> Fraction:
     return Fraction(1, 1 << (3 + (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2))
 
 
+def _name(phases: Range) -> str:
+    low, high = (f"{float(x):.9g}" for x in phases)
+    return f"phase {low}" if low == high else f"every phase in [{low}, {high}]"
+
+
 def halves(part: Range) -> tuple[Range, Range]:
     """Cut an interval in the middle."""
     middle = (part[0] + part[1]) / 2
     return (part[0], middle), (middle, part[1])
 
 
-def time_range(impact: FirstImpact, phases: Range, steps: int = 14) -> Range:
+def time_range(impact: FirstImpact, phases: Range) -> Range:
     """Enclose the impact times of all launches in `phases`, a part of a transversal impact's.
 
     The gap decreases through its one zero in the window: where it is > 0 for all launches no
@@ -254,6 +299,8 @@ def time_range(impact: FirstImpact, phases: Range, steps: int = 14) -> Range:
     """
     flight = impact.part(phases)
     low, high = impact.window
+    # until what bisection may still gain is small beside the width of the phases
+    steps = ((high - low) / (phases[1] - phases[0])).__ceil__().bit_length() + 5
     inner = high
     for _ in range(steps):
         middle = (low + inner) / 2
