@@ -54,7 +54,8 @@ def extremes(
     """Enclose min g and max g over [points[0], points[-1]].
 
     A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
-    or where values of g elsewhere make it useless for both extremes; others are halved. A piece on which dg raises DomainError is halved too. Raises Undecided
+    or where values of g elsewhere make it useless for both extremes; others, and those on which
+    dg raises DomainError, are halved. Raises Undecided
     if that does not end.
     """
     known: dict[Fraction, Interval] = {}
@@ -81,6 +82,6 @@ def extremes(
         return (piece[0], middle), (middle, piece[1])
 
     pieces = list(pairwise(points))
-    done = list(cover(pieces, decide, split, limit=2000))
+    done = list(cover(pieces, decide, split, limit=400))
     ends = (*(low for (low, _), _ in done), points[-1])
     return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

@@ -1,0 +1,77 @@
+"""`python -m proofs.impact`: what it prints, and what it refuses."""
+
+import json
+from fractions import Fraction
+
+import pytest
+
+from proofs import impact
+
+AT = ["--eta", "0.2121", "--nu", "-0.2"]
+
+
+def answer(capsys, *arguments):
+    assert impact.main([*AT, *arguments, "--json", "-"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_a_point_has_the_digits_asked_for(capsys):
+    found = answer(capsys, "--phi", "1.11", "--digits", "50")
+    for key in ("flight", "phase", "slope"):
+        low, high = (Fraction(found[key][side]) for side in ("lower", "upper"))
+        assert 0 < (high - low) * 10**50 < abs(low)
+    assert found["sticking"] is False
+    assert found["flight"]["lower"].startswith("25.15189922112723614")
+
+
+def test_an_interval_and_a_sticking_phase(capsys):
+    found = answer(capsys, "--phi", "1.11", "1.15")
+    assert Fraction(found["phase"]["lower"]) < Fraction("1.1292") < Fraction(found["phase"]["upper"])
+    stuck = answer(capsys, "--phi", "4.64")
+    assert stuck["sticking"] is True and stuck["slope"] == {"lower": "0", "upper": "0"}
+    assert set(stuck["dwell"]) == {"lower", "upper"}
+
+
+def test_a_jump_gives_a_set_and_status_1(capsys):
+    assert impact.main([*AT, "--phi", "1.17", "1.2", "--json", "-"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["possible"]) >= 2 and "slope" not in found
+    assert impact.main([*AT, "--phi", "1.17", "1.2"]) == 1
+    assert "several images are possible" in capsys.readouterr().out
+
+
+def test_json_to_a_file(capsys, tmp_path):
+    target = tmp_path / "answer.json"
+    assert impact.main([*AT, "--phi", "1.11", "--json", str(target)]) == 0
+    assert json.loads(target.read_text())["sticking"] is False
+    assert "sticks first" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--eta", "x", "--nu", "1", "--phi", "1"], "not a number"),
+        (["--eta", "0", "--nu", "1", "--phi", "1"], "eta must be positive"),
+        (["--eta", "1", "--nu", "0", "--phi", "1"], "nu must not be 0"),
+        (["--eta", "1", "--nu", "1", "--phi", "2", "1"], "reversed"),
+        (["--eta", "1", "--nu", "1", "--phi", "7"], "outside the circle"),
+        (["--eta", "1", "--nu", "1", "--phi", "-1/5"], "outside the circle"),
+        (["--eta", "1", "--nu", "1", "--phi", "1", "2", "3"], "one phase or two"),
+        (["--eta", "1", "--nu", "1", "--phi", "1"], "forever"),
+        ([*AT, "--phi", "1.57"], "horizon"),
+        ([*AT, "--phi", "1.11", "--horizon", "20"], "horizon"),
+        ([*AT, "--phi", "1.11", "--digits", "x"], "whole number"),
+        ([*AT], "--phi"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, message, capsys):
+    with pytest.raises(SystemExit) as leave:
+        impact.main(arguments)
+    said = capsys.readouterr()
+    assert leave.value.code == 2 and said.out == ""
+    assert said.err.count("\n") == 1 and message in said.err
+
+
+def test_the_onset_of_sticking_is_undecided(capsys):
+    assert impact.main([*AT, "--phi", "3.37", "3.39"]) == 1
+    assert "sticking begins" in capsys.readouterr().err
