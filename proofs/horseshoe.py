@@ -139,8 +139,12 @@ def _checked(path: Path, quiet: bool) -> bool:
         return False
     if not quiet:
         spent = (perf_counter() - began) * 1000
-        print(f"checker: accepted {path}, {len(report.claims)} claims, in {spent:.0f} ms")
+        print(f"checker: accepted {path}, {_count(len(report.claims))}, in {spent:.0f} ms")
     return True
+
+
+def _count(claims: int) -> str:
+    return f"{claims} claim{'s' if claims > 1 else ''}"
 
 
 if __name__ == "__main__":

@@ -1,0 +1,51 @@
+"""The project's own promises: import boundaries, a typed package, a version told once."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+def test_import_contracts_hold():
+    done = subprocess.run(
+        [sys.executable, "-c", "from importlinter.cli import lint_imports_command as c; c()"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "3 kept, 0 broken" in done.stdout
+
+
+def test_packages_are_typed_and_complete():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    listed = set(settings["tool"]["setuptools"]["packages"])
+    found = {
+        ".".join(path.parent.relative_to(ROOT).parts)
+        for package in ("intervals", "proofs")
+        for path in (ROOT / package).rglob("__init__.py")
+    }
+    assert listed == found
+    assert all((ROOT / package / "py.typed").exists() for package in ("intervals", "proofs"))
+
+
+def test_the_readme_s_table_names_things_that_exist():
+    from proofs.facts import Parameters
+    from proofs.model import equations, image
+
+    assert {"eta", "nu", "left", "right", "interval", "slopes", "ratios"} <= set(
+        Parameters.__dataclass_fields__
+    )
+    assert {"lift", "rate", "side"} <= set(equations.Launch._fields)
+    assert callable(equations.gap) and callable(equations.slope)
+    assert callable(image.separation_phase) and callable(image.image)
+
+
+def test_the_tools_forget_nothing_in_the_tree():
+    """No file of the packages names a folder of somebody's machine."""
+    for package in ("intervals", "proofs"):
+        for path in (ROOT / package).rglob("*.py"):
+            assert "/tmp/" not in path.read_text() and "/home/" not in path.read_text(), path
