@@ -120,6 +120,8 @@ class IntervalArray:
 
     def __getitem__(self, index: Any) -> IntervalArray:
         """Select intervals, by any index that numpy knows, on the element axes."""
+        if isinstance(index, slice):
+            return _make(self._rows[:, index])
         return _make(np.stack((self._rows[0][index], self._rows[1][index])))
 
     def reshape(self, *shape: int) -> IntervalArray:
@@ -220,6 +222,8 @@ class IntervalArray:
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
         if isinstance(other, int) and abs(other) & (abs(other) - 1) == 0:
+            if other == 1:
+                return self
             rows = self._rows if other >= 0 else self._rows[::-1]
             with _quiet():
                 return _make(bounded(rows * float(abs(other))))

@@ -7,6 +7,7 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,7 +34,7 @@ def _with_axes(rows: Rows, ndim: int) -> Rows:
 
 def is_thin(rows: Rows) -> bool:
     """Return whether every interval is a point."""
-    return np.array_equal(-rows[0], rows[1])
+    return bool((-rows[0] == rows[1]).all())
 
 
 def product(a: Rows, b: Rows) -> Rows:
@@ -129,9 +130,19 @@ def scalar_rows(value: object) -> Rows | None:
     """
     if isinstance(value, float | np.floating | np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
+    if type(value) is int or type(value) is Fraction:
+        return _rational_rows(value)
     if isinstance(value, int | Fraction | np.integer) or _is_interval(value):
         return np.array(_enclosure(value))
     return None
+
+
+@lru_cache(maxsize=256)
+def _rational_rows(value: int | Fraction) -> Rows:
+    """Return the tightest rows of a number: the few constants of a formula come again and again."""
+    rows = np.array(_enclosure(value))
+    rows.setflags(write=False)
+    return rows
 
 
 def _is_interval(value: object) -> bool:
@@ -180,7 +191,9 @@ def _enclosure(value: Any) -> tuple[float, float]:
 
 def float_rows(lower: Any, upper: Any) -> Rows:
     """Return rows of binary64 bounds, as `IntervalArray.from_floats`."""
-    low, high = np.broadcast_arrays(_binary64(lower), _binary64(upper))
+    low = high = _binary64(lower)
+    if upper is not lower:
+        low, high = np.broadcast_arrays(low, _binary64(upper))
     rows = np.stack((-low, high))
     if not (np.isfinite(rows).all() and (low <= high).all()):
         raise ValueError("bounds must be finite, with lower <= upper")

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from proofs.model.system import System
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-CHUNK = 16384  # boxes x times at once: the temporaries stay in the cache
+CHUNK = 32768  # boxes x times at once: the temporaries (24 bytes each) stay in the cache
 _TIGHT = 2.0**-48  # the first attempt at half the relative width of a time bracket
 _ATTEMPTS = 12
 
@@ -104,13 +105,9 @@ def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
     grid = np.array([0.0, *times])
     if not (grid.size > 1 and np.isfinite(grid).all() and (np.diff(grid) > 0.0).all()):
         raise ValueError("the times must be finite, positive and increasing, and at least one")
-    ends = IntervalArray.from_floats(grid[1:])
-    pieces = IntervalArray.from_floats(grid[:-1], grid[1:])
-    widths = IntervalArray.from_floats(grid[1:]) - IntervalArray.from_floats(grid[:-1])
-    at_ends = _separated(launches.system, ends, 0)
-    bends = [part * (widths**2 / 8) for part in _separated(launches.system, pieces, 2)]
+    at_ends, bends = _forms(launches.system, grid)
     lift, rate = launches.start.lift, launches.start.rate
-    size = max(1, CHUNK // len(ends))
+    size = max(1, CHUNK // (grid.size - 1))
     for begin in range(0, len(launches.phases), size):
         part = slice(begin, begin + size)
         of_phase = lift[part], rate[part]
@@ -122,14 +119,57 @@ def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
         _require(launches, np.minimum(low[:-1], low[1:]) > high[1:], begin, _NOT_EXCLUDED)
 
 
-def _separated(system: System, times: IntervalArray, order: int) -> list[IntervalArray]:
-    """Return A, B, D of times such that the gap's derivative is lift A + rate B + D.
+_Form = tuple[IntervalArray, IntervalArray, IntervalArray]
 
-    The gap is affine in lift and rate: A and B are its derivatives with respect to these.
+
+def _forms(system: System, grid: Floats) -> tuple[_Form, _Form]:
+    """Return the gap at the times t_1, ..., and w^2/8 gap'' on the pieces between, as forms.
+
+    A form is A, B, D, shape (n,) each, that stand for lift A + rate B + D.
     """
-    lift, rate = Jet(0, IntervalArray([[1], [0]])), Jet(0, IntervalArray([[0], [1]]))
-    form: Jet = gap(Launch(system.side, system.eta, lift, rate), clock(system.eta, times), order)
-    return [*form.derivative(), form.value]
+    n, points = grid.size - 1, IntervalArray.from_floats(grid)
+    ends_and_pieces = IntervalArray.from_floats(
+        np.concatenate((grid[1:], grid[:-1])), np.concatenate((grid[1:], grid[1:]))
+    )
+    now = clock(system.eta, ends_and_pieces)
+    weights = (points[1:] - points[:-1]) ** 2 / 8
+    at_ends = _form(system, Clock(*(x[:n] for x in now)), 0)
+    a, b, d = _form(system, Clock(*(x[n:] for x in now)), 2)
+    return at_ends, (a * weights, b * weights, d * weights)
+
+
+def _form(system: System, now: Clock, order: int) -> _Form:
+    """Return A, B, D such that the gap's derivative of this order is lift A + rate B + D."""
+    lift, rate = _Affine((1, None, None)), _Affine((None, 1, None))
+    form: _Affine = gap(Launch(system.side, system.eta, lift, rate), now, order)
+    by_lift, by_rate, rest = form.terms
+    return by_lift, by_rate, rest
+
+
+@dataclass(frozen=True)
+class _Affine:
+    """a lift + b rate + d with terms (a, b, d), None for 0: the gap is of this kind."""
+
+    terms: tuple[Any, Any, Any]
+
+    def __mul__(self, factor: IntervalArray) -> _Affine:
+        a, b, d = (x if x is None else x * factor for x in self.terms)
+        return _Affine((a, b, d))
+
+    def __add__(self, other: Any) -> _Affine:
+        added = other.terms if isinstance(other, _Affine) else (None, None, other)
+        a, b, d = (
+            y if x is None else x if y is None else x + y
+            for x, y in zip(self.terms, added, strict=True)
+        )
+        return _Affine((a, b, d))
+
+    def __sub__(self, other: Any) -> _Affine:
+        return self.__add__(-other)
+
+    def __neg__(self) -> _Affine:
+        a, b, d = (x if x is None else -x for x in self.terms)
+        return _Affine((a, b, d))
 
 
 # -- the brackets: an impact here ----------------------------------------------------------------
