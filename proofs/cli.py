@@ -6,7 +6,10 @@ import argparse
 import os
 import re
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
+from time import monotonic
 from typing import NoReturn
 
 from intervals import fraction
@@ -53,6 +56,28 @@ def positive(text: str) -> Fraction:
     if value <= 0:
         raise argparse.ArgumentTypeError(f"a positive number is expected, not {text!r}")
     return value
+
+
+@contextmanager
+def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
+    """Yield a function that shows a stage on a terminal once the work takes over `after` seconds.
+
+    The line is on standard error, is overwritten by the next stage and wiped at the end.
+    """
+    began, shown = monotonic(), False
+
+    def tell(stage: str) -> None:
+        nonlocal shown
+        if sys.stderr.isatty() and monotonic() - began > after:
+            print(f"\r\x1b[K{monotonic() - began:.0f} s: {stage} ...", end="", file=sys.stderr)
+            sys.stderr.flush()
+            shown = True
+
+    try:
+        yield tell
+    finally:
+        if shown:
+            print("\r\x1b[K", end="", file=sys.stderr)
 
 
 _COLOURS = {Verdict.VERIFIED: "32", Verdict.REFUTED: "31", Verdict.UNDECIDED: "33"}

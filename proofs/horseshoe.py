@@ -15,7 +15,7 @@ from time import perf_counter
 from proofs.certificate import Malformed, render, write_atomically
 from proofs.check.__main__ import read
 from proofs.check.verify import Rejected, check
-from proofs.cli import Parser, coloured, digits, number, positive
+from proofs.cli import Parser, coloured, digits, number, positive, progress
 from proofs.facts import PAPER, Parameters, show
 from proofs.model.impact import HORIZON
 from proofs.plastic import CLAIMS, Outcome, printed, prove
@@ -49,7 +49,10 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     began = perf_counter()
-    outcome = prove(of, options.only or CLAIMS, digits=options.digits, horizon=options.horizon)
+    with progress() as tell:
+        outcome = prove(
+            of, options.only or CLAIMS, digits=options.digits, horizon=options.horizon, tell=tell
+        )
     content = render(outcome.certificate)
     try:
         write_atomically(options.out / "horseshoe.json", content)

@@ -38,6 +38,11 @@ from proofs.steps import Prover
 
 CLAIMS = tuple(STATEMENTS)
 _Proved = TypeVar("_Proved")
+_STAGES = {
+    "slopes": "first impacts and slopes on I0 and I1",
+    "gap": "where the gap between I0 and I1 goes",
+    "witness": "a witness against a claim",
+}
 _NEEDS_SLOPES = {"H1", "H2", "H3", "H5", "H6"}
 _NEEDS_GAP = {"H4", "H5"}
 
@@ -69,12 +74,14 @@ class _Run:
 
     prover: Prover
     of: Parameters
+    tell: Callable[[str], None]
     slope_steps: dict[str, SlopeRange] = field(default_factory=dict)
     gap_steps: dict[str, tuple[Range, Range]] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
 
     def attempt(self, part: str, make: Callable[[], _Proved]) -> _Proved | None:
         """Make one part of the proof; what cannot be proved leaves a reason and no step."""
+        self.tell(_STAGES[part])
         before = dict(self.prover.steps)
         try:
             return make()
@@ -241,15 +248,17 @@ def prove(
     *,
     digits: int = 30,
     horizon: Fraction = HORIZON,
+    tell: Callable[[str], None] = lambda stage: None,
 ) -> Outcome:
     """Decide the claims asked for, and repair the sets where the printed ones fail.
 
     Work is done for what is asked only: slopes for H1-H3, H5, H6, the gap for H4 and H5, the
     root for H11; a repair where one of H1-H6 asked for is refuted. If floating point expects a
-    repair, the steps are made on the hulls of the given and the corrected sets at once.
+    repair, the steps are made on the hulls of the given and the corrected sets at once. `tell`
+    hears of each part of the proof before it is made.
     """
     wanted = [claim for claim in CLAIMS if claim in set(claims)]
-    run = _Run(Prover(System(of.eta, of.nu), digits, horizon), of)
+    run = _Run(Prover(System(of.eta, of.nu), digits, horizon), of, tell)
     needs_slopes, needs_gap = _NEEDS_SLOPES.intersection(wanted), _NEEDS_GAP.intersection(wanted)
     sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
     if needs_slopes and not run.prove_slopes(*sets):
