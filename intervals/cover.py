@@ -30,7 +30,10 @@ def cover(
         part = waiting.pop()
         answer = decide(part)
         if answer is None:
-            waiting.extend(list(split(part))[::-1])
+            pieces = list(split(part))
+            if not pieces:
+                raise ValueError(f"split returned nothing for {part}")
+            waiting.extend(pieces[::-1])
         else:
             yield part, answer
     if waiting:

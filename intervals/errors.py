@@ -6,7 +6,7 @@ class IntervalError(ArithmeticError):
 
 
 class DomainError(IntervalError):
-    """An argument leaves the natural domain of the function (division by an interval with 0, ...)."""
+    """An argument leaves the natural domain of the function: division by 0, log of -1."""
 
 
 class Undecided(IntervalError):  # noqa: N818 (a public name: it is an outcome, not a fault)

@@ -1,6 +1,8 @@
 """Exact numbers in and out: decimal strings are rationals, printed decimals are outward bounds."""
 
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Rational
 
 Exact = int | Fraction | str
 
@@ -14,36 +16,49 @@ def fraction(value: Exact) -> Fraction:
     TypeError: 0.2121 typed as a float is not 2121/10000, use `from_float` where the binary
     number itself is meant. Text that is no number raises ValueError.
     """
+    if isinstance(value, str):
+        return _read(value)
     if isinstance(value, float):
         raise TypeError(f"{value!r} is a float, not a decimal: pass a string, or use from_float")
-    if isinstance(value, str):
-        _, _, exponent = value.lower().partition("e")
-        huge_exponent = exponent.lstrip("+-").isdigit() and int(exponent[:9]) not in range(
-            -_LONGEST, _LONGEST
-        )
-        if len(value) > _LONGEST or huge_exponent:
-            raise ValueError(f"a number of unreasonable size: {value[:20]}...")
+    if not isinstance(value, Rational):
+        raise TypeError(f"{value!r} is not an int, a Fraction or a string")
+    return Fraction(int(value.numerator), int(value.denominator))  # numpy's integers would wrap
+
+
+def _read(text: str) -> Fraction:
+    if len(text) > _LONGEST:
+        raise ValueError(f"a number of unreasonable size: {text[:20]}...")
+    exponent = text.lower().partition("e")[2]
     try:
-        return Fraction(value)
+        reasonable = not exponent or abs(int(exponent)) <= _LONGEST
+        if reasonable:
+            return Fraction(text)
     except (ValueError, ZeroDivisionError):
-        raise ValueError(f"not a number: {value!r}") from None
+        raise ValueError(f"not a number: {text!r}") from None
+    raise ValueError(f"a number of unreasonable size: {text[:20]}...")
 
 
 def _scaled(value: Fraction, digits: int) -> tuple[Fraction, int]:
     """Return (value * 10^shift, shift) where the first has `digits` digits before the point."""
+    if digits < 1:
+        raise ValueError("a decimal has at least one digit")
     numerator, denominator = abs(value.numerator), value.denominator
-    magnitude = len(str(numerator)) - len(str(denominator))  # 10^(m-1) < |value| < 10^(m+1)
+    # 10^(m-1) < |value| < 10^(m+1); Decimal(int) is exact and, unlike str(int), of any length
+    magnitude = Decimal(numerator).adjusted() - Decimal(denominator).adjusted()
     if numerator >= denominator * Fraction(10) ** magnitude:
         magnitude += 1
     shift = digits - magnitude
     return value * Fraction(10) ** shift, shift
 
 
-def _decimal(integer: int, shift: int) -> str:
-    """Write integer * 10^-shift as a plain decimal."""
+def _decimal(integer: int, shift: int, digits: int) -> str:
+    """Write integer * 10^-shift, where |integer| <= 10^digits, with `digits` significant digits."""
+    if abs(integer) == 10**digits:
+        integer, shift = integer // 10, shift - 1
+    sign, text = "-" if integer < 0 else "", str(Decimal(abs(integer)))
     if shift <= 0:
-        return str(integer * 10**-shift)
-    sign, text = "-" if integer < 0 else "", str(abs(integer)).rjust(shift + 1, "0")
+        return sign + text + "0" * -shift
+    text = text.rjust(shift + 1, "0")
     return f"{sign}{text[:-shift]}.{text[-shift:]}"
 
 
@@ -52,7 +67,7 @@ def decimal_down(value: Fraction, digits: int) -> str:
     if value == 0:
         return "0"
     scaled, shift = _scaled(value, digits)
-    return _decimal(scaled.numerator // scaled.denominator, shift)
+    return _decimal(scaled.numerator // scaled.denominator, shift, digits)
 
 
 def decimal_up(value: Fraction, digits: int) -> str:
@@ -60,15 +75,15 @@ def decimal_up(value: Fraction, digits: int) -> str:
     if value == 0:
         return "0"
     scaled, shift = _scaled(value, digits)
-    return _decimal(-(-scaled.numerator // scaled.denominator), shift)
+    return _decimal(-(-scaled.numerator // scaled.denominator), shift, digits)
 
 
 def decimal_bounds(low: Fraction, high: Fraction, digits: int) -> tuple[str, str]:
-    """Print an interval outward, at most 10^-digits of its size wider than it is.
+    """Print an interval outward, at most 10^-digits max(|low|, |high|) wider than it is.
 
     What is printed is read back and compared, so a slip in the conversion cannot go unseen.
     """
     lower, upper = decimal_down(low, digits + 3), decimal_up(high, digits + 3)
-    if not (Fraction(lower) <= low and high <= Fraction(upper)):
+    if not (Fraction(Decimal(lower)) <= low and high <= Fraction(Decimal(upper))):
         raise ArithmeticError("a printed bound does not enclose")
     return lower, upper

@@ -1,8 +1,10 @@
 """Interval: one closed bounded interval of reals, at any precision.
 
 Endpoints are dyadic rationals held as libmp numbers; + - * / sqrt are libmp's with directed
-rounding, sin cos exp log are this package's own with proved remainders. The precision in bits
-travels with the number: a result has the larger precision of its operands.
+rounding, sin cos exp log are this package's own with proved remainders, rounded to the next
+number. So each of these, sqr and x**n (n >= 0) return the tightest enclosure of the range at their
+precision, and X within Y implies op(X) within op(Y). The precision in bits travels with the
+number: a result has the larger precision of its operands.
 """
 
 from __future__ import annotations
@@ -29,15 +31,16 @@ from mpmath.libmp import (
     mpf_sub,
 )
 
+from intervals.elementary import tightest
 from intervals.elementary.constants import pi_fixed
-from intervals.elementary.explog import exp_fixed, log_fixed
-from intervals.elementary.trig import sincos_fixed
+from intervals.elementary.tightest import DOWN, UP
+from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
 from intervals.exact import Exact, decimal_down, decimal_up, fraction
 
-_Raw = tuple[int, int, int, int]
-DOWN, UP = "f", "c"
-_MINUS_ONE = mpf_neg(fone)
+_ZERO: _Raw = fzero
+_ONE: _Raw = fone
+_MINUS_ONE: _Raw = mpf_neg(fone)
 
 
 class Interval:
@@ -60,24 +63,26 @@ class Interval:
         high = low if upper is None else fraction(upper)
         if low > high:
             raise ValueError(f"reversed interval: {lower} > {upper}")
-        if precision < 2:
-            raise ValueError("precision is at least 2 bits")
+        self.precision = _checked(precision)
         self._lo = _round(low, precision, DOWN)
         self._hi = _round(high, precision, UP)
-        self.precision = precision
 
     @classmethod
     def from_float(cls, value: float, *, precision: int = 53) -> Interval:
-        """Enclose the binary number `value` (finite), exactly from 53 bits on."""
-        if value - value != 0:
-            raise ValueError(f"not a finite number: {value!r}")
-        raw = from_float(float(value))
-        return _make(mpf_pos(raw, precision, DOWN), mpf_pos(raw, precision, UP), precision)
+        """Enclose the binary number `value`, exactly from 53 bits on.
+
+        NaN, inf and what no binary64 number equals (2^53 + 1, Fraction(1, 3)) raise ValueError.
+        """
+        number = float(value)
+        if number != value or number - number != 0:
+            raise ValueError(f"not a finite binary64 number: {value!r}")
+        raw, p = from_float(number), _checked(precision)
+        return _make(mpf_pos(raw, p, DOWN), mpf_pos(raw, p, UP), p)
 
     @classmethod
     def pi(cls, *, precision: int = 53) -> Interval:
         """Enclose pi."""
-        bits = precision + 4
+        bits = _checked(precision) + 4
         low = pi_fixed(bits)
         return cls(Fraction(low, 1 << bits), Fraction(low + 1, 1 << bits), precision=precision)
 
@@ -115,13 +120,13 @@ class Interval:
 
     def contains(self, value: Exact | Interval) -> bool:
         """Whether a number or an interval is a subset of this one."""
-        other = value if isinstance(value, Interval) else None
-        low, high = (other.inf, other.sup) if other else (fraction(value),) * 2  # type: ignore[arg-type]
-        return self.inf <= low and high <= self.sup
+        if isinstance(value, Interval):
+            return _compare(self._lo, value._lo) <= 0 <= _compare(self._hi, value._hi)
+        return self.inf <= fraction(value) <= self.sup
 
     def contains_zero(self) -> bool:
         """Whether 0 is in the interval."""
-        return mpf_cmp(self._lo, fzero) <= 0 <= mpf_cmp(self._hi, fzero)
+        return _compare(self._lo, _ZERO) <= 0 <= _compare(self._hi, _ZERO)
 
     def hull(self, other: Interval) -> Interval:
         """Return the smallest interval that holds both."""
@@ -139,8 +144,8 @@ class Interval:
 
     def with_precision(self, precision: int) -> Interval:
         """Return an enclosure of this interval at another precision."""
-        low, high = mpf_pos(self._lo, precision, DOWN), mpf_pos(self._hi, precision, UP)
-        return _make(low, high, precision)
+        p = _checked(precision)
+        return _make(mpf_pos(self._lo, p, DOWN), mpf_pos(self._hi, p, UP), p)
 
     # -- arithmetic ----------------------------------------------------------------------------
 
@@ -224,10 +229,10 @@ class Interval:
     def __abs__(self) -> Interval:
         if not self._lo[0]:
             return self
-        if mpf_cmp(self._hi, fzero) <= 0:
+        if _compare(self._hi, _ZERO) <= 0:
             return -self
         top = mpf_neg(self._lo)
-        return _make(fzero, self._hi if mpf_lt(top, self._hi) else top, self.precision)
+        return _make(_ZERO, self._hi if mpf_lt(top, self._hi) else top, self.precision)
 
     def sqr(self) -> Interval:
         """Return the square, without the dependency of x * x."""
@@ -235,6 +240,9 @@ class Interval:
         return x * x
 
     def __pow__(self, n: int) -> Interval:
+        """Return the n-th power, n an int; DomainError for n < 0 and an interval with 0."""
+        if not isinstance(n, int):
+            return NotImplemented
         if n < 0:
             return 1 / self**-n
         if n == 0:
@@ -255,13 +263,10 @@ class Interval:
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""
         p = self.precision
-        sin_low, cos_low, n_low, top_low = _sincos(self._lo, p)
+        sin_low, cos_low, n_low = tightest.sincos(self._lo, p)
         if self._lo == self._hi:
             return _make(*sin_low, p), _make(*cos_low, p)
-        sin_high, cos_high, bottom_high, n_high = _sincos(self._hi, p)
-        if n_low == top_low == bottom_high == n_high:  # one quadrant: both are monotone
-            sin = _make(*_hull_raw(sin_low, sin_high), p)
-            return sin, _make(*_hull_raw(cos_low, cos_high), p)
+        sin_high, cos_high, n_high = tightest.sincos(self._hi, p)
         sin = _with_extrema(_hull_raw(sin_low, sin_high), n_low, n_high, 1, p)
         return sin, _with_extrema(_hull_raw(cos_low, cos_high), n_low, n_high, 0, p)
 
@@ -274,30 +279,37 @@ class Interval:
         return self.sincos()[1]
 
     def exp(self) -> Interval:
-        """Return exp X."""
-        p = self.precision
-        return _make(_exp(self._lo, p, DOWN), _exp(self._hi, p, UP), p)
+        """Return exp X; OverflowError where the interval reaches beyond +-2^30."""
+        return self._increasing(tightest.exp)
 
     def log(self) -> Interval:
         """Return the natural logarithm; DomainError where the interval reaches 0 or below."""
-        if mpf_cmp(self._lo, fzero) <= 0:
+        if _compare(self._lo, _ZERO) <= 0:
             raise DomainError("log of an interval that reaches 0 or below")
-        p = self.precision
-        return _make(_log(self._lo, p, DOWN), _log(self._hi, p, UP), p)
+        return self._increasing(tightest.log)
+
+    def _increasing(self, function: Callable[[_Raw, int], tuple[_Raw, _Raw]]) -> Interval:
+        low, high = function(self._lo, self.precision)
+        if self._lo != self._hi:
+            _, high = function(self._hi, self.precision)
+        return _make(low, high, self.precision)
 
     # -- comparisons ---------------------------------------------------------------------------
 
     def _ordered(self, value: object, strict: bool) -> bool:
         """Return whether X < Y (X <= Y if not strict) for all pairs; Undecided if some do."""
-        other = self._other(value)
-        if other is None:
-            raise TypeError(f"an Interval cannot be compared with {value!r}")
-        below, above = mpf_cmp(self._hi, other._lo), mpf_cmp(self._lo, other._hi)
+        if isinstance(value, Fraction):
+            below, above = _sign(self.sup - value), _sign(self.inf - value)
+        else:
+            other = self._other(value)
+            if other is None:
+                raise TypeError(f"an Interval cannot be compared with {value!r}")
+            below, above = _compare(self._hi, other._lo), _compare(self._lo, other._hi)
         if below < 0 or (below == 0 and not strict):
             return True
         if above > 0 or (above == 0 and strict):
             return False
-        raise Undecided(f"{self} and {other} overlap")
+        raise Undecided(f"{self} and {self._other(value)} overlap")
 
     def __lt__(self, value: Interval | Fraction | int) -> bool:
         return self._ordered(value, strict=True)
@@ -313,11 +325,11 @@ class Interval:
 
     def is_positive(self) -> bool:
         """Whether every number in the interval is > 0 (False also says: not known)."""
-        return mpf_cmp(self._lo, fzero) > 0
+        return _compare(self._lo, _ZERO) > 0
 
     def is_negative(self) -> bool:
         """Whether every number in the interval is < 0 (False also says: not known)."""
-        return mpf_cmp(self._hi, fzero) < 0
+        return _compare(self._hi, _ZERO) < 0
 
     def __eq__(self, other: object) -> bool:
         """Return equality as sets (IEEE 1788 `equal`), not of the unknown numbers inside."""
@@ -334,14 +346,21 @@ class Interval:
     # -- text ----------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        return f"Interval('{self.inf}', '{self.sup}', precision={self.precision})"
+        """Return what evaluates to an equal interval, given the names Interval and Fraction."""
+        return f"Interval({_literal(self._lo)}, {_literal(self._hi)}, precision={self.precision})"
 
     def __str__(self) -> str:
         digits = max(3, self.precision * 3 // 10)
         return f"[{decimal_down(self.inf, digits)}, {decimal_up(self.sup, digits)}]"
 
     def __reduce__(self) -> tuple[Callable[..., Interval], tuple[Any, ...]]:
-        return _make, (self._lo, self._hi, self.precision)
+        return _restore, (_dyadic(self._lo), _dyadic(self._hi), self.precision)
+
+
+def _checked(precision: int) -> int:
+    if precision < 2:
+        raise ValueError("precision is at least 2 bits")
+    return precision
 
 
 def _make(lo: _Raw, hi: _Raw, precision: int) -> Interval:
@@ -357,10 +376,38 @@ def _round(value: Fraction, precision: int, direction: str) -> _Raw:
     return raw
 
 
+def _dyadic(raw: _Raw) -> tuple[int, int]:
+    """Return (m, e) with raw = m 2^e as Python's ints: gmpy2's integers stay inside."""
+    man = int(raw[1])
+    return -man if raw[0] else man, int(raw[2])
+
+
+def _restore(low: tuple[int, int], high: tuple[int, int], precision: int) -> Interval:
+    """Return the interval with these endpoints m 2^e (for pickle and copy)."""
+    return _make(from_man_exp(*low), from_man_exp(*high), precision)
+
+
 def _fraction(raw: _Raw) -> Fraction:
-    sign, man, exp = int(raw[0]), int(raw[1]), int(raw[2])  # gmpy2's integers stay inside
-    value = Fraction(man << exp) if exp >= 0 else Fraction(man, 1 << -exp)
-    return -value if sign else value
+    man, exp = _dyadic(raw)
+    return Fraction(man << exp) if exp >= 0 else Fraction(man, 1 << -exp)
+
+
+def _literal(raw: _Raw) -> str:
+    """Return Python's text of an endpoint: a string that `fraction` reads, or an expression."""
+    man, exp = _dyadic(raw)
+    if man.bit_length() + abs(exp) < 13_000:  # below 4000 digits
+        return f"'{_fraction(raw)}'"
+    return f"{man:#x} * Fraction(2) ** {exp}"
+
+
+def _compare(x: _Raw, y: _Raw) -> int:
+    """Return a number that has the sign of x - y."""
+    result: int = mpf_cmp(x, y)
+    return result
+
+
+def _sign(value: Fraction) -> int:
+    return (value > 0) - (value < 0)
 
 
 def _power(x: _Raw, n: int, precision: int, direction: str) -> _Raw:
@@ -394,72 +441,13 @@ def _with_extrema(
 ) -> Interval:
     """Add the maximum 1 at m pi/2, m = top mod 4, and the minimum -1 at m = top + 2 mod 4.
 
-    The multiples m pi/2 inside the interval have n_low < m <= n_high.
+    n_low and n_high are the floors of the ends over pi/2, so the multiples m pi/2 inside have
+    n_low < m <= n_high, or are the lower end itself, which is then 0. Between them both functions
+    are monotone.
     """
     low, high = ends
     if (n_high - top) // 4 > (n_low - top) // 4:
-        high = fone
+        high = _ONE
     if (n_high - top - 2) // 4 > (n_low - top - 2) // 4:
         low = _MINUS_ONE
     return _make(low, high, precision)
-
-
-def _fixed_bounds(
-    value: int, error: int, bits: int, precision: int, cap: bool
-) -> tuple[_Raw, _Raw]:
-    """Round (value +- error) / 2^bits outward; with `cap`, not beyond [-1, 1]."""
-    low, high = value - error, value + error
-    if cap:
-        low, high = max(low, -(1 << bits)), min(high, 1 << bits)
-    return (
-        from_man_exp(low, -bits, precision, DOWN),
-        from_man_exp(high, -bits, precision, UP),
-    )
-
-
-def _sincos(
-    x: _Raw, precision: int
-) -> tuple[tuple[_Raw, _Raw], tuple[_Raw, _Raw], int, int]:
-    """Return bounds on sin x and cos x to about `precision` bits each, and the quadrant."""
-    sign, man, exp, size = x
-    if not man:
-        return (fzero, fzero), (fone, fone), 0, 0
-    man = -man if sign else man
-    bits = precision + 10 + max(0, -exp - size)
-    while True:
-        s, c, error, n_low, n_high = sincos_fixed(man, exp, bits)
-        missing = precision + 5 - (min(abs(s), abs(c)) // error).bit_length()
-        if missing <= 0:
-            break
-        bits += missing + 5
-    sin = _fixed_bounds(s, error, bits, precision, cap=True)
-    return sin, _fixed_bounds(c, error, bits, precision, cap=True), n_low, n_high
-
-
-def _exp(x: _Raw, precision: int, direction: str) -> _Raw:
-    sign, man, exp, size = x
-    if not man:
-        return fone
-    if exp + size > 60:
-        raise OverflowError("exp of a number beyond 2^60")
-    bits = precision + 10
-    y, n, error = exp_fixed(-man if sign else man, exp, bits)
-    end = y - error if direction == DOWN else y + error
-    result: _Raw = from_man_exp(end, n - bits, precision, direction)
-    return result
-
-
-def _log(x: _Raw, precision: int, direction: str) -> _Raw:
-    _, man, exp, _ = x
-    if x == fone:
-        return fzero
-    bits = precision + 10
-    while True:
-        y, error = log_fixed(man, exp, bits)
-        missing = precision + 5 - (abs(y) // error).bit_length()
-        if missing <= 0:
-            break
-        bits += missing + 5
-    end = y - error if direction == DOWN else y + error
-    result: _Raw = from_man_exp(end, -bits, precision, direction)
-    return result

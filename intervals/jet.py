@@ -8,7 +8,6 @@ k! c_k. Coefficients may be Intervals, IntervalArrays, Fractions, floats: anythi
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import factorial
 from typing import Any
 
@@ -60,7 +59,7 @@ class Jet:
         return Jet(*(a - b for a, b in zip(*pair, strict=True)))
 
     def __rsub__(self, other: Any) -> Jet:
-        return -self + other
+        return Jet(other - self.coefficients[0], *(-c for c in self.coefficients[1:]))
 
     def __mul__(self, other: Any) -> Jet:
         pair = self._pairs(other)
@@ -82,8 +81,11 @@ class Jet:
         return Jet(*quotient)
 
     def __rtruediv__(self, other: Any) -> Jet:
-        zeros = (c - c for c in self.coefficients[1:])
-        return Jet(other, *zeros) / self
+        b = self.coefficients
+        quotient = [other / b[0]]
+        for k in range(1, len(b)):
+            quotient.append(-_convolution(b, quotient, k, 1) / b[0])
+        return Jet(*quotient)
 
     def sincos(self) -> tuple[Jet, Jet]:
         """Return (sin, cos): s' = c u', c' = -s u', coefficient by coefficient."""
@@ -105,33 +107,33 @@ class Jet:
 
     def exp(self) -> Jet:
         """Return the jet of exp u: y' = y u'."""
-        return self._solve(lambda u0: u0.exp(), lambda slopes, y, k: _convolution(slopes, y, k, 1))
+        u = self.coefficients
+        slopes = [k * u[k] for k in range(len(u))]
+        y = [u[0].exp()]
+        for k in range(1, len(u)):
+            y.append(_convolution(slopes, y, k, 1) / k)
+        return Jet(*y)
 
     def log(self) -> Jet:
-        """Return the jet of log u: y' = u' / u."""
+        """Return the jet of log u: y' u = u'."""
         u = self.coefficients
         y = [u[0].log()]
         for k in range(1, len(u)):
-            known = [j * y[j] for j in range(k)]
-            rest = k * u[k] - sum((known[j] * u[k - j] for j in range(1, k)), start=u[0] - u[0])
+            rest = k * u[k]
+            for j in range(1, k):
+                rest = rest - j * y[j] * u[k - j]
             y.append(rest / u[0] / k)
         return Jet(*y)
 
     def sqrt(self) -> Jet:
-        """Return the jet of sqrt u: 2 y y' = u'."""
+        """Return the jet of sqrt u: y y = u."""
         u = self.coefficients
         y = [u[0].sqrt()]
         for k in range(1, len(u)):
-            inner = sum((y[j] * y[k - j] for j in range(1, k)), start=u[0] - u[0])
-            y.append((u[k] - inner) / (2 * y[0]))
-        return Jet(*y)
-
-    def _solve(self, first: Callable[[Any], Any], step: Callable[[Any, Any, int], Any]) -> Jet:
-        u = self.coefficients
-        slopes = [k * u[k] for k in range(len(u))]
-        y = [first(u[0])]
-        for k in range(1, len(u)):
-            y.append(step(slopes, y, k) / k)
+            rest = u[k]
+            for j in range(1, k):
+                rest = rest - y[j] * y[k - j]
+            y.append(rest / (2 * y[0]))
         return Jet(*y)
 
     def __repr__(self) -> str:

@@ -53,7 +53,7 @@ def newton(
         smaller = image.intersection(box)
         if smaller is None:
             return NewtonResult(Roots.NONE, None, "the Newton image is disjoint from the box")
-        stalled = 4 * smaller.wid > 3 * box.wid
+        stalled = 4 * smaller.wid >= 3 * box.wid
         box = smaller
         if stalled:
             break

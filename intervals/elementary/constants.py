@@ -12,8 +12,8 @@ def _arc(inverse: int, bits: int, sign: int) -> tuple[int, int]:
 
     The series sum_k sign^k / ((2k+1) n^(2k+1)), n >= 2. Each power is the floor of the exact
     one divided once more (nested floors of positive integers are one floor), each term is a
-    further floor: one unit a term at most. The loop ends when the power is below one unit;
-    the tail is then below 1 / (1 - 1/n^2) < 2 units.
+    further floor: one unit a term at most, k units. The loop ends when the power is below one
+    unit; the tail is then below 1 / (1 - 1/n^2) < 2 units.
     """
     power, square = (1 << bits) // inverse, inverse * inverse
     total, k, alternating = 0, 0, 1
@@ -28,10 +28,7 @@ def _arc(inverse: int, bits: int, sign: int) -> tuple[int, int]:
 @lru_cache(maxsize=64)
 def pi_fixed(bits: int) -> int:
     """Return P with P <= pi 2^bits <= P + 1 (Machin: pi/4 = 4 atan 1/5 - atan 1/239)."""
-    guard = 20 + bits.bit_length()
-    a, a_error = _arc(5, bits + guard, -1)
-    b, b_error = _arc(239, bits + guard, -1)
-    return _settle(16 * a - 4 * b, 16 * a_error + 4 * b_error, guard)
+    return _settle(((16, 5), (-4, 239)), -1, bits)
 
 
 @lru_cache(maxsize=64)
@@ -40,19 +37,24 @@ def log2_fixed(bits: int) -> int:
 
     log 2 = 18 atanh 1/26 - 2 atanh 1/4801 + 8 atanh 1/8749.
     """
-    guard = 20 + bits.bit_length()
-    values = [_arc(n, bits + guard, 1) for n in (26, 4801, 8749)]
-    total = sum(weight * value for weight, (value, _) in zip((18, -2, 8), values, strict=True))
-    error = sum(weight * e for weight, (_, e) in zip((18, 2, 8), values, strict=True))
-    return _settle(total, error, guard)
+    return _settle(((18, 26), (-2, 4801), (8, 8749)), 1, bits)
 
 
-def _settle(value: int, error: int, guard: int) -> int:
-    """Return the floor of the true value / 2^guard, which [value - error, value + error] decides.
+def _settle(terms: tuple[tuple[int, int], ...], sign: int, bits: int) -> int:
+    """Return floor(c 2^bits), where c is the sum of weight * atan(1/n), or atanh if sign = +1.
 
-    The guard bits make an undecided floor an event of odds 2^-guard * error; it raises.
+    With g guard bits c 2^(bits + g) lies in [total - error, total + error]. If the floors of both
+    over 2^g are equal, they are the floor wanted. If not (the odds are error 2^-g), g is doubled;
+    this ends, since c is irrational.
     """
-    low, high = (value - error) >> guard, (value + error) >> guard
-    if low != high:
-        raise ArithmeticError("the guard bits do not decide the last digit of a constant")
-    return low
+    guard = 20 + bits.bit_length()
+    while True:
+        total = error = 0
+        for weight, inverse in terms:
+            value, units = _arc(inverse, bits + guard, sign)
+            total += weight * value
+            error += abs(weight) * units
+        low, high = (total - error) >> guard, (total + error) >> guard
+        if low == high:
+            return low
+        guard *= 2

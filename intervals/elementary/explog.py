@@ -4,14 +4,18 @@ from intervals.elementary.constants import log2_fixed
 
 
 def exp_fixed(man: int, exp: int, bits: int) -> tuple[int, int, int]:
-    """Return (Y, n, E): |exp(x) / 2^n 2^bits - Y| <= E for x = man 2^exp, and 1/2 < Y/2^bits < 2.
+    """Return (Y, n, E): |exp(x) / 2^n 2^bits - Y| <= E for x = man 2^exp, 1/2 <= Y / 2^bits < 2.
 
-    Proof. With L <= log(2) 2^w <= L + 1 and w = v + size, size the bit length of the integer
-    part of |x|: n = round(x / log 2) and r = x - n log 2, |r| < 0.35, known to
-    (1 + |n|) / 2^size + 1 <= 4 units at v bits. Halved k times: 5 units of argument, which
-    exp multiplies by less than 2. Taylor's series loses 2 units a term (each term has error
-    at most (0.35 e + 1) / 1 + 1 < 4, the sum of the geometric tail one unit). A squaring of
-    y <= 1.5 with error e makes at most 3 e + e^2 + 1 <= 4 e + 1 units.
+    Proof. |x| < 2^(size-1), size >= 1; v = bits + 12 + 2h, h >= 2 the number of halvings;
+    w = v + size. L <= log(2) 2^w <= L + 1, X = floor(x 2^w), n = round(X / L), so that
+    |n| <= 0.73 2^size + 0.51. X - n L errs as 2^w (x - n log 2) by at most 1 + |n|; the shift
+    divides this by 2^(size+h) and rounds down: r = (x - n log 2) 2^(v-h) / 2^v is known to 2 units,
+    |r| <= 0.3467 / 4 < 0.09, and exp makes less than 3 of them.
+    Taylor: from a term with error e the next one has error at most (0.09 e + 1) / 2 + 1 < 2 units.
+    The last one computed is 0 or -1, the true one at most 3 units, the tail below one. So
+    e_0 <= 3 + 2 k + 1 <= 4 k + 10. A squaring of y <= 1.2 with an error of e <= 2^v units makes of
+    it at most 2.4 e + e + 1 <= 4 e + 1: e_h <= 4^h (e_0 + 1/3) < 4^h (4 k + 11), which is at most
+    2^v because 4 k + 11 <= 2^(bits + 12): every term has three bits less than the one before.
     """
     halvings = max(2, int(bits**0.5) // 2)
     size = max(0, man.bit_length() + exp) + 1
@@ -37,12 +41,13 @@ def exp_fixed(man: int, exp: int, bits: int) -> tuple[int, int, int]:
 def log_fixed(man: int, exp: int, bits: int) -> tuple[int, int]:
     """Return (Y, E): |log(x) 2^bits - Y| <= E for x = man 2^exp > 0.
 
-    Proof. x = m 2^n with 2/3 < m < 4/3 (2^-0.58, 2^0.42); log m = 2 atanh z,
-    z = (m - 1) / (m + 1), |z| <= 1/5. z is one floor of an exact quotient (1 unit), which
-    atanh and the factor 2 make at most 3. Each term z^(2k+1) / (2k+1) errs by at most two
-    units (the power by (e |z|^2 + 2 |z|^2 + 1) <= 1.2, the quotient by 1), doubled 4 units a
-    term; the tail is below the last power, one unit, times 1/24. n log 2 errs by |n| units at
-    the working precision, which has size(n) guard bits.
+    Proof. x = m 2^n with 2/3 <= m < 4/3; log m = 2 atanh z, z = (m - 1) / (m + 1), |z| <= 1/5.
+    z is one floor of an exact quotient (1 unit), which atanh and the factor 2 make at most 3.
+    From a power with error e the next one has error at most 0.04 e + |z| + 1 <= 1.25 units, and
+    the quotient by k = 3, 5, ... at most 0.42 + 1 < 2. Doubled 4 units a term, and there are
+    (k - 1) / 2 of them: 2 k in all. The last power computed is 0 or -1, the true one at most 2.25
+    units; the tail, less than 1/24 of it, is below one unit doubled. n log 2 errs by at most |n|
+    units at v bits, of which as many as n has are spare.
     """
     size = man.bit_length()
     n = size + exp

@@ -33,35 +33,38 @@ def main(arguments: list[str] | None = None) -> int:
 
 def check_file(path: Path) -> int:
     """Check one file, print a line a claim; return its exit status."""
+    name = str(path) if str(path).isprintable() else ascii(str(path))
     try:
         report = check(read(path))
     except Malformed as error:
-        print(f"{path}: malformed: {error}", file=sys.stderr)
+        print(f"{name}: malformed: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"{path}: cannot be read: {error.strerror or error}", file=sys.stderr)
+        print(f"{name}: cannot be read: {error.strerror or error}", file=sys.stderr)
         return 2
     except Rejected as error:
-        print(f"{path}: REJECTED: {error}", file=sys.stderr)
+        print(f"{name}: REJECTED: {error}", file=sys.stderr)
         return 1
-    print_report(path, report)
+    print_report(name, report)
     return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
 
 
 def read(path: Path) -> str:
     """Return a file's text; Malformed if it is too large or no UTF-8."""
-    if path.stat().st_size > MAX_BYTES:
+    with path.open("rb") as file:
+        content = file.read(MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
         raise Malformed(f"$: larger than {MAX_BYTES} bytes")
     try:
-        return path.read_text(encoding="utf-8")
+        return content.decode()
     except UnicodeDecodeError:
         raise Malformed("$: not a text file") from None
 
 
-def print_report(path: Path, report: Report) -> None:
+def print_report(name: str, report: Report) -> None:
     """Print what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
-    print(f"{path}: accepted, {whose}")
+    print(f"{name}: accepted, {whose}")
     for claim in report.claims:
         print(f"  {claim.id:4} {claim.verdict.value:9} {claim.statement} [{claim.why}]")
     if report.theorem is not None:

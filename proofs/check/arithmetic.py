@@ -90,6 +90,8 @@ class Enclosure:
         return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
 
     def __pow__(self, n: int) -> Enclosure:
+        if n < 1:
+            raise ValueError("only positive powers are needed")
         result = self
         for _ in range(n - 1):
             result = result * self

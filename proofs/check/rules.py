@@ -6,17 +6,19 @@ A rule's docstring is its theorem. Conclusions are recomputed from exact data by
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
-from proofs.facts import Parameters, PointFact, Range, SlopeRange
+from proofs.facts import TURN, Parameters, PointFact, Range, SlopeRange
 from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
 
 COVER_BITS = 64
-_MAX_BITS = 2000
+_MAX_BITS = 4000
 _LATEST = 10**6
+_ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,14 @@ Conclusion = FirstImpact | SlopeRange | Avoids | PointFact | MoranRoot
 Known = dict[str, Conclusion]
 
 
+def _phases(reader: Reader) -> Range:
+    """Read an interval of phases from 0 to 2 pi."""
+    low, high = reader.range()
+    if low < 0 or high > TURN:
+        raise reader.fail("phases lie between 0 and 2 pi")
+    return low, high
+
+
 def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}.
 
@@ -105,14 +115,14 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     times = times_of.numbers(least=2)
     if times[-1] > _LATEST:
         raise times_of.fail(f"times beyond {_LATEST} are not examined")
-    if any(now <= before for before, now in zip((Fraction(0), *times), times, strict=False)):
+    if any(now <= before for before, now in zip((_ZERO, *times), times, strict=False)):
         raise times_of.fail("times must increase from 0")
     # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
-    shortest = min(now - before for before, now in zip((Fraction(0), *times), times, strict=False))
+    shortest = min(now - before for before, now in zip((_ZERO, *times), times, strict=False))
     bits = min(_MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, phases_of.range(), bits)
+    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, _phases(phases_of), bits)
     start = motion.start()
-    before, value = Fraction(0), None
+    before, value = _ZERO, None
     windows: list[Range] = []
     for now in times:
         acceleration = motion.gap(start, (before, now), 2)
@@ -121,7 +131,7 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
             if acceleration.lo <= 0:
                 raise Unproved("the launches are not proved to leave the table")
         else:
-            bend = max(0, acceleration.range[1]) * (now - before) ** 2 / 8
+            bend = max(_ZERO, acceleration.range[1]) * (now - before) ** 2 / 8
             if min(value.range[0], following.range[0]) <= bend:
                 begin = windows.pop()[0] if windows and windows[-1][1] == before else before
                 windows.append((begin, now))
@@ -168,14 +178,22 @@ def _bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
     return inner
 
 
+def _turns(count: int, bits: int) -> Range:
+    """Enclose count 2 pi."""
+    return (pi(bits) * (2 * count)).range
+
+
 def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
-    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi)."""
-    low, high = (pi(bits) * 2).range
+    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi).
+
+    The upper end may lie beyond 2 pi.
+    """
     total = phase + time[0]
-    turns = total // low
-    if total < turns * high:  # the multiple is not decided: take the smaller one
-        turns -= 1
-    return phase + time[0] - turns * high, phase + time[1] - turns * low
+    count = total // _turns(1, bits)[0]
+    if total < _turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
+        count -= 1
+    low, high = _turns(count, bits)
+    return total - high, phase + time[1] - low
 
 
 def point(of: Parameters, known: Known, reader: Reader) -> PointFact:
@@ -211,16 +229,11 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
         motion = _bracketed(_transversal(known, flight, phases), phases, time.range())
         low, high = motion.curvature(time.range()).range
         width = right.phase - left.phase
+        fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
         pieces.append(
             (
-                max(
-                    left.slope[0] + min(0, low) * width,
-                    right.slope[0] - max(0, high) * width,
-                ),
-                min(
-                    left.slope[1] + max(0, high) * width,
-                    right.slope[1] - min(0, low) * width,
-                ),
+                max(left.slope[0] + fall, right.slope[0] - rise),
+                min(left.slope[1] + rise, right.slope[1] - fall),
             )
         )
     return SlopeRange(
@@ -238,9 +251,7 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
     for every k. Conclusion: no phase of the union has its first impact in the target.
     """
     flights_of, target_of = reader.fields("flights", "target")
-    target = target_of.range()
-    if not 0 <= target[0] <= target[1] < 7:
-        raise target_of.fail("a target is an interval of phases from 0 to 2 pi")
+    target = _phases(target_of)
     steps: list[FirstImpact] = []
     for name in flights_of.items(least=1):
         step = known.get(name.string())
@@ -257,15 +268,15 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
 
 def _meets(phases: Range, time: Range, target: Range) -> bool:
     """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
-    low, high = (pi(COVER_BITS) * 2).range
     arrival = (phases[0] + time[0], phases[1] + time[1])
-    turns = arrival[0] // low - 1
-    while turns * low + target[0] <= arrival[1]:  # arrival times are positive: turns >= -1
-        lower, upper = sorted((turns * low, turns * high))
-        if not (arrival[1] < lower + target[0] or upper + target[1] < arrival[0]):
+    count = arrival[0] // _turns(1, COVER_BITS)[0] - 1  # target + 2 pi k for lower k lies before
+    while True:
+        low, high = _turns(count, COVER_BITS)
+        if arrival[1] < low + target[0]:
+            return False
+        if arrival[0] <= high + target[1]:
             return True
-        turns += 1
-    return False
+        count += 1
 
 
 def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
@@ -287,7 +298,7 @@ def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
     return MoranRoot((ratios[0], ratios[1]), root)
 
 
-RULES = {
+RULES: dict[str, Callable[[Parameters, Known, Reader], Conclusion]] = {
     "first-impact": first_impact,
     "point": point,
     "slope-range": slope_range,

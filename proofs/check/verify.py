@@ -83,6 +83,8 @@ def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
         rule = RULES.get(rule_of.string())
         if rule is None:
             raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
+        if name in RULES:
+            raise step.fail("a step is not named like a rule")
         try:
             known[name] = rule(of, known, witness)
         except Unproved as error:
@@ -100,15 +102,13 @@ def _closure(steps_of: Reader, used: set[str]) -> set[str]:
 
 
 def _facts(of: Parameters, conclusions: Iterable[Conclusion]) -> Facts:
-    """Collect what the steps prove about one set of parameters."""
+    """Collect what the steps prove about one set of parameters, points aside."""
     facts = Facts()
     for step in conclusions:
         if isinstance(step, SlopeRange):
             facts.add_slopes(of, step)
         elif isinstance(step, Avoids):
             facts.add_avoided(of, step.phases, step.target)
-        elif isinstance(step, PointFact):
-            facts.points.append(step)
         elif isinstance(step, MoranRoot):
             facts.add_root(of, step.ratios, step.root)
     return facts
@@ -126,16 +126,20 @@ def _check_claim(
     if statement.string() != STATEMENTS[claim].says(of):
         raise Rejected(f"{statement.path}: this is not what {claim} says at these parameters")
     facts = _facts(of, _named(known, proof, used))
+    alone, _ = decide(claim, of, facts)
     if not witness.is_null():
         _take_witness(witness, facts, known, proof)
     verdict, why = decide(claim, of, facts)
     if verdict_of.string() != verdict.value:
         raise Rejected(
-            f"{verdict_of.path}: {claim} is given as {verdict_of.string()[:20]}, "
+            f"{verdict_of.path}: {claim} is given as {verdict_of.string()[:20]!r}, "
             f"its proof makes it {verdict.value} ({why})"
         )
-    if not corrected.is_null() and corrected.string() != theorem_text:
-        raise Rejected(f"{corrected.path}: not the corrected theorem that was proved")
+    if not witness.is_null() and verdict is alone and verdict is not Verdict.UNDECIDED:
+        raise Rejected(f"{witness.path}: a witness that the verdict does not rest on")
+    correction = theorem_text if verdict is Verdict.REFUTED else None
+    if not corrected.is_null() and corrected.string() != correction:
+        raise Rejected(f"{corrected.path}: not a proved correction of a refuted claim")
     _check_quantities(claim, facts, bounds)
     return Checked(claim, verdict, STATEMENTS[claim].says(of), why)
 
@@ -152,6 +156,7 @@ def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) ->
         raise name.fail("names no point step of this proof")
     if step.phase != phase.number():
         raise phase.fail("is not the phase of that step")
+    facts.points.append(step)
 
 
 def _named(known: Known, names: Reader, used: set[str]) -> list[Conclusion]:
@@ -182,6 +187,8 @@ def _check_corrected(paper: Parameters, known: Known, corrected: Reader, used: s
     of = parameters_from_json(parameters_of)
     if (of.eta, of.nu) != (paper.eta, paper.nu):
         raise Rejected(f"{parameters_of.path}: a correction is about the same eta and nu")
+    if of.ratios is not None or of.printed_s0 is not None:
+        raise Rejected(f"{parameters_of.path}: a correction proves nothing about s_0")
     facts = _facts(of, _named(known, proof, used))
     if of.slopes[0] <= 1:
         raise Rejected(f"{parameters_of.path}: the corrected slopes do not expand")

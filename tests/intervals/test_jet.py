@@ -1,0 +1,265 @@
+"""Jets against sympy's derivatives and Arb's power series, over several number types."""
+
+from fractions import Fraction
+from functools import lru_cache, reduce
+from math import comb, factorial
+
+import flint
+import pytest
+import sympy
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import intervals
+from intervals import Interval, Jet
+from intervals.array import IntervalArray
+from tests.intervals import oracle
+from tests.intervals.boxes import inside
+
+ORDER = 6
+
+
+def variable(x, order=ORDER):
+    """The jet of the variable itself, at x, in the number type of x."""
+    return Jet(x, x * 0 + 1, *(x * 0 for _ in range(order - 1)))
+
+
+# -- over Fractions: exact -------------------------------------------------------------------------
+
+RATIONAL_FUNCTIONS = {
+    "sum": lambda x: 3 + x - 2 * x + (x + 1) - (1 - x),
+    "product": lambda x: (x * x - 2) * (3 * x * x * x + x) * 5,
+    "quotient": lambda x: (x * x * x + 1) / (x * x - 2 * x + 7),
+    "reciprocal": lambda x: 1 / (x * x + 2),
+    "constants": lambda x: (7 - x) / 3 + 2 / (x + 9) - (-x) * 4,
+    "nested": lambda x: 1 / (2 + 1 / (x * x + 3)),
+}
+
+
+@lru_cache
+def derivatives(name):
+    """The derivatives of order 0, 1, ... as quotients of integer polynomials, from sympy."""
+    x = sympy.Symbol("x")
+    f, result = RATIONAL_FUNCTIONS[name](x), []
+    for _ in range(ORDER + 1):
+        f = sympy.cancel(f)
+        parts = (sympy.Poly(part, x).all_coeffs() for part in sympy.fraction(f))
+        result.append([[int(c) for c in part] for part in parts])
+        f = sympy.diff(f, x)
+    return result
+
+
+def at(polynomial, x):
+    return reduce(lambda total, c: total * x + c, polynomial)
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.sampled_from(sorted(RATIONAL_FUNCTIONS)), st.fractions(-2, 2, max_denominator=50))
+def test_rational_functions_have_sympys_derivatives(name, x):
+    jet = RATIONAL_FUNCTIONS[name](variable(x))
+    assert jet.order == ORDER
+    assert jet.value == jet.coefficients[0] == RATIONAL_FUNCTIONS[name](x)
+    for k, (numerator, denominator) in enumerate(derivatives(name)):
+        assert jet.derivative(k) * at(denominator, x) == at(numerator, x)
+
+
+@pytest.mark.parametrize("order", range(ORDER + 1))
+def test_powers_of_a_geometric_series(order):
+    one = Jet(*(Fraction(int(k < 2) * (-1) ** k) for k in range(order + 1)))  # 1 - x at 0
+    series = 1 / one
+    assert series.coefficients == (1,) * (order + 1)
+    assert (series * series).coefficients == tuple(k + 1 for k in range(order + 1))
+    assert (series / one / one).coefficients == tuple(comb(k + 2, 2) for k in range(order + 1))
+    assert [series.derivative(k) for k in range(order + 1)] == [
+        factorial(k) for k in range(order + 1)
+    ]
+    assert series.derivative(0) == 1
+
+
+coefficients = st.lists(st.fractions(-3, 3, max_denominator=20), min_size=1, max_size=ORDER + 1)
+
+
+@settings(deadline=None, max_examples=50)
+@given(coefficients, coefficients)
+def test_operations_truncate_to_the_shorter_order(a, b):
+    x, y, n = Jet(*a), Jet(*b), min(len(a), len(b))
+    assert (x + y).coefficients == tuple(s + t for s, t in zip(a, b, strict=False))
+    assert (x - y).coefficients == tuple(s - t for s, t in zip(a, b, strict=False))
+    assert (x * y).coefficients == tuple(
+        sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(n)
+    )
+    assert (-x).coefficients == tuple(-s for s in a)
+    assert (x + y).order == (x * y).order == n - 1
+    assume(b[0])
+    assert ((x / y) * y).coefficients == tuple(a[:n])
+    assert (1 / y).order == y.order
+    assert (1 / y * y).coefficients == (1, *(0 for _ in b[1:]))
+
+
+@settings(deadline=None, max_examples=50)
+@given(coefficients, st.fractions(-3, 3, max_denominator=20) | st.integers(-5, 5))
+def test_constants_are_jets_without_slope(a, c):
+    x, constant = Jet(*a), Jet(Fraction(c), *(Fraction(0) for _ in a[1:]))
+    for left, right in (
+        (x + c, x + constant),
+        (c + x, constant + x),
+        (x - c, x - constant),
+        (c - x, constant - x),
+        (x * c, x * constant),
+        (c * x, constant * x),
+    ):
+        assert left.coefficients == right.coefficients
+    if c:
+        assert (x / c).coefficients == (x / constant).coefficients
+    if a[0]:
+        assert (c / x).coefficients == (constant / x).coefficients
+
+
+def test_the_text_names_the_coefficients():
+    assert repr(Jet(1, Fraction(1, 2))) == "Jet(1, Fraction(1, 2))"
+
+
+# -- over Intervals: containment of Arb's series at points inside ----------------------------------
+
+FUNCTIONS = {
+    "sin": lambda x: x.sin(),
+    "cos": lambda x: x.cos(),
+    "exp": lambda x: x.exp(),
+    "log": lambda x: (x * x + 1).log(),
+    "sqrt": lambda x: (x * x + 2).sqrt(),
+    "quotient": lambda x: x / (x * x + 1),
+    "reciprocal": lambda x: 1 / (x * x + 3),
+    "chain": lambda x: (x.sin() * 2 + x * x).cos(),
+    "mixture": lambda x: (x.exp() + 1).log() * (x.cos() + 2).sqrt() / (2 + (x * 3).sin()) - 5 * x,
+    "growth": lambda x: ((x.sin() + 2).log() * x).exp(),
+}
+
+
+def series(name, point, bits):
+    """The ends of the Taylor coefficients at a point, from Arb's power series."""
+    with flint.ctx.workprec(bits):
+        x = flint.arb_series([oracle.arb(point), 1], prec=ORDER + 1)
+        cap, flint.ctx.cap = flint.ctx.cap, ORDER + 1
+        try:
+            y = FUNCTIONS[name](x)
+        finally:
+            flint.ctx.cap = cap
+        return [oracle.ends(y[k]) for k in range(ORDER + 1)]
+
+
+def check_jet(jet, name, point, bits):
+    assert jet.order == ORDER
+    for k, (low, high) in enumerate(series(name, point, 2 * bits + 100)):
+        assert jet.coefficients[k].inf <= high and low <= jet.coefficients[k].sup
+        derivative = jet.derivative(k)
+        assert derivative.inf <= high * factorial(k) and low * factorial(k) <= derivative.sup
+
+
+@settings(deadline=None, max_examples=50)
+@given(
+    st.data(),
+    st.sampled_from(sorted(FUNCTIONS)),
+    st.fractions(-3, 3, max_denominator=100),
+    st.sampled_from([Fraction(0), Fraction(1, 10**6), Fraction(1, 100), Fraction(1, 4)]),
+    st.sampled_from([20, 53, 113, 300]),
+)
+def test_jets_of_intervals_contain_the_series_at_every_point(data, name, low, width, precision):
+    box = Interval(low, low + width, precision=precision)
+    jet = FUNCTIONS[name](variable(box))
+    check_jet(jet, name, data.draw(inside(low, low + width)), precision)
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+@pytest.mark.parametrize("precision", [53, 400])
+def test_jets_at_a_point_are_nearly_exact(name, precision):
+    for point in (Fraction(-5, 4), Fraction(0), Fraction(3, 8)):
+        jet = FUNCTIONS[name](variable(Interval(point, precision=precision)))
+        check_jet(jet, name, point, precision)
+        assert all(c.wid <= Fraction(1, 2 ** (precision - 16)) for c in jet.coefficients)
+
+
+def test_slopes_over_wide_intervals_are_those_of_the_formulas():
+    u = Interval(1, 2)
+    x = variable(u, 2)
+    for jet, slope in (
+        (x.sqrt(), 1 / (2 * u.sqrt())),
+        (x.log(), 1 / u),
+        (x.exp(), u.exp()),
+        (x.sin(), u.cos()),
+        (x.cos(), -u.sin()),
+        (1 / x, -(1 / u) / u),
+        (3 - x, Interval(-1)),
+    ):
+        assert jet.derivative() == slope
+    assert x.log().coefficients[2].inf >= -1
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.integers(0, ORDER), st.fractions(Fraction(1, 4), 4, max_denominator=50))
+def test_inverse_pairs(order, point):
+    x = variable(Interval(point, precision=200), order)
+    x = Jet(*x.coefficients[: order + 1])
+    sin, cos = x.sincos()
+    for jet, expected in (
+        (x.exp().log(), x),
+        (x.log().exp(), x),
+        (x.sqrt() * x.sqrt(), x),
+        (sin * sin + cos * cos, x * 0 + 1),
+        (x.sin() - sin, x * 0),
+        (intervals.cos(x) - cos, x * 0),
+    ):
+        assert jet.order == order
+        for a, b in zip(jet.coefficients, expected.coefficients, strict=True):
+            assert a.intersection(b) is not None
+            assert a.wid < Fraction(1, 2**150)
+
+
+def test_functions_keep_the_order():
+    for order in range(ORDER + 1):
+        x = Jet(*[Interval(2)] * (order + 1))
+        for name in ("sin", "cos", "exp", "log", "sqrt"):
+            assert getattr(x, name)().order == order
+
+
+# -- over IntervalArrays ---------------------------------------------------------------------------
+
+
+def member(array, index):
+    return Interval(Fraction(float(array.inf[index])), Fraction(float(array.sup[index])))
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+def test_jets_of_interval_arrays_contain_the_series(name):
+    lower = [-2.5, -1.0, -0.125, 0.0, 0.75, 3.0]
+    upper = [-2.5, -0.9375, 0.125, 0.0, 0.8125, 3.25]
+    jet = FUNCTIONS[name](variable(IntervalArray.from_floats(lower, upper)))
+    for index, (low, high) in enumerate(zip(lower, upper, strict=True)):
+        part = Jet(*(member(c, index) for c in jet.coefficients))
+        for point in {Fraction(low), Fraction(high), (Fraction(low) + Fraction(high)) / 2}:
+            check_jet(part, name, point, 53)
+
+
+def test_jets_take_interval_arrays_and_intervals_as_constants():
+    array = IntervalArray.from_floats([1.0, 2.0])
+    x = variable(array)
+    for jet in (
+        x + array,
+        array + x,
+        x * array,
+        array * x,
+        x - array,
+        array - x,
+        array / x,
+        x / array,
+    ):
+        assert isinstance(jet, Jet) and jet.coefficients[0].shape == (2,)
+    assert (array - x).coefficients[0].contains(0).all()
+    assert (array / x).coefficients[0].contains(1).all()
+    assert (array * x).coefficients[0].contains(IntervalArray([1, 4])).all()
+    third = Interval(Fraction(1, 3))
+    y = variable(Interval(3))
+    for jet in (third * y, y * third):
+        assert isinstance(jet, Jet)
+        assert jet.value.contains(1) and jet.derivative().contains(third)
+    assert (third - y).value.contains(Fraction(-8, 3))
+    assert (third / y).value.contains(Fraction(1, 9))
