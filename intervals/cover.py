@@ -37,4 +37,4 @@ def cover(
         else:
             yield part, answer
     if waiting:
-        raise Undecided(f"{limit} parts do not suffice; the next one is {waiting[-1]}")
+        raise Undecided(f"{limit} parts do not suffice; {len(waiting)} or more are left")

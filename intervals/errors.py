@@ -9,5 +9,5 @@ class DomainError(IntervalError):
     """An argument leaves the natural domain of the function: division by 0, log of -1."""
 
 
-class Undecided(IntervalError):  # noqa: N818 (a public name: it is an outcome, not a fault)
+class Undecided(IntervalError):
     """A comparison or a proof step that the enclosures at hand do not decide."""

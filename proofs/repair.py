@@ -5,7 +5,7 @@ Candidates only: floating point finds them, `proofs.horseshoe` proves or discard
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -56,7 +56,10 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
                     yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
 
 
-def _covers(ends: list[Fraction], image) -> bool:  # type: ignore[no-untyped-def]
+def _covers(
+    ends: list[Fraction], image: Callable[[Fraction], tuple[float, float] | None]
+) -> bool:
+    """Whether, in floating point, f is expanding and increasing at the ends and covers I."""
     targets = (ends[0], ends[3], ends[0], ends[3])
     for index, (end, target) in enumerate(zip(ends, targets, strict=True)):
         found = image(end)

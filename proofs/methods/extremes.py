@@ -11,6 +11,7 @@ from intervals import DomainError, Interval, Undecided
 from intervals.cover import cover
 
 Range = tuple[Fraction, Fraction]
+_MOST_PIECES = 400
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ def extremes(
     if that does not end.
     """
     known: dict[Fraction, Interval] = {}
+    low, high = points[0], points[-1]
 
     def at(x: Fraction) -> Interval:
         if x not in known:
@@ -82,6 +84,9 @@ def extremes(
         return (piece[0], middle), (middle, piece[1])
 
     pieces = list(pairwise(points))
-    done = list(cover(pieces, decide, split, limit=400))
+    try:
+        done = list(cover(pieces, decide, split, limit=_MOST_PIECES))
+    except Undecided as failure:
+        raise Undecided(f"extremes over [{float(low):.9g}, {float(high):.9g}]: {failure}") from None
     ends = (*(low for (low, _), _ in done), points[-1])
     return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

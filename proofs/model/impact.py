@@ -65,7 +65,8 @@ class Flight:
 
     def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
         """Enclose a time derivative of the gap over all launches and the times given."""
-        return gap(self.start, self.clock(low, high), order)  # type: ignore[no-any-return]
+        value: Interval = gap(self.start, self.clock(low, high), order)
+        return value
 
     def velocity(self, low: Fraction, high: Fraction) -> Interval:
         """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
@@ -78,7 +79,8 @@ class Flight:
 
     def slope(self, time: Range) -> Interval:
         """Enclose f' over all launches, impact times in `time`."""
-        return slope(self.start, self.clock(*time))  # type: ignore[no-any-return]
+        value: Interval = slope(self.start, self.clock(*time))
+        return value
 
     def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
         """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ..."""
