@@ -5,6 +5,11 @@ from typing import TypeVar
 
 from intervals.errors import Undecided
 
+
+class PartsExhausted(Undecided):
+    """A cover was not finished within its limit."""
+
+
 _Part = TypeVar("_Part")
 _Answer = TypeVar("_Answer")
 
@@ -20,7 +25,7 @@ def cover(
 
     Hypothesis: the union of split(part) contains the part. Conclusion: the union of what was
     yielded contains the union of `parts`, and `decide` answered each. A part that it does not
-    answer (None) is split; after `limit` decisions the error Undecided names the part at hand,
+    answer (None) is split; after `limit` decisions PartsExhausted names the part at hand,
     so an incomplete cover is never taken for a cover.
     """
     waiting = list(parts)[::-1]
@@ -37,4 +42,4 @@ def cover(
         else:
             yield part, answer
     if waiting:
-        raise Undecided(f"{limit} parts do not suffice; {len(waiting)} or more are left")
+        raise PartsExhausted(f"{limit} parts do not suffice; the next one is {waiting[-1]}")

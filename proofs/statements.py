@@ -174,14 +174,17 @@ def _short_preimages(of: Parameters, facts: Facts) -> Outcome:
     return _undecided(f"f' >= {floor_text(least)} only")
 
 
+def _last_place(printed: str) -> Fraction:
+    """Return the unit of the last place of a decimal; 0 for a fraction, which is exact."""
+    return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
+
+
 def _rounds_to(value: Fraction, printed: str) -> bool:
-    places = len(printed.partition(".")[2])
-    return abs(value - Fraction(printed)) * 2 * 10**places < 1
+    return 2 * abs(value - Fraction(printed)) < _last_place(printed)
 
 
 def _truncates_to(value: Fraction, printed: str) -> bool:
-    places = len(printed.partition(".")[2])
-    return 0 <= value - Fraction(printed) < Fraction(1, 10**places)
+    return 0 <= value - Fraction(printed) < _last_place(printed)
 
 
 def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
@@ -222,10 +225,10 @@ def _gap_function(of: Parameters, facts: Facts) -> Outcome:
     del facts  # exact arithmetic on the ratios decides
     if max(of.moran_ratios) >= 1:
         return Verdict.REFUTED, "there is no s_0 > 0"
-    excess = 1 - sum(of.moran_ratios)
-    if excess <= 0:
+    total = of.moran_ratios[0] + of.moran_ratios[1]
+    if total >= 1:
         return Verdict.REFUTED, "eta0 + eta1 >= 1, so s_0 >= 1 and q does not decrease"
-    return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = {show(1 - excess)} < 1"
+    return Verdict.VERIFIED, f"0 < s_0 < 1, because eta0 + eta1 = {show(total)} < 1"
 
 
 def _base(ratio: Fraction) -> str:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import DomainError, Interval, Undecided
-from intervals.cover import cover
+from intervals.cover import PartsExhausted, cover
 
 Range = tuple[Fraction, Fraction]
 _MOST_PIECES = 400
@@ -86,7 +86,8 @@ def extremes(
     pieces = list(pairwise(points))
     try:
         done = list(cover(pieces, decide, split, limit=_MOST_PIECES))
-    except Undecided as failure:
-        raise Undecided(f"extremes over [{float(low):.9g}, {float(high):.9g}]: {failure}") from None
+    except PartsExhausted:
+        where = f"[{float(low):.9g}, {float(high):.9g}]"
+        raise Undecided(f"{_MOST_PIECES} pieces of {where} do not suffice") from None
     ends = (*(low for (low, _), _ in done), points[-1])
     return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

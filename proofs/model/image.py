@@ -117,7 +117,8 @@ def image(
 
 def _agree(bounds: Range, digits: int) -> bool:
     """Whether two bounds are equal to `digits` significant digits."""
-    return (bounds[1] - bounds[0]) * 10**digits <= min(abs(bounds[0]), abs(bounds[1]))
+    allowed = min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
+    return bounds[1] - bounds[0] <= allowed
 
 
 def _bits(digits: int, attempt: int) -> int:

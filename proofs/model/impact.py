@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from intervals import Interval, Jet, Undecided
-from intervals.cover import cover
+from intervals.cover import PartsExhausted, cover
 from intervals.newton import Roots, newton
 from proofs.methods.extremes import piece_range
 from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
@@ -271,7 +271,10 @@ def cover_by(
             raise Undecided(f"{obstacle} near phase {float(part[0]):.9g}")
         return None
 
-    return [found for _, found in cover([phases], decide, halves, limit=limit)]
+    try:
+        return [found for _, found in cover([phases], decide, halves, limit=limit)]
+    except PartsExhausted:
+        raise Undecided(f"{limit} parts of {_name(phases)} do not suffice") from None
 
 
 def steps_for(phases: Range) -> Fraction:
