@@ -27,7 +27,7 @@ _RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
 _DECIMAL = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 
 
-class Malformed(ValueError):  # noqa: N818 (reads as what the file is)
+class Malformed(ValueError):
     """The file is not a certificate of this schema; the message starts with the JSON path."""
 
 

@@ -16,6 +16,9 @@ from intervals import fraction
 from proofs.statements import Verdict
 
 USAGE_ERROR = 2
+_DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
+_LARGEST = 10**_DIGITS
+_LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
 class Parser(argparse.ArgumentParser):
@@ -38,9 +41,12 @@ class Parser(argparse.ArgumentParser):
 def number(text: str) -> Fraction:
     """Read an exact number for argparse."""
     try:
-        return fraction(text)
+        value = fraction(text)
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
+    if max(abs(value.numerator), value.denominator) >= _LARGEST:
+        raise argparse.ArgumentTypeError(f"more than {_DIGITS} digits: {text[:20]}...")
+    return value
 
 
 def digits(text: str) -> int:
@@ -50,11 +56,13 @@ def digits(text: str) -> int:
     return int(text)
 
 
-def positive(text: str) -> Fraction:
-    """Read a positive exact number for argparse."""
+def horizon(text: str) -> Fraction:
+    """Read the longest flight looked at, for argparse."""
     value = number(text)
-    if value <= 0:
-        raise argparse.ArgumentTypeError(f"a positive number is expected, not {text!r}")
+    if not 0 < value <= _LONGEST_FLIGHT:
+        raise argparse.ArgumentTypeError(
+            f"a horizon is a positive number up to {_LONGEST_FLIGHT}, not {text!r}"
+        )
     return value
 
 

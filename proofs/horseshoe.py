@@ -15,7 +15,7 @@ from time import perf_counter
 from proofs.certificate import Malformed, render, write_atomically
 from proofs.check.__main__ import read
 from proofs.check.verify import Rejected, check
-from proofs.cli import Parser, coloured, digits, number, positive, progress
+from proofs.cli import Parser, coloured, digits, horizon, number, progress
 from proofs.facts import PAPER, Parameters, show
 from proofs.model.impact import HORIZON
 from proofs.plastic import CLAIMS, Outcome, printed, prove
@@ -88,7 +88,7 @@ def _parser() -> Parser:
     )
     add("--only", nargs="+", choices=CLAIMS, metavar="ID", help=f"claims, of {' '.join(CLAIMS)}")
     add("--digits", type=digits, default=30, help="significant digits of the numbers (default 30)")
-    add("--horizon", type=positive, default=HORIZON, help="longest flight looked at (default 1000)")
+    add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")

@@ -14,7 +14,7 @@ from typing import Any
 
 from intervals import IntervalError, Undecided, decimal_bounds
 from proofs.certificate import write_atomically
-from proofs.cli import Parser, digits, number, positive
+from proofs.cli import Parser, digits, horizon, number
 from proofs.facts import TURN, Range, show
 from proofs.model.image import Image, PossibleImages, image
 from proofs.model.impact import HORIZON, NoImpact
@@ -75,7 +75,7 @@ def _parser() -> Parser:
     add("--nu", type=number, required=True, help="-beta / p, not 0: negative for a table below")
     add("--phi", type=number, nargs="+", required=True, metavar="A [B]", help="launch phase(s)")
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
-    add("--horizon", type=positive, default=HORIZON, help="longest flight looked at (default 1000)")
+    add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
     add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
     return parser
 

@@ -154,6 +154,8 @@ class _Run:
         if verdict is Verdict.UNDECIDED:
             parts = ["slopes"] * (claim in _NEEDS_SLOPES) + ["gap"] * (claim in _NEEDS_GAP)
             why = "; ".join([why] + [self.failures[x] for x in parts if x in self.failures])
+        if verdict is not Verdict.REFUTED:
+            witness = None
         row = Row(claim, verdict, why, quantities(claim, facts), perf_counter() - began)
         return row, {
             "id": claim,

@@ -56,9 +56,7 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
                     yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
 
 
-def _covers(
-    ends: list[Fraction], image: Callable[[Fraction], tuple[float, float] | None]
-) -> bool:
+def _covers(ends: list[Fraction], image: Callable[[Fraction], tuple[float, float] | None]) -> bool:
     """Whether, in floating point, f is expanding and increasing at the ends and covers I."""
     targets = (ends[0], ends[3], ends[0], ends[3])
     for index, (end, target) in enumerate(zip(ends, targets, strict=True)):

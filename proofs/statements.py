@@ -102,37 +102,42 @@ def _gap_escapes(of: Parameters, facts: Facts) -> Outcome:
     return _undecided("no proof that the first impacts of the gap avoid I, and no witness")
 
 
+def _short(index: int, of: Parameters, facts: Facts) -> bool:
+    """Whether f(I_i) is proved shorter than the circle, by the bounds on f'."""
+    low, high = (of.left, of.right)[index]
+    steepest = max(-facts.slope_min[index][0], facts.slope_max[index][1])
+    return steepest * (high - low) < TURN
+
+
 def image_arcs(of: Parameters, facts: Facts) -> list[tuple[Range, Range] | None]:
     """Return for I0 and I1 the ends (lower, upper) of the arc f(I_i), None where not proved.
 
     Where f' has one sign on I_i and f(I_i) is shorter than the circle, f(I_i) is the arc
-    between the images of the ends, in the order of that sign.
+    between the images of the ends, in the order of that sign. The enclosures of these must lie
+    in [0, 2 pi): only there does their order tell whether the arc passes phase 0.
     """
     arcs: list[tuple[Range, Range] | None] = []
-    for index, domain in enumerate((of.left, of.right)):
-        if index not in facts.images:
-            arcs.append(None)
+    for index in (0, 1):
+        arcs.append(None)
+        if index not in facts.images or not _short(index, of, facts):
             continue
-        least, greatest = facts.slope_min[index][0], facts.slope_max[index][1]
-        short = max(abs(least), abs(greatest)) * (domain[1] - domain[0]) < TURN
         ends = facts.images[index]
-        if short and least > 0:
-            arcs.append(ends)
-        elif short and greatest < 0:
-            arcs.append((ends[1], ends[0]))
-        else:
-            arcs.append(None)
+        if max(top for _, top in ends) >= TURN:
+            continue
+        if facts.slope_min[index][0] > 0:
+            arcs[-1] = ends
+        elif facts.slope_max[index][1] < 0:
+            arcs[-1] = ends[1], ends[0]
     return arcs
 
 
 def _disjoint(arc: tuple[Range, Range], interval: Range) -> bool:
-    """Whether an arc shorter than the circle misses an interval of [0, 2 pi).
+    """Whether an arc of `image_arcs` misses an interval of [0, 2 pi).
 
-    From phase u up to phase v, where u < v < 2 pi, such an arc is [u, v].
+    From phase u up to phase v, where u < v, such an arc is [u, v].
     """
     (bottom, lowest), (highest, top) = arc
-    simple = lowest < highest and top < TURN
-    return simple and (interval[1] < bottom or top < interval[0])
+    return lowest < highest and (interval[1] < bottom or top < interval[0])
 
 
 def _two_preimages(of: Parameters, facts: Facts) -> Outcome:
@@ -169,6 +174,8 @@ def _short_preimages(of: Parameters, facts: Facts) -> Outcome:
     if not facts.slopes_known:
         return _undecided(_NO_SLOPES)
     least = min(low for low, _ in facts.slope_min.values())
+    if least > bound and not all(_short(index, of, facts) for index in (0, 1)):
+        return _undecided("an image may be longer than the circle, a preimage in several pieces")
     if least > bound:
         return Verdict.VERIFIED, f"each is at most |J| / {floor_text(least)} long"
     return _undecided(f"f' >= {floor_text(least)} only")
@@ -183,17 +190,20 @@ def _rounds_to(value: Fraction, printed: str) -> bool:
     return 2 * abs(value - Fraction(printed)) < _last_place(printed)
 
 
-def _truncates_to(value: Fraction, printed: str) -> bool:
-    return 0 <= value - Fraction(printed) < _last_place(printed)
-
-
 def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
-    """Return whether the printed digits are the root's, (rounded, truncated); None: undecided."""
-    answers = []
-    for holds in (_rounds_to, _truncates_to):
-        ends = {holds(end, printed) for end in root}
-        answers.append(ends.pop() if len(ends) == 1 and root[1] - root[0] < 1 else None)
-    return answers[0], answers[1]
+    """Return whether the printed digits are the root's, (rounded, truncated); None: undecided.
+
+    Rounded they stand for the numbers within half a unit of the last place, truncated for those
+    from the printed one on, up to a unit more: decided where the bracket is inside or outside.
+    """
+    (low, high), value, unit = root, Fraction(printed), _last_place(printed)
+    nearest: bool | None = (value - unit / 2 < low and high < value + unit / 2) or None
+    if high <= value - unit / 2 or low >= value + unit / 2:
+        nearest = False
+    first: bool | None = (value <= low and high < value + unit) or None
+    if high < value or low >= value + unit:
+        first = False
+    return nearest, first
 
 
 def _moran_root(of: Parameters, facts: Facts) -> Outcome:
@@ -273,7 +283,11 @@ STATEMENTS = {
         Statement(
             "H2", _AT + "f' <= {hi} on the interiors of I0 = {i0} and I1 = {i1}.", _upper_slope
         ),
-        Statement("H3", _AT + "f is increasing on I0 = {i0} and on I1 = {i1}.", _increasing),
+        Statement(
+            "H3",
+            _AT + "f, lifted to a continuous function, increases on I0 = {i0} and on I1 = {i1}.",
+            _increasing,
+        ),
         Statement("H4", _AT + "f(phi) is outside I = {i} for every phi in {gap}.", _gap_escapes),
         Statement(
             "H5",

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 
-class Unproved(ArithmeticError):  # noqa: N818 (an outcome: the step proves nothing)
+class Unproved(ArithmeticError):
     """A hypothesis of a rule could not be established."""
 
 

@@ -50,6 +50,13 @@ class Motion:
         value = gap(start, self.clock(time), order)
         return value if isinstance(value, Enclosure) else rational(Fraction(value), self.bits)
 
+    def falls(self, start: Launch, time: Range) -> bool:
+        """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
+        width = time[1] - time[0]
+        bend = self.gap(start, time, 2).range
+        first, last = (self.gap(start, (t, t), 1).range[1] for t in time)
+        return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
+
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
         value: Enclosure = slope(self.start(), self.clock(time))
@@ -139,7 +146,7 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     if value is None or value.hi >= 0:
         raise Unproved("the gap is not proved negative at the last time")
     single = len(windows) == 1 and windows[0][1] == times[-1]
-    return FirstImpact(motion, tuple(windows), single and motion.gap(start, windows[0], 1).hi < 0)
+    return FirstImpact(motion, tuple(windows), single and motion.falls(start, windows[0]))
 
 
 def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:
@@ -171,11 +178,15 @@ def _bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
     window, motion = step.windows[0], step.motion
     if time[0] < window[0] or time[1] > window[1]:
         raise Unproved("a bracket leaves the window of the first impact")
-    inner = Motion(motion.side, motion.eta, motion.nu, phases, _bits_for(time))
-    start = inner.start()
-    if inner.gap(start, (time[0], time[0])).lo <= 0 or inner.gap(start, (time[1], time[1])).hi >= 0:
-        raise Unproved("a bracket does not have the signs +, - at its ends")
-    return inner
+    bits = _bits_for(time)
+    for factor in (1, 2, 4):  # a slow impact needs more
+        precision = min(factor * bits, _MAX_BITS)
+        inner = Motion(motion.side, motion.eta, motion.nu, phases, precision)
+        start = inner.start()
+        low, high = (inner.gap(start, (t, t)) for t in time)
+        if low.lo > 0 > high.hi:
+            return inner
+    raise Unproved("a bracket does not have the signs +, - at its ends")
 
 
 def _turns(count: int, bits: int) -> Range:

@@ -18,7 +18,7 @@ from proofs.facts import PAPER, Facts, Parameters, PointFact, SlopeRange
 from proofs.statements import HORSESHOE, STATEMENTS, Verdict, decide, quantities, theorem
 
 
-class Rejected(ValueError):  # noqa: N818 (the outcome of a check)
+class Rejected(ValueError):
     """The certificate is well-formed and does not prove what it says."""
 
 

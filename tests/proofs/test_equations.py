@@ -1,9 +1,9 @@
 """The shared equations against the paper's, typed by hand, by exact symbolic identities."""
 
 import sympy
-from intervals import Jet
 from mpmath import mpf
 
+from intervals import Jet
 from proofs.model.equations import (
     clock,
     gap,
@@ -37,9 +37,7 @@ def vanishes(expression):
         names[sympy.sin(angle)], names[sympy.cos(angle)] = s, c
     polynomial = sympy.together(expanded.subs(names))
     numerator = sympy.numer(polynomial)
-    relations = [
-        names[sympy.sin(a)] ** 2 + names[sympy.cos(a)] ** 2 - 1 for a in (phi, t, eta * t)
-    ]
+    relations = [names[sympy.sin(a)] ** 2 + names[sympy.cos(a)] ** 2 - 1 for a in (phi, t, eta * t)]
     assert not numerator.has(sympy.sin) and not numerator.has(sympy.cos)
     variables = [*names.values(), eta, nu, epsilon, gamma]
     return sympy.reduced(sympy.expand(numerator), relations, *variables)[1] == 0
@@ -85,7 +83,9 @@ def test_launch_acceleration_vanishes_at_the_paper_s_separation_phase():
     acceleration = launch_acceleration(launch(1, eta, nu, phi))
     sine = eta**2 / (nu * (1 - eta**2))
     assert sympy.simplify(acceleration.subs(sympy.sin(phi), sine)) == 0
-    assert vanishes(acceleration - sympy.diff(gap(launch(1, eta, nu, phi), clock(eta, t)), t, 2).subs(t, 0))
+    assert vanishes(
+        acceleration - sympy.diff(gap(launch(1, eta, nu, phi), clock(eta, t)), t, 2).subs(t, 0)
+    )
 
 
 def test_slope_formula_is_implicit_differentiation():

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from intervals import Interval, Undecided
 
+from intervals import Interval, Undecided
 from proofs.methods.extremes import extremes, piece_range
 
 

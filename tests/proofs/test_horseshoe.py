@@ -11,10 +11,10 @@ import pytest
 from flint import arb, ctx
 
 from proofs import horseshoe
+from proofs.certificate import render
 from proofs.check.verify import check
 from proofs.facts import PAPER
 from proofs.plastic import CLAIMS, prove
-from proofs.certificate import render
 from proofs.statements import Verdict
 from tests.proofs import reference
 
@@ -52,14 +52,23 @@ def brute(phi):
 def test_numbers_against_brute_force_at_the_ends(outcome):
     """f' increases on I0 and I1 (certified separately), so its extremes are at the ends."""
     found = {name: pair for row in outcome.rows for name, pair in row.quantities.items()}
-    for name, phi in (("left_I0", "1.11"), ("right_I0", "1.15"), ("left_I1", "1.27"), ("right_I1", "1.32")):
+    for name, phi in (
+        ("left_I0", "1.11"),
+        ("right_I0", "1.15"),
+        ("left_I1", "1.27"),
+        ("right_I1", "1.32"),
+    ):
         side, which = name.split("_")
         image, slope = brute(phi)
         low, high = found[f"image_{name}"]
-        assert abs(image - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -30
+        assert (
+            abs(image - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -30
+        )
         assert high - low < Fraction(1, 10**30)
         low, high = found[f"slope_{'min' if side == 'left' else 'max'}_{which}"]
-        assert abs(slope - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -13
+        assert (
+            abs(slope - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -13
+        )
         assert high - low < Fraction(1, 10**30)
 
 
@@ -69,7 +78,11 @@ def test_slopes_inside_stay_between_the_extremes(outcome):
         for k in range(1, 6):
             phi = str(Fraction(ends[0] + (ends[1] - ends[0]) * k // 6, 1000))
             _, slope = brute(reference.mpf(Fraction(phi).numerator) / Fraction(phi).denominator)
-            assert float(found[f"slope_min_{which}"][0]) < slope < float(found[f"slope_max_{which}"][1])
+            assert (
+                float(found[f"slope_min_{which}"][0])
+                < slope
+                < float(found[f"slope_max_{which}"][1])
+            )
 
 
 def test_moran_root_against_flint(outcome):
@@ -109,8 +122,12 @@ def test_the_corrected_sets_are_right_by_brute_force():
 
 
 def test_the_corrected_sets_verify_as_they_are(outcome):
-    again = prove(replace(outcome.corrected, ratios=None), [c for c in CLAIMS if c < "H11" or c == "H6"])
-    assert all(row.verdict is Verdict.VERIFIED for row in again.rows if row.id not in ("H11", "H16"))
+    again = prove(
+        replace(outcome.corrected, ratios=None), [c for c in CLAIMS if c < "H11" or c == "H6"]
+    )
+    assert all(
+        row.verdict is Verdict.VERIFIED for row in again.rows if row.id not in ("H11", "H16")
+    )
     assert again.corrected is None
 
 
@@ -141,7 +158,8 @@ def test_digits_asked_for_are_certified_and_checked(digits):
         {"eta": Fraction("0.2125")},
         {"eta": Fraction("0.212")},
         {"nu": Fraction("0.2")},
-        {"left": (Fraction("1.16"), Fraction("1.2")), "interval": (Fraction("1.16"), Fraction("1.32"))},
+        {"left": (Fraction("1.16"), Fraction("1.2")),
+         "interval": (Fraction("1.16"), Fraction("1.32"))},
         {"left": (Fraction(4), Fraction("4.5")), "right": (Fraction(5), Fraction("5.5")),
          "interval": (Fraction(4), Fraction("5.5"))},
     ],
@@ -211,6 +229,8 @@ BAD = [
     (["--digits", "many"], "whole number"),
     (["--digits", "0"], "whole number"),
     (["--horizon", "-3"], "positive"),
+    (["--horizon", "1e7"], "up to 1000000"),
+    (["--eta", "0." + "1" * 200], "more than 190 digits"),
 ]
 
 
@@ -259,7 +279,9 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
 
 
 def test_undecided_is_status_1(tmp_path):
-    status = horseshoe.main(["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H2", "--out", str(tmp_path)])
+    status = horseshoe.main(
+        ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H2", "--out", str(tmp_path)]
+    )
     assert status == 1
 
 

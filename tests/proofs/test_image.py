@@ -4,9 +4,9 @@ import random
 from fractions import Fraction
 
 import pytest
-from intervals import Undecided
 from mpmath import mpf
 
+from intervals import Undecided
 from proofs.model.image import Image, PossibleImages, image, separation_phase
 from proofs.model.impact import NoImpact
 from proofs.model.system import System
@@ -29,7 +29,21 @@ def point(system, phi, **options):
 
 CASES = [
     ("0.2121", "-0.2", phi)
-    for phi in ("0", "0.5", "1.11", "1.15", "1.2", "1.27", "1.32", "1.45", "2", "3", "3.37", "6.05", "6.2")
+    for phi in (
+        "0",
+        "0.5",
+        "1.11",
+        "1.15",
+        "1.2",
+        "1.27",
+        "1.32",
+        "1.45",
+        "2",
+        "3",
+        "3.37",
+        "6.05",
+        "6.2",
+    )
 ] + [
     ("0.2121", "0.2", "0.7"),
     ("0.2121", "0.2", "1.5"),
@@ -114,7 +128,9 @@ def test_an_interval_contains_the_images_of_its_points():
         assert holds(found.flight, flight, slack) and holds(found.phase, phase, slack)
     ends = [point(PAPER, x) for x in (low, high)]
     assert found.phase[0] <= ends[0].phase[1] and ends[1].phase[0] <= found.phase[1]
-    assert found.phase[1] - found.phase[0] < ends[1].phase[1] - ends[0].phase[0] + Fraction(1, 10**29)
+    assert found.phase[1] - found.phase[0] < ends[1].phase[1] - ends[0].phase[0] + Fraction(
+        1, 10**29
+    )
 
 
 def test_a_grazing_phase_inside_gives_the_set_of_possible_images():
@@ -146,11 +162,17 @@ def test_the_onset_of_sticking_is_refused():
 
 def test_next_to_the_onset_of_sticking_the_flight_is_short():
     """There f(phi) = phi + t with t about 3 (phi_e - phi), so f' tends to -2."""
-    onset = reference.mp.pi + (2 * reference.mp.pi - reference.separation_phase(mpf("0.2121"), mpf("-0.2")))
+    onset = reference.mp.pi + (
+        2 * reference.mp.pi - reference.separation_phase(mpf("0.2121"), mpf("-0.2"))
+    )
     phi = Fraction(str(onset - mpf(10) ** -9)).limit_denominator(10**15)
     found = point(PAPER, phi, digits=10)
     distance = onset - number(phi)
-    assert holds((found.flight[0] - Fraction(1, 10**16), found.flight[1] + Fraction(1, 10**16)), 3 * distance, mpf(10) ** -16)
+    assert holds(
+        (found.flight[0] - Fraction(1, 10**16), found.flight[1] + Fraction(1, 10**16)),
+        3 * distance,
+        mpf(10) ** -16,
+    )
     assert abs(number(found.slope[0]) + 2) < mpf(10) ** -7
 
 

@@ -26,7 +26,9 @@ def test_a_point_has_the_digits_asked_for(capsys):
 
 def test_an_interval_and_a_sticking_phase(capsys):
     found = answer(capsys, "--phi", "1.11", "1.15")
-    assert Fraction(found["phase"]["lower"]) < Fraction("1.1292") < Fraction(found["phase"]["upper"])
+    assert (
+        Fraction(found["phase"]["lower"]) < Fraction("1.1292") < Fraction(found["phase"]["upper"])
+    )
     stuck = answer(capsys, "--phi", "4.64")
     assert stuck["sticking"] is True and stuck["slope"] == {"lower": "0", "upper": "0"}
     assert set(stuck["dwell"]) == {"lower", "upper"}
