@@ -206,6 +206,15 @@ def parameters_from_json(reader: Reader) -> Parameters:
     return parameters
 
 
+def used_steps(steps: Reader, named: set[str]) -> set[str]:
+    """Return the names given and those of all steps that these need; steps name earlier ones."""
+    reached = set(named)
+    for name, step in reversed(list(steps.members())):
+        if name in reached:
+            reached.update(step.mentioned())
+    return reached
+
+
 def write_atomically(path: Path, content: str) -> None:
     """Write a file whole or not at all: a temporary file beside it, then a rename."""
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -17,8 +17,10 @@ from typing import Any, TypeVar
 from intervals import DomainError, Undecided, decimal_bounds
 from proofs.certificate import (
     SCHEMA,
+    Reader,
     parameters_to_json,
     texts,
+    used_steps,
 )
 from proofs.facts import Facts, Parameters, PointFact, Range, SlopeRange
 from proofs.model.candidate import next_impact
@@ -128,46 +130,47 @@ class _Run:
     def claim(self, claim: str) -> tuple[Row, dict[str, Any]]:
         """Decide one claim at the printed sets; return its row and its certificate entry."""
         began = perf_counter()
-        facts, slopes, gaps = self.facts(self.of)
-        proof: list[str] = []
+        facts, proof = self.evidence(claim)
         witness: dict[str, Any] | None = None
-        if claim in _NEEDS_SLOPES:
-            proof += slopes
-        if claim == "H5":
-            facts.missed = missed_interval(self.of, facts)
-            witness = {"interval": texts(facts.missed)} if facts.missed else None
-        if claim in _NEEDS_GAP and witness is None:
-            proof += gaps
-        if claim == "H11" and max(self.of.moran_ratios) < 1 and max(self.of.reciprocals) < 1:
-            for ratios in dict.fromkeys((self.of.moran_ratios, self.of.reciprocals)):
-                name, bracket = self.prover.root(ratios)
-                facts.add_root(self.of, ratios, bracket)
-                proof.append(name)
+        if facts.missed is not None:
+            witness = {"interval": texts(facts.missed)}
         verdict, why = decide(claim, self.of, facts)
-        if verdict is Verdict.UNDECIDED:
-            found = self.witness(claim)
-            if found is not None:
-                proof, witness = [found[0]], {"point": found[0], "phase": str(found[1].phase)}
-                proof += slopes if claim in _NEEDS_SLOPES else []
-                facts.points.append(found[1])
-                verdict, why = decide(claim, self.of, facts)
+        point = self.witness(claim) if verdict is Verdict.UNDECIDED else None
+        if point is not None:
+            name, fact = point
+            facts.points.append(fact)
+            proof, witness = [name, *proof], {"point": name, "phase": str(fact.phase)}
+            verdict, why = decide(claim, self.of, facts)
         if verdict is Verdict.UNDECIDED:
             parts = ["slopes"] * (claim in _NEEDS_SLOPES) + ["gap"] * (claim in _NEEDS_GAP)
             why = "; ".join([why] + [self.failures[x] for x in parts if x in self.failures])
-        if verdict is not Verdict.REFUTED:
-            witness = None
         row = Row(claim, verdict, why, quantities(claim, facts), perf_counter() - began)
         return row, {
             "id": claim,
             "statement": STATEMENTS[claim].says(self.of),
             "verdict": verdict.value,
             "proof": proof,
-            "witness": witness,
+            "witness": witness if verdict is Verdict.REFUTED else None,
             "corrected": None,
             "quantities": {
                 name: printed(bounds, self.prover.digits) for name, bounds in row.quantities.items()
             },
         }
+
+    def evidence(self, claim: str) -> tuple[Facts, list[str]]:
+        """Return the facts that a claim rests on, and the names of the steps that prove them."""
+        facts, slopes, gaps = self.facts(self.of)
+        proof = slopes if claim in _NEEDS_SLOPES else []
+        if claim == "H5":
+            facts.missed = missed_interval(self.of, facts)
+        if claim in _NEEDS_GAP and facts.missed is None:
+            proof = proof + gaps
+        if claim == "H11" and max(*self.of.moran_ratios, *self.of.reciprocals) < 1:
+            for ratios in dict.fromkeys((self.of.moran_ratios, self.of.reciprocals)):
+                name, bracket = self.prover.root(ratios)
+                facts.add_root(self.of, ratios, bracket)
+                proof = [*proof, name]
+        return facts, proof
 
     def witness(self, claim: str) -> tuple[str, PointFact] | None:
         """Look for one phase that refutes a claim, by candidates, and prove it."""
@@ -265,18 +268,24 @@ def prove(
     sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
     if needs_slopes and not run.prove_slopes(*sets):
         run.prove_slopes(of)
-    if needs_gap and not any(run.suspects("H4")) and not run.prove_gap(*sets):
+    if needs_gap and next(run.suspects("H4"), None) is None and not run.prove_gap(*sets):
         run.prove_gap(of)
     decided = [run.claim(claim) for claim in wanted]
     refuted = [entry for row, entry in decided if is_repairable(row)]
     correction = run.correction() if refuted else None
     for entry in refuted:
         entry["corrected"] = correction and correction[1]["theorem"]
+    entries = [entry for _, entry in decided]
+    named = {name for entry in entries for name in entry["proof"]}
+    if correction is not None:
+        named.update(correction[1]["proof"])
+    steps = run.prover.steps
+    needed = used_steps(Reader(steps), named)
     certificate = {
         "schema": SCHEMA,
         "parameters": parameters_to_json(of),
-        "steps": run.prover.steps,
-        "claims": [entry for _, entry in decided],
+        "steps": {name: step for name, step in steps.items() if name in needed},
+        "claims": entries,
         "corrected": correction and correction[1],
     }
     return Outcome(of, [row for row, _ in decided], correction and correction[0], certificate)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from proofs.certificate import SCHEMA, Reader, parameters_from_json, parse
+from proofs.certificate import SCHEMA, Reader, parameters_from_json, parse, used_steps
 from proofs.check.arithmetic import Unproved
 from proofs.check.rules import (
     RULES,
@@ -70,7 +70,7 @@ def check(source: str) -> Report:
     ]
     if len({claim.id for claim in claims}) != len(claims):
         raise claims_of.fail("a claim appears twice")
-    unused = sorted(set(known) - _closure(steps_of, used))
+    unused = sorted(set(known) - used_steps(steps_of, used))
     if unused:
         raise steps_of.fail(f"steps that nothing uses: {', '.join(unused)[:80]}")
     return Report(parameters, tuple(claims), theorem_text)
@@ -90,15 +90,6 @@ def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
         except Unproved as error:
             raise Rejected(f"{step.path}: {error}") from None
     return known
-
-
-def _closure(steps_of: Reader, used: set[str]) -> set[str]:
-    """Return the steps used, and the steps that these name."""
-    reached = set(used)
-    for name, step in reversed(list(steps_of.members())):
-        if name in reached:
-            reached.update(step.mentioned())
-    return reached
 
 
 def _facts(of: Parameters, conclusions: Iterable[Conclusion]) -> Facts:
