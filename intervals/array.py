@@ -30,10 +30,6 @@ if TYPE_CHECKING:
 Mask = NDArray[np.bool_]
 Operand: TypeAlias = "IntervalArray | Interval | Fraction | int"
 
-# Once glibc has freed 16 MB at a time, it keeps up to 32 MB for reuse (mallopt(3), dynamic mmap
-# threshold). Temporaries then cost no page faults: sin is twice as fast. Elsewhere no effect.
-np.empty(1 << 21)
-
 
 class IntervalArray:
     """An array of sets {x real : inf <= x <= sup}, with finite binary64 `inf <= sup` elementwise.

@@ -29,6 +29,9 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 CHUNK = 32768  # boxes x times at once: the temporaries (24 bytes each) stay in the cache
+# glibc returns a freed block of this size to the system once, and from then on keeps smaller ones
+# for reuse (mallopt(3), dynamic mmap threshold), so that temporaries cost no page faults.
+_KEPT = 1 << 19
 _TIGHT = 2.0**-48  # the first attempt at half the relative width of a time bracket
 _ATTEMPTS = 12
 
@@ -105,27 +108,27 @@ def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
     grid = np.array([0.0, *times])
     if not (grid.size > 1 and np.isfinite(grid).all() and (np.diff(grid) > 0.0).all()):
         raise ValueError("the times must be finite, positive and increasing, and at least one")
-    at_ends, bends = _forms(launches.system, grid)
+    pieces = grid.size - 1
+    by_lift, by_rate, rest = _forms(launches.system, grid)
     lift, rate = launches.start.lift, launches.start.rate
-    size = max(1, CHUNK // (grid.size - 1))
+    size = max(1, CHUNK // (2 * pieces))
+    np.empty(_KEPT)
     for begin in range(0, len(launches.phases), size):
         part = slice(begin, begin + size)
-        of_phase = lift[part], rate[part]
-        low = bilinear(at_ends[:2], of_phase, at_ends[2]).inf
-        bend = bilinear(bends[:2], of_phase, bends[2])
-        high = bend.sup
+        values = bilinear((by_lift, by_rate), (lift[part], rate[part]), rest)
+        low, bend = values[:pieces].inf, values[pieces:]
         _require(launches, bend[:1].certainly_positive(), begin, _STICKS)
         _require(launches, low > 0.0, begin, _NOT_EXCLUDED)
-        _require(launches, np.minimum(low[:-1], low[1:]) > high[1:], begin, _NOT_EXCLUDED)
+        _require(launches, np.minimum(low[:-1], low[1:]) > bend.sup[1:], begin, _NOT_EXCLUDED)
 
 
 _Form = tuple[IntervalArray, IntervalArray, IntervalArray]
 
 
-def _forms(system: System, grid: Floats) -> tuple[_Form, _Form]:
-    """Return the gap at the times t_1, ..., and w^2/8 gap'' on the pieces between, as forms.
+def _forms(system: System, grid: Floats) -> _Form:
+    """Return the gap at the n times t_1, ..., then w^2/8 gap'' on the n pieces between, as forms.
 
-    A form is A, B, D, shape (n,) each, that stand for lift A + rate B + D.
+    A form is A, B, D, shape (2 n,) each, that stand for lift A + rate B + D.
     """
     n, points = grid.size - 1, IntervalArray.from_floats(grid)
     ends_and_pieces = IntervalArray.from_floats(
@@ -134,8 +137,12 @@ def _forms(system: System, grid: Floats) -> tuple[_Form, _Form]:
     now = clock(system.eta, ends_and_pieces)
     weights = (points[1:] - points[:-1]) ** 2 / 8
     at_ends = _form(system, Clock(*(x[:n] for x in now)), 0)
-    a, b, d = _form(system, Clock(*(x[n:] for x in now)), 2)
-    return at_ends, (a * weights, b * weights, d * weights)
+    bends = _form(system, Clock(*(x[n:] for x in now)), 2)
+    a, b, d = (
+        IntervalArray.concatenate([end, bend * weights])
+        for end, bend in zip(at_ends, bends, strict=True)
+    )
+    return a, b, d
 
 
 def _form(system: System, now: Clock, order: int) -> _Form:
