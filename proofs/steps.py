@@ -21,10 +21,9 @@ from proofs.model.impact import (
     cover_by_impacts,
     impact_time,
     locate,
-    misses,
-    phase_after,
     time_range,
 )
+from proofs.model.phase import misses, phase_after
 from proofs.model.system import System
 
 

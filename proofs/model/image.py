@@ -9,24 +9,23 @@ from fractions import Fraction
 
 from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, newton
+from proofs.facts import Range
 from proofs.methods.extremes import extremes
 from proofs.model.equations import launch, launch_acceleration
+from proofs.model.flight import Flight
 from proofs.model.impact import (
     HORIZON,
     FirstImpact,
-    Flight,
     NoImpact,
-    Range,
     cover_by_impacts,
     first_impact,
     halves,
     impact_time,
     locate,
-    phase_after,
     steps_for,
     time_range,
-    turn,
 )
+from proofs.model.phase import phase_after, turn
 from proofs.model.system import System
 
 _ATTEMPTS = 6

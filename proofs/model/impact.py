@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from intervals import Interval, Jet, Undecided
+from intervals import Interval, Undecided
 from intervals.cover import PartsExhausted, cover
 from intervals.newton import Roots, newton
-from proofs.methods.extremes import piece_range
-from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.facts import Range
+from proofs.model.equations import launch_acceleration
+from proofs.model.flight import Flight
 from proofs.model.system import System
 
-Range = tuple[Fraction, Fraction]
 HORIZON = Fraction(1000)
 _TINIEST = Fraction(1, 2**200)
 
@@ -25,74 +25,6 @@ class NoImpact(Undecided):
 
 class Sticks(Undecided):
     """All phases of a set stick to the table first: their flights start elsewhere."""
-
-
-@dataclass(frozen=True)
-class Flight:
-    """All flights that start at a phase of `phases`, evaluated at `precision` bits.
-
-    `separating` asserts that every launch acceleration is known to be >= 0 from elsewhere, as
-    it is at the separation phase, where it vanishes.
-    """
-
-    system: System
-    phases: Range
-    precision: int = 64
-    separating: bool = False
-
-    @cached_property
-    def eta(self) -> Interval:
-        """The frequency ratio at this precision."""
-        return Interval(self.system.eta, precision=self.precision)
-
-    @cached_property
-    def phi(self) -> Interval:
-        """The launch phases at this precision."""
-        return Interval(*self.phases, precision=self.precision)
-
-    @cached_property
-    def start(self) -> Launch:
-        """The launch states."""
-        return self._launch(self.phi)
-
-    def _launch(self, phi: Interval | Jet) -> Launch:
-        nu = Interval(self.system.nu, precision=self.precision)
-        return launch(self.system.side, self.eta, nu, phi)
-
-    def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
-        """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
-        return clock(self.eta, Interval(low, high, precision=self.precision))
-
-    def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
-        """Enclose a time derivative of the gap over all launches and the times given."""
-        value: Interval = gap(self.start, self.clock(low, high), order)
-        return value
-
-    def velocity(self, low: Fraction, high: Fraction) -> Interval:
-        """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
-
-        Over a short time this is much narrower than gap' evaluated on the interval, which
-        cancels where the launch is close to sticking or the impact close to grazing.
-        """
-        bend = self.gap(low, high, order=2)
-        return piece_range(self.gap(low, order=1), self.gap(high, order=1), bend, high - low)
-
-    def slope(self, time: Range) -> Interval:
-        """Enclose f' over all launches, impact times in `time`."""
-        value: Interval = slope(self.start, self.clock(*time))
-        return value
-
-    def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
-        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ..."""
-        first = self.slope(time)
-        one = Interval(1, precision=self.precision)
-        along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
-        return first, slope(self._launch(Jet(self.phi, one)), along).derivative()
-
-    @property
-    def leaves(self) -> bool:
-        """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
-        return self.separating or launch_acceleration(self.start).is_positive()
 
 
 @dataclass(frozen=True)
@@ -337,26 +269,3 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     if not (flight.gap(low).is_positive() and flight.gap(high).is_negative()):
         raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high
-
-
-def turn(precision: int) -> Interval:
-    """Enclose 2 pi."""
-    return Interval.pi(precision=precision) * 2
-
-
-def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
-    """Enclose phase + time mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
-    whole = turn(precision)
-    turns = (phase + time[0]) // whole.sup
-    return phase + time[0] - turns * whole.sup, phase + time[1] - turns * whole.inf
-
-
-def misses(arrival: Range, target: Range) -> bool:
-    """Whether arrival times are proved to be at no phase of `target`, a part of [0, 2 pi)."""
-    low, high = phase_after(Fraction(0), arrival, 64)
-    whole = turn(64)
-    if high - low >= whole.inf:
-        return False
-    return not any(
-        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1)
-    )

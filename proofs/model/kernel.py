@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 from intervals import IntervalArray, Jet, Undecided
 from intervals.bilinear import bilinear
 from intervals.rounding import float_down, float_up
+from proofs.facts import Range
 from proofs.model.candidate import next_impact
 from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
-from proofs.model.impact import HORIZON, FirstImpact, Range, cover_by_impacts
+from proofs.model.impact import HORIZON, FirstImpact, cover_by_impacts
 from proofs.model.system import System
 
 Floats = NDArray[np.float64]

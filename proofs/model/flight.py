@@ -1,0 +1,81 @@
+"""All flights that start in a set of phases: the equations, enclosed in any precision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from intervals import Interval, Jet
+from proofs.facts import Range
+from proofs.methods.extremes import piece_range
+from proofs.model.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.model.system import System
+
+
+@dataclass(frozen=True)
+class Flight:
+    """All flights that start at a phase of `phases`, evaluated at `precision` bits.
+
+    `separating` asserts that every launch acceleration is known to be >= 0 from elsewhere, as
+    it is at the separation phase, where it vanishes.
+    """
+
+    system: System
+    phases: Range
+    precision: int = 64
+    separating: bool = False
+
+    @cached_property
+    def eta(self) -> Interval:
+        """The frequency ratio at this precision."""
+        return Interval(self.system.eta, precision=self.precision)
+
+    @cached_property
+    def phi(self) -> Interval:
+        """The launch phases at this precision."""
+        return Interval(*self.phases, precision=self.precision)
+
+    @cached_property
+    def start(self) -> Launch:
+        """The launch states."""
+        return self._launch(self.phi)
+
+    def _launch(self, phi: Interval | Jet) -> Launch:
+        nu = Interval(self.system.nu, precision=self.precision)
+        return launch(self.system.side, self.eta, nu, phi)
+
+    def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
+        """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
+        return clock(self.eta, Interval(low, high, precision=self.precision))
+
+    def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
+        """Enclose a time derivative of the gap over all launches and the times given."""
+        value: Interval = gap(self.start, self.clock(low, high), order)
+        return value
+
+    def velocity(self, low: Fraction, high: Fraction) -> Interval:
+        """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
+
+        Over a short time this is much narrower than gap' evaluated on the interval, which
+        cancels where the launch is close to sticking or the impact close to grazing.
+        """
+        bend = self.gap(low, high, order=2)
+        return piece_range(self.gap(low, order=1), self.gap(high, order=1), bend, high - low)
+
+    def slope(self, time: Range) -> Interval:
+        """Enclose f' over all launches, impact times in `time`."""
+        value: Interval = slope(self.start, self.clock(*time))
+        return value
+
+    def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
+        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ..."""
+        first = self.slope(time)
+        one = Interval(1, precision=self.precision)
+        along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
+        return first, slope(self._launch(Jet(self.phi, one)), along).derivative()
+
+    @property
+    def leaves(self) -> bool:
+        """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
+        return self.separating or launch_acceleration(self.start).is_positive()
