@@ -332,7 +332,12 @@ class Interval:
         return _compare(self._hi, _ZERO) < 0
 
     def __eq__(self, other: object) -> bool:
-        """Return equality as sets (IEEE 1788 `equal`), not of the unknown numbers inside."""
+        """Return equality as sets (IEEE 1788 `equal`), not of the unknown numbers inside.
+
+        Comparing with a number raises TypeError: a quiet False would pass for a proof.
+        """
+        if isinstance(other, int | float | Fraction):
+            raise TypeError("an Interval is no number: use contains, <, > or a second Interval")
         if not isinstance(other, Interval):
             return NotImplemented
         return self._lo == other._lo and self._hi == other._hi

@@ -12,6 +12,8 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from time import perf_counter
 
+from intervals import Undecided
+from proofs import figure
 from proofs.certificate import Malformed, render, write_atomically
 from proofs.check.__main__ import read
 from proofs.check.verify import Rejected, check
@@ -31,6 +33,7 @@ exit status: 0 every claim asked for is decided, 1 something is undecided,
 
 examples:
   python -m proofs.horseshoe
+  python -m proofs.horseshoe --figure
   python -m proofs.horseshoe --only H1 H2 --digits 50
   python -m proofs.horseshoe --eta 0.212 --nu -0.2 --left 1.1 1.15 --right 1.27 1.32
   python -m proofs.horseshoe --json - > result.json
@@ -43,6 +46,8 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         of = _parameters(options)
+        if options.figure and not figure.available():
+            raise ValueError("--figure needs matplotlib: pip install matplotlib")
         _writable(options.out)
     except ValueError as error:
         parser.error(str(error))
@@ -59,8 +64,13 @@ def main(arguments: list[str] | None = None) -> int:
         whys = {row.id: row.why for row in outcome.rows}
         page = markdown(of, outcome.corrected, outcome.certificate, whys)
         write_atomically(options.out / "horseshoe.md", page)
+        if options.figure:
+            picture = figure.svg(of, outcome.corrected)
+            write_atomically(options.out / "horseshoe.svg", picture)
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    except (Undecided, OverflowError) as failure:
+        print(f"{parser.prog}: no figure: {failure}", file=sys.stderr)
     if options.json:
         print(content, end="")
     else:
@@ -91,6 +101,7 @@ def _parser() -> Parser:
     add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
+    add("--figure", action="store_true", help="draw DIR/horseshoe.svg too (needs matplotlib)")
     add("--no-check", action="store_true", help="do not run the checker on what was written")
     return parser
 

@@ -602,7 +602,10 @@ def test_equality_is_that_of_sets():
     assert Interval(1, 2) == Interval(1, 2, precision=200)
     assert Interval(1, 2) != Interval(1, 3)
     assert Interval(0, 2) != Interval(1, 2)
-    assert Interval(1) != 1
+    assert Interval(1) != "1"
+    for value in (1, Fraction(1), 1.0):
+        with pytest.raises(TypeError, match="no number"):
+            _ = Interval(1) == value
     assert hash(Interval(1, 2)) == hash(Interval(1, 2, precision=200))
     assert len({Interval(1, 2), Interval(2, 4) / 2, Interval(-2, -1) * -1, Interval(1)}) == 2
 

@@ -278,6 +278,28 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     assert "DISAGREES" in capsys.readouterr().err
 
 
+def test_the_figure_is_drawn_and_does_not_change(tmp_path):
+    assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "a")]) == 0
+    assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "b")]) == 0
+    first, second = ((tmp_path / x / "horseshoe.svg").read_text() for x in "ab")
+    assert first == second and first.rstrip().endswith("</svg>")
+
+
+def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(SystemExit) as leave:
+        horseshoe.main(["--figure", "--out", str(tmp_path / "new")])
+    assert leave.value.code == 2 and "needs matplotlib" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_figure_of_what_is_not_proved_is_refused(capsys, tmp_path):
+    arguments = ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H16", "--figure"]
+    assert horseshoe.main([*arguments, "--out", str(tmp_path)]) == 0
+    assert "no figure" in capsys.readouterr().err
+    assert not (tmp_path / "horseshoe.svg").exists()
+
+
 def test_undecided_is_status_1(tmp_path):
     status = horseshoe.main(
         ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H2", "--out", str(tmp_path)]
