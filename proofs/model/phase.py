@@ -27,5 +27,5 @@ def misses(arrival: Range, target: Range) -> bool:
     if high - low >= whole.inf:
         return False
     return not any(
-        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1)
+        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1, 2)
     )
