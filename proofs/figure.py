@@ -79,10 +79,3 @@ def _square(axes: Axes, interval: Range, style: str, label: str) -> None:
     low, high = (float(x) for x in interval)
     corners = [low, high, high, low, low], [low, low, high, high, low]
     axes.plot(*corners, style, color="0.3", lw=0.8, label=label)
-
-
-def available() -> bool:
-    """Whether matplotlib can be imported."""
-    from importlib.util import find_spec
-
-    return find_spec("matplotlib") is not None

@@ -8,12 +8,12 @@ import sys
 from argparse import Namespace
 from collections import Counter
 from dataclasses import replace
+from importlib.util import find_spec
+from os import getpid
 from pathlib import Path
-from tempfile import TemporaryFile
 from time import perf_counter
 
 from intervals import Undecided
-from proofs import figure
 from proofs.certificate import Malformed, render, write_atomically
 from proofs.check.__main__ import read
 from proofs.check.verify import Rejected, check
@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         of = _parameters(options)
-        if options.figure and not figure.available():
+        if options.figure and find_spec("matplotlib") is None:
             raise ValueError("--figure needs matplotlib: pip install matplotlib")
         _writable(options.out)
     except ValueError as error:
@@ -65,7 +65,9 @@ def main(arguments: list[str] | None = None) -> int:
         page = markdown(of, outcome.corrected, outcome.certificate, whys)
         write_atomically(options.out / "horseshoe.md", page)
         if options.figure:
-            picture = figure.svg(of, outcome.corrected)
+            from proofs.figure import svg
+
+            picture = svg(of, outcome.corrected)
             write_atomically(options.out / "horseshoe.svg", picture)
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
@@ -125,8 +127,9 @@ def _parameters(options: Namespace) -> Parameters:
 def _writable(folder: Path) -> None:
     """Raise OSError if nothing can be written to the folder, before any work is done."""
     folder.mkdir(parents=True, exist_ok=True)
-    with TemporaryFile(dir=folder):
-        pass
+    trial = folder / f".trial.{getpid()}"
+    trial.touch(exist_ok=False)
+    trial.unlink()
 
 
 def _print(outcome: Outcome, seconds: float) -> None:

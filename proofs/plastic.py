@@ -180,11 +180,11 @@ class _Run:
                 return proved
         return None
 
-    def suspects(self, claim: str) -> Iterator[Fraction]:
-        """Yield phases that refute a claim in floating point."""
+    def suspects(self, claim: str, finest: int = 64, stride: int = 1) -> Iterator[Fraction]:
+        """Yield phases that refute a claim in floating point, of a `grid` on its domains."""
         of = self.of
         domains = (of.gap,) if claim == "H4" else (of.left, of.right)
-        for phase in (phase for domain in domains for phase in grid(domain)):
+        for phase in (phase for domain in domains for phase in grid(domain, finest, stride)):
             candidate = next_impact(self.prover.system, float(phase))
             if candidate is None:
                 continue
@@ -268,7 +268,8 @@ def prove(
     sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
     if needs_slopes and not run.prove_slopes(*sets):
         run.prove_slopes(of)
-    if needs_gap and next(run.suspects("H4"), None) is None and not run.prove_gap(*sets):
+    escapes = needs_gap and next(run.suspects("H4", finest=8, stride=6), None) is None
+    if escapes and not run.prove_gap(*sets):
         run.prove_gap(of)
     decided = [run.claim(claim) for claim in wanted]
     refuted = [entry for row, entry in decided if is_repairable(row)]

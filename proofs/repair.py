@@ -75,15 +75,18 @@ def rounded_slopes(bounds: Range, digits: int) -> Range:
     return Fraction(low * scale // 1, scale), Fraction(-(-high * scale // 1), scale)
 
 
-def grid(domain: Range, finest: int = 64) -> Iterator[Fraction]:
-    """Yield interior points of an interval: halves, quarters, ..., then ever closer to its ends."""
+def grid(domain: Range, finest: int = 64, stride: int = 1) -> Iterator[Fraction]:
+    """Yield interior points of an interval: halves, quarters, ..., then ever closer to its ends.
+
+    The distances to the ends fall by factors 2^stride, down to 2^-30 of the width.
+    """
     low, high = domain
     parts = 2
     while parts <= finest:
         for index in range(1, parts, 2):
             yield low + (high - low) * index / parts
         parts *= 2
-    for exponent in range(finest.bit_length(), 30):
+    for exponent in range(finest.bit_length(), 30, stride):
         yield low + (high - low) / 2**exponent
         yield high - (high - low) / 2**exponent
 
