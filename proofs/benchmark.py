@@ -28,14 +28,8 @@ from intervals import IntervalArray, Undecided
 from proofs import benchmark_flint
 from proofs.cli import USAGE_ERROR, Parser
 from proofs.model.impact import HORIZON, cover_by_impacts
-from proofs.model.kernel import (
-    Launches,
-    cut,
-    exclude_impacts,
-    grid_of,
-    slope_cover,
-    slope_extremes,
-)
+from proofs.model.kernel import Launches, exclude_impacts
+from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.model.system import System
 from proofs.steps import Prover
 

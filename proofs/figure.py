@@ -58,7 +58,7 @@ def _graph(axes: Axes, system: System, domain: Range, colour: str, label: str) -
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
-    from proofs.model.kernel import slope_cover
+    from proofs.model.slope_cover import slope_cover
 
     cover = slope_cover(system, domain, _BOXES)
     arrivals = cover.boxes + cover.times

@@ -8,17 +8,8 @@ from mpmath import mp, mpf
 from intervals import IntervalArray, Undecided
 from proofs.model import kernel
 from proofs.model.impact import HORIZON, cover_by_impacts
-from proofs.model.kernel import (
-    CHUNK,
-    Launches,
-    cut,
-    exclude_impacts,
-    find_times,
-    grid_of,
-    prove_brackets,
-    slope_cover,
-    slope_extremes,
-)
+from proofs.model.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
+from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.model.system import System
 from proofs.steps import Prover
 
