@@ -3,7 +3,7 @@
 Theorem (Moore). If c_0, ..., c_n enclose the Taylor coefficients g^(k)(x) / k! of a function g
 for every x in a set, then the rules below enclose those of the result; the k-th derivative is
 k! c_k. Coefficients may be Intervals, IntervalArrays, Fractions, floats: anything with + - * /
-(and sin, cos, exp, log, sqrt as methods where these are used).
+(and sincos, exp, log, sqrt as methods where these are used).
 """
 
 from __future__ import annotations
@@ -91,7 +91,8 @@ class Jet:
         """Return (sin, cos): s' = c u', c' = -s u', coefficient by coefficient."""
         u = self.coefficients
         slopes = [k * u[k] for k in range(len(u))]
-        s, c = [u[0].sin()], [u[0].cos()]
+        sin, cos = u[0].sincos()
+        s, c = [sin], [cos]
         for k in range(1, len(u)):
             s.append(_convolution(slopes, c, k, 1) / k)
             c.append(-_convolution(slopes, s, k, 1) / k)

@@ -198,7 +198,7 @@ class _Run:
     def correction(self) -> tuple[Parameters, dict[str, Any]] | None:
         """Prove H1-H6 on the nearest sets on which that succeeds, slopes rounded outward."""
         for sets in islice(nearest_sets(self.of), 3):
-            facts, slopes, gaps = self.facts(sets)
+            facts, _, _ = self.facts(sets)
             if not facts.slopes_known:
                 self.prove_slopes(sets)
             if not facts.avoided:

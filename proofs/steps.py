@@ -10,18 +10,17 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from intervals import Interval
 from proofs.certificate import texts
 from proofs.facts import PointFact, Range, SlopeRange, show_range
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
+from proofs.model.branch import Branch
 from proofs.model.impact import (
     FirstImpact,
     cover_by,
     cover_by_impacts,
     impact_time,
     locate,
-    time_range,
 )
 from proofs.model.phase import misses, phase_after
 from proofs.model.system import System
@@ -57,35 +56,19 @@ class Prover:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
         parts = cover_by_impacts(self.system, (points[0], points[-1]), horizon=self.horizon)
         names = {part: self.add_impact(part) for part in parts}
-        cuts = sorted({*points, *(part.flight.phases[0] for part in parts)})
-        times: dict[Fraction | Range, Range] = {}
+        branch = Branch(tuple(parts), self.bits)
+        cuts = sorted({*points, *branch.ends})
+        found = extremes(lambda x: branch.slope(x, x), branch.curvature, cuts)
 
-        def part_of(low: Fraction, high: Fraction) -> FirstImpact:
-            return next(
-                p for p in parts if p.flight.phases[0] <= low and high <= p.flight.phases[1]
-            )
+        def bracket(low: Fraction, high: Fraction, **more: str) -> dict[str, Any]:
+            flight, time = names[branch.part(low, high)], branch.time(low, high)
+            return {"flight": flight, **more, "time": texts(time)}
 
-        def at(phase: Fraction) -> Interval:
-            part = part_of(phase, phase)
-            times[phase] = impact_time(part, (phase, phase), self.bits)
-            return part.thin((phase, phase), self.bits).slope(times[phase])
-
-        def over(low: Fraction, high: Fraction) -> Interval:
-            part = part_of(low, high)
-            times[low, high] = time_range(part, (low, high))
-            wide = part.part((low, high))
-            return wide.slope_and_curvature(times[low, high])[1]
-
-        found = extremes(at, over, cuts)
-        pairs = list(pairwise(found.points))
         witness = {
-            "points": [
-                {"flight": names[part_of(x, x)], "phase": str(x), "time": texts(times[x])}
-                for x in found.points
-            ],
-            "pieces": [{"flight": names[part_of(*p)], "time": texts(times[p])} for p in pairs],
+            "points": [bracket(x, x, phase=str(x)) for x in found.points],
+            "pieces": [bracket(*piece) for piece in pairwise(found.points)],
         }
-        images = (phase_after(x, times[x], self.bits + 30) for x in found.points)
+        images = (phase_after(x, branch.time(x, x), self.bits + 30) for x in found.points)
         return self.add("slope-range", witness), SlopeRange(
             found.points,
             tuple((value.inf, value.sup) for value in found.values),

@@ -232,13 +232,14 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
     facts = [point(of, known, entry) for entry in entries]
     pieces = []
     for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
-        flight, time = entry.fields("flight", "time")
+        flight, time_of = entry.fields("flight", "time")
         left, right = facts[index], facts[index + 1]
         if left.phase >= right.phase:
             raise points_of.fail("phases must increase")
         phases = (left.phase, right.phase)
-        motion = _bracketed(_transversal(known, flight, phases), phases, time.range())
-        low, high = motion.curvature(time.range()).range
+        time = time_of.range()
+        motion = _bracketed(_transversal(known, flight, phases), phases, time)
+        low, high = motion.curvature(time).range
         width = right.phase - left.phase
         fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
         pieces.append(

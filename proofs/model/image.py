@@ -11,6 +11,7 @@ from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, newton
 from proofs.facts import Range
 from proofs.methods.extremes import extremes
+from proofs.model.branch import Branch
 from proofs.model.equations import launch, launch_acceleration
 from proofs.model.flight import Flight
 from proofs.model.impact import (
@@ -23,7 +24,6 @@ from proofs.model.impact import (
     impact_time,
     locate,
     steps_for,
-    time_range,
 )
 from proofs.model.phase import phase_after, turn
 from proofs.model.system import System
@@ -169,40 +169,19 @@ def _modulo_turn(low: Fraction, high: Fraction, bits: int) -> Range:
 
 def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
-    parts, bits = list(parts), _bits(digits, 0)
-    points = [part.flight.phases[0] for part in parts] + [parts[-1].flight.phases[1]]
-    times: dict[Range, Range] = {}
-
-    def flight(low: Fraction, high: Fraction) -> tuple[Flight, Range]:
-        """Return the launches in [low, high] and their impact times."""
-        part = next(p for p in parts if p.flight.phases[0] <= low and high <= p.flight.phases[1])
-        key, thin = (low, high), low == high
-        if key not in times:
-            times[key] = impact_time(part, key, bits) if thin else time_range(part, key)
-        return part.thin(key, bits) if thin else part.part(key), times[key]
+    branch = Branch(tuple(parts), _bits(digits, 0))
+    precision = branch.bits + 30
 
     def time_at(x: Fraction) -> Interval:
-        return Interval(*flight(x, x)[1], precision=bits + 30)
+        return Interval(*branch.time(x, x), precision=precision)
 
-    def slope_at(x: Fraction) -> Interval:
-        launches, time = flight(x, x)
-        return launches.slope(time)
-
-    def slope_over(low: Fraction, high: Fraction) -> Interval:
-        launches, time = flight(low, high)
-        return launches.slope(time)
-
-    def bend_over(low: Fraction, high: Fraction) -> Interval:
-        launches, time = flight(low, high)
-        return launches.slope_and_curvature(time)[1]
-
-    slopes = extremes(slope_at, bend_over, points)
-    flights = extremes(time_at, lambda a, b: slope_over(a, b) - 1, points)
-    images = extremes(lambda x: time_at(x) + x, slope_over, points)
+    slopes = extremes(lambda x: branch.slope(x, x), branch.curvature, branch.ends)
+    flights = extremes(time_at, lambda a, b: branch.slope(a, b) - 1, branch.ends)
+    images = extremes(lambda x: time_at(x) + x, branch.slope, branch.ends)
     arrival = (images.minimum[0], images.maximum[1])
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, bits + 30),
+        phase_after(Fraction(0), arrival, precision),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
     )

@@ -154,9 +154,6 @@ def cover_by_impacts(
     system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
 ) -> list[FirstImpact]:
     """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
-    if phases[0] == phases[1]:
-        return [locate(system, phases, horizon=horizon)]
-
     return cover_by(
         system,
         phases,

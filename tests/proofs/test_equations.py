@@ -103,12 +103,9 @@ def test_jets_of_the_gap_agree_with_its_time_derivatives():
     start = launch(-1, mpf("0.2121"), mpf("-0.2"), mpf("1.3"))
     t0 = mpf("7.25")
 
-    class Number(mpf):  # a number that brings its own sin and cos, as jets ask of coefficients
-        def sin(self):
-            return reference.mp.sin(mpf(self))
-
-        def cos(self):
-            return reference.mp.cos(mpf(self))
+    class Number(mpf):  # a number that brings its own sine and cosine, as jets ask of them
+        def sincos(self):
+            return reference.mp.sin(mpf(self)), reference.mp.cos(mpf(self))
 
     along = Jet(Number(t0), mpf(1), mpf(0), mpf(0))
     scaled = Jet(Number(mpf("0.2121") * t0), mpf("0.2121"), mpf(0), mpf(0))
