@@ -1,28 +1,36 @@
-"""pi and log 2 in fixed point, from Machin's and Gauss's formulas on integers.
+"""pi, log 2, log 10 in fixed point, from Machin's and Gauss's formulas on integers.
 
 Conventions of this folder: a real x in fixed point at `bits` is an integer X with an error
 bound E, |x 2^bits - X| <= E. Right shifts and // round down, so each costs at most one unit.
 """
 
+from collections.abc import Callable
 from functools import lru_cache
+from typing import TypeAlias
+
+from mpmath.libmp import MPZ
+
+Constant: TypeAlias = Callable[[int], int]  # bits -> the floor in fixed point
 
 
-def _arc(inverse: int, bits: int, sign: int) -> tuple[int, int]:
-    """Return (A, E): atan(1/n) for sign = -1, atanh(1/n) for sign = +1, in fixed point.
+def arc_of_ratio(numerator: int, denominator: int, bits: int, sign: int) -> tuple[int, int]:
+    """Return (A, E): atan z for sign = -1, atanh z for sign = +1, z = numerator / denominator.
 
-    The series sum_k sign^k / ((2k+1) n^(2k+1)), n >= 2. Each power is the floor of the exact
-    one divided once more (nested floors of positive integers are one floor), each term is a
-    further floor: one unit a term at most, k units. The loop ends when the power is below one
-    unit; the tail is then below 1 / (1 - 1/n^2) < 2 units.
+    Hypothesis: 0 < z <= 1/2. The series is sum_k sign^k z^(2k+1) / (2k+1). Each power is the floor
+    of the one before times z^2 <= 1/4: from an error of e units the next one has at most
+    e / 4 + 1 <= 4/3, and the floor of its quotient by 3, 5, ... at most 4/9 + 1 < 2 (the first
+    term errs by one unit). So k terms err by less than 2 k units. The loop ends when the power is
+    below one unit, the true one is then below 7/3, and the tail below 7/3 / 3 / (1 - 1/4) < 2.
     """
-    power, square = (1 << bits) // inverse, inverse * inverse
+    over, under = numerator * numerator, denominator * denominator
+    power = (numerator << bits) // denominator
     total, k, alternating = 0, 0, 1
     while power:
         total += alternating * (power // (2 * k + 1))
-        power //= square
+        power = power * over // under
         alternating *= sign
         k += 1
-    return total, k + 2
+    return total, 2 * k + 2
 
 
 @lru_cache(maxsize=64)
@@ -40,6 +48,16 @@ def log2_fixed(bits: int) -> int:
     return _settle(((18, 26), (-2, 4801), (8, 8749)), 1, bits)
 
 
+@lru_cache(maxsize=64)
+def log10_fixed(bits: int) -> int:
+    """Return L with L <= log(10) 2^bits <= L + 1.
+
+    log 10 = 46 atanh 1/31 + 34 atanh 1/49 + 20 atanh 1/161: as 2 atanh 1/n = log((n+1) / (n-1)),
+    this is 10 = (16/15)^23 (25/24)^17 (81/80)^10.
+    """
+    return _settle(((46, 31), (34, 49), (20, 161)), 1, bits)
+
+
 def _settle(terms: tuple[tuple[int, int], ...], sign: int, bits: int) -> int:
     """Return floor(c 2^bits), where c is the sum of weight * atan(1/n), or atanh if sign = +1.
 
@@ -51,10 +69,11 @@ def _settle(terms: tuple[tuple[int, int], ...], sign: int, bits: int) -> int:
     while True:
         total = error = 0
         for weight, inverse in terms:
-            value, units = _arc(inverse, bits + guard, sign)
+            value, units = arc_of_ratio(1, inverse, bits + guard, sign)
             total += weight * value
             error += abs(weight) * units
         low, high = (total - error) >> guard, (total + error) >> guard
         if low == high:
-            return low
+            floor: int = MPZ(low)
+            return floor
         guard *= 2

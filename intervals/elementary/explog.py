@@ -1,68 +1,98 @@
 """exp and log of a dyadic number in fixed point, with a proved error."""
 
-from intervals.elementary.constants import log2_fixed
+from intervals.elementary.constants import Constant, log2_fixed
+from intervals.elementary.series import (
+    COARSE,
+    FINE,
+    MASK,
+    arc,
+    exp_at,
+    exp_series,
+    halvings_for,
+    log_at,
+    working_bits,
+)
 
 
-def exp_fixed(man: int, exp: int, bits: int) -> tuple[int, int, int]:
-    """Return (Y, n, E): |exp(x) / 2^n 2^bits - Y| <= E for x = man 2^exp, 1/2 <= Y / 2^bits < 2.
+def exp_fixed(
+    man: int, exp: int, bits: int, log_base: Constant | None = None
+) -> tuple[int, int, int]:
+    """Return (Y, n, E): |b^x / 2^n 2^bits - Y| <= E for x = man 2^exp, 1 <= Y / 2^bits < 2.
 
-    Proof. |x| < 2^(size-1), size >= 1; v = bits + 12 + 2h, h >= 2 the number of halvings;
-    w = v + size. L <= log(2) 2^w <= L + 1, X = floor(x 2^w), n = round(X / L), so that
-    |n| <= 0.73 2^size + 0.51. X - n L errs as 2^w (x - n log 2) by at most 1 + |n|; the shift
-    divides this by 2^(size+h) and rounds down: r = (x - n log 2) 2^(v-h) / 2^v is known to 2 units,
-    |r| <= 0.3467 / 4 < 0.09, and exp makes less than 3 of them.
-    Taylor: from a term with error e the next one has error at most (0.09 e + 1) / 2 + 1 < 2 units.
-    The last one computed is 0 or -1, the true one at most 3 units, the tail below one. So
-    e_0 <= 3 + 2 k + 1 <= 4 k + 10. A squaring of y <= 1.2 with an error of e <= 2^v units makes of
-    it at most 2.4 e + e + 1 <= 4 e + 1: e_h <= 4^h (e_0 + 1/3) < 4^h (4 k + 11), which is at most
-    2^v because 4 k + 11 <= 2^(bits + 12): every term has three bits less than the one before.
+    The base is b = e, or its logarithm is the given constant, at most log 10.
+
+    Proof. |x| < 2^(size-2), so |x log b| < 0.6 2^size and |n| < 0.9 2^size + 1; v has 12 + 2h bits
+    more than `bits`, h the number of halvings; w = v + size. X = floor(x 2^w), multiplied by log b
+    it errs by at most 2.4 + |x| + 1 <= 3.4 + 0.25 2^size units. L <= log(2) 2^w <= L + 1, and
+    n = floor(X / L), so X - n L, in [0, L), errs as 2^w (x log b - n log 2) by at most
+    1.15 2^size + 4.4; the shift divides this by 2^size >= 4, rounds down and costs 3.3 units.
+    r = j/2^8 + i/2^16 + s, s < 2^-16; halved h times s is known to 5 units. The series makes of
+    this e_0 <= 5.1 + 2 k <= 2 k + 6. A squaring of y <= 1.01 with an error of e <= 2^(v-4) units
+    makes of it at most 2.1 e + 1, so h of them at most 4^h (2 k + 7), as 2 k + 7 <= 2^(bits + 8).
+    The factor exp(i/2^16) < 1.01 is known to 2 units and leaves at most 1.01 e + 4, exp(j/2^8), at
+    most 2.01, leaves at most 2.1 (1.01 e + 4) + 4 <= 3 e + 13.
+    1 <= y < 2: each factor is a lower bound of an exponential, and the arguments add up to r < L.
     """
-    halvings = max(2, int(bits**0.5) // 2)
-    size = max(0, man.bit_length() + exp) + 1
-    v = bits + 12 + 2 * halvings
+    halvings = halvings_for(bits)
+    size = max(0, man.bit_length() + exp) + 2
+    v = working_bits(bits + 2 * halvings)
     w = v + size
     x = man << (exp + w) if exp + w >= 0 else man >> -(exp + w)
-    log2 = log2_fixed(w)
-    n = (2 * x + log2) // (2 * log2)
-    r = (x - n * log2) >> (size + halvings)
-    one = 1 << v
-    y, term, k = one + r, r, 1
-    while term not in (0, -1):
-        k += 1
-        term = (term * r >> v) // k
-        y += term
+    if log_base:
+        x = x * log_base(w) >> w
+    n, r = divmod(x, log2_fixed(w))
+    r >>= size
+    index = int(r >> (v - FINE))
+    y, error = exp_series((r - (index << (v - FINE))) >> halvings, v)
     for _ in range(halvings):
         y = y * y >> v
-    error = (10 + 4 * k + 1) << 2 * halvings
+    coarse, fine = index >> (FINE - COARSE), index & MASK
+    if fine:
+        y = y * exp_at(fine, FINE, v) >> v
+    if coarse:
+        y = y * exp_at(coarse, COARSE, v) >> v
+    error = 3 * ((error + 7) << 2 * halvings) + 13
     drop = v - bits
-    return y >> drop, n, (error >> drop) + 2
+    return y >> drop, int(n), (error >> drop) + 2
 
 
 def log_fixed(man: int, exp: int, bits: int) -> tuple[int, int]:
     """Return (Y, E): |log(x) 2^bits - Y| <= E for x = man 2^exp > 0.
 
-    Proof. x = m 2^n with 2/3 <= m < 4/3; log m = 2 atanh z, z = (m - 1) / (m + 1), |z| <= 1/5.
-    z is one floor of an exact quotient (1 unit), which atanh and the factor 2 make at most 3.
-    From a power with error e the next one has error at most 0.04 e + |z| + 1 <= 1.25 units, and
-    the quotient by k = 3, 5, ... at most 0.42 + 1 < 2. Doubled 4 units a term, and there are
-    (k - 1) / 2 of them: 2 k in all. The last power computed is 0 or -1, the true one at most 2.25
-    units; the tail, less than 1/24 of it, is below one unit doubled. n log 2 errs by at most |n|
-    units at v bits, of which as many as n has are spare.
+    Proof. x = m 2^n with 2/3 <= m < 4/3. `_toward_one` multiplies m by c/2^8 and the result by
+    c'/2^15, exactly, and subtracts their logarithms, each known to 2 units. The product is 1 + d,
+    |d| < 2^-14.9, and log(1 + d) = 2 atanh z, z = d / (2 + d). |z| is one floor of an exact
+    quotient (1 unit, of which atanh makes 1.01). n log 2 errs by at most |n| units at v bits, of
+    which there are 12 to spare and as many as n has.
     """
     size = man.bit_length()
     n = size + exp
     if 3 * man < 1 << (size + 1):  # mantissa in [1/2, 2/3): take [1, 4/3) instead
         n -= 1
-    v = bits + 12 + n.bit_length()
+    v = working_bits(bits + n.bit_length())
     scale = n - exp  # m = man / 2^scale
-    z = ((man - (1 << scale)) << v) // (man + (1 << scale))
-    square = z * z >> v
-    total, power, k = z, z, 1
-    while power not in (0, -1):
-        k += 2
-        power = power * square >> v
-        total += power // k
-    value = 2 * total + n * log2_fixed(v)
-    error = 4 + 2 * k + 4 + abs(n)
+    total = n * log2_fixed(v) if n else 0
+    for step in (8, 15):
+        man, scale, part = _toward_one(man, scale, step, v)
+        total -= part
+    d, above = man - (1 << scale), man + (1 << scale)
+    value, error = arc((abs(d) << v) // above, v, 1)
+    total += -2 * value if d < 0 else 2 * value
+    error = 2 * error + 3 + 4 + abs(n)
     drop = v - bits
-    return value >> drop, (error >> drop) + 2
+    return total >> drop, (error >> drop) + 2
+
+
+def _toward_one(man: int, scale: int, step: int, bits: int) -> tuple[int, int, int]:
+    """Return m c / 2^step near 1, as another man and scale, and log(c / 2^step) at `bits`.
+
+    m = man / 2^scale. With t = floor(m 2^step) and c = floor(4^step / t) the product m c / 2^step
+    lies in (1 - t / 4^step, 1 + 1/t). If t is 2^step or one less, m is left alone: it is as near
+    to 1 as this, and numbers next to 1 keep their exact distance from it. For 2/3 <= m < 4/3 and
+    step = 8 this is (1 - 0.0053, 1 + 0.0059); from there step = 15 leads to 1 +- 2^-14.9.
+    """
+    t = int(man >> (scale - step) if scale >= step else man << (step - scale))
+    if t + 1 >> 1 == 1 << (step - 1):
+        return man, scale, 0
+    c = (1 << 2 * step) // t
+    return man * c, scale + step, log_at(c, step, bits)

@@ -61,27 +61,89 @@ def arb(x):
 
 
 def evaluate(function, bits, *arguments):
-    """The ends of function(*arguments) with Arb at `bits` bits."""
+    """The ends of function(*arguments) with Arb at `bits` bits; (None, None) if not bounded."""
     with flint.ctx.workprec(bits):
-        return ends(function(*map(arb, arguments)))
+        value = function(*map(arb, arguments))
+        return ends(value) if value.is_finite() else (None, None)
 
 
 FUNCTIONS = {
+    "sqrt": lambda x: x.sqrt(),
+    "cbrt": lambda x: x.root(3) if x >= 0 else -((-x).root(3)),
+    "exp": lambda x: x.exp(),
+    "exp2": lambda x: flint.arb(2) ** x,
+    "exp10": lambda x: flint.arb(10) ** x,
+    "expm1": lambda x: x.expm1(),
+    "log": lambda x: x.log(),
+    "log2": lambda x: x.log() / flint.arb(2).log(),
+    "log10": lambda x: x.log() / flint.arb(10).log(),
+    "log1p": lambda x: x.log1p(),
     "sin": lambda x: x.sin(),
     "cos": lambda x: x.cos(),
-    "exp": lambda x: x.exp(),
-    "log": lambda x: x.log(),
+    "tan": lambda x: x.tan(),
+    "asin": lambda x: x.asin(),
+    "acos": lambda x: x.acos(),
+    "atan": lambda x: x.atan(),
+    "sinh": lambda x: x.sinh(),
+    "cosh": lambda x: x.cosh(),
+    "tanh": lambda x: x.tanh(),
+    "asinh": lambda x: x.asinh(),
+    "acosh": lambda x: x.acosh(),
+    "atanh": lambda x: x.atanh(),
+    "atan2": lambda y, x: flint.arb.atan2(y, x),
+    "hypot": lambda x, y: (x * x + y * y).sqrt(),
+    "pow": lambda x, y: x**y,
 }
 
 
-def rounded(name, x, precision):
-    """The numbers of `precision` bits next below and above FUNCTIONS[name](x), x dyadic."""
+def _is_power(z, base, n):
+    """Whether z = base^n, without a long power where it cannot be."""
+    return n.denominator == 1 and abs(n) < 2**16 and z == Fraction(base) ** int(n)
+
+
+def _is_dyadic_power(z, x, y):
+    """Whether z = x^y: z^(2^j) = x^c for y = c / 2^j, without long powers where it cannot be."""
+    if z <= 0 or abs(y.numerator) * y.denominator > 2**14:
+        return z == x == 0 or z == x == 1
+    return z**y.denominator == x**y.numerator
+
+
+EXACT = {  # whether a number is the value: an equation between rationals
+    "sqrt": lambda z, x: z >= 0 and z * z == x,
+    "cbrt": lambda z, x: z**3 == x,
+    "exp": lambda z, x: (x, z) == (0, 1),
+    "exp2": lambda z, x: _is_power(z, 2, x),
+    "exp10": lambda z, x: _is_power(z, 10, x),
+    "log2": lambda z, x: _is_power(x, 2, z),
+    "log10": lambda z, x: _is_power(x, 10, z),
+    "log": lambda z, x: (x, z) == (1, 0),
+    "cos": lambda z, x: (x, z) == (0, 1),
+    "acos": lambda z, x: (x, z) == (1, 0),
+    "cosh": lambda z, x: (x, z) == (0, 1),
+    "acosh": lambda z, x: (x, z) == (1, 0),
+    "atan2": lambda z, y, x: y == z == 0 < x,
+    "hypot": lambda z, x, y: z >= 0 and z * z == x * x + y * y,
+    "pow": _is_dyadic_power,
+}
+
+
+def rounded(name, *arguments):
+    """The numbers of `precision` bits (the last argument) next below and above the value.
+
+    The value is that of FUNCTIONS[name] at the dyadic numbers before it.
+    """
+    *arguments, precision = arguments
+    exactly = EXACT.get(name, lambda z, x: x == z == 0)
     bits = 3 * precision + 64
     while True:
-        low, high = evaluate(FUNCTIONS[name], bits, x)
-        down, up = round_down(low, precision), round_up(high, precision)
-        if down == round_down(high, precision) and up == round_up(low, precision):
-            return down, up
+        low, high = evaluate(FUNCTIONS[name], bits, *arguments)
+        if low is not None:
+            down, up = round_down(low, precision), round_up(high, precision)
+            if down == round_down(high, precision) and up == round_up(low, precision):
+                return down, up
+            between = round_up(low, precision)
+            if between <= high and exactly(between, *arguments):
+                return between, between
         bits *= 2
 
 
@@ -115,9 +177,11 @@ def encloses(low, high, function, *arguments, bits):
     """Whether low <= function(*arguments) <= high, decided with Arb at growing precision."""
     for _ in range(16):
         a, b = evaluate(function, bits, *arguments)
-        if low <= a and b <= high:
+        if a is None:
+            pass
+        elif low <= a and b <= high:
             return True
-        if b < low or high < a:
+        elif b < low or high < a:
             return False
         bits *= 2
     raise ArithmeticError("not decided")

@@ -1,6 +1,5 @@
 """The fixed-point kernels against Arb: the claimed error bounds, the quadrants, the constants."""
 
-import itertools
 import random
 from fractions import Fraction
 from math import floor
@@ -9,13 +8,19 @@ import flint
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from mpmath.libmp import from_man_exp
 
-from intervals.elementary import constants, tightest, trig
-from intervals.elementary.constants import log2_fixed, pi_fixed
+from intervals.elementary import (
+    circular,
+    constants,
+    exponential,
+    logarithm,
+    power,
+    series,
+)
+from intervals.elementary.arctan import angle_fixed
+from intervals.elementary.constants import arc_of_ratio, log2_fixed, log10_fixed, pi_fixed
 from intervals.elementary.explog import exp_fixed, log_fixed
 from intervals.elementary.trig import sincos_fixed
-from tests.intervals import oracle
 from tests.intervals.oracle import encloses, evaluate, pi_bounds, quarter_turns
 
 SMALL = 4  # the largest error bound that is met here; a unit is 2^-bits
@@ -52,7 +57,11 @@ def log2_bounds(bits):
     return evaluate(lambda: flint.arb(2).log(), bits + 8)
 
 
-CONSTANTS = [(pi_fixed, pi_bounds), (log2_fixed, log2_bounds)]
+def log10_bounds(bits):
+    return evaluate(lambda: flint.arb(10).log(), bits + 8)
+
+
+CONSTANTS = [(pi_fixed, pi_bounds), (log2_fixed, log2_bounds), (log10_fixed, log10_bounds)]
 
 
 @pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
@@ -68,20 +77,20 @@ def test_constants_are_the_floors(fixed, true):
 @pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
 def test_constants_are_the_floors_at_length(fixed, true):
     low, _ = true(50_200)
-    for bits in [*range(1, 5001), 20_000, 50_000]:
+    for bits in [*range(1, 5001, 7), 20_000, 50_000]:
         assert fixed(bits) == floor(low * 2**bits)
 
 
 @pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
 def test_a_floor_that_the_guard_bits_leave_open_is_settled_with_more(fixed, true, monkeypatch):
-    arc, calls = constants._arc, []
+    arc, calls = constants.arc_of_ratio, []
 
-    def vague(inverse, bits, sign):
+    def vague(numerator, denominator, bits, sign):
         calls.append(bits)
-        value, units = arc(inverse, bits, sign)
+        value, units = arc(numerator, denominator, bits, sign)
         return value, units << 60
 
-    monkeypatch.setattr(constants, "_arc", vague)
+    monkeypatch.setattr(constants, "arc_of_ratio", vague)
     for bits in (1, 53, 200):
         assert fixed.__wrapped__(bits) == floor(true(400)[0] * 2**bits)
     assert len(set(calls)) > 3
@@ -89,11 +98,11 @@ def test_a_floor_that_the_guard_bits_leave_open_is_settled_with_more(fixed, true
 
 @pytest.mark.parametrize(("sign", "function"), [(-1, flint.arb.atan), (1, flint.arb.atanh)])
 def test_the_series_of_the_constants(sign, function):
-    for inverse in (2, 3, 5, 26, 239, 8749):
+    for ratio in [Fraction(1, n) for n in (2, 3, 5, 26, 239, 8749)] + [Fraction(129, 641)]:
         for bits in (1, 2, 10, 64, 333, 1500):
-            value, error = constants._arc(inverse, bits, sign)
-            assert within(value, error, bits, function, Fraction(1, inverse))
-            assert error <= bits + 3
+            value, error = arc_of_ratio(ratio.numerator, ratio.denominator, bits, sign)
+            assert within(value, error, bits, function, ratio)
+            assert error <= 2 * bits + 6
 
 
 # -- sin and cos -----------------------------------------------------------------------------------
@@ -124,7 +133,7 @@ def test_sincos(argument, bits):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=2000)
+@settings(deadline=None, max_examples=1000)
 @given(arguments(), widths | st.integers(600, 5000))
 def test_sincos_at_length(argument, bits):
     check_sincos(*argument, bits)
@@ -158,14 +167,48 @@ def test_sincos_at_all_small_arguments(bits):
             check_sincos(man, exp, bits)
 
 
-@settings(deadline=None, max_examples=50)
-@given(st.integers(-785, 785), st.integers(9, 700))
-def test_the_taylor_series_of_sin_and_cos(thousandths, bits):
-    r = (thousandths << bits) // 1000
-    s, u, error = trig._taylor(r, bits)
+# -- the series and the tables ---------------------------------------------------------------------
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.integers(0, 2**32), st.integers(10, 700), st.integers(7, 40))
+@example(0, 10, 7)
+@example(2**32, 10, 7)
+@example(2**32, 700, 7)
+def test_the_series(part, bits, small):
+    """At all of 0 <= r < 2^-7 that the theorems speak of; kernels use them below 2^-16."""
+    r = min(part << bits >> (32 + small), (1 << (bits - 7)) - 1)
     x = Fraction(r, 2**bits)
+    for sign, function in ((-1, flint.arb.atan), (1, flint.arb.atanh)):
+        value, error = series.arc(r, bits, sign)
+        assert within(value, error, bits, function, x)
+    value, error = series.exp_series(r, bits)
+    low, high = Fraction(value, 2**bits), Fraction(value + error, 2**bits)
+    assert encloses(low, high, flint.arb.exp, x, bits=2 * bits + 100)
+    s, u, error = series.sincos_series(r, bits)
     assert within(s, error, bits, flint.arb.sin, x)
     assert within(u, error, bits, lambda y: 2 * (y / 2).sin() ** 2, x)
+
+
+@pytest.mark.parametrize("bits", [16, 80, 368, 1008])
+def test_the_tables(bits):
+    for scale in (series.COARSE, series.FINE):
+        largest = 1 << scale
+        for j in [*range(1, 20), 86, 128, 177, 200, 255, 256]:
+            x = Fraction(j, largest)
+            if j < largest:
+                assert within(series.exp_at(j, scale, bits), 2, bits, flint.arb.exp, x)
+                assert encloses(
+                    Fraction(series.exp_at(j, scale, bits), 2**bits), 4, flint.arb.exp, x, bits=2000
+                )
+                s, c = series.sincos_at(j, scale, bits)
+                assert within(s, 2, bits, flint.arb.sin, x)
+                assert within(c, 2, bits, flint.arb.cos, x)
+            assert within(series.atan_at(j, scale, bits), 2, bits, flint.arb.atan, x)
+    for step, steps in ((8, range(170, 400, 9)), (15, range(32500, 33100, 50))):
+        for c in steps:
+            x = Fraction(c, 1 << step)
+            assert within(series.log_at(c, step, bits), 2, bits, flint.arb.log, x)
 
 
 # -- exp and log -----------------------------------------------------------------------------------
@@ -174,7 +217,7 @@ def test_the_taylor_series_of_sin_and_cos(thousandths, bits):
 def check_exp(man, exp, bits):
     y, n, error = exp_fixed(man, exp, bits)
     assert 0 < error <= SMALL
-    assert 1 << bits <= 2 * y < 4 << bits
+    assert 1 << bits <= y < 2 << bits
     x = dyadic(man, exp)
     assert within(y, error, bits, lambda t: (t - n * flint.arb(2).log()).exp(), x)
 
@@ -189,7 +232,7 @@ def test_exp(argument, bits):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=2000)
+@settings(deadline=None, max_examples=1000)
 @given(arguments(largest=60), widths | st.integers(600, 5000))
 def test_exp_at_length(argument, bits):
     check_exp(*argument, bits)
@@ -210,6 +253,20 @@ def test_exp_at_all_small_arguments(bits):
             check_exp(man, exp, bits)
 
 
+@settings(deadline=None, max_examples=50)
+@given(arguments(largest=40), widths, st.sampled_from([(log2_fixed, 2), (log10_fixed, 10)]))
+def test_powers_of_two_and_ten(argument, bits, base):
+    fixed, number = base
+    man, exp = argument
+    y, n, error = exp_fixed(man, exp, bits, fixed)
+    assert 0 < error <= SMALL
+    assert 1 << bits <= y < 2 << bits
+    x = dyadic(man, exp)
+    logarithms = [flint.arb(number).log, flint.arb(2).log]
+    function = lambda t: (t * logarithms[0]() - n * logarithms[1]()).exp()  # noqa: E731
+    assert within(y, error, bits, function, x)
+
+
 def check_log(man, exp, bits):
     y, error = log_fixed(man, exp, bits)
     assert 0 < error <= SMALL
@@ -226,7 +283,7 @@ def test_log(argument, bits):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=2000)
+@settings(deadline=None, max_examples=1000)
 @given(arguments(largest=10**6), widths | st.integers(600, 5000))
 def test_log_at_length(argument, bits):
     man, exp = argument
@@ -257,43 +314,65 @@ def test_exp_and_log_at_high_precision(bits):
         check_log(man, exp, bits)
 
 
-# -- rounding to the next number -------------------------------------------------------------------
+# -- angles ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("precision", [2, 3, 5])
-def test_what_is_settled_is_how_all_the_numbers_are_rounded(precision):
-    bits, unit = 3, Fraction(1, 8)
-    for value, error in itertools.product(range(-80, 81), range(6)):
-        ends = (value - error) * unit, (value + error) * unit
-        expected = {(oracle.round_down(y, precision), oracle.round_up(y, precision)) for y in ends}
-        found = tightest._settled(value, error, bits, precision)
-        if found is None:
-            assert len(expected) == 2
-        else:
-            ((down, up),) = expected
-            assert [dyadic(-x[1] if x[0] else x[1], x[2]) for x in found] == [down, up]
+def check_angle(y, x, bits):
+    angle, error = angle_fixed(y, x, bits)
+    assert 0 < error <= SMALL
+    low, high = Fraction(angle - error, 2**bits), Fraction(angle + error, 2**bits)
+    assert encloses(low, high, flint.arb.atan2, y, x, bits=2 * bits + 100)
 
 
-@settings(deadline=None, max_examples=50)
-@given(arguments(), st.integers(2, 200))
-@example((0, 0), 53)
-@example((1, -54), 53)
-@example((-1, -54), 53)
-@example((-1, -10_000), 53)
-def test_the_quadrant_is_the_floor(argument, precision):
-    _, _, quadrant = tightest.sincos(from_man_exp(*argument), precision)
-    assert quadrant == quarter_turns(dyadic(*argument))
+@settings(deadline=None, max_examples=100)
+@given(arguments(largest=900), arguments(largest=900), widths)
+@example((1, 0), (0, 0), 1)
+@example((0, 0), (1, 0), 1)
+@example((1, 0), (1, 0), 53)
+@example((255, 0), (256, 0), 53)
+@example((257, 0), (256, 0), 53)
+@example((1, 0), (2**16 + 1, 0), 53)
+def test_angles(first, second, bits):
+    shift = min(first[1], second[1])
+    check_angle(*(abs(man) << (exp - shift) for man, exp in (first, second)), bits)
+
+
+@pytest.mark.parametrize("bits", [1, 2, 8, 53])
+def test_all_small_angles(bits):
+    for y in range(40):
+        for x in range(40):
+            if x or y:
+                check_angle(y, x, bits)
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=600)
+@given(arguments(largest=900), arguments(largest=900), widths | st.integers(600, 5000))
+def test_angles_at_length(first, second, bits):
+    test_angles.hypothesis.inner_test(first, second, bits)
+
+
+# -- the kernels' errors ---------------------------------------------------------------------------
 
 
 def test_a_kernel_that_errs_as_much_as_it_may_changes_nothing(monkeypatch):
     """The bounds come from Y and E alone: any Y within E of the truth gives the same ones."""
     rng = random.Random(7)
-    samples = [(rng.getrandbits(24) | 1, -rng.randrange(18, 30)) for _ in range(60)]
-    points = [from_man_exp(*sample) for sample in samples]
+    samples = [(rng.getrandbits(24) | 1, -rng.randrange(18, 30)) for _ in range(30)]
+    points = [(0, man, exp, man.bit_length()) for man, exp in samples]
+    small = [(0, man, -26, man.bit_length()) for man, _ in samples]
 
     def all_bounds():
-        functions = (tightest.sincos, tightest.exp, tightest.log)
-        return [f(x, p) for f in functions for x in points for p in (2, 11, 24, 53)]
+        moderate = (circular.sincos, circular.tan, circular.atan, logarithm.log, logarithm.asinh)
+        moderate += (exponential.exp, exponential.sinh, exponential.tanh, exponential.exp10)
+        unit = (circular.asin, circular.acos, logarithm.atanh)
+        return [
+            f(x, p)
+            for functions, arguments in ((moderate, points), (unit, small))
+            for f in functions
+            for x in arguments
+            for p in (2, 11, 24, 53)
+        ] + [power.power(x, y, p) for x, y in zip(points, small, strict=True) for p in (2, 11, 53)]
 
     expected = all_bounds()
     for shift in (-1, 1):
@@ -302,15 +381,22 @@ def test_a_kernel_that_errs_as_much_as_it_may_changes_nothing(monkeypatch):
             s, c, error, n_low, n_high = sincos_fixed(man, exp, bits)
             return s + 50 * shift, c - 50 * shift, error + 50, n_low, n_high
 
-        def exponential(man, exp, bits, shift=shift):
-            y, n, error = exp_fixed(man, exp, bits)
+        def exponential_(man, exp, bits, base=None, shift=shift):
+            y, n, error = exp_fixed(man, exp, bits, base)
             return y + 50 * shift, n, error + 50
 
-        def logarithm(man, exp, bits, shift=shift):
+        def logarithm_(man, exp, bits, shift=shift):
             y, error = log_fixed(man, exp, bits)
             return y + 50 * shift, error + 50
 
-        monkeypatch.setattr(tightest, "sincos_fixed", sincos)
-        monkeypatch.setattr(tightest, "exp_fixed", exponential)
-        monkeypatch.setattr(tightest, "log_fixed", logarithm)
+        def angle(y, x, bits, shift=shift):
+            value, error = angle_fixed(y, x, bits)
+            return value + 50 * shift, error + 50
+
+        monkeypatch.setattr(circular, "sincos_fixed", sincos)
+        monkeypatch.setattr(circular, "angle_fixed", angle)
+        for module in (exponential, power):
+            monkeypatch.setattr(module, "exp_fixed", exponential_)
+        for module in (logarithm, power):
+            monkeypatch.setattr(module, "log_fixed", logarithm_)
         assert all_bounds() == expected

@@ -1,0 +1,26 @@
+"""Elementary functions of arrays of intervals in binary64, with proved errors.
+
+Everything takes and returns rows (-lower, upper), see `intervals.rounding`. The kernels use
++ - * / sqrt, rounding to integers, and tables; each states its error bound and derives it. What
+they do not cover, the multiprecision functions answer, element by element.
+"""
+
+from intervals.elementary.binary64.blocks import CHUNK
+from intervals.elementary.binary64.monotone import FUNCTIONS, monotone
+from intervals.elementary.binary64.pair import ulps
+from intervals.elementary.binary64.plane import atan2, hypot
+from intervals.elementary.binary64.realpower import power
+from intervals.elementary.binary64.tangent import tan
+from intervals.elementary.binary64.trigonometric import LIMIT, sincos
+
+__all__ = ["CHUNK", "ERRORS", "LIMIT", "atan2", "hypot", "monotone", "power", "sincos", "tan"]
+
+ERRORS = {name: ulps(function.k) for name, function in FUNCTIONS.items()} | {
+    "sin": 3.0,
+    "cos": 3.0,
+    "tan": ulps(2.01),
+    "atan2": ulps(0.07),
+    "hypot": ulps(0.01),
+    "power": ulps(0.75),
+}
+"""How far a bound at a point is from the true value at most, in ulps, in the proved range."""

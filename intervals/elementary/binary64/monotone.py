@@ -1,0 +1,101 @@
+"""Ranges of monotone functions over arrays of intervals, in binary64."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from intervals.elementary.binary64 import compositions, exponential, fallback, logarithm
+from intervals.elementary.binary64.blocks import (
+    LARGE,
+    LOWER_UPPER,
+    SMALL,
+    Mask,
+    in_blocks,
+    moderate,
+)
+from intervals.elementary.binary64.fallback import Ends
+from intervals.elementary.binary64.pair import Pair
+from intervals.rounding import MAX, Rows
+from intervals.rows import is_thin
+
+_HALF_PI, _PI = 1.5707963267948968, 3.1415926535897936  # the next numbers above
+
+
+@dataclass(frozen=True)
+class Monotone:
+    """A function on binary64 numbers.
+
+    point: the function, with an error of k u, for x = 0 or small <= |x|, and low <= x <= high.
+    least, greatest: bounds of its values.
+    """
+
+    point: Callable[[Rows], Pair]
+    k: float
+    low: float
+    high: float
+    least: float = -MAX
+    greatest: float = MAX
+    small: float = SMALL
+    decreasing: bool = False
+
+    def enclose(self, rows: Rows) -> tuple[Rows, Mask]:
+        """Return rows of f(X), and where they are proved."""
+        if is_thin(rows):
+            x = rows[1]
+            proved, values = self._proved(x), self.point(x)
+            bounds = values.rows()
+        else:
+            x = rows * LOWER_UPPER
+            proved, values = np.all(self._proved(x), axis=0), self.point(x)
+            if self.decreasing:
+                values = Pair(values.hi[::-1], values.lo[::-1], values.k)
+            bounds = values.scaled(LOWER_UPPER).upper()
+        np.minimum(bounds[0], -self.least, out=bounds[0])
+        np.minimum(bounds[1], self.greatest, out=bounds[1])
+        return bounds, proved
+
+    def _proved(self, x: Rows) -> Mask:
+        within = np.asarray((x >= self.low) & (x <= self.high))
+        return within & moderate(x, self.small, MAX) if self.small else within
+
+
+def _of_pair(function: Callable[[Pair], Pair]) -> Callable[[Rows], Pair]:
+    return lambda x: function(Pair(x))
+
+
+FUNCTIONS = {
+    "exp": Monotone(_of_pair(exponential.exp), 0.36, -660.0, 709.0, least=0.0, small=0.0),
+    "exp2": Monotone(_of_pair(exponential.exp2), 0.36, -950.0, 950.0, least=0.0, small=0.0),
+    "exp10": Monotone(_of_pair(exponential.exp10), 0.36, -285.0, 308.0, least=0.0, small=0.0),
+    "expm1": Monotone(_of_pair(exponential.expm1), 1.2, -660.0, 709.0, least=-1.0),
+    "log": Monotone(_of_pair(logarithm.log), 0.71, 2.0**-1022, MAX),
+    "log2": Monotone(_of_pair(logarithm.log2), 0.71, 2.0**-1022, MAX),
+    "log10": Monotone(_of_pair(logarithm.log10), 0.71, 2.0**-1022, MAX),
+    "log1p": Monotone(_of_pair(logarithm.log1p), 0.96, -1.0, LARGE),
+    "cbrt": Monotone(compositions.cbrt, 0.01, -LARGE, LARGE),
+    "asin": Monotone(compositions.asin, 0.07, -1.0, 1.0, -_HALF_PI, _HALF_PI),
+    "acos": Monotone(compositions.acos, 0.07, -1.0, 1.0, 0.0, _PI, decreasing=True),
+    "atan": Monotone(compositions.atan, 0.07, -LARGE, LARGE, -_HALF_PI, _HALF_PI),
+    "sinh": Monotone(compositions.sinh, 2.41, -700.0, 700.0),
+    "cosh": Monotone(compositions.cosh, 0.37, 0.0, 600.0, least=1.0, small=0.0),
+    "tanh": Monotone(compositions.tanh, 2.41, -MAX, MAX, -1.0, 1.0),
+    "asinh": Monotone(compositions.asinh, 0.96, -LARGE, LARGE),
+    "acosh": Monotone(compositions.acosh, 0.96, 1.0, LARGE, least=0.0),
+    "atanh": Monotone(compositions.atanh, 0.96, -1.0, 1.0),
+}
+
+
+def monotone(name: str, rows: Rows) -> Rows:
+    """Return rows of f(X) for the intervals X of `rows`, (-lower, upper), in the domain of f.
+
+    f, one of `FUNCTIONS`, is increasing, except acos; cosh takes X within x >= 0. OverflowError if
+    a bound is beyond binary64. Outside the proved range of `point` the multiprecision functions
+    answer, element by element.
+    """
+    function = FUNCTIONS[name]
+
+    def exactly(x: Ends) -> Ends:
+        return fallback.monotone(name, *(x[::-1] if function.decreasing else x))
+
+    return in_blocks(function.enclose, exactly, rows)

@@ -1,0 +1,75 @@
+"""atan2 and hypot over arrays of boxes, in binary64."""
+
+import numpy as np
+
+from intervals.elementary.binary64 import fallback
+from intervals.elementary.binary64.arctangent import angle
+from intervals.elementary.binary64.blocks import LOWER_UPPER, Mask, in_blocks, moderate
+from intervals.elementary.binary64.fallback import Ends
+from intervals.elementary.binary64.pair import Pair
+from intervals.errors import DomainError
+from intervals.rounding import Rows
+from intervals.rows import aligned, is_thin, magnitude
+
+PI_UP = 3.1415926535897936  # the next binary64 number above pi
+
+
+def hypot(x: Rows, y: Rows) -> Rows:
+    """Return rows of sqrt(x^2 + y^2), x in X, y in Y: increasing in |x| and in |y|."""
+
+    def exactly(a: Ends, b: Ends) -> Ends:
+        return fallback.at_corners("hypot", a, b)
+
+    return in_blocks(_hypot, exactly, *map(magnitude, aligned(x, y)))
+
+
+def _hypot(x: Rows, y: Rows) -> tuple[Rows, Mask]:
+    proved = np.all(moderate(x) & moderate(y), axis=0)
+    thin = is_thin(x) and is_thin(y)
+    a, b = (Pair(x[1]), Pair(y[1])) if thin else (Pair(x), Pair(y))
+    root = (a * a + b * b).sqrt()
+    rows = root.rows() if thin else root.scaled(LOWER_UPPER).upper()
+    np.minimum(rows[0], 0.0, out=rows[0])
+    return rows, proved
+
+
+def atan2(y: Rows, x: Rows) -> Rows:
+    """Return rows of the angles in (-pi, pi] of the points (x, y), x in X, y in Y.
+
+    DomainError if (0, 0) is in a box. A box with points on the cut {x < 0, y = 0}, where the angle
+    is pi, and points below it, where it is near -pi, gives [-pi, pi].
+    """
+
+    def exactly(of_y: Ends, of_x: Ends) -> Ends:
+        return fallback.at_corners("atan2", of_y, of_x)
+
+    return in_blocks(_atan2, exactly, *aligned(y, x))
+
+
+def _atan2(y: Rows, x: Rows) -> tuple[Rows, Mask]:
+    """Do `atan2` for a block: both rows are the largest angle, of the box and of its mirror image.
+
+    The mirror image in y = 0 has the angles -theta and the rows of -Y, those of Y exchanged. The
+    largest angle of a box that does not cross the cut is at a corner: theta increases with y where
+    x > 0, decreases with y where x < 0, decreases with x where y > 0, increases with x where y < 0.
+    If the largest y is > 0, a point with y > 0 has the largest angle (in a box that meets y <= 0,
+    too, x > 0), so the least x is best; otherwise the largest x is. Then the sign of that x says
+    which y is best. Points with y = 0, x < 0 have theta = pi, in the mirror image -pi.
+    """
+    if ((y[0] >= 0.0) & (y[1] >= 0.0) & (x[0] >= 0.0) & (x[1] >= 0.0)).any():
+        raise DomainError("atan2 of a box that contains (0, 0)")
+    crosses = (y[0] > 0.0) & (y[1] >= 0.0) & (x[0] > 0.0)
+    thin = is_thin(y) and is_thin(x)
+    if thin:
+        ys, xs = y[1], x[1]
+        sign = np.where(ys < 0.0, -1.0, 1.0)
+    else:
+        xs = np.where(y > 0.0, -x[0], x[1])
+        ys = np.where(xs >= 0.0, y, -y[::-1])
+        sign = np.where(ys < 0.0, -1.0, 1.0)
+        sign[0, ys[0] == 0.0] = -1.0
+    theta = angle(Pair(np.abs(ys)), Pair(xs)).scaled(sign)
+    rows = np.minimum(theta.rows() if thin else theta.upper(), PI_UP)
+    rows[:, crosses] = PI_UP
+    proved = moderate(xs) & moderate(ys)
+    return rows, np.asarray(crosses | (proved if thin else np.all(proved, axis=0)))

@@ -1,0 +1,172 @@
+"""The monotone functions in binary64 against Arb: containment, stated ulps, ranges, refusals."""
+
+import math
+
+import flint
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from intervals.elementary import binary64
+from intervals.elementary.binary64.monotone import FUNCTIONS
+from tests.intervals.binary64_oracle import BITS, DOMAIN, ETA, MAX, TRUE, points, rows
+from tests.intervals.measure_errors import errors, proved
+
+QUICK, LONG = 1200, 110_000
+
+
+def enclosed(name, lower, upper=None):
+    """The bounds (lower, upper) of monotone(name) as arrays."""
+    low, high = binary64.monotone(name, rows(np.asarray(lower), upper))
+    return -low, high
+
+
+def distances(name, x, low, high):
+    """Whether the bounds contain f(x), and how far they are in ulps, at points x."""
+    true, result = TRUE[name], np.empty(x.shape)
+    with flint.ctx.workprec(BITS):
+        for i, (p, a, b) in enumerate(zip(x.tolist(), low.tolist(), high.tolist(), strict=True)):
+            y = true(flint.arb(p))
+            # where f(x) is binary64 itself Arb's ball may reach beyond the bounds
+            assert y.is_finite()
+            assert not y < a, (name, p.hex(), a)
+            assert not y > b, (name, p.hex(), b)
+            reach = max(float((y - a).upper()), float((b - y).upper()))
+            result[i] = reach / math.ulp(max(abs(a), abs(b)))
+    return result
+
+
+def check_points(name, count, seed):
+    x = points(name, count, seed)
+    x = np.concatenate([x[proved(name, x)], x[~proved(name, x)][: 300 + count // 300]])
+    low, high = enclosed(name, x)
+    ulps = distances(name, x, low, high)
+    within = proved(name, x)
+    assert within.sum() > 0.5 * count
+    assert ulps[within].max() <= binary64.ERRORS[name]
+    assert ulps[~within].max(initial=0.0) <= 1.0  # multiprecision, rounded outward
+    return within.sum()
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_points(name):
+    check_points(name, QUICK, seed=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_hundred_thousand_points(name):
+    x = points(name, 2 * LONG, seed=2)
+    x = x[proved(name, x)][:100_000]
+    assert len(x) == 100_000
+    low, high = enclosed(name, x)
+    assert distances(name, x, low, high).max() <= binary64.ERRORS[name]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_errors_are_within_the_proved_bounds(name):
+    _, error, k = errors(name, points(name, 5 * QUICK, seed=3))
+    assert error.max() <= k <= FUNCTIONS[name].k
+    assert binary64.ERRORS[name] <= 2 * FUNCTIONS[name].k + 1.51
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_wide_intervals_contain_images_and_are_those_of_the_ends(name):
+    a, b = points(name, QUICK, seed=4), points(name, QUICK, seed=5)
+    both = proved(name, a) & proved(name, b)
+    keep = both | (np.arange(len(a)) < 60)  # some for multiprecision
+    lower, upper, both = np.minimum(a, b)[keep], np.maximum(a, b)[keep], both[keep]
+    low, high = enclosed(name, lower, upper)
+    ends = [enclosed(name, lower), enclosed(name, upper)]
+    first, last = ends[::-1] if FUNCTIONS[name].decreasing else ends
+    assert (low == first[0])[both].all()
+    assert (high == last[1])[both].all()
+    t = np.random.default_rng(6).random(len(lower))
+    inner = np.clip(lower * (1 - t) + upper * t, lower, upper)
+    distances(name, inner, low, high)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_blocks_and_shapes_do_not_show(name):
+    low, high = FUNCTIONS[name].low, FUNCTIONS[name].high
+    low, high = max(low, 0.01 if name.startswith("log") else -0.9), min(high, 0.9)
+    x = np.linspace(low, max(high, low + 0.9), binary64.CHUNK + 6)
+    whole = binary64.monotone(name, rows(x))
+    parts = [binary64.monotone(name, rows(x[i : i + 7000])) for i in range(0, len(x), 7000)]
+    assert (np.concatenate(parts, axis=1) == whole).all()
+    assert (binary64.monotone(name, rows(x).reshape(2, 5, -1)).reshape(2, -1) == whole).all()
+    assert (
+        binary64.monotone(name, rows(x, x + 0.01 * (x < 0.5)))[0] == whole[0]
+    ).all() or name == "acos"
+    assert binary64.monotone(name, np.empty((2, 0))).shape == (2, 0)
+
+
+ODD = ["cbrt", "asin", "atan", "sinh", "tanh", "asinh", "atanh"]
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_odd_functions_have_odd_ranges(name):
+    a, b = points(name, 300, seed=7), points(name, 300, seed=8)
+    x = rows(np.minimum(a, b), np.maximum(a, b))
+    assert (binary64.monotone(name, x[::-1]) == binary64.monotone(name, x)[::-1]).all()
+
+
+@pytest.mark.parametrize("name", ["expm1", "log1p", "log", "log2", "log10", "acosh", *ODD])
+def test_zeros_are_exact(name):
+    zero = 1.0 if name in ("log", "log2", "log10", "acosh") else 0.0
+    assert (binary64.monotone(name, rows(np.array([zero]))) == 0).all()
+
+
+def test_ranges_are_respected():
+    x = np.array([1.0, 18.0, 19.0, 20.0, 400.0, 1e200, MAX])
+    low, high = enclosed("tanh", x)
+    assert (high <= 1).all()
+    assert (low[3:] >= 1 - 2.0**-50).all()
+    assert enclosed("expm1", np.array([-650.0, -5000.0, -MAX]))[0].tolist() == [-1.0] * 3
+    for name in ("exp", "exp2", "exp10"):
+        low, high = enclosed(name, np.array([-5000.0, -1e300]))
+        assert low.tolist() == [0.0, 0.0]
+        assert high.tolist() == [ETA, ETA]
+    assert enclosed("cosh", np.array([0.0]))[0] == 1.0
+    assert enclosed("acos", np.array([1.0]))[0] == 0.0
+    half_pi = float(flint.arb.pi()) / 2
+    for name, x in (("asin", 1.0), ("atan", MAX), ("atan", 1e30)):
+        low, high = enclosed(name, np.array([x]))
+        assert half_pi - 1e-15 < low[0] <= half_pi < high[0] <= math.nextafter(half_pi, 2)
+
+
+@pytest.mark.parametrize("name", ["exp", "exp2", "exp10", "expm1", "sinh", "cosh"])
+def test_overflow_is_refused(name):
+    for x in (1100.0, 1e9, MAX):
+        with pytest.raises(OverflowError):
+            enclosed(name, np.array([0.5, x]))
+    if name == "sinh":
+        with pytest.raises(OverflowError):
+            enclosed(name, np.array([-1e5]))
+
+
+def in_domain(name):
+    low, high = DOMAIN[name]
+    return st.floats(low, high)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+@settings(max_examples=25, deadline=None)
+@given(data=st.data())
+def test_any_interval(name, data):
+    lower, upper = sorted(data.draw(st.lists(in_domain(name), min_size=2, max_size=2)))
+    low, high = enclosed(name, np.array([lower]), np.array([upper]))
+    assert low[0] <= high[0]
+    t = data.draw(st.floats(0, 1))
+    inner = min(max(lower * (1 - t) + upper * t, lower), upper)
+    distances(name, np.array([lower, inner, upper]), low.repeat(3), high.repeat(3))
+
+
+def test_a_bad_candidate_for_the_cube_root_is_not_believed(monkeypatch):
+    x = np.array([8.0, -2.0, 1e9, 0.0])
+    cbrt = np.cbrt
+    monkeypatch.setattr(np, "cbrt", lambda v: cbrt(v) * np.array([1 + 2.0**-8, 2, np.nan, 1]))
+    low, high = enclosed("cbrt", x)
+    assert distances("cbrt", x[:3], low[:3], high[:3]).max() <= 1
+    assert (low[3], high[3]) == (0, 0)
