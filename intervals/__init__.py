@@ -5,12 +5,48 @@ and intervals X, Y, the result contains op(x, y) for all x in X and y in Y, what
 rounded on the way. So what is shown for the result is shown for every number inside.
 """
 
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from intervals.errors import DomainError, IntervalError, Undecided
 from intervals.exact import decimal_bounds, decimal_down, decimal_up, fraction
+from intervals.functions import (
+    acos,
+    acosh,
+    asin,
+    asinh,
+    atan,
+    atan2,
+    atanh,
+    cbrt,
+    ceil,
+    cos,
+    cosh,
+    exp,
+    exp2,
+    exp10,
+    expm1,
+    floor,
+    hypot,
+    log,
+    log1p,
+    log2,
+    log10,
+    maximum,
+    minimum,
+    pow,
+    round_ties_to_away,
+    round_ties_to_even,
+    sign,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+    trunc,
+)
 from intervals.interval import Interval
 from intervals.jet import Jet
+from intervals.relations import Overlap
 
 if TYPE_CHECKING:
     from intervals.array import IntervalArray
@@ -21,55 +57,51 @@ __all__ = [
     "IntervalArray",
     "IntervalError",
     "Jet",
+    "Overlap",
     "Undecided",
+    "acos",
+    "acosh",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "cbrt",
+    "ceil",
     "cos",
+    "cosh",
     "decimal_bounds",
     "decimal_down",
     "decimal_up",
+    "e",
     "exp",
+    "exp2",
+    "exp10",
+    "expm1",
+    "floor",
     "fraction",
+    "hypot",
     "log",
+    "log1p",
+    "log2",
+    "log10",
+    "maximum",
+    "minimum",
+    "pi",
+    "pow",
+    "round_ties_to_away",
+    "round_ties_to_even",
+    "sign",
     "sin",
+    "sinh",
     "sqrt",
+    "tan",
+    "tanh",
+    "trunc",
 ]
 
-
-class Elementary(Protocol):
-    """What a number type brings: Interval, IntervalArray and Jet do."""
-
-    def sin(self) -> Self: ...
-    def cos(self) -> Self: ...
-    def exp(self) -> Self: ...
-    def log(self) -> Self: ...
-    def sqrt(self) -> Self: ...
-
-
-_N = TypeVar("_N", bound=Elementary)
-
-
-def sin(x: _N) -> _N:
-    """Enclose sin over x."""
-    return x.sin()
-
-
-def cos(x: _N) -> _N:
-    """Enclose cos over x."""
-    return x.cos()
-
-
-def exp(x: _N) -> _N:
-    """Enclose exp over x."""
-    return x.exp()
-
-
-def log(x: _N) -> _N:
-    """Enclose the natural logarithm over x > 0."""
-    return x.log()
-
-
-def sqrt(x: _N) -> _N:
-    """Enclose the square root over x >= 0."""
-    return x.sqrt()
+pi = Interval.pi
+e = Interval.e
 
 
 def __getattr__(name: str) -> Any:

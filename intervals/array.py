@@ -2,51 +2,66 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from intervals import display, numpy_protocol
 from intervals.elementary import binary64
-from intervals.rounding import Rows, bounded, outward_sum
+from intervals.errors import DomainError
+from intervals.exact import Exact, fraction
+from intervals.functions import DOMAINS, Domain, Elementary
+from intervals.reductions import matrix_product, product_rows, sum_rows
+from intervals.relations import Relations, overlap_state
+from intervals.rounding import Rows, bounded, outward_sum, require_subnormals
 from intervals.rows import (
+    STEPS,
     aligned,
-    elementwise,
+    ends,
     exact_rows,
     float_rows,
+    in_blocks,
     magnitude,
     power,
     product,
     quotient,
     scalar_rows,
     square_root,
+    total,
 )
 
 if TYPE_CHECKING:
     from intervals.interval import Interval
 
+_IEEE = {**STEPS, "sqrt": square_root}  # what the processor does, rounded correctly
 Mask = NDArray[np.bool_]
 Operand: TypeAlias = "IntervalArray | Interval | Fraction | int"
 
+# glibc hands each freed temporary back to the system, and asks for its pages again, until it has
+# seen a large array freed: that made the functions here three times slower. No page is touched.
+np.empty(4_000_000)
 
-class IntervalArray:
+
+class IntervalArray(Relations[Mask], Elementary):
     """An array of sets {x real : inf <= x <= sup}, with finite binary64 `inf <= sup` elementwise.
 
     `IntervalArray(values)` is `from_exact`; binary64 numbers enter through `from_floats`. Shapes
-    broadcast as in numpy. The other operand may be an IntervalArray, an int, a Fraction or an
-    Interval (enclosed as tightly as binary64 allows); a float raises TypeError. Every operation
-    returns elementwise a superset of {op(x, y) : x in X, y in Y} (the inclusion principle); where
-    a bound would leave the range of binary64 it raises OverflowError. An array does not change
-    after it is made.
+    broadcast as in numpy, whose own functions know the class (np.sin(X), np.concatenate, X @ Y).
+    The other operand may be an IntervalArray, an int, an array of ints, a Fraction or an Interval
+    (enclosed as tightly as binary64 allows); a float raises TypeError. Every operation returns
+    elementwise a superset of {op(x, y) : x in X, y in Y} (the inclusion principle); where a bound
+    would leave the range of binary64 it raises OverflowError. An array does not change after it
+    is made.
     """
 
     __slots__ = ("_rows",)
-    __array_ufunc__ = None  # numpy leaves the operators to this class
     _rows: Rows  # (-inf, sup), shape (2, *shape): both rows are rounded upward
 
     def __init__(self, values: Any) -> None:
+        require_subnormals()
         self._rows = exact_rows(values)
 
     @classmethod
@@ -70,8 +85,13 @@ class IntervalArray:
 
     @staticmethod
     def concatenate(arrays: Sequence[IntervalArray], axis: int = 0) -> IntervalArray:
-        """Join arrays of at least one axis along the element axis `axis`, as numpy does."""
-        return _make(np.concatenate([x._rows for x in arrays], axis + 1 if axis >= 0 else axis))
+        """Join arrays along an element axis: np.concatenate, with its type."""
+        joined: Any = np.concatenate(arrays, axis)
+        return cast("IntervalArray", joined)
+
+    @classmethod
+    def _of_rows(cls, rows: Rows) -> IntervalArray:
+        return _make(rows)
 
     # -- the sets ------------------------------------------------------------------------------
 
@@ -97,6 +117,45 @@ class IntervalArray:
             return outward_sum(np.asarray(self._rows[0] + self._rows[1]))
 
     @property
+    def rad(self) -> Rows:
+        """Upper bounds of |x - mid| for x in the intervals."""
+        middle = self.mid
+        with _quiet():
+            return outward_sum(np.maximum(self._rows[0] + middle, self._rows[1] - middle))
+
+    @property
+    def mag(self) -> Rows:
+        """The largest absolute values."""
+        return np.asarray(magnitude(self._rows)[1])
+
+    @property
+    def mig(self) -> Rows:
+        """The smallest absolute values."""
+        return np.asarray(0.0 - magnitude(self._rows)[0])
+
+    def hull(self, other: Operand) -> IntervalArray:
+        """Return the smallest intervals that hold both."""
+        return _make(np.maximum(*self._pair(other)))
+
+    def intersection(self, other: Operand) -> IntervalArray | None:
+        """Return the common parts, None if any is empty: `disjoint` says where."""
+        rows = np.minimum(*self._pair(other))
+        return None if (rows[1] < -rows[0]).any() else _make(bounded(rows))
+
+    def bisect(self) -> tuple[IntervalArray, IntervalArray]:
+        """Return two arrays, the halves of each interval, cut at `mid`."""
+        middle = self.mid
+        left, right = np.stack((self._rows[0], middle)), np.stack((-middle, self._rows[1]))
+        return _make(left), _make(right)
+
+    def widen(self, radius: Exact) -> IntervalArray:
+        """Return enclosures of [inf - radius, sup + radius], radius >= 0 exact."""
+        r = fraction(radius)
+        return self + IntervalArray((-r, r))
+
+    # -- the shape -----------------------------------------------------------------------------
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """The shape of the array of intervals."""
         return self._rows.shape[1:]
@@ -111,8 +170,16 @@ class IntervalArray:
         """The number of intervals."""
         return self._rows.size // 2
 
+    @property
+    def T(self) -> IntervalArray:  # noqa: N802 - numpy's name
+        """The transposed array."""
+        return _make(np.moveaxis(self._rows.T, -1, 0))
+
     def __len__(self) -> int:
         return len(self._rows[1, ...])
+
+    def __iter__(self) -> Iterator[IntervalArray]:
+        return (self[i] for i in range(len(self)))
 
     def __getitem__(self, index: Any) -> IntervalArray:
         """Select intervals, by any index that numpy knows, on the element axes."""
@@ -124,62 +191,94 @@ class IntervalArray:
         """Return the same intervals in another shape."""
         return _make(self._rows.reshape(2, *shape))
 
-    def hull(self, other: Operand) -> IntervalArray:
-        """Return the smallest intervals that hold both."""
-        return _make(np.maximum(*self._pair(other)))
+    def item(self) -> Interval:
+        """Return the only element, exactly, as an Interval."""
+        from intervals.interval import Interval
 
-    def intersection(self, other: Operand) -> IntervalArray:
-        """Return the common parts; ValueError if any is empty."""
-        rows = np.minimum(*self._pair(other))
-        if not (-rows[0] <= rows[1]).all():
-            raise ValueError("an intersection is empty")
-        return _make(rows)
+        low, high = self.inf.item(), self.sup.item()
+        return Interval.from_float(low).hull(Interval.from_float(high))
 
-    # -- masks: True only where a comparison of bounds holds, so that NaN decides nothing --------
+    def tolist(self) -> Any:
+        """Return the elements as nested lists of Intervals."""
+        return [x.tolist() for x in self] if self.ndim else self.item()
 
-    def subset(self, other: Operand) -> Mask:
-        """Where every number of this interval is in the other."""
-        a, b = self._pair(other)
-        return np.asarray((a[0] <= b[0]) & (a[1] <= b[1]))
+    # -- relations: see Relations; comparisons with NaN are False, so that it decides nothing -----
 
-    def contains(self, other: Operand) -> Mask:
-        """Where the other interval, or the exact number, is in this one; the answer is exact.
+    def _bounds(self, other: Operand | str) -> tuple[Any, Any, Any, Any]:
+        require_subnormals()
+        if isinstance(other, IntervalArray):
+            a, b = aligned(self._rows, other._rows)
+            return -a[0], a[1], -b[0], b[1]
+        return self.inf, self.sup, *ends(other)
 
-        An exact x is in [a, b], a and b in binary64, if and only if its tightest enclosure is.
-        """
-        b, a = self._pair(other)
-        return np.asarray((a[0] <= b[0]) & (a[1] <= b[1]))
-
-    def certainly_positive(self) -> Mask:
-        """Where x > 0 for every x of the interval."""
-        return np.asarray(self._rows[0] < 0.0)
-
-    def certainly_negative(self) -> Mask:
-        """Where x < 0 for every x of the interval."""
-        return np.asarray(self._rows[1] < 0.0)
-
-    def certainly_less(self, other: Operand) -> Mask:
-        """Where x < y for every x of this interval and every y of the other."""
-        a, b = self._pair(other)
-        return np.asarray(a[1] < -b[0])
+    def overlap(self, other: IntervalArray) -> NDArray[np.object_]:
+        """Return how the intervals lie to the others: an array of `Overlap`."""
+        states = np.vectorize(overlap_state, otypes=[object])
+        found: NDArray[np.object_] = states(*self._bounds(_make(self._pair(other)[1])))
+        return found
 
     def __eq__(self, other: object) -> Any:
         """Return where two IntervalArrays are equal as sets: a mask, as numpy's ==."""
         if not isinstance(other, IntervalArray):
             raise TypeError("an IntervalArray equals IntervalArrays only: use contains or subset")
-        a, b = self._pair(other)
-        return np.asarray((a[0] == b[0]) & (a[1] == b[1]))
+        return self.equal(other)
+
+    def __ne__(self, other: object) -> Any:
+        """Return where two IntervalArrays differ as sets."""
+        return ~(self == other)
 
     def __hash__(self) -> NoReturn:
         raise TypeError("an IntervalArray has no hash")
 
     def _unordered(self, other: object) -> NoReturn:
-        raise TypeError("intervals may overlap: use certainly_less, _positive, _negative")
+        raise TypeError("intervals may overlap: use certainly_less, possibly_less, ...")
 
     __lt__ = __le__ = __gt__ = __ge__ = _unordered
 
     def __bool__(self) -> NoReturn:
         raise TypeError("the truth of an IntervalArray is not defined: use a mask, .all(), .any()")
+
+    # -- numpy ---------------------------------------------------------------------------------
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        return numpy_protocol.apply_ufunc(IntervalArray, ufunc, method, inputs, options)
+
+    def __array_function__(self, function: Any, _types: Any, arguments: Any, options: Any) -> Any:
+        return numpy_protocol.apply_function(IntervalArray, function, arguments, options)
+
+    def __array__(self, *_arguments: Any, **_options: Any) -> NoReturn:
+        raise TypeError("an IntervalArray is no array of numbers: take .inf, .sup or .mid")
+
+    def sum(self, axis: int | None = None) -> IntervalArray:
+        """Return the sums over an axis, or over all elements."""
+        with _quiet():
+            return _make(sum_rows(*self._along(axis)))
+
+    def prod(self, axis: int | None = None) -> IntervalArray:
+        """Return the products over an axis, or over all elements."""
+        with _quiet():
+            return _make(product_rows(*self._along(axis)))
+
+    def _along(self, axis: int | None) -> tuple[Rows, int]:
+        if axis is None:
+            return self._rows.reshape(2, -1), 0
+        if not -self.ndim <= axis < self.ndim:
+            raise np.exceptions.AxisError(axis, self.ndim)
+        return self._rows, axis % self.ndim
+
+    def __matmul__(self, other: IntervalArray) -> IntervalArray:
+        """Return the matrix product, with numpy's rules for vectors and stacks."""
+        if not isinstance(other, IntervalArray):
+            return NotImplemented
+        if not (self.ndim and other.ndim):
+            raise ValueError("a matrix product needs arrays of at least one axis")
+        a = self._rows if self.ndim > 1 else self._rows[:, np.newaxis]
+        b = other._rows if other.ndim > 1 else other._rows[..., np.newaxis]
+        with _quiet():
+            rows = matrix_product(*aligned(a, b))
+        if self.ndim == 1:
+            rows = rows[..., 0, :]
+        return _make(rows[..., 0] if other.ndim == 1 else rows)
 
     # -- arithmetic ----------------------------------------------------------------------------
 
@@ -204,7 +303,7 @@ class IntervalArray:
         if rows is None:
             return NotImplemented
         with _quiet():
-            return _make(outward_sum(np.add(*aligned(self._rows, rows))))
+            return _make(in_blocks(total, *aligned(self._rows, rows)))
 
     __radd__ = __add__
 
@@ -217,7 +316,7 @@ class IntervalArray:
 
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
-        if isinstance(other, int) and abs(other) & (abs(other) - 1) == 0:
+        if isinstance(other, int | np.integer) and abs(other) & (abs(other) - 1) == 0:
             if other == 1:
                 return self
             rows = self._rows if other >= 0 else self._rows[::-1]
@@ -227,7 +326,7 @@ class IntervalArray:
         if factor is None:
             return NotImplemented
         with _quiet():
-            return _make(product(*aligned(self._rows, factor)))
+            return _make(in_blocks(product, *aligned(self._rows, factor)))
 
     __rmul__ = __mul__
 
@@ -237,62 +336,131 @@ class IntervalArray:
         if divisor is None:
             return NotImplemented
         with _quiet():
-            return _make(quotient(*aligned(self._rows, divisor)))
+            return _make(in_blocks(quotient, *aligned(self._rows, divisor)))
 
     def __rtruediv__(self, other: Operand) -> IntervalArray:
         dividend = _rows_of(other)
         return NotImplemented if dividend is None else _make(dividend) / self
 
-    def __pow__(self, n: int) -> IntervalArray:
-        """Return the n-th powers, without the dependency of x * x."""
+    def __pow__(self, n: Operand) -> IntervalArray:
+        """Return the n-th powers without the dependency of x * x; real powers by `pow`."""
+        if not isinstance(n, int):
+            return NotImplemented if _rows_of(n) is None else self.pow(n)
         if n < 0:
-            return 1 / self**-n
+            return (1 / self) ** -n
         if n < 2:
             return self if n else self * 0 + 1
         with _quiet():
             return _make(power(self._rows, n))
 
+    def __rpow__(self, base: Operand) -> IntervalArray:
+        rows = _rows_of(base)
+        return NotImplemented if rows is None else _make(rows).pow(self)
+
     def sqr(self) -> IntervalArray:
         """Return the squares: within [0, oo), without the dependency of x * x."""
         return self**2
 
-    # -- elementary functions ------------------------------------------------------------------
+    def recip(self) -> IntervalArray:
+        """Return 1 / x."""
+        return 1 / self
 
-    def sqrt(self) -> IntervalArray:
-        """Return the square roots; DomainError if an interval reaches below 0."""
+    def fma(self, factor: Operand, term: Operand) -> IntervalArray:
+        """Return x y + z, with two outward steps."""
+        return self * factor + term
+
+    # -- elementary functions: see Elementary, and `elementary.binary64` for the errors -----------
+
+    def _monotone(self, name: str) -> IntervalArray:
+        if name in DOMAINS and not self._inside(DOMAINS[name]):
+            raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         with _quiet():
-            return _make(square_root(self._rows))
+            if name in _IEEE:
+                return _make(_IEEE[name](self._rows))
+            return _make(binary64.monotone(name, self._rows))
+
+    def _inside(self, domain: Domain) -> bool:
+        low, high = -self._rows[0], self._rows[1]
+        if domain.closed:
+            above = domain.low is None or (low >= domain.low).all()
+            return bool(above and (domain.high is None or (high <= domain.high).all()))
+        above = domain.low is None or (low > domain.low).all()
+        return bool(above and (domain.high is None or (high < domain.high).all()))
 
     def sincos(self) -> tuple[IntervalArray, IntervalArray]:
-        """Return (sin X, cos X), within [-1, 1], from one reduction: see `elementary.binary64`."""
+        """Return (sin X, cos X), within [-1, 1], from one reduction."""
         with _quiet():
             sin, cos = binary64.sincos(self._rows)
         return _make(sin), _make(cos)
 
     def sin(self) -> IntervalArray:
-        """Return sin X."""
+        """Return the sine."""
         return self.sincos()[0]
 
     def cos(self) -> IntervalArray:
-        """Return cos X."""
+        """Return the cosine."""
         return self.sincos()[1]
 
-    def exp(self) -> IntervalArray:
-        """Return exp X, tight to an ulp or two: element by element in multiprecision, so slow."""
-        return _make(elementwise(self._rows, lambda x: x.exp()))
+    def tan(self) -> IntervalArray:
+        """Return the tangent; DomainError where a pole is, or may be, inside."""
+        with _quiet():
+            return _make(binary64.tan(self._rows))
 
-    def log(self) -> IntervalArray:
-        """Return log X, likewise; DomainError if an interval reaches 0 or below."""
-        return _make(elementwise(self._rows, lambda x: x.log()))
+    def atan2(self, x: Operand) -> IntervalArray:
+        """Return the angle in (-pi, pi] of the points (x, y), y in this interval."""
+        with _quiet():
+            return _make(binary64.atan2(*self._pair(x)))
+
+    def hypot(self, other: Operand) -> IntervalArray:
+        """Return sqrt(x^2 + y^2)."""
+        with _quiet():
+            return _make(binary64.hypot(*self._pair(other)))
+
+    def pow(self, exponent: Operand) -> IntervalArray:
+        """Return x^y for real y; the domain is x > 0, and x = 0 with y > 0."""
+        base, power_of = self._pair(exponent)
+        if not ((base[0] < 0.0) | ((base[0] <= 0.0) & (power_of[0] < 0.0))).all():
+            raise DomainError("pow leaves x > 0, or x = 0 with y > 0")
+        with _quiet():
+            return _make(binary64.power(base, power_of))
+
+    def minimum(self, other: Operand) -> IntervalArray:
+        """Return the range of min(x, y)."""
+        a, b = self._pair(other)
+        return _make(np.stack((np.maximum(a[0], b[0]), np.minimum(a[1], b[1]))))
+
+    def maximum(self, other: Operand) -> IntervalArray:
+        """Return the range of max(x, y)."""
+        a, b = self._pair(other)
+        return _make(np.stack((np.minimum(a[0], b[0]), np.maximum(a[1], b[1]))))
+
+    # -- text ----------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
+        """Return what evaluates to an equal array, given numpy's names: up to 1000 intervals."""
+        if self.size > 1000:
+            return f"<IntervalArray of shape {self.shape}>"
+        low, high = self.inf.tolist(), self.sup.tolist()
+        empty = "" if self.size else f".reshape{self.shape}"
+        return f"IntervalArray.from_floats({low}, {high}){empty}"
+
+    def __str__(self) -> str:
         bounds = np.stack((self.inf, self.sup), axis=-1)
-        text = np.array2string(bounds, floatmode="unique", separator=", ", threshold=40)
-        return f"<IntervalArray {self.shape}: (inf, sup) =\n{text}>"
+        return np.array2string(bounds, floatmode="unique", separator=", ", threshold=40)
+
+    def _repr_html_(self) -> str:
+        return display.html(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _make, (np.ascontiguousarray(self._rows),)
 
 
 def _make(rows: Rows) -> IntervalArray:
-    """Return the IntervalArray of these rows, which nobody changes from now on."""
+    """Return the IntervalArray of these rows, which nobody changes from now on.
+
+    Every array comes through here, so none is made where subnormal numbers are flushed to zero.
+    """
+    require_subnormals()
     new = object.__new__(IntervalArray)
     new._rows = rows
     return new

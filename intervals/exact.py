@@ -25,6 +25,23 @@ def fraction(value: Exact) -> Fraction:
     return Fraction(int(value.numerator), int(value.denominator))  # numpy's integers would wrap
 
 
+def pair(lower: Exact, upper: Exact | None) -> tuple[Fraction, Fraction]:
+    """Return the ends that a constructor was given: two numbers, one, or the text "[1.1, 1.2]".
+
+    Reversed ends raise ValueError.
+    """
+    if upper is None and isinstance(lower, str) and lower.strip().startswith("["):
+        first, _, second = lower.strip().removeprefix("[").removesuffix("]").partition(",")
+        if not second or not lower.strip().endswith("]"):
+            raise ValueError(f"not an interval: {lower!r}")
+        lower, upper = first.strip(), second.strip()
+    low = fraction(lower)
+    high = low if upper is None else fraction(upper)
+    if low > high:
+        raise ValueError(f"reversed interval: {lower} > {upper}")
+    return low, high
+
+
 def _read(text: str) -> Fraction:
     if len(text) > _LONGEST:
         raise ValueError(f"a number of unreasonable size: {text[:20]}...")

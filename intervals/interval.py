@@ -11,14 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cmp_to_key
 from typing import Any
 
 from mpmath.libmp import (
     fone,
-    from_float,
     from_int,
     from_man_exp,
-    from_rational,
     fzero,
     mpf_add,
     mpf_cmp,
@@ -27,28 +26,36 @@ from mpmath.libmp import (
     mpf_mul,
     mpf_neg,
     mpf_pos,
-    mpf_sqrt,
+    mpf_shift,
     mpf_sub,
 )
 
+from intervals import display
 from intervals.elementary import tightest
 from intervals.elementary.constants import pi_fixed
+from intervals.elementary.steps import STEPS
 from intervals.elementary.tightest import DOWN, UP
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
-from intervals.exact import Exact, decimal_down, decimal_up, fraction
+from intervals.exact import Exact, fraction, pair
+from intervals.functions import DECREASING, DOMAINS, Domain, Elementary
+from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
+from intervals.relations import Overlap, Relations, overlap_state
 
 _ZERO: _Raw = fzero
 _ONE: _Raw = fone
 _MINUS_ONE: _Raw = mpf_neg(fone)
+_POINTS = {**tightest.FUNCTIONS, **STEPS}
+_ordered_key = cmp_to_key(mpf_cmp)
 
 
-class Interval:
+class Interval(Relations[bool], Elementary):
     """The set of reals between two exact endpoints, `inf <= x <= sup`.
 
     Interval("0.2121") is the tightest enclosure of 2121/10000 at `precision` bits,
     Interval("1.11", "1.15") that of a range; ints, Fractions and "7/5" enter the same way. A
-    float raises TypeError; Interval.from_float(x) takes the binary number itself.
+    float raises TypeError; Interval.from_float(x) takes the binary number itself. What `str`
+    prints, such as "[1.11, 1.15]", is read as well.
 
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
@@ -59,13 +66,10 @@ class Interval:
     precision: int
 
     def __init__(self, lower: Exact, upper: Exact | None = None, *, precision: int = 53) -> None:
-        low = fraction(lower)
-        high = low if upper is None else fraction(upper)
-        if low > high:
-            raise ValueError(f"reversed interval: {lower} > {upper}")
+        low, high = pair(lower, upper)
         self.precision = _checked(precision)
-        self._lo = _round(low, precision, DOWN)
-        self._hi = _round(high, precision, UP)
+        self._lo = rounded(low, precision, DOWN)
+        self._hi = rounded(high, precision, UP)
 
     @classmethod
     def from_float(cls, value: float, *, precision: int = 53) -> Interval:
@@ -76,7 +80,7 @@ class Interval:
         number = float(value)
         if number != value or number - number != 0:
             raise ValueError(f"not a finite binary64 number: {value!r}")
-        raw, p = from_float(number), _checked(precision)
+        raw, p = from_bits(number), _checked(precision)
         return _make(mpf_pos(raw, p, DOWN), mpf_pos(raw, p, UP), p)
 
     @classmethod
@@ -86,17 +90,22 @@ class Interval:
         low = pi_fixed(bits)
         return cls(Fraction(low, 1 << bits), Fraction(low + 1, 1 << bits), precision=precision)
 
+    @classmethod
+    def e(cls, *, precision: int = 53) -> Interval:
+        """Enclose Euler's number e = exp 1."""
+        return cls(1, precision=precision).exp()
+
     # -- the set -------------------------------------------------------------------------------
 
     @property
     def inf(self) -> Fraction:
         """The exact lower endpoint."""
-        return _fraction(self._lo)
+        return exact(self._lo)
 
     @property
     def sup(self) -> Fraction:
         """The exact upper endpoint."""
-        return _fraction(self._hi)
+        return exact(self._hi)
 
     @property
     def mid(self) -> Fraction:
@@ -109,6 +118,11 @@ class Interval:
         return self.sup - self.inf
 
     @property
+    def rad(self) -> Fraction:
+        """The exact radius, half the width."""
+        return self.wid / 2
+
+    @property
     def mag(self) -> Fraction:
         """The largest absolute value."""
         return max(abs(self.inf), abs(self.sup))
@@ -116,17 +130,7 @@ class Interval:
     @property
     def mig(self) -> Fraction:
         """The smallest absolute value."""
-        return Fraction(0) if self.contains_zero() else min(abs(self.inf), abs(self.sup))
-
-    def contains(self, value: Exact | Interval) -> bool:
-        """Whether a number or an interval is a subset of this one."""
-        if isinstance(value, Interval):
-            return _compare(self._lo, value._lo) <= 0 <= _compare(self._hi, value._hi)
-        return self.inf <= fraction(value) <= self.sup
-
-    def contains_zero(self) -> bool:
-        """Whether 0 is in the interval."""
-        return _compare(self._lo, _ZERO) <= 0 <= _compare(self._hi, _ZERO)
+        return max(Fraction(0), self.inf, -self.sup)
 
     def hull(self, other: Interval) -> Interval:
         """Return the smallest interval that holds both."""
@@ -146,6 +150,18 @@ class Interval:
         """Return an enclosure of this interval at another precision."""
         p = _checked(precision)
         return _make(mpf_pos(self._lo, p, DOWN), mpf_pos(self._hi, p, UP), p)
+
+    def bisect(self) -> tuple[Interval, Interval]:
+        """Return two intervals whose union this is, cut at the midpoint or a number next to it."""
+        middle = mpf_pos(mpf_shift(mpf_add(self._lo, self._hi), -1), self.precision, DOWN)
+        if mpf_lt(middle, self._lo):
+            middle = self._lo
+        return _make(self._lo, middle, self.precision), _make(middle, self._hi, self.precision)
+
+    def widen(self, radius: Exact) -> Interval:
+        """Return an enclosure of [inf - radius, sup + radius], radius >= 0 exact."""
+        r = fraction(radius)
+        return self + Interval(-r, r, precision=self.precision)
 
     # -- arithmetic ----------------------------------------------------------------------------
 
@@ -203,7 +219,7 @@ class Interval:
         if d[0]:
             return -(self * -other)
         products = [mpf_mul(x, y) for x in (a, b) for y in (c, d)]
-        low, high = _extremes(products)
+        low, high = extremes(products)
         return _make(mpf_pos(low, p, DOWN), mpf_pos(high, p, UP), p)
 
     __rmul__ = __mul__
@@ -212,12 +228,12 @@ class Interval:
         other = self._other(value)
         if other is None:
             return NotImplemented
-        if other.contains_zero():
+        a, b, c, d = self._lo, self._hi, other._lo, other._hi
+        if (c[0] or c == _ZERO) and not d[0]:
             raise DomainError("division by an interval that contains 0")
         p = max(self.precision, other.precision)
-        if other._hi[0]:
+        if c[0]:
             return (-self) / (-other)
-        a, b, c, d = self._lo, self._hi, other._lo, other._hi
         low = mpf_div(a, c if a[0] else d, p, DOWN)
         high = mpf_div(b, d if b[0] else c, p, UP)
         return _make(low, high, p)
@@ -226,10 +242,33 @@ class Interval:
         other = self._other(value)
         return NotImplemented if other is None else other / self
 
+    def recip(self) -> Interval:
+        """Return 1 / x."""
+        return 1 / self
+
+    def fma(self, factor: Interval, term: Interval) -> Interval:
+        """Return x y + z, rounded once."""
+        p = max(self.precision, factor.precision, term.precision)
+        low, high = extremes(
+            [mpf_mul(x, y) for x in (self._lo, self._hi) for y in (factor._lo, factor._hi)]
+        )
+        return _make(mpf_add(low, term._lo, p, DOWN), mpf_add(high, term._hi, p, UP), p)
+
+    def cancel_minus(self, term: Interval) -> Interval | None:
+        """Return the tightest Z with term + Z containing X; None where term is wider than X."""
+        if self.wid < term.wid:
+            return None
+        p = max(self.precision, term.precision)
+        return _make(mpf_sub(self._lo, term._lo, p, DOWN), mpf_sub(self._hi, term._hi, p, UP), p)
+
+    def cancel_plus(self, term: Interval) -> Interval | None:
+        """Return the tightest Z with Z - term containing X; None where term is wider than X."""
+        return self.cancel_minus(-term)
+
     def __abs__(self) -> Interval:
         if not self._lo[0]:
             return self
-        if _compare(self._hi, _ZERO) <= 0:
+        if compare(self._hi, _ZERO) <= 0:
             return -self
         top = mpf_neg(self._lo)
         return _make(_ZERO, self._hi if mpf_lt(top, self._hi) else top, self.precision)
@@ -239,26 +278,54 @@ class Interval:
         x = abs(self)
         return x * x
 
-    def __pow__(self, n: int) -> Interval:
-        """Return the n-th power, n an int; DomainError for n < 0 and an interval with 0."""
+    def __pow__(self, n: Interval | Fraction | int) -> Interval:
+        """Return x^n; for an int n also below 0, else see `pow`."""
         if not isinstance(n, int):
-            return NotImplemented
-        if n < 0:
-            return 1 / self**-n
+            return self.pow(n) if isinstance(n, Interval | Fraction) else NotImplemented
         if n == 0:
             return Interval(1, precision=self.precision)
+        if n < 0:
+            return self._negative_power(n)
         x = abs(self) if n % 2 == 0 else self
         p = self.precision
-        return _make(_power(x._lo, n, p, DOWN), _power(x._hi, n, p, UP), p)
+        low, high = tightest.integer_power(x._lo, n, p)
+        if x._lo != x._hi:
+            _, high = tightest.integer_power(x._hi, n, p)
+        return _make(low, high, p)
+
+    def _negative_power(self, n: int) -> Interval:
+        """Return x^n, n < 0: decreasing on x > 0, and even or odd."""
+        if self._hi[0]:
+            return (-self) ** n if n % 2 == 0 else -((-self) ** n)
+        if not self.certainly_positive():
+            raise DomainError("a negative power of an interval that contains 0")
+        exponent, p = from_int(n), self.precision
+        low, high = tightest.power(self._hi, exponent, p)
+        if self._lo != self._hi:
+            _, high = tightest.power(self._lo, exponent, p)
+        return _make(low, high, p)
+
+    def __rpow__(self, base: Fraction | int) -> Interval:
+        other = self._other(base)
+        return NotImplemented if other is None else other.pow(self)
 
     # -- elementary functions ------------------------------------------------------------------
 
-    def sqrt(self) -> Interval:
-        """Return the square root; DomainError where the interval reaches below 0."""
-        if self._lo[0]:
-            raise DomainError("sqrt of an interval with negative numbers")
-        p = self.precision
-        return _make(mpf_sqrt(self._lo, p, DOWN), mpf_sqrt(self._hi, p, UP), p)
+    def _monotone(self, name: str) -> Interval:
+        if name in DOMAINS and not self._inside(DOMAINS[name]):
+            raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
+        left, right = self._lo, self._hi
+        if name in DECREASING:
+            left, right = right, left
+        low, high = _POINTS[name](left, self.precision)
+        if left != right:
+            _, high = _POINTS[name](right, self.precision)
+        return _make(low, high, self.precision)
+
+    def _inside(self, domain: Domain) -> bool:
+        least = 0 if domain.closed else 1
+        above = domain.low is None or compare(self._lo, from_int(domain.low)) >= least
+        return above and (domain.high is None or compare(from_int(domain.high), self._hi) >= least)
 
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""
@@ -267,47 +334,122 @@ class Interval:
         if self._lo == self._hi:
             return _make(*sin_low, p), _make(*cos_low, p)
         sin_high, cos_high, n_high = tightest.sincos(self._hi, p)
-        sin = _with_extrema(_hull_raw(sin_low, sin_high), n_low, n_high, 1, p)
-        return sin, _with_extrema(_hull_raw(cos_low, cos_high), n_low, n_high, 0, p)
+        sin = _with_extrema(hull(sin_low, sin_high), n_low, n_high, 1, p)
+        return sin, _with_extrema(hull(cos_low, cos_high), n_low, n_high, 0, p)
 
     def sin(self) -> Interval:
-        """Return sin X."""
+        """Return the sine."""
         return self.sincos()[0]
 
     def cos(self) -> Interval:
-        """Return cos X."""
+        """Return the cosine."""
         return self.sincos()[1]
 
-    def exp(self) -> Interval:
-        """Return exp X; OverflowError where the interval reaches beyond +-2^30."""
-        return self._increasing(tightest.exp)
+    def tan(self) -> Interval:
+        """Return the tangent; DomainError where a pole is inside.
 
-    def log(self) -> Interval:
-        """Return the natural logarithm; DomainError where the interval reaches 0 or below."""
-        if _compare(self._lo, _ZERO) <= 0:
-            raise DomainError("log of an interval that reaches 0 or below")
-        return self._increasing(tightest.log)
-
-    def _increasing(self, function: Callable[[_Raw, int], tuple[_Raw, _Raw]]) -> Interval:
-        low, high = function(self._lo, self.precision)
+        Between the poles, (2k - 1) pi/2 and (2k + 1) pi/2, it increases.
+        """
         if self._lo != self._hi:
-            _, high = function(self._hi, self.precision)
-        return _make(low, high, self.precision)
+            n_low, n_high = (tightest.sincos(x, 10)[2] for x in (self._lo, self._hi))
+            if (n_low + 1) // 2 != (n_high + 1) // 2:
+                raise DomainError("tan of an interval that contains a pole")
+        return self._monotone("tan")
+
+    # -- functions of two variables ------------------------------------------------------------
+
+    def _required(self, value: object) -> Interval:
+        other = self._other(value)
+        if other is None:
+            raise TypeError(f"not an interval or an exact number: {value!r}")
+        return other
+
+    def atan2(self, x: Interval | Fraction | int) -> Interval:
+        """Return the angle in (-pi, pi] of the points (x, y), y in this interval.
+
+        On a box without the origin and off the cut the angle takes its extremes at two corners,
+        those at which a ray from the origin touches the box.
+        """
+        other = self._required(x)
+        y, x = self, other
+        p = max(y.precision, x.precision)
+        if y.contains_zero() and x.contains_zero():
+            raise DomainError("atan2 of a box that contains the origin")
+        left, low, high = x._lo[0], y._lo[0], not y._hi[0]
+        if left and low and high:
+            pi = Interval.pi(precision=p)
+            return pi.hull(-pi)
+        if low and (y._hi[0] or y._hi == _ZERO):
+            return -(-y).atan2(x)
+        first = (y._lo if not x._hi[0] else y._hi, x._hi) if not low else (y._lo, x._lo)
+        last = (y._hi if not left else y._lo, x._lo)
+        return _make(tightest.atan2(*first, p)[0], tightest.atan2(*last, p)[1], p)
+
+    def hypot(self, other: Interval | Fraction | int) -> Interval:
+        """Return sqrt(x^2 + y^2)."""
+        x, y = abs(self), abs(self._required(other))
+        p = max(x.precision, y.precision)
+        low, _ = tightest.hypot(x._lo, y._lo, p)
+        return _make(low, tightest.hypot(x._hi, y._hi, p)[1], p)
+
+    def pow(self, exponent: Interval | Fraction | int) -> Interval:
+        """Return x^y for real y; the domain is x > 0, and x = 0 with y > 0.
+
+        x^y has its extremes at corners of the box, since y log x is linear in each factor; where
+        y has one sign, one corner each.
+        """
+        y = self._required(exponent)
+        if self._lo[0] or (self._lo == _ZERO and not y.certainly_positive()):
+            raise DomainError("pow leaves x > 0, or x = 0 with y > 0")
+        p = max(self.precision, y.precision)
+        if y._lo[0] and not y._hi[0]:
+            corners = [
+                tightest.power(a, b, p) for a in (self._lo, self._hi) for b in (y._lo, y._hi)
+            ]
+            return _make(
+                extremes([c[0] for c in corners])[0], extremes([c[1] for c in corners])[1], p
+            )
+        least, most = (self._hi, self._lo) if y._lo[0] else (self._lo, self._hi)
+        first = (least, y._hi if mpf_lt(least, _ONE) else y._lo)
+        last = (most, y._lo if mpf_lt(most, _ONE) else y._hi)
+        low, high = tightest.power(*first, p)
+        if first != last:
+            _, high = tightest.power(*last, p)
+        return _make(low, high, p)
+
+    def minimum(self, other: Interval | Fraction | int) -> Interval:
+        """Return the range of min(x, y)."""
+        y = self._required(other)
+        low, high = extremes([self._lo, y._lo])[0], extremes([self._hi, y._hi])[0]
+        return _make(low, high, max(self.precision, y.precision))
+
+    def maximum(self, other: Interval | Fraction | int) -> Interval:
+        """Return the range of max(x, y)."""
+        return -(-self).minimum(-self._required(other))
 
     # -- comparisons ---------------------------------------------------------------------------
 
-    def _ordered(self, value: object, strict: bool) -> bool:
+    def _bounds(self, other: Interval | Exact) -> tuple[Any, Any, Any, Any]:
+        if isinstance(other, int):
+            other = self._required(other)
+        if isinstance(other, Interval):
+            a, b, c, d = map(_ordered_key, (self._lo, self._hi, other._lo, other._hi))
+            return a, b, c, d
+        number = fraction(other)
+        return self.inf, self.sup, number, number
+
+    def overlap(self, other: Interval | Exact) -> Overlap:
+        """Return how this interval lies to the other: one of the 13 states of IEEE 1788."""
+        return overlap_state(*self._bounds(other))
+
+    def _ordered(self, value: Interval | Fraction | int, strict: bool) -> bool:
         """Return whether X < Y (X <= Y if not strict) for all pairs; Undecided if some do."""
-        if isinstance(value, Fraction):
-            below, above = _sign(self.sup - value), _sign(self.inf - value)
-        else:
-            other = self._other(value)
-            if other is None:
-                raise TypeError(f"an Interval cannot be compared with {value!r}")
-            below, above = _compare(self._hi, other._lo), _compare(self._lo, other._hi)
-        if below < 0 or (below == 0 and not strict):
+        if isinstance(value, str):
+            raise TypeError(f"an Interval cannot be compared with the text {value!r}")
+        a, b, c, d = self._bounds(value)
+        if b < c or (b == c and not strict):
             return True
-        if above > 0 or (above == 0 and strict):
+        if d < a or (d == a and strict):
             return False
         raise Undecided(f"{self} and {self._other(value)} overlap")
 
@@ -322,14 +464,6 @@ class Interval:
 
     def __ge__(self, value: Interval | Fraction | int) -> bool:
         return not self._ordered(value, strict=True)
-
-    def is_positive(self) -> bool:
-        """Whether every number in the interval is > 0 (False also says: not known)."""
-        return _compare(self._lo, _ZERO) > 0
-
-    def is_negative(self) -> bool:
-        """Whether every number in the interval is < 0 (False also says: not known)."""
-        return _compare(self._hi, _ZERO) < 0
 
     def __eq__(self, other: object) -> bool:
         """Return equality as sets (IEEE 1788 `equal`), not of the unknown numbers inside.
@@ -352,14 +486,26 @@ class Interval:
 
     def __repr__(self) -> str:
         """Return what evaluates to an equal interval, given the names Interval and Fraction."""
-        return f"Interval({_literal(self._lo)}, {_literal(self._hi)}, precision={self.precision})"
+        return f"Interval({literal(self._lo)}, {literal(self._hi)}, precision={self.precision})"
 
     def __str__(self) -> str:
-        digits = max(3, self.precision * 3 // 10)
-        return f"[{decimal_down(self.inf, digits)}, {decimal_up(self.sup, digits)}]"
+        """Return decimals that enclose, about as many digits as the precision is worth."""
+        return format(self, str(max(3, self.precision * 3 // 10)))
+
+    def __format__(self, digits: str) -> str:
+        """Return decimals that enclose: f"{x:20}" has 20 significant digits."""
+        if not digits:
+            return str(self)
+        if not digits.isdecimal():
+            raise ValueError(f"not a number of digits: {digits!r}")
+        low, high = display.decimals(self, int(digits))
+        return f"[{low}, {high}]"
+
+    def _repr_latex_(self) -> str:
+        return display.latex(self)
 
     def __reduce__(self) -> tuple[Callable[..., Interval], tuple[Any, ...]]:
-        return _restore, (_dyadic(self._lo), _dyadic(self._hi), self.precision)
+        return _restore, (dyadic(self._lo), dyadic(self._hi), self.precision)
 
 
 def _checked(precision: int) -> int:
@@ -376,69 +522,9 @@ def _make(lo: _Raw, hi: _Raw, precision: int) -> Interval:
     return new
 
 
-def _round(value: Fraction, precision: int, direction: str) -> _Raw:
-    raw: _Raw = from_rational(value.numerator, value.denominator, precision, direction)
-    return raw
-
-
-def _dyadic(raw: _Raw) -> tuple[int, int]:
-    """Return (m, e) with raw = m 2^e as Python's ints: gmpy2's integers stay inside."""
-    man = int(raw[1])
-    return -man if raw[0] else man, int(raw[2])
-
-
 def _restore(low: tuple[int, int], high: tuple[int, int], precision: int) -> Interval:
     """Return the interval with these endpoints m 2^e (for pickle and copy)."""
     return _make(from_man_exp(*low), from_man_exp(*high), precision)
-
-
-def _fraction(raw: _Raw) -> Fraction:
-    man, exp = _dyadic(raw)
-    return Fraction(man << exp) if exp >= 0 else Fraction(man, 1 << -exp)
-
-
-def _literal(raw: _Raw) -> str:
-    """Return Python's text of an endpoint: a string that `fraction` reads, or an expression."""
-    man, exp = _dyadic(raw)
-    if man.bit_length() + abs(exp) < 13_000:  # below 4000 digits
-        return f"'{_fraction(raw)}'"
-    return f"{man:#x} * Fraction(2) ** {exp}"
-
-
-def _compare(x: _Raw, y: _Raw) -> int:
-    """Return a number that has the sign of x - y."""
-    result: int = mpf_cmp(x, y)
-    return result
-
-
-def _sign(value: Fraction) -> int:
-    return (value > 0) - (value < 0)
-
-
-def _power(x: _Raw, n: int, precision: int, direction: str) -> _Raw:
-    """Return x^n rounded, n >= 1: exact products (the powers wanted here are small)."""
-    result = x
-    for _ in range(n - 1):
-        result = mpf_mul(result, x)
-    rounded: _Raw = mpf_pos(result, precision, direction)
-    return rounded
-
-
-def _extremes(values: list[_Raw]) -> tuple[_Raw, _Raw]:
-    low = high = values[0]
-    for value in values[1:]:
-        if mpf_lt(value, low):
-            low = value
-        elif mpf_lt(high, value):
-            high = value
-    return low, high
-
-
-def _hull_raw(x: tuple[_Raw, _Raw], y: tuple[_Raw, _Raw]) -> tuple[_Raw, _Raw]:
-    return (
-        y[0] if mpf_lt(y[0], x[0]) else x[0],
-        x[1] if mpf_lt(y[1], x[1]) else y[1],
-    )
 
 
 def _with_extrema(

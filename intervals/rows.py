@@ -8,6 +8,7 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
+from math import inf, prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,10 +16,12 @@ from numpy.typing import NDArray
 
 from intervals.errors import DomainError
 from intervals.exact import fraction
-from intervals.rounding import Rows, float_down, float_up, outward
+from intervals.rounding import Rows, float_down, float_up, outward, outward_sum
 
 if TYPE_CHECKING:
     from intervals.interval import Interval
+
+_BLOCK = 16384  # elements at a time
 
 
 def aligned(a: Rows, b: Rows) -> tuple[Rows, Rows]:
@@ -35,6 +38,30 @@ def _with_axes(rows: Rows, ndim: int) -> Rows:
 def is_thin(rows: Rows) -> bool:
     """Return whether every interval is a point."""
     return bool((-rows[0] == rows[1]).all())
+
+
+def in_blocks(operation: Callable[[Rows, Rows], Rows], a: Rows, b: Rows) -> Rows:
+    """Do an elementwise operation on aligned rows in blocks along the longest axis.
+
+    The temporaries of a block stay in the cache, and small beside a large result.
+    """
+    shape = np.broadcast_shapes(a.shape, b.shape)
+    size = prod(shape)
+    if size <= 2 * _BLOCK:
+        return operation(a, b)
+    axis = max(range(1, len(shape)), key=lambda i: shape[i])
+    step = max(1, shape[axis] * 2 * _BLOCK // size)
+    result = np.empty(shape)
+    for start in range(0, shape[axis], step):
+        part = (slice(None),) * axis + (slice(start, start + step),)
+        cut = [x[part] if x.shape[axis] > 1 else x for x in (a, b)]
+        result[part] = operation(*cut)
+    return result
+
+
+def total(a: Rows, b: Rows) -> Rows:
+    """Return rows that contain x + y for x in A, y in B."""
+    return outward_sum(a + b)
 
 
 def product(a: Rows, b: Rows) -> Rows:
@@ -95,10 +122,8 @@ def power(rows: Rows, n: int) -> Rows:
 
 
 def square_root(rows: Rows) -> Rows:
-    """Return rows that contain sqrt x (IEEE's is correctly rounded); DomainError below 0."""
+    """Return rows that contain sqrt x, x >= 0 (IEEE's is correctly rounded)."""
     low, high = 0.0 - rows[0], rows[1]
-    if not (low >= 0.0).all():
-        raise DomainError("sqrt of an interval with negative numbers")
     return nonnegative(outward(np.stack((-np.sqrt(low), np.sqrt(high)))))
 
 
@@ -120,14 +145,48 @@ def elementwise(rows: Rows, function: Callable[["Interval"], "Interval"]) -> Row
     return result.reshape(rows.shape)
 
 
+# -- step functions, which are exact ---------------------------------------------------------------
+
+
+def _step(function: Callable[[NDArray[np.float64]], Any]) -> Callable[[Rows], Rows]:
+    """Return the step function of rows, from that of numbers."""
+    return lambda rows: np.stack((-function(-rows[0]), function(rows[1])))
+
+
+def _rounded(x: NDArray[np.float64], away: bool) -> NDArray[np.float64]:
+    """Return the nearest integers; np.rint would follow the rounding mode.
+
+    |x| - whole is exact, and whole + 1 is, below 2^52; from there on x is an integer.
+    """
+    size = np.abs(x)
+    whole = np.floor(size)
+    fraction_of = size - whole
+    odd = whole * 0.5 != np.floor(whole * 0.5)
+    up = (fraction_of > 0.5) | ((fraction_of == 0.5) & (odd | away))
+    nearest: NDArray[np.float64] = np.copysign(whole + up, x)
+    return nearest
+
+
+STEPS: dict[str, Callable[[Rows], Rows]] = {
+    "floor": _step(np.floor),
+    "ceil": _step(np.ceil),
+    "trunc": _step(np.trunc),
+    "sign": _step(np.sign),
+    "round_ties_to_even": _step(lambda x: _rounded(x, away=False)),
+    "round_ties_to_away": _step(lambda x: _rounded(x, away=True)),
+}
+
+
 # -- numbers into rows ---------------------------------------------------------------------------
 
 
 def scalar_rows(value: object) -> Rows | None:
-    """Return the tightest rows, shape (2,), of an int, Fraction or Interval; None if it is none.
+    """Return the tightest rows of an int, Fraction, Interval or array of ints; None for others.
 
-    A float, or an array of numpy, raises TypeError.
+    A float, or an array of anything else, raises TypeError.
     """
+    if isinstance(value, np.ndarray) and np.issubdtype(value.dtype, np.integer):
+        return float_rows(value, value)
     if isinstance(value, float | np.floating | np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
     if type(value) is int or type(value) is Fraction:
@@ -211,3 +270,44 @@ def _binary64(values: Any) -> NDArray[np.float64]:
     if not (np.isnan(floats) | (floats == objects)).all():
         raise ValueError("from_floats takes binary64 numbers only: one of these needs more bits")
     return floats
+
+
+class End:
+    """An endpoint that binary64 need not hold, between its neighbours `down` <= it <= `up`.
+
+    A binary64 number x is below it if and only if x < up, and at most it if and only if x <= down.
+    """
+
+    __array_ufunc__ = None  # so that `array < End` comes here
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, value: Fraction) -> None:
+        self.down, self.up = _towards(value, float_down), _towards(value, float_up)
+
+    def __gt__(self, x: Any) -> Any:
+        return x < self.up
+
+    def __ge__(self, x: Any) -> Any:
+        return x <= self.down
+
+    def __lt__(self, x: Any) -> Any:
+        return self.down < x
+
+    def __le__(self, x: Any) -> Any:
+        return self.up <= x
+
+    def __eq__(self, x: object) -> Any:
+        return (self.down == x) & (self.up == x)
+
+
+def _towards(value: Fraction, rounded: Callable[[Fraction], float]) -> float:
+    """Return the binary64 number next to `value`, an infinity where there is none."""
+    try:
+        return rounded(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
+
+
+def ends(value: Any) -> tuple[End, End]:
+    """Return the endpoints of an exact number or an Interval, to be compared with arrays."""
+    return End(_endpoint(value, "inf")), End(_endpoint(value, "sup"))

@@ -29,6 +29,6 @@ def moran_root(ratios: Range, bits: int) -> Range:
         if abs(step) < unit:
             break
     bracket = (s - unit, s + unit)
-    if not (excess(bracket[0]).is_positive() and excess(bracket[1]).is_negative()):
+    if not (excess(bracket[0]).certainly_positive() and excess(bracket[1]).certainly_negative()):
         raise Undecided("the bracket of s_0 has not the signs it must have")
     return bracket

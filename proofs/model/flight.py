@@ -78,4 +78,4 @@ class Flight:
     @property
     def leaves(self) -> bool:
         """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
-        return self.separating or launch_acceleration(self.start).is_positive()
+        return self.separating or launch_acceleration(self.start).certainly_positive()

@@ -83,9 +83,9 @@ def _sticks(system: System, phases: Range, precision: int = 128) -> bool | None:
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     start = launch(system.side, eta, nu, Interval(*phases, precision=precision))
     acceleration: Interval = launch_acceleration(start)
-    if acceleration.is_positive():
+    if acceleration.certainly_positive():
         return False
-    return True if acceleration.is_negative() else None
+    return True if acceleration.certainly_negative() else None
 
 
 def image(

@@ -77,7 +77,7 @@ def first_impact(
     is not decided.
     """
     if not flight.leaves:
-        if launch_acceleration(flight.start).is_negative():
+        if launch_acceleration(flight.start).certainly_negative():
             raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
         raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
     times = [Fraction(0), _first_step(flight)]
@@ -96,23 +96,23 @@ def first_impact(
             step = max(step / 2, allowed)
             continue
         else:
-            certain = next_value.is_negative()
+            certain = next_value.certainly_negative()
             joined = open_pieces and open_pieces[-1][1] == now
             begin = open_pieces.pop()[0] if joined else now
             open_pieces.append((begin, ahead))
             step = allowed = min(2 * allowed, 16 * finest)
         times.append(ahead)
         value = next_value
-    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).is_negative()
+    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).certainly_negative()
     return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
 
 
 def _first_step(flight: Flight) -> Fraction:
     step = Fraction(1)
     while step > _TINIEST:
-        if flight.gap(Fraction(0), step, order=2).is_positive():
+        if flight.gap(Fraction(0), step, order=2).certainly_positive():
             return step
-        if flight.separating and flight.gap(Fraction(0), step, order=3).is_positive():
+        if flight.separating and flight.gap(Fraction(0), step, order=3).certainly_positive():
             return step
         step /= 2
     raise Undecided("the launch acceleration is too close to 0 at this precision")
@@ -121,7 +121,7 @@ def _first_step(flight: Flight) -> Fraction:
 def _positive_between(
     flight: Flight, low: Fraction, at_low: Interval, high: Fraction, at_high: Interval
 ) -> bool:
-    if not (at_low.is_positive() and at_high.is_positive()):
+    if not (at_low.certainly_positive() and at_high.certainly_positive()):
         return False
     bend = flight.gap(low, high, order=2).sup
     return min(at_low.inf, at_high.inf) > max(bend, Fraction(0)) * (high - low) ** 2 / 8
@@ -238,11 +238,11 @@ def time_range(impact: FirstImpact, phases: Range) -> Range:
     inner = high
     for _ in range(steps):
         middle = (low + inner) / 2
-        low, inner = (middle, inner) if flight.gap(middle).is_positive() else (low, middle)
+        low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)
     inner = low
     for _ in range(steps):
         middle = (inner + high) / 2
-        inner, high = (inner, middle) if flight.gap(middle).is_negative() else (middle, high)
+        inner, high = (inner, middle) if flight.gap(middle).certainly_negative() else (middle, high)
     return low, high
 
 
@@ -263,6 +263,6 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     unit = Fraction(1, 2**bits)
     centre = round(result.box.mid / unit) * unit
     low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
-    if not (flight.gap(low).is_positive() and flight.gap(high).is_negative()):
+    if not (flight.gap(low).certainly_positive() and flight.gap(high).certainly_negative()):
         raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high

@@ -105,7 +105,10 @@ def _cover(system: System, phases: Range, boxes: int, grid: Sequence[float]) -> 
     at_centre = launches.centre.slopes(enclose_times(launches.centre, last, (middle, middle)))
     slopes = launches.slopes(times)
     curvatures = launches.curvatures(times, slopes)
-    slopes = slopes.intersection(at_centre + curvatures * launches.offset)
+    narrower = slopes.intersection(at_centre + curvatures * launches.offset)
+    if narrower is None:
+        raise ArithmeticError("two enclosures of the same slopes are disjoint")
+    slopes = narrower
     evaluations = 2 * boxes * len(grid)
     return SlopeCover(phases, launches.phases, times, slopes, curvatures, last, evaluations)
 

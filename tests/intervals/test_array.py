@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from intervals import DomainError, Interval
 from intervals.array import IntervalArray
+from intervals.elementary.binary64 import ERRORS
 
 ETA, MAX = 2.0**-1074, math.nextafter(math.inf, 0.0)
 BINARY = {
@@ -158,7 +159,8 @@ def test_exp_and_log_contain_arb(name):
                 value = getattr(flint.arb(flint.fmpq(p.numerator, p.denominator)), name)()
                 assert not value < flint.arb(low)
                 assert not value > flint.arb(high)
-        assert (y.wid <= 2.0**-51 * np.maximum(abs(y.inf), abs(y.sup)))[x.wid == 0].all()
+        narrow = y.wid <= 2 * ERRORS[name] * 2.0**-52 * y.mag
+        assert narrow[x.wid == 0].all()
     with pytest.raises(DomainError):
         IntervalArray([(0, 1)]).log()
     with pytest.raises(OverflowError):
@@ -267,7 +269,7 @@ def test_from_floats_takes_numbers_as_they_are():
 
 
 @pytest.mark.parametrize("op", BINARY)
-@pytest.mark.parametrize("bad", [0.5, np.float64(0.5), np.array([0.5]), np.array([1, 2])])
+@pytest.mark.parametrize("bad", [0.5, np.float64(0.5), np.array([0.5]), np.float32(1)])
 def test_floats_do_not_mix(op, bad):
     x = IntervalArray([1, 2])
     for left, right in ((x, bad), (bad, x)):
@@ -385,11 +387,9 @@ def test_undefined_questions_are_refused():
         lambda: bool(x),
         lambda: x == 1,
         lambda: hash(x),
-        lambda: x.contains("1"),
         lambda: x.contains(1.0),
         lambda: x + "1",
         lambda: x + None,
-        lambda: np.sin(x),
     ):
         with pytest.raises(TypeError):
             operation()
@@ -400,8 +400,7 @@ def test_hull_and_intersection():
     hull, common = x.hull(y), x.intersection(y)
     assert (hull.inf.tolist(), hull.sup.tolist()) == ([0, 1], [5, 4])
     assert (common.inf.tolist(), common.sup.tolist()) == ([1, 3], [2, 3])
-    with pytest.raises(ValueError, match="empty"):
-        x.intersection(IntervalArray([(0, 1), (4, 5)]))
+    assert x.intersection(IntervalArray([(0, 1), (4, 5)])) is None
 
 
 def test_mid_and_wid():
@@ -440,9 +439,9 @@ def test_shapes_broadcast_and_index_as_numpy():
         assert np.array_equal(x[index].sup, a[index] + 1)
     assert np.array_equal(x.reshape(4, -1).inf, a.reshape(4, -1))
     assert [float(v.inf) for v in row] == [0, 1, 2, 3]
-    joined = IntervalArray.concatenate([x, x], axis=1)
+    joined = np.concatenate([x, x], axis=1)
     assert np.array_equal(joined.inf, np.concatenate([a, a], axis=1))
-    assert IntervalArray.concatenate([x, x], axis=-1).shape == (2, 3, 8)
+    assert np.concatenate([x, x], axis=-1).shape == (2, 3, 8)
     with pytest.raises(ValueError, match="broadcast"):
         x + IntervalArray([1, 2, 3])
     with pytest.raises(TypeError):

@@ -164,7 +164,7 @@ def test_the_set(data, p, q):
     assert (x.mid, x.wid, x.mag) == ((a + b) / 2, b - a, max(abs(a), abs(b)))
     assert x.mig == (0 if a <= 0 <= b else min(abs(a), abs(b)))
     assert x.contains_zero() is (a <= 0 <= b)
-    assert (x.is_positive(), x.is_negative()) == (a > 0, b < 0)
+    assert (x.certainly_positive(), x.certainly_negative()) == (a > 0, b < 0)
     assert x.contains(y) is (a <= c and d <= b)
     assert x.contains(c) is (a <= c <= b)
     assert bounds(x.hull(y)) == (min(a, c), max(b, d))
@@ -296,8 +296,8 @@ def test_other_operands_are_type_errors(symbol, value):
             op(left, right)
 
 
-@pytest.mark.parametrize("exponent", [0.5, Fraction(1, 2), Interval(2), "2", None])
-def test_powers_are_integer_powers(exponent):
+@pytest.mark.parametrize("exponent", [0.5, "2", None])
+def test_powers_of_no_number(exponent):
     with pytest.raises(TypeError):
         Interval(1, 2) ** exponent
 

@@ -1,0 +1,56 @@
+"""Sums, products and matrix products of rows (-lower, upper), without BLAS.
+
+Each is a tree or a chain of the rigorous + and * of `rows`, in an order that does not matter: the
+inclusion principle holds for every bracketing.
+"""
+
+import numpy as np
+
+from intervals.rounding import Rows, outward_sum
+from intervals.rows import product
+
+
+def sum_rows(rows: Rows, axis: int) -> Rows:
+    """Return rows of the sums over the element axis `axis` >= 0; the empty sum is 0.
+
+    Pairwise: n terms lose at most ceil(log2 n) outward steps.
+    """
+    work = np.moveaxis(rows, axis + 1, 1)
+    while work.shape[1] > 1:
+        half = work.shape[1] // 2
+        rest = work[:, 2 * half :]
+        work = outward_sum(work[:, :half] + work[:, half : 2 * half])
+        work = np.concatenate((work, rest), axis=1) if rest.shape[1] else work
+    return work[:, 0] if work.shape[1] else np.zeros((2, *work.shape[2:]))
+
+
+def product_rows(rows: Rows, axis: int) -> Rows:
+    """Return rows of the products over the element axis `axis` >= 0; the empty product is 1."""
+    work = np.moveaxis(rows, axis + 1, 1)
+    while work.shape[1] > 1:
+        half = work.shape[1] // 2
+        rest = work[:, 2 * half :]
+        work = product(work[:, :half], work[:, half : 2 * half])
+        work = np.concatenate((work, rest), axis=1) if rest.shape[1] else work
+    if work.shape[1]:
+        return work[:, 0]
+    one = np.ones((2, *work.shape[2:]))
+    one[0] = -1.0
+    return one
+
+
+def matrix_product(a: Rows, b: Rows) -> Rows:
+    """Return rows of A B for matrices (..., n, k) and (..., k, m); stacks of them broadcast.
+
+    k products of a column and a row are added up one after the other.
+    """
+    terms = a.shape[-1]
+    if b.shape[-2] != terms:
+        raise ValueError(f"matrices of shapes {a.shape[1:]} and {b.shape[1:]} do not fit")
+    if not terms:
+        lead = np.broadcast_shapes(a.shape[1:-2], b.shape[1:-2])
+        return np.zeros((2, *lead, a.shape[-2], b.shape[-1]))
+    total = product(a[..., :, :1], b[..., :1, :])
+    for k in range(1, terms):
+        total = outward_sum(total + product(a[..., :, k : k + 1], b[..., k : k + 1, :]))
+    return total

@@ -1,0 +1,110 @@
+"""Run the public operations in a foreign state of the floating-point unit; print what they gave.
+
+    python -m tests.intervals.foreign_states (rounding | flush) WORD
+
+WORD goes to fesetround, or into the control word MXCSR of x86-64. Each result is its exact
+endpoints, a mask, or the text of the FloatingPointError that refused it.
+"""
+
+import ctypes
+import json
+import sys
+from fractions import Fraction
+
+import numpy as np
+
+from intervals import Interval, IntervalArray
+from intervals.bilinear import bilinear
+
+_MXCSR = slice(28, 32)  # in glibc's fenv_t
+TINY = 2.0**-1074
+
+X = IntervalArray.from_floats([1.1, 0.3, 5.0], [1.2, 0.3, 7.0])
+Y = IntervalArray.from_floats([0.7, 0.1, 3.0], [0.9, 0.1, 3.5])
+SMALL = IntervalArray.from_floats([TINY, -TINY, 2.0**-1040], [TINY, 3 * TINY, 2.0**-1030])
+ZERO = IntervalArray.from_floats([0.0, 0.0, 0.0])
+ELEMENTARY = (
+    "sqrt cbrt exp exp2 exp10 expm1 log log2 log10 log1p sin cos tan atan sinh cosh tanh asinh"
+).split()
+
+OPERATIONS = {
+    "from_exact": lambda: IntervalArray(["0.1", "1/3", (1, 2)]),
+    "from_floats": lambda: IntervalArray.from_floats([TINY, 0.1]),
+    "x + y": lambda: X + Y,
+    "x - y": lambda: X - Y,
+    "x * y": lambda: X * Y,
+    "x / y": lambda: X / Y,
+    "s + s": lambda: SMALL + SMALL,
+    "s - s": lambda: SMALL - SMALL,
+    "s * s": lambda: SMALL * SMALL,
+    "x * s": lambda: X * SMALL,
+    "3 * s": lambda: 3 * SMALL,
+    "abs s": lambda: abs(SMALL),
+    "x ** 3": lambda: X**3,
+    "sum": lambda: X.sum(),
+    "prod": lambda: Y.prod(),
+    "matmul": lambda: X @ Y,
+    "hull": lambda: X.hull(Y),
+    "intersection": lambda: SMALL.intersection(SMALL),
+    "sign": lambda: SMALL.sign(),
+    "minimum": lambda: SMALL.minimum(0),
+    "floor": lambda: X.floor(),
+    "round": lambda: X.round_ties_to_even(),
+    "bilinear": lambda: bilinear([X], [Y], Y),
+    "asin": lambda: (Y / 8).asin(),
+    "acos": lambda: (Y / 8).acos(),
+    "atanh": lambda: (Y / 8).atanh(),
+    "acosh": lambda: (X + 1).acosh(),
+    "atan2": lambda: X.atan2(Y),
+    "hypot": lambda: X.hypot(Y),
+    "pow": lambda: X.pow(Y),
+    "subset": lambda: SMALL.subset(ZERO),
+    "positive": lambda: SMALL.certainly_positive(),
+    "interval": lambda: Interval.from_float(TINY) + 0,
+    "interval third": lambda: Interval("1/3"),
+    "interval exp": lambda: Interval("1/3").exp(),
+} | {name: lambda name=name: getattr(X / 8, name)() for name in ELEMENTARY}
+
+
+def control_word(clear, add=0):
+    libm = ctypes.CDLL("libm.so.6")
+    state = ctypes.create_string_buffer(32)
+    libm.fegetenv(state)
+    word = int.from_bytes(state.raw[_MXCSR], "little") & ~clear | add
+    ctypes.memmove(ctypes.addressof(state) + _MXCSR.start, word.to_bytes(4, "little"), 4)
+    libm.fesetenv(state)
+
+
+def attempt(operation):
+    try:
+        return operation()
+    except FloatingPointError as error:
+        return str(error)
+
+
+def in_state(kind, word):
+    """The results of all operations, after which the usual state is restored."""
+    if kind == "rounding":
+        ctypes.CDLL("libm.so.6").fesetround(word)
+    else:
+        control_word(0, word)
+    try:
+        return {name: attempt(operation) for name, operation in OPERATIONS.items()}
+    finally:
+        ctypes.CDLL("libm.so.6").fesetround(0)
+        control_word(0x8040)
+
+
+def written(value):
+    if isinstance(value, str):
+        return value
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Interval):
+        return [[str(value.inf)], [str(value.sup)]]
+    return [[str(Fraction(x)) for x in end.ravel().tolist()] for end in (value.inf, value.sup)]
+
+
+if __name__ == "__main__":
+    results = in_state(sys.argv[1], int(sys.argv[2], 0))
+    print(json.dumps({name: written(value) for name, value in results.items()}))

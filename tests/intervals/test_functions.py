@@ -1,0 +1,283 @@
+"""Functions of Interval and IntervalArray alike: ranges, domains, poles, steps, corners."""
+
+import math
+import random
+from fractions import Fraction
+
+import flint
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import intervals
+from intervals import DomainError, Interval, IntervalArray
+from tests.intervals import oracle
+
+SMOOTH = {
+    "sqrt": (flint.arb.sqrt, 0, 50),
+    "cbrt": (lambda x: x.root(3) if x >= 0 else -(-x).root(3), -50, 50),
+    "exp": (flint.arb.exp, -30, 30),
+    "exp2": (lambda x: 2**x, -30, 30),
+    "exp10": (lambda x: 10**x, -30, 30),
+    "expm1": (flint.arb.expm1, -30, 30),
+    "log": (flint.arb.log, Fraction(1, 1000), 50),
+    "log2": (lambda x: x.log() / flint.arb(2).log(), Fraction(1, 1000), 50),
+    "log10": (lambda x: x.log() / flint.arb(10).log(), Fraction(1, 1000), 50),
+    "log1p": (flint.arb.log1p, Fraction(-999, 1000), 50),
+    "sin": (flint.arb.sin, -9, 9),
+    "cos": (flint.arb.cos, -9, 9),
+    "tan": (flint.arb.tan, Fraction(-3, 2), Fraction(3, 2)),
+    "asin": (flint.arb.asin, -1, 1),
+    "acos": (flint.arb.acos, -1, 1),
+    "atan": (flint.arb.atan, -50, 50),
+    "sinh": (flint.arb.sinh, -30, 30),
+    "cosh": (flint.arb.cosh, -30, 30),
+    "tanh": (flint.arb.tanh, -30, 30),
+    "asinh": (flint.arb.asinh, -50, 50),
+    "acosh": (flint.arb.acosh, 1, 50),
+    "atanh": (flint.arb.atanh, Fraction(-999, 1000), Fraction(999, 1000)),
+}
+parts = st.integers(0, 2**20) | st.sampled_from([0, 2**20])
+
+
+def both(low, high, precision=53):
+    """The same interval as an Interval and in an IntervalArray, and its exact ends."""
+    array = IntervalArray([(low, high)])
+    return Interval(low, high, precision=precision), array
+
+
+def contains(y, low, high):
+    """Whether a true value in [low, high], far narrower than an ulp, can be in the result."""
+    if isinstance(y, Interval):
+        return y.inf <= high and low <= y.sup
+    return Fraction(float(y.inf[0])) <= high and low <= Fraction(float(y.sup[0]))
+
+
+@settings(max_examples=1500)
+@given(st.sampled_from(sorted(SMOOTH)), parts, parts, parts, st.integers(2, 200))
+def test_ranges_contain_the_values_inside(name, s, t, r, precision):
+    function, least, most = SMOOTH[name]
+    low, high = sorted(least + (most - least) * Fraction(k, 2**20) for k in (s, t))
+    point = low + (high - low) * Fraction(r, 2**20)
+    below, above = oracle.evaluate(function, 500, point)
+    for x in both(low, high, precision):
+        try:
+            y = getattr(intervals, name)(x)
+        except DomainError:
+            # rounding outward may leave the domain, or reach a pole of tan
+            assert name in ("asin", "acos", "atanh", "tan", "acosh", "log1p", "log", "sqrt")
+            continue
+        assert contains(y, below, above)
+
+
+@pytest.mark.parametrize(
+    ("name", "inside", "outside"),
+    [
+        ("sqrt", [(0, 4), (0, 0)], [(-1, 4), (-2, -1), ("-1e-300", 1)]),
+        ("log", [("1e-300", 2)], [(0, 1), (-1, 2), (0, 0)]),
+        ("log2", [("1e-300", 2)], [(0, 1)]),
+        ("log10", [("1e-300", 2)], [(0, 1)]),
+        ("log1p", [("-0.99", 2)], [(-1, 1), (-2, 0)]),
+        ("asin", [(-1, 1)], [(-1, "1.0000000000001"), (2, 3)]),
+        ("acos", [(-1, 1)], [("-1.0000000000001", 0)]),
+        ("acosh", [(1, 2)], [("0.99", 2), (-3, -2)]),
+        ("atanh", [("-0.99", "0.99")], [(-1, 0), (0, 1), (0, 2)]),
+        (
+            "tan",
+            [("-1.57", "1.57"), ("1.58", "4.71"), (21, 22)],
+            [(1, 2), (-2, -1), (0, 100), (4, 5)],
+        ),
+    ],
+)
+def test_domains(name, inside, outside):
+    for box in inside:
+        for x in both(*box):
+            getattr(x, name)()
+    for box in outside:
+        for x in both(*box):
+            with pytest.raises(DomainError, match=f"{name} of an interval that"):
+                getattr(x, name)()
+    with pytest.raises(DomainError):
+        getattr(IntervalArray([inside[0], outside[0]]), name)()
+
+
+STEPS = {
+    "floor": math.floor,
+    "ceil": math.ceil,
+    "trunc": math.trunc,
+    "round_ties_to_even": round,
+    "round_ties_to_away": lambda x: math.floor(abs(x) + Fraction(1, 2)) * (1 if x > 0 else -1),
+    "sign": lambda x: (x > 0) - (x < 0),
+}
+quarters = st.integers(-60, 60).map(lambda k: Fraction(k, 4))
+dyadics = quarters | st.floats(-1e17, 1e17).map(Fraction)
+
+
+@given(st.sampled_from(sorted(STEPS)), dyadics, dyadics)
+def test_step_functions_are_exact(name, x, y):
+    low, high = min(x, y), max(x, y)
+    expected = (STEPS[name](low), STEPS[name](high))
+    one, array = both(low, high)
+    assert (getattr(one, name)().inf, getattr(one, name)().sup) == expected
+    stepped = getattr(intervals, name)(array)
+    assert (int(stepped.inf[0]), int(stepped.sup[0])) == expected
+
+
+def test_step_functions_of_extreme_numbers():
+    tiny = Interval(Fraction(1, 2**100000))
+    assert [getattr(tiny, n)().inf for n in ("floor", "ceil", "trunc", "sign")] == [0, 1, 0, 1]
+    assert (-tiny).floor() == Interval(-1)
+    assert tiny.round_ties_to_even() == Interval(0)
+    huge = Interval(2**30 - 1).exp()
+    assert huge.floor() == huge
+
+
+def box_of(data, low, high):
+    ends = sorted(data.draw(st.fractions(low, high, max_denominator=64)) for _ in range(2))
+    return tuple(Fraction(float(x)) for x in ends)
+
+
+def inner(data, box):
+    return box[0] + (box[1] - box[0]) * Fraction(data.draw(st.sampled_from([0, 1, 2, 5, 8])), 8)
+
+
+@settings(max_examples=300)
+@given(st.data())
+def test_hypot_and_powers_contain_the_values_inside(data):
+    x, y = box_of(data, -9, 9), box_of(data, -9, 9)
+    base = box_of(data, Fraction(1, 16), 9)
+    p, q, r = inner(data, x), inner(data, y), inner(data, base)
+    root = oracle.evaluate(lambda a, b: (a * a + b * b).sqrt(), 300, p, q)
+    power = oracle.evaluate(lambda a, b: a**b, 300, r, q)
+    for one, two, three in zip(both(*x), both(*y), both(*base), strict=True):
+        assert contains(intervals.hypot(one, two), *root)
+        assert contains(three.pow(two), *power)
+        assert contains(three ** Interval(*y), *power)
+
+
+@settings(max_examples=500)
+@given(st.data())
+def test_atan2_contains_the_angles_inside(data):
+    y, x = (box_of(data, -4, 4) for _ in range(2))
+    if y[0] <= 0 <= y[1] and x[0] <= 0 <= x[1]:
+        for one, two in zip(both(*y), both(*x), strict=True):
+            with pytest.raises(DomainError, match=r"origin|\(0, 0\)"):
+                one.atan2(two)
+        return
+    q, p = inner(data, y), inner(data, x)
+    angle = oracle.evaluate(lambda b, a: flint.arb.atan2(b, a), 300, q, p)
+    for one, two in zip(both(*y), both(*x), strict=True):
+        result = intervals.atan2(one, two)
+        assert contains(result, *angle)
+        crosses = x[0] < 0 and y[0] < 0 <= y[1]
+        width = result.wid if isinstance(result, Interval) else Fraction(float(result.wid[0]))
+        assert (width > 6) == crosses
+
+
+def angle(q, p):
+    return oracle.evaluate(lambda b, a: flint.arb.atan2(b, a), 300, q, p)
+
+
+def test_atan2_is_tight_at_the_corners():
+    """The extremes of the angle over a box are angles of corners: brute force over all four."""
+    numbers = random.Random(5)
+    for _ in range(300):
+        y, x = (sorted(Fraction(numbers.randint(-8, 8), 4) for _ in range(2)) for _ in range(2))
+        if (y[0] <= 0 <= y[1] and x[0] <= 0 <= x[1]) or (x[0] < 0 and y[0] < 0 <= y[1]):
+            continue
+        corners = [angle(q, p) for q in y for p in x]
+        low, high = min(c[0] for c in corners), max(c[1] for c in corners)
+        result = Interval(*y, precision=60).atan2(Interval(*x))
+        assert abs(result.inf - low) + abs(result.sup - high) < Fraction(1, 2**55)
+        array = IntervalArray([tuple(y)]).atan2(IntervalArray([tuple(x)]))
+        assert abs(Fraction(float(array.inf[0])) - low) < Fraction(1, 2**46)
+        assert abs(Fraction(float(array.sup[0])) - high) < Fraction(1, 2**46)
+
+
+def test_atan2_at_the_cut():
+    pi = oracle.pi_bounds(200)
+    up, down = Interval(0, 1).atan2(-1), Interval(-1, 0).atan2(-1)
+    assert up.inf < Fraction(24, 10) and contains(up, *pi)
+    assert contains(down, *pi) and contains(
+        down, -pi[1], -pi[0]
+    )  # mpmath.iv turns such boxes around
+    assert Interval(-2, 0).atan2(Interval(-3, -1)).contains(Interval(-3, 3))
+    assert contains(Interval(0).atan2(-5), *pi)
+    assert Interval(0).atan2(5) == Interval(0)
+
+
+@pytest.mark.parametrize("box", [((-1, 2), 1), ((0, 2), 0), ((0, 2), (-1, 1)), ((0, 1), (0, 2))])
+def test_real_powers_need_a_positive_base(box):
+    base, exponent = box
+    exponent = exponent if isinstance(exponent, tuple) else (exponent, exponent)
+    for x, y in zip(both(*base), both(*exponent), strict=True):
+        with pytest.raises(DomainError, match="pow"):
+            x.pow(y)
+
+
+def test_exact_powers():
+    assert Interval(0, 4).pow(Interval("1/2")) == Interval(0, 2)
+    assert Interval(4) ** Fraction(-3, 2) == Interval("1/8")
+    assert 2 ** Interval(3, 5) == Interval(8, 32)
+    assert IntervalArray([4]).pow(2).contains(16).all()
+    assert (2 ** IntervalArray([3])).contains(8).all()
+
+
+@given(st.tuples(quarters, quarters).map(sorted), st.tuples(quarters, quarters).map(sorted))
+def test_minimum_and_maximum(x, y):
+    expected = {
+        "minimum": (min(x[0], y[0]), min(x[1], y[1])),
+        "maximum": (max(x[0], y[0]), max(x[1], y[1])),
+    }
+    for name, (low, high) in expected.items():
+        assert getattr(Interval(*x), name)(Interval(*y)) == Interval(low, high)
+        (found,) = getattr(IntervalArray([tuple(x)]), name)(IntervalArray([tuple(y)])).tolist()
+        assert found == Interval(low, high)
+    assert intervals.minimum(0, Interval(*x)) == Interval(min(0, x[0]), min(0, x[1]))
+
+
+@given(*[st.tuples(quarters, quarters).map(sorted)] * 3)
+def test_fma_cancel_bisect_widen(x, y, z):
+    products = [a * b for a in x for b in y]
+    fma = Interval(*x).fma(Interval(*y), Interval(*z))
+    assert fma == Interval(min(products) + z[0], max(products) + z[1])
+    (array,) = IntervalArray([tuple(x)]).fma(IntervalArray([tuple(y)]), Interval(*z)).tolist()
+    assert array.contains(fma)
+    wider, narrower = sorted((x, y), key=lambda box: box[1] - box[0], reverse=True)
+    rest = Interval(*wider).cancel_minus(Interval(*narrower))
+    assert rest + Interval(*narrower) == Interval(*wider)
+    assert Interval(*wider).cancel_plus(-Interval(*narrower)) == rest
+    if wider[1] - wider[0] > narrower[1] - narrower[0]:
+        assert Interval(*narrower).cancel_minus(Interval(*wider)) is None
+    for box in (Interval(*x), IntervalArray([tuple(x)])):
+        left, right = box.bisect()
+        whole = left.hull(right)
+        assert (whole if isinstance(box, Interval) else whole.item()) == Interval(*x)
+        wide = box.widen("1/4")
+        ends = (wide.inf, wide.sup) if isinstance(box, Interval) else (wide.inf[0], wide.sup[0])
+        assert ends[0] <= x[0] - Fraction(1, 4) and x[1] + Fraction(1, 4) <= ends[1]
+
+
+def test_bisection_of_an_interval_that_cannot_be_halved():
+    x = Interval(1, 1 + Fraction(1, 2**52))
+    left, right = x.bisect()
+    assert left.hull(right) == x
+    coarse = Interval("1.1", precision=100).with_precision(100)
+    assert coarse.bisect()[0].hull(coarse.bisect()[1]) == coarse
+
+
+def test_constants():
+    for precision in (2, 53, 500):
+        for constant, true in (
+            (intervals.pi(precision=precision), oracle.evaluate(flint.arb.pi, 2000)),
+            (intervals.e(precision=precision), oracle.evaluate(flint.arb.const_e, 2000)),
+        ):
+            assert constant.inf <= true[0] and true[1] <= constant.sup
+            assert constant.wid <= Fraction(4, 2**precision)
+
+
+@pytest.mark.parametrize("value", [0.5, 1, Fraction(1, 2), "0.5", None])
+def test_functions_of_what_is_no_interval(value):
+    for call in (lambda: intervals.sin(value), lambda: intervals.atan2(value, 1)):
+        with pytest.raises(TypeError, match="Interval"):
+            call()
