@@ -1,0 +1,282 @@
+"""Interval and IntervalArray on the vectors of ITF1788, and on those in the folder ITF1788_DIR."""
+
+import os
+import re
+from collections import Counter
+from fractions import Fraction
+from functools import cache
+from math import inf, nextafter
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from intervals import Interval, IntervalArray
+from tests.reference.itf1788_judge import CONTAINED, FAILED, OVERFLOW, RAISED, down, up
+from tests.reference.itf1788_operations import CONSTRUCTORS, DECORATIONS, OPERATIONS
+from tests.reference.itf1788_report import FOLDER, main, outcomes_of, table
+from tests.reference.itf1788_run import run
+from tests.reference.itl import Box, binary64, read
+
+COMMITTED = sorted(FOLDER.glob("*.itl"))
+OTHERS = (
+    sorted(Path(os.environ["ITF1788_DIR"]).rglob("*.itl")) if "ITF1788_DIR" in os.environ else []
+)
+RUN = (CONTAINED, RAISED, OVERFLOW)
+REASONS = {
+    *("NaI", "decorations", "empty", "no tightest result", "not provided", "not understood"),
+    *("reverse", "text form", "unbounded"),
+}
+
+
+@cache
+def outcomes(path):
+    return outcomes_of(path)
+
+
+def named(paths):
+    return pytest.mark.parametrize("path", paths, ids=lambda path: path.name)
+
+
+@named([*COMMITTED, *OTHERS])
+def test_every_case_contains_the_expected_result_or_raises(path):
+    failed = [
+        f"line {x.statement.line}, {x.statement.operation}: {x.message}"
+        for x in outcomes(path)
+        if x.kind == FAILED
+    ]
+    assert not failed, f"{len(failed)} of {len(outcomes(path))}:\n" + "\n".join(failed[:20])
+
+
+@named([*COMMITTED, *OTHERS])
+def test_every_statement_has_one_outcome(path):
+    statements = read(path.read_text(encoding="utf-8-sig", errors="replace"))
+    kinds = Counter(x.kind for x in outcomes(path))
+    assert [x.statement for x in outcomes(path)] == statements
+    assert set(kinds) <= {*RUN, FAILED, *REASONS}
+    assert kinds.total() == len(statements)
+    understood = len(statements) - kinds["not understood"]
+    assert understood >= 0.95 * len(statements)
+    assert path in OTHERS or understood == len(statements)
+
+
+def test_a_folder_named_by_the_environment_has_vectors():
+    assert OTHERS or "ITF1788_DIR" not in os.environ
+
+
+def everything():
+    return [x for path in COMMITTED for x in outcomes(path)]
+
+
+def test_enough_is_run_in_each_category():
+    """What the files hold: fewer would mean that the reader or the runner drops cases."""
+    done = Counter((x.category, x.kind) for x in everything() if x.kind in RUN)
+    assert done["forward", CONTAINED] >= 970
+    assert done["forward", RAISED] >= 780
+    assert done["forward", OVERFLOW] <= 4
+    assert done["set", CONTAINED] >= 154
+    assert done["boolean", CONTAINED] >= 260
+    assert done["numeric", CONTAINED] >= 97
+    assert done["constructor", CONTAINED] + done["constructor", RAISED] >= 69
+
+
+def test_reasons_not_to_run_are_counted():
+    """Counted in the texts themselves: a line with [nai], [empty] or an infinity is no case."""
+    source = "\n".join(path.read_text(encoding="utf-8") for path in COMMITTED)
+    reasons = Counter(x.kind for x in everything() if x.kind not in RUN)
+    assert reasons["reverse"] == len(re.findall(r"^\s*\w+Rev\w* ", source, re.MULTILINE))
+    decorations = r"^\s*(?:newDec|setDec|decorationPart|intervalPart|isNaI) |_(?:com|trv|da.|def)\""
+    assert reasons["decorations"] <= len(re.findall(decorations, source, re.MULTILINE))
+    for reason, pattern in (
+        ("NaI", r"^.*\[ *nai *\].*= *"),
+        ("empty", r"^.*\[(?: *empty *| *)\].*="),
+        ("unbounded", r"^.*(?:inf|entire|\[,|,\]|\?\?|NaN).*="),
+    ):
+        lines = re.findall(pattern, source, re.MULTILINE | re.IGNORECASE)
+        assert 0 < reasons[reason] <= len(lines)
+
+
+def test_interval_is_tight():
+    """At 53 bits, in every single case of an operation that is rounded once.
+
+    Not so x^-n = 1/x^n and the sum of several products; rad is that of the exact midpoint.
+    """
+    loose = [x.statement for x in everything() if x.kind == CONTAINED and not x.tight]
+    loose = [x for x in loose if x.operation not in ("rad", "midRad", "dot_nearest")]
+    assert not [x for x in loose if x.operation != "pown" or x.operands[1] >= 0]
+
+
+def test_array_is_tight_where_nothing_is_rounded():
+    exact = {"pos", "neg", "abs", "min", "max", "sign", "floor", "ceil", "trunc", "convexHull"}
+    exact |= {"roundTiesToEven", "roundTiesToAway", "intersection", "inf", "sup", "mag", "mig"}
+    loose = [x for x in everything() if x.kind == CONTAINED and not x.tight_array]
+    assert not [x for x in loose if x.statement.operation in exact or x.category == "boolean"]
+
+
+# -- the runner is strict ----------------------------------------------------------------------
+
+
+def shifted(x, step):
+    """The binary64 number next to x in the direction of step."""
+    value = nextafter(float(x), step)
+    return Fraction(value) if abs(value) < inf else value
+
+
+def spoiled(statement):
+    """The statement with an expected result that is an ulp too wide below, and above."""
+    (box,) = statement.tightest
+    lower, upper = binary64(box.lower), binary64(box.upper)
+    for wide in (Box(shifted(lower, -inf), upper), Box(lower, shifted(upper, inf))):
+        if wide[:2] != (lower, upper):
+            yield statement._replace(tightest=(wide,))
+
+
+def test_a_result_that_is_an_ulp_too_narrow_fails():
+    ranges = [
+        x.statement
+        for x in everything()
+        if x.kind == CONTAINED and x.tight and isinstance(x.statement.tightest[0], Box)
+    ]
+    ranges = [x for x in ranges if not x.tightest[0].empty and x.tightest[0].bounded]
+    wrong = [x for statement in ranges for x in spoiled(statement)]
+    kinds = Counter(x.kind for x in run(wrong))
+    assert len(ranges) > 1000 and set(kinds) == {FAILED}
+
+
+def test_a_wrong_truth_or_number_fails():
+    lines = """equal [1.0, 2.0] [1.0, 2.0] = false; overlap [1.0, 2.0] [3.0, 4.0] = meets;
+    isMember 1.5 [1.0, 2.0] = false; intersection [1.0, 2.0] [3.0, 4.0] = [2.0, 3.0];
+    sup [1.0, 2.0] = 1.0; mag [-3.0, 2.0] = 2.0; mig [1.0, 2.0] = 0.0; sum_nearest {1.0} = 2.0;
+    isSingleton [1.0, 1.0] = false; b-textToInterval "[1, 2]" = [1.0, 3.0];"""
+    found = run(read("testcase t {" + lines + "}"))
+    assert len(found) == 10 and {x.kind for x in found} == {FAILED}
+
+
+def test_what_is_empty_is_none():
+    lines = """intersection [1.0, 2.0] [3.0, 4.0] = [empty];
+    intersection [3.0, 4.0] [1.0, 2.0] = [empty]; cancelMinus [1.0, 2.0] [3.0, 5.0] = [entire];"""
+    found = run(read("testcase t {" + lines + "}"))
+    assert [(x.kind, x.tight) for x in found] == [(CONTAINED, True)] * 3
+
+
+def test_results_of_the_wrong_kind_are_not_understood():
+    lines = """add [1.0, 1.0] [1.0, 1.0] = 2.0; sup [1.0, 2.0] = [2.0, 2.0];
+    equal [1, 1] [1, 1] = 1; midRad [1.0, 1.0] = 1.0; neg [1.0, 1.0] = [-1.0, -1.0] [-1.0, -1.0];
+    midRad [1, 1] [1, 1] = 1 0;
+    pown [1.0, 1.0] 0.5 = [1.0, 1.0]; b-numsToInterval 1.0 = [1.0, 1.0]; sqr 1.0 = [1.0, 1.0];"""
+    found = run(read("testcase t {" + lines + "}"))
+    assert [x.kind for x in found] == ["not understood"] * 9
+
+
+@pytest.mark.parametrize("cls", [Interval, IntervalArray])
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("wid", lambda x: x.sup - x.inf - 1),
+        ("mid", lambda x: x.sup + 1),
+        ("mid", lambda x: x.inf - 1),
+        ("rad", lambda x: (x.sup - x.inf) / 4),
+    ],
+)
+def test_a_wrong_measure_fails(cls, name, wrong, monkeypatch):
+    expected = {"wid": 4.0, "mid": 3.0, "rad": 2.0}[name]
+    text = f"testcase t {{ {name} [1.0, 5.0] = {expected}; }}"
+    assert run(read(text))[0].kind == CONTAINED
+    monkeypatch.setattr(cls, name, property(wrong))
+    assert run(read(text))[0].kind == FAILED
+
+
+def test_a_function_that_answers_outside_its_domain_fails(monkeypatch):
+    text = "testcase t { sqrt [-1.0, 4.0] = [0.0, 2.0]; log [0.0, 1.0] = [-infinity, 0.0]; }"
+    assert {x.kind for x in run(read(text))} == {RAISED}
+    for cls in (Interval, IntervalArray):
+        with monkeypatch.context() as patch:
+            patch.setattr(cls, "sqrt", lambda x: x)
+            patch.setattr(cls, "log", lambda x: x)
+            assert {x.kind for x in run(read(text))} == {FAILED}
+
+
+@pytest.mark.parametrize("cls", [Interval, IntervalArray])
+def test_a_function_that_is_wrong_in_one_number_type_fails(cls, monkeypatch):
+    def inside_out(_x):
+        raise OverflowError
+
+    text = "testcase t { exp [0.0, 1.0] = [0x1p0, 0x1.5BF0A8B14576Ap+1]; }"
+    assert {x.kind for x in run(read(text))} == {CONTAINED}
+    for wrong in (inside_out, lambda x: x, lambda _x: None):
+        monkeypatch.setattr(cls, "exp", wrong)
+        assert {x.kind for x in run(read(text))} == {FAILED}
+
+
+def test_down_and_up_are_the_neighbours():
+    third = Fraction(1, 3)
+    assert (down(third), up(third)) == (Fraction(1 / 3), Fraction(nextafter(1 / 3, 1)))
+    tiny, huge = Fraction(2) ** -2000, Fraction(2) ** 2000
+    assert (down(tiny), up(tiny), down(-tiny), up(-tiny)) == (0, 2**-1074, -(2**-1074), 0)
+    assert (down(huge), up(huge)) == (2**1024 - 2**971, inf)
+    assert (down(-huge), up(-huge)) == (-inf, 2**971 - 2**1024)
+
+
+def test_vectors_of_another_style(tmp_path, capsys):
+    """Operations and numbers as other libraries write them; what is unknown is counted."""
+    text = """testcase FI_LIB.sin {
+        sin [0X1.0000000000000P+0, 0X1.0000000000000P+0]
+            = [0X1.AED548F090CEEP-1, 0X1.AED548F090CEFP-1];
+        logp1 [0XC.4B4A6EB6B3AF0P-264, 0X1P-200] = [0XC.4B4A6EB6B3AE8P-264, 0X1P-200];
+        logp1 [-0.5, 0.0] = [-0X1.62E42FEFA39F0P-1, 0.0]; logp1 [-1.0, 0.0] = [-infinity, 0.0];
+        cbrt [-8.0, 27.0] = [-2.0, 3.0]; expm1 [0.0, 0.0] = [0.0, 0.0]; sec [0.0, 0.0] = [1.0, 1.0];
+    }
+    testcase mpfi_add { add [-4.0, +7.0] [-0x123456789abcdp-17, 3e300] = [-0x123456791abcdp-17,
+        0x8f596b3002c1bp+947]; frobnicate [1.0, 2.0] = 3; add [1.0 = ;
+        hypot [-3.0, 3.0] [4.0, 4.0] = [4.0, 5.0];
+        exp [800.0, 800.0] = [0x1.fffffffffffffp+1023, +infinity];
+        pow [1.0, 4.0] [0.5, 0.5] <= [1.0, 3.0]; }
+    """
+    (tmp_path / "deep").mkdir()
+    path = tmp_path / "deep" / "mpfi.itl"
+    path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode() + b"/* \xff */")
+    kinds = [x.kind for x in outcomes_of(path)]
+    assert kinds == [
+        *(CONTAINED, CONTAINED, CONTAINED, RAISED, CONTAINED, CONTAINED, "not provided"),
+        *(CONTAINED, "not provided", "not understood"),
+        *(CONTAINED, CONTAINED, "no tightest result"),
+    ]
+    assert main([str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "frobnicate" in printed and "(none)" not in printed
+    path.write_text("testcase t { sin [0.0, 0.0] = [0.0, 1.0]; }")
+    assert main([str(tmp_path)]) == 1
+    assert "mpfi.itl:1: sin:" in capsys.readouterr().out
+
+
+LITERALS = [
+    *(
+        "[1.0, 2.0]",
+        "[-1.0, 1e308]",
+        "[0.0, 0.0]_com",
+        "[empty]",
+        "[nai]",
+        "[entire]",
+        "[1.0, inf]",
+    ),
+    *("1.0", "-2", "0x1p2000", "NaN", "-infinity", "{1.0, 2.0}", "{}", "true", "equals", "ill"),
+    *('"[1, 2]"', '"[2, 1]"', '"x"', "3?", "2/3"),
+]
+
+
+@given(
+    st.sampled_from([*OPERATIONS, *CONSTRUCTORS, *DECORATIONS, "mulRevToPair", "sec"]),
+    st.lists(st.sampled_from(LITERALS), max_size=3),
+    st.lists(st.sampled_from(LITERALS), max_size=2),
+)
+def test_any_statement_has_an_outcome(operation, operands, results):
+    line = " ".join([operation, *operands, "=", *results, ";"])
+    (outcome,) = run(read("testcase t {" + line + "}"))
+    assert outcome.kind in {*RUN, FAILED, *REASONS}
+
+
+def test_the_table_adds_up():
+    rows = table(everything())
+    cases = [int(row[18:].split()[0]) for row in rows[1:]]
+    assert cases[-1] == sum(cases[:-1]) == len(everything())
