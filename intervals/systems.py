@@ -1,0 +1,71 @@
+"""n equations in n variables: values, Jacobian matrices, and products of matrices of intervals.
+
+A box is a sequence of n Intervals, or of n IntervalArrays of one shape (N,), which are N boxes; a
+matrix is a list of rows of these. A function f(x_1, ..., x_n) is a formula that returns n numbers
+(or one, not in a list) for intervals and for jets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from intervals.array import IntervalArray
+from intervals.generic import middle
+from intervals.interval import Interval
+from intervals.jet import Jet
+
+Function: TypeAlias = Callable[..., Any]
+Box: TypeAlias = Sequence[Any]
+Matrix: TypeAlias = list[list[Any]]
+
+
+def components(value: Any) -> list[Any]:
+    """Return the values of f as a list."""
+    return list(value) if isinstance(value, list | tuple) else [value]
+
+
+def jacobian(f: Function, box: Box) -> tuple[list[Any], Matrix]:
+    """Enclose f_i and J_ij = d f_i / d x_j over a box, by a jet of order 1 for each j."""
+    columns = []
+    for j in range(len(box)):
+        jets = (Jet(x, 0 * x + int(i == j)) for i, x in enumerate(box))
+        columns.append(components(f(*jets)))
+    values = [jet.value for jet in columns[0]]
+    return values, [[jet.derivative() for jet in row] for row in zip(*columns, strict=True)]
+
+
+def approximate_inverse(matrix: Matrix) -> Matrix:
+    """Return points that invert the midpoints of a matrix, or do not: nothing depends on it."""
+    middles = np.array([[np.asarray(x.mid, dtype=np.float64) for x in row] for row in matrix])
+    stack = np.moveaxis(middles, (0, 1), (-2, -1))
+    with np.errstate(all="ignore"):
+        try:
+            stack = np.linalg.inv(stack)
+        except np.linalg.LinAlgError:  # one of them is singular
+            stack = np.linalg.pinv(stack)
+    stack = np.where(np.abs(stack) < 2.0**300, stack, 0.0)  # not where it overflowed, nor NaN
+    entries = np.moveaxis(stack, (-2, -1), (0, 1))
+    like = matrix[0][0]
+    if isinstance(like, Interval):
+        return [[Interval.from_float(c, precision=like.precision) for c in row] for row in entries]
+    return [[IntervalArray.from_floats(c) for c in row] for row in entries]
+
+
+def dot(row: Iterable[Any], column: Iterable[Any]) -> Any:
+    """Return the sum of the products."""
+    first, *others = (a * b for a, b in zip(row, column, strict=True))
+    return sum(others, first)
+
+
+def matrix_product(a: Matrix, b: Matrix) -> Matrix:
+    """Return the product of two matrices."""
+    return [[dot(row, column) for column in zip(*b, strict=True)] for row in a]
+
+
+def spread(row: list[Any], box: Box, i: int) -> Any:
+    """Return the sum over j != i of row_j (X_j - m_j), m the midpoint; 0 if there is none."""
+    terms = (a * (x - middle(x)) for a, x in zip(row, box, strict=True))
+    return sum((term for j, term in enumerate(terms) if j != i), 0)

@@ -1,0 +1,179 @@
+"""All zeros of n equations in n variables in a box, by branch and bound with Krawczyk's operator.
+
+See `search` for what a box and a function may be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from math import inf
+
+import numpy as np
+
+from intervals.array import IntervalArray, Mask
+from intervals.branch import (
+    Boxes,
+    Given,
+    as_box,
+    clusters,
+    evaluated,
+    join,
+    one_box,
+    select,
+    split,
+)
+from intervals.errors import DomainError
+from intervals.generic import meet
+from intervals.krawczyk import SystemResult, contract, krawczyk
+from intervals.newton import Roots
+from intervals.rounding import MAX
+from intervals.systems import Function, components
+
+
+def zeros(
+    f: Function, box: Given, *, tolerance: float = 2.0**-30, limit: int = 100_000
+) -> list[SystemResult]:
+    """Return boxes that together contain all zeros of f in the given box, sorted.
+
+    Theorem. The rest of the given box is free of zeros. A box with the outcome UNIQUE contains
+    exactly one zero in the given box, and two such boxes different ones; AT_LEAST_ONE and UNDECIDED
+    are as in `krawczyk`, and may also be about a zero of another box. No box: no zero.
+
+    Proof. Each sub-box X is replaced by its common part with the Krawczyk image of a larger X',
+    which has all zeros of X' and thus of X. Where there is exactly one in X', X is done, and so is
+    each sub-box within X'. A zero on the common face of two sub-boxes is inside the larger boxes of
+    both, and may be found twice: if the box of one zero is within the larger box of another, the
+    two are the same. Sub-boxes whose sides are below `tolerance` times those of the given box, and
+    those left after `limit` ones, are joined where they meet and examined by `krawczyk`.
+    """
+    given = one_box(box)
+    nothing = select(given, slice(0))
+    found, small = [nothing], [nothing]
+    waiting = given
+    while len(waiting[0]):
+        limit -= len(waiting[0])
+        more, waiting = _round(f, waiting)
+        found += more
+        for around in found[1:]:
+            waiting = select(waiting, ~_inside(waiting, around))
+        halves, cut = split(waiting, given, tolerance if limit > 0 else inf)
+        small.append(select(waiting, ~cut))
+        waiting = halves
+    zero, unclear = _distinct(f, join(found))
+    small.append(_common(select(unclear, _meets(unclear, given)), given))
+    results = [r for one in _each(zero) for r in _in_given(f, one, given)]
+    results += _examined(f, join(small), zero)
+    return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
+
+
+def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
+    """Return larger boxes with exactly one zero, and what remains of the boxes inside no such.
+
+    Where f and its Jacobian have no enclosure on a larger box, the box itself is tried; if they
+    have none there either, it remains unless f alone excludes 0.
+    """
+    operator = partial(contract, f, steps=2)
+    found, rest = [], []
+    for part, answer in evaluated(operator, _larger(boxes)):
+        here = select(boxes, part)
+        around = _larger(here) if answer else here
+        final = answer or next(evaluated(operator, here))[1]
+        if final is None:
+            if _may_vanish(f, here):
+                rest.append(here)
+            continue
+        none, unique, image = final
+        found += _each(select(around, unique))
+        rest.append(select(_common(here, image), ~none & ~unique & _meets(here, image)))
+    return found, join(rest)
+
+
+def _may_vanish(f: Function, boxes: Boxes) -> bool:
+    """Whether f over one box has no enclosure, or one that contains 0."""
+    ((_, values),) = evaluated(lambda x: components(f(*x)), boxes)
+    return values is None or all(y.contains_zero() for y in values)
+
+
+def _larger(boxes: Boxes) -> Boxes:
+    """Return boxes that contain the given ones, as a rule in their interior."""
+    result = []
+    for x in boxes:
+        reach = x.wid / 8 + np.maximum(abs(x.inf), abs(x.sup)) * 2.0**-45 + 2.0**-1000
+        low, high = np.maximum(x.inf - reach, -MAX), np.minimum(x.sup + reach, MAX)
+        result.append(IntervalArray.from_floats(np.minimum(low, x.inf), np.maximum(high, x.sup)))
+    return tuple(result)
+
+
+def _each(boxes: Boxes) -> list[Boxes]:
+    return [select(boxes, slice(i, i + 1)) for i in range(len(boxes[0]))]
+
+
+def _common(boxes: Boxes, other: Boxes) -> Boxes:
+    """Return the common parts, where the boxes meet."""
+    return tuple(meet(x, y) for x, y in zip(boxes, other, strict=True))
+
+
+def _inside(boxes: Boxes, other: Boxes) -> Mask:
+    """Return which boxes are subsets of another one."""
+    return _all(x.subset(y) for x, y in zip(boxes, other, strict=True))
+
+
+def _meets(boxes: Boxes, other: Boxes) -> Mask:
+    """Return which boxes have a point in common with another one."""
+    return _all(~x.disjoint(y) for x, y in zip(boxes, other, strict=True))
+
+
+def _all(masks: Iterable[Mask]) -> Mask:
+    return np.asarray(np.logical_and.reduce(list(masks)))
+
+
+def _distinct(f: Function, around: Boxes) -> tuple[Boxes, Boxes]:
+    """Contract boxes with exactly one zero each: to different ones, and to possible repetitions."""
+    count = len(around[0])
+    if not count:
+        return around, around
+    zero = contract(f, around, steps=60)[2]
+    distinct, unclear = np.zeros((2, count), dtype=bool)
+    for i, (one, near) in enumerate(zip(_each(zero), _each(around), strict=True)):
+        same = _inside(one, around) | _inside(zero, near)
+        if not (same & distinct).any():
+            unclear[i] = (_meets(zero, one) & distinct).any()
+            distinct[i] = not unclear[i]
+    return select(zero, distinct), select(zero, unclear)
+
+
+def _in_given(f: Function, zero: Boxes, given: Boxes) -> list[SystemResult]:
+    """Return what is known of a zero, the only one in its box, as one in the given box."""
+    reason = "exactly one zero in a larger box"
+    if _inside(zero, given):
+        return [SystemResult(Roots.UNIQUE, as_box(zero, 0), reason)]
+    if not _meets(zero, given):
+        return []
+    outcome, box, why = krawczyk(f, as_box(_common(zero, given), 0))
+    if outcome is Roots.NONE:
+        return []
+    if outcome is Roots.UNDECIDED:
+        return [SystemResult(outcome, box, f"{reason}, at the boundary of the given box")]
+    return [SystemResult(Roots.UNIQUE, box, f"{reason}, {why} here")]
+
+
+def _examined(f: Function, boxes: Boxes, zero: Boxes) -> list[SystemResult]:
+    """Join boxes that meet, and return what is known of each hull that may have a zero."""
+    results = []
+    lower = np.stack([x.inf for x in boxes], axis=-1)
+    upper = np.stack([x.sup for x in boxes], axis=-1)
+    for low, high, _ in clusters(lower, upper):
+        hull = tuple(IntervalArray.from_floats([a], [b]) for a, b in zip(low, high, strict=True))
+        try:
+            outcome, box, reason = krawczyk(f, as_box(hull, 0))
+        except (DomainError, OverflowError) as error:
+            outcome, box, reason = Roots.UNDECIDED, as_box(hull, 0), str(error)
+        if outcome is Roots.UNIQUE:
+            if _inside(zero, hull).any():
+                continue
+            if _meets(zero, hull).any():
+                outcome, reason = Roots.UNDECIDED, "perhaps the zero of another box"
+        if outcome is not Roots.NONE:
+            results.append(SystemResult(outcome, box, reason))
+    return results

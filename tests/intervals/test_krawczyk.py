@@ -1,0 +1,353 @@
+"""Krawczyk and interval Newton in several variables, on systems whose zeros are known."""
+
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from intervals import DomainError, Interval
+from intervals.array import IntervalArray
+from intervals.generic import meet
+from intervals.krawczyk import krawczyk, newton_system
+from intervals.newton import Roots
+from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
+
+METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])
+
+
+def circle_and_line(x, y):
+    return x.sqr() + y.sqr() - 1, x - y
+
+
+def square(low, high, precision=53):
+    return [Interval(low, high, precision=precision)] * 2
+
+
+# -- single systems --------------------------------------------------------------------------------
+
+
+@METHODS
+@pytest.mark.parametrize("precision", [24, 53, 200, 1100])
+def test_a_zero_to_every_precision(method, precision):
+    outcome, box, _ = method(circle_and_line, square("0.5", 1, precision))
+    low, high = sqrt_down(Fraction(1, 2), precision), sqrt_up(Fraction(1, 2), precision)
+    assert outcome is Roots.UNIQUE
+    for x in box:
+        assert x.inf <= low and high <= x.sup
+        assert x.wid <= 20 * ulp(low, precision)
+
+
+@METHODS
+def test_one_box_and_many_agree(method):
+    pairs = [("1/2", 1), (-1, "-1/2"), (2, 3), (-1, 1), ("0.7", "0.70710678")]
+    x = IntervalArray(pairs)
+    many = method(circle_and_line, [x, x])
+    assert many.outcomes.tolist() == [
+        *(Roots.UNIQUE, Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.NONE)
+    ]
+    for i, pair in enumerate(pairs):
+        one = method(circle_and_line, square(*pair))
+        assert (one.outcome, one.reason) == (many.outcomes[i], many.reasons[i])
+        assert (one.box is None) == (one.outcome is Roots.NONE)
+        if one.outcome is Roots.UNIQUE:
+            for a, b in zip(one.box, many.boxes, strict=True):
+                assert abs(a.inf - Fraction(b.inf[i])) < Fraction(1, 2**48)
+                assert abs(a.sup - Fraction(b.sup[i])) < Fraction(1, 2**48)
+
+
+@METHODS
+def test_one_equation_needs_no_list(method):
+    def f(x):
+        return x.sqr() - 2
+
+    assert method(f, [Interval(1, 2)]).outcome is Roots.UNIQUE
+    outcomes = method(f, [IntervalArray([(1, 2), (2, 3), (-2, 2), ("-1.5", "-1.4")])]).outcomes
+    assert outcomes.tolist() == [Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.UNIQUE]
+
+
+@METHODS
+def test_a_function_that_vanishes_identically_has_no_unique_zero(method):
+    """All images equal the box: a subset of it, but not a proper one."""
+    for box in (square(-1, 1), [Interval(0, 1), Interval(3)]):
+        assert method(lambda x, y: (0 * x, 0 * y), box).outcome is Roots.AT_LEAST_ONE
+        assert method(lambda x, y: (x - 3 * y, 2 * x - 6 * y), box).outcome is not Roots.UNIQUE
+    arrays = [IntervalArray([(-1, 1), (0, 2)])] * 2
+    assert Roots.UNIQUE not in method(lambda x, y: (x - y, y - x), arrays).outcomes
+
+
+@METHODS
+def test_a_proper_part_in_one_variable_only_is_no_proof(method):
+    """The zeros of (x, 0) are a segment: the image is thin in x and whole in y."""
+    for f in (lambda x, y: (x, 0 * y), lambda x, y: (0 * y, x)):
+        assert method(f, square(-1, 1)).outcome is not Roots.UNIQUE
+        arrays = [IntervalArray([(-1, 1)])] * 2
+        assert method(f, arrays).outcomes[0] is not Roots.UNIQUE
+
+
+@METHODS
+def test_double_zeros_are_never_unique(method):
+    def tangent(x, y):
+        return x.sqr() + y.sqr() - 1, y - 1
+
+    for low, high in ((-1, 1), ("-0.001", "0.002"), (0, 1)):
+        outcome = method(tangent, [Interval(low, high), Interval("0.5", "1.5")]).outcome
+        assert outcome in (Roots.UNDECIDED, Roots.AT_LEAST_ONE)
+
+
+@METHODS
+def test_a_zero_on_the_boundary(method):
+    """(0, 0) is a corner or on an edge: never lost, and proved where the signs are exact."""
+    for x, y in ((0, 1), (0, 1)), ((-1, 1), (0, 1)), ((-1, 0), (-1, 1)):
+        for f, proved in (
+            (lambda x, y: (2 * x, 3 * y), {Roots.UNIQUE, Roots.AT_LEAST_ONE}),
+            (lambda x, y: (2 * x + y, x - y), set(Roots) - {Roots.NONE}),
+        ):
+            outcome, box, _ = method(f, [Interval(*x), Interval(*y)])
+            assert outcome in proved
+            assert all(side.contains(0) and side.wid < Fraction(1, 2**40) for side in box)
+
+
+@METHODS
+def test_a_zero_just_outside(method):
+    tiny = Fraction(1, 2**50)
+    for low, high in ((tiny, 1), (-1, -tiny)):
+        result = method(lambda x, y: (x + y, x - y), [Interval(low, high), Interval(-1, 1)])
+        assert result.outcome is Roots.NONE and result.box is None
+
+
+@METHODS
+def test_opposite_signs_on_faces(method):
+    def cubes(x, y):
+        return x * x * x + y * 0, 8 * y * y * y - x * x * x
+
+    outcome, box, reason = method(cubes, square(-1, 2))
+    assert outcome is Roots.AT_LEAST_ONE and "faces" in reason
+    assert all(side.contains(0) for side in box)
+    assert method(lambda x, y: (x.sqr(), y), square(-1, 1)).outcome is Roots.UNDECIDED
+    swapped = method(lambda x, y: (y * (y.sqr() - Fraction(1, 4)), x), square(-1, 1))
+    assert swapped.outcome is Roots.AT_LEAST_ONE  # only after the approximate inverse
+
+
+@METHODS
+def test_signs_of_dependent_equations_prove_nothing(method):
+    """x + y and x + y + d have opposite signs on faces, and no common zero."""
+    d = Fraction(1, 2**10)
+    for f in (
+        lambda x, y: (x + y, x + y + d),
+        lambda x, y: (x, x + d * y * y + d),
+        lambda x, y: (x * y, x * y + d),
+    ):
+        assert method(f, square(-1, 1)).outcome in (Roots.NONE, Roots.UNDECIDED)
+        outcome = method(f, [IntervalArray([(-1, 1)])] * 2).outcomes[0]
+        assert outcome in (Roots.NONE, Roots.UNDECIDED)
+
+
+@METHODS
+def test_an_image_disjoint_from_the_box_proves_that_there_is_no_zero(method):
+    """x x - x - 1 over [2, 3] is enclosed in [0, 6], the image in [1.6, 2)."""
+
+    def f(x):
+        return x * x - x - 1
+
+    assert f(Interval(2, 3)).contains_zero()
+    assert method(f, [Interval(2, 3)], steps=1).outcome is Roots.NONE
+    assert method(f, [IntervalArray([(2, 3)])], steps=1).outcomes[0] is Roots.NONE
+
+
+def test_the_common_part_is_taken_element_by_element():
+    x, y = IntervalArray([(0, 2), (0, 2), (1, 1)]), IntervalArray([(1, 3), (5, 6), (0, 4)])
+    assert meet(x, y).equal(IntervalArray([(1, 2), (0, 2), (1, 1)])).all()
+    assert meet(Interval(0, 2), Interval(1, 3)) == Interval(1, 2)
+    assert meet(Interval(0, 2), Interval(5, 6)) == Interval(0, 2)
+
+
+@METHODS
+def test_hypotheses_are_checked(method):
+    with pytest.raises(ValueError, match="1 equations in 2 variables"):
+        method(lambda x, y: (x + y,), square(-1, 1))
+    with pytest.raises(ValueError, match="step"):
+        method(circle_and_line, square(-1, 1), steps=0)
+    with pytest.raises(DomainError):
+        method(lambda x, y: (x.sqrt(), y), square(-1, 1))
+    with pytest.raises(DomainError):  # not differentiable at 0
+        method(lambda x, y: (x.sqrt(), y), square(0, 1))
+
+
+@METHODS
+def test_a_root_of_a_nonlinear_system_to_fifty_digits(method):
+    """x = exp(y), y = cos(x) / 2: one zero, checked by signs along the curve."""
+
+    def f(x, y):
+        return x - y.exp(), 2 * y - x.cos()
+
+    rough = method(f, [Interval(1, 2), Interval(0, 1)])
+    assert rough.outcome is Roots.UNIQUE
+    fine = method(f, [side.with_precision(200) for side in rough.box])
+    x = fine.box[0]
+    assert x.wid < Fraction(1, 10**50)
+
+    def along(t):
+        return (2 * t.log() - t.cos()).inf, (2 * t.log() - t.cos()).sup
+
+    gap = Fraction(1, 10**50)
+    assert along(Interval(x.inf - gap, precision=400))[1] < 0
+    assert along(Interval(x.sup + gap, precision=400))[0] > 0
+
+
+# -- systems with known rational zeros -------------------------------------------------------------
+
+
+def from_roots(roots, t):
+    total = 0 * t + 1
+    for root in roots:
+        total = total * (t - root)
+    return total
+
+
+rationals = st.fractions(-2, 2, max_denominator=8)
+root_lists = st.lists(rationals, min_size=1, max_size=3)
+
+
+@st.composite
+def systems(draw):
+    """A(p(x - c y), q(y)) for a regular A: all zeros are (r + c s, s), p(r) = 0, q(s) = 0."""
+    a, b, c, d = (draw(st.integers(-3, 3)) for _ in range(4))
+    if a * d == b * c:
+        a, b, c, d = 1, 2, 1, 1
+    shear = draw(st.sampled_from([0, 1, -2]))
+    first, second = draw(root_lists), draw(root_lists)
+
+    def f(x, y):
+        p, q = from_roots(first, x - shear * y), from_roots(second, y)
+        return a * p + b * q, c * p + d * q
+
+    return f, {(r + shear * s, s) for r, s in product(first, second)}
+
+
+@st.composite
+def sides(draw, values):
+    """An interval around, beside, from or to one of the values, or anywhere."""
+    value = draw(st.sampled_from(sorted(values)))
+    widths = st.sampled_from([Fraction(1), Fraction(1, 10), Fraction(1, 2**12), Fraction(0)])
+    low, high = value - draw(widths), value + draw(widths)
+    if draw(st.integers(0, 3)) == 0:
+        low, high = high, high + draw(widths)
+    return low, high
+
+
+@st.composite
+def problems(draw, count):
+    f, roots = draw(systems())
+    x, y = zip(*roots, strict=True)
+    boxes = [(draw(sides(x)), draw(sides(y))) for _ in range(count)]
+    return f, roots, boxes
+
+
+def check(outcome, given_box, box, roots):
+    """What is claimed about the given box must be true."""
+    inside = [
+        root for root in roots if all(s.contains(r) for s, r in zip(given_box, root, strict=True))
+    ]
+    if outcome is Roots.NONE:
+        assert not inside
+        return
+    for root in inside:
+        assert all(side.contains(value) for side, value in zip(box, root, strict=True))
+    assert all(a.contains(b) for a, b in zip(given_box, box, strict=True))
+    if outcome is Roots.UNIQUE:
+        assert len(inside) == 1
+    if outcome is Roots.AT_LEAST_ONE:
+        assert inside
+
+
+def check_one(problem, method, precision):
+    f, roots, boxes = problem
+    for pair in boxes:
+        box = [Interval(*side, precision=precision) for side in pair]
+        outcome, smaller, reason = method(f, box)
+        assert reason
+        check(outcome, box, smaller, roots)
+
+
+def check_many(problem, method):
+    f, roots, boxes = problem
+    arrays = [IntervalArray(list(column)) for column in zip(*boxes, strict=True)]
+    results = method(f, arrays)
+    for i, outcome in enumerate(results.outcomes):
+        box, smaller = ([x[i].item() for x in side] for side in (arrays, results.boxes))
+        check(outcome, box, smaller, roots)
+
+
+methods = st.sampled_from([krawczyk, newton_system])
+
+
+@settings(deadline=None, max_examples=25)
+@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
+def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
+    check_one(problem, method, precision)
+
+
+@settings(deadline=None, max_examples=25)
+@given(problems(8), methods)
+def test_what_is_claimed_of_many_boxes_is_true(problem, method):
+    check_many(problem, method)
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=300)
+@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
+def test_what_is_claimed_of_one_box_is_true_at_length(problem, method, precision):
+    check_one(problem, method, precision)
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=150)
+@given(problems(8), methods)
+def test_what_is_claimed_of_many_boxes_is_true_at_length(problem, method):
+    check_many(problem, method)
+
+
+@METHODS
+def test_simple_zeros_are_found_in_small_boxes(method):
+    """Each of 9 zeros in a box of radius 1/100 is unique; 9 boxes between them have none."""
+    roots = [Fraction(-1), Fraction(1, 3), Fraction(5, 4)]
+    centres = list(product(roots, roots))
+    reach = Fraction(1, 100)
+
+    def f(x, y):
+        return from_roots(roots, x) + 3 * from_roots(roots, y), from_roots(roots, y)
+
+    def around(shift):
+        columns = zip(*centres, strict=True)
+        return [IntervalArray([(c + shift - reach, c + shift + reach) for c in x]) for x in columns]
+
+    assert set(method(f, around(0)).outcomes) == {Roots.UNIQUE}
+    assert set(method(f, around(Fraction(1, 5))).outcomes) == {Roots.NONE}
+
+
+@METHODS
+def test_four_variables(method):
+    """Known zero (1, 2, 3, 4) of a dense quadratic system, its value subtracted exactly."""
+    rng = np.random.default_rng(5)
+    matrix, squares = rng.integers(-9, 10, (2, 4, 4)).tolist()
+    target = [1, 2, 3, 4]
+
+    def f(*x):
+        rows = zip(matrix, squares, strict=True)
+        return [
+            sum(
+                a * (v - t) + b * (v * v - t * t)
+                for a, b, v, t in zip(p, q, x, target, strict=True)
+            )
+            for p, q in rows
+        ]
+
+    box = [Interval(t - Fraction(1, 500), t + Fraction(1, 300)) for t in target]
+    outcome, smaller, _ = method(f, box)
+    assert outcome is Roots.UNIQUE
+    assert all(
+        x.contains(t) and x.wid < Fraction(1, 2**40) for x, t in zip(smaller, target, strict=True)
+    )

@@ -1,0 +1,330 @@
+"""Linear systems and eigenvalues of interval matrices, against exact solutions by FLINT."""
+
+import random
+from fractions import Fraction
+
+import flint
+import numpy as np
+import pytest
+
+from intervals import Undecided, linalg
+from intervals.array import IntervalArray
+from intervals.linalg import SingularMatrix, _real, _square, eigenvalues, inverse, solve
+from tests.intervals import oracle
+
+
+def rational(rows):
+    return flint.fmpq_mat([[flint.fmpq(x.numerator, x.denominator) for x in row] for row in rows])
+
+
+def exact_solution(a, b):
+    x = rational(a).solve(rational(b))
+    return [[Fraction(int(v.p), int(v.q)) for v in row] for row in x.tolist()]
+
+
+def random_matrix(rng, rows, columns, radius):
+    """An interval matrix around dyadic entries and the exact ends of its entries."""
+    ends = []
+    for _ in range(rows):
+        middle = [Fraction(rng.randint(-(2**12), 2**12), 2**8) for _ in range(columns)]
+        ends.append(
+            [(m - radius * rng.randint(0, 4), m + radius * rng.randint(0, 4)) for m in middle]
+        )
+    return IntervalArray(ends), ends
+
+
+def member(rng, ends):
+    """A matrix inside, often with entries at the ends."""
+    parts = [Fraction(0), Fraction(1), Fraction(1, 2), Fraction(rng.randrange(257), 256)]
+    return [[low + (high - low) * rng.choice(parts) for low, high in row] for row in ends]
+
+
+def contains(result, exact):
+    low, high = result.inf.reshape(len(exact), -1), result.sup.reshape(len(exact), -1)
+    return all(
+        Fraction(float(low[i, j])) <= x <= Fraction(float(high[i, j]))
+        for i, row in enumerate(exact)
+        for j, x in enumerate(row)
+    )
+
+
+# -- linear systems --------------------------------------------------------------------------------
+
+
+def check_solutions(seed, count):
+    rng = random.Random(seed)
+    solved = 0
+    for _ in range(count):
+        n, m = rng.randint(1, 6), rng.randint(1, 3)
+        radius = rng.choice([Fraction(0), Fraction(1, 2**30), Fraction(1, 2**10), Fraction(1, 8)])
+        (a, a_ends), (b, b_ends) = (
+            random_matrix(rng, n, n, radius),
+            random_matrix(rng, n, m, radius),
+        )
+        try:
+            x = solve(a, b)
+        except SingularMatrix:
+            continue
+        solved += 1
+        for _ in range(4):
+            assert contains(x, exact_solution(member(rng, a_ends), member(rng, b_ends)))
+    assert solved > count / 2
+
+
+def test_solutions_contain_every_exact_one():
+    check_solutions("solve", 80)
+
+
+@pytest.mark.slow
+def test_solutions_contain_every_exact_one_at_length():
+    check_solutions("solve at length", 800)
+
+
+def test_a_thin_system_is_solved_sharply():
+    rng = random.Random(3)
+    a, ends = random_matrix(rng, 5, 5, Fraction(0))
+    b = IntervalArray([1, 2, 3, 4, 5])
+    x = solve(a, b)
+    exact = exact_solution([[low for low, _ in row] for row in ends], [[k] for k in range(1, 6)])
+    assert x.shape == (5,)
+    assert contains(x, exact)
+    size = max(abs(v) for row in exact for v in row)
+    assert Fraction(float(x.wid.max())) < size / 2**40
+
+
+def test_an_ill_conditioned_system():
+    """The Hilbert matrix of order 6: condition 1.5e7, entries rounded outward."""
+    n = 6
+    a = IntervalArray([[Fraction(1, i + j + 1) for j in range(n)] for i in range(n)])
+    exact = exact_solution(
+        [[Fraction(1, i + j + 1) for j in range(n)] for i in range(n)], [[1]] * n
+    )
+    x = solve(a, IntervalArray([1] * n))
+    assert contains(x, exact)
+    assert (x.wid < 1e-6 * np.maximum(1, x.mag)).all()
+
+
+def test_badly_scaled_systems_are_solved():
+    """diag(2^-40, 1, 2^40) applied from both sides; an error in each entry of 1/64 of its size."""
+    d = [Fraction(2) ** k for k in (-40, 0, 40)]
+    core = [[4, 1, 1], [1, 5, 1], [1, 1, 6]]
+    low, high = Fraction(63, 64), Fraction(65, 64)
+    ends = [
+        [(d[i] * core[i][j] * low / d[j], d[i] * core[i][j] * high / d[j]) for j in range(3)]
+        for i in range(3)
+    ]
+    x = solve(IntervalArray(ends), IntervalArray([1, 1, 1]))
+    rng = random.Random(8)
+    for _ in range(20):
+        assert contains(x, exact_solution(member(rng, ends), [[1]] * 3))
+
+
+def test_inverse():
+    rng = random.Random(4)
+    a, ends = random_matrix(rng, 4, 4, Fraction(1, 2**12))
+    unit = [[int(i == j) for j in range(4)] for i in range(4)]
+    for _ in range(10):
+        assert contains(inverse(a), exact_solution(member(rng, ends), unit))
+    assert contains(inverse(IntervalArray([[4]])), [[Fraction(1, 4)]])
+
+
+def test_matrices_that_include_a_singular_one_are_refused():
+    rng = random.Random(5)
+    for _ in range(40):
+        n = rng.randint(2, 5)
+        rows = [[Fraction(rng.randint(-8, 8)) for _ in range(n)] for _ in range(n - 1)]
+        weights = [Fraction(rng.randint(-2, 2)) for _ in rows]
+        last = [
+            sum((w * r[j] for w, r in zip(weights, rows, strict=True)), Fraction(0))
+            for j in range(n)
+        ]
+        around = rng.choice([Fraction(0), Fraction(1, 2**40), Fraction(1, 2**4)])
+        left = around * rng.randint(0, 4)
+        ends = [[(x - left, x + around) for x in row] for row in [*rows, last]]
+        with pytest.raises(SingularMatrix):
+            solve(IntervalArray(ends), IntervalArray([1] * n))
+
+
+def test_singular_at_the_edge_only():
+    """[[1, t], [t, 1]], |t| <= r, is regular for r < 1; r = 1 includes a singular matrix."""
+
+    def matrix(r):
+        return IntervalArray([[1, (-r, r)], [(-r, r), 1]])
+
+    x = solve(matrix(Fraction(99, 100)), IntervalArray([1, 1]))
+    assert contains(x, [[Fraction(100)], [Fraction(100)]])
+    with pytest.raises(SingularMatrix) as caught:
+        solve(matrix(Fraction(1)), IntervalArray([1, 1]))
+    assert isinstance(caught.value, Undecided)
+    with pytest.raises(SingularMatrix):
+        inverse(IntervalArray([[(-1, 1)]]))
+
+
+def test_shapes_are_checked():
+    for shape in ((2, 3), (4,), (0, 0)):
+        a = IntervalArray.from_floats(np.ones(shape))
+        for function in (eigenvalues, inverse):
+            with pytest.raises(ValueError, match="square"):
+                function(a)
+
+
+# -- eigenvalues -----------------------------------------------------------------------------------
+
+
+def roots(rows):
+    """(re, im, multiplicity) of the eigenvalues, exact ends, from the characteristic polynomial."""
+    polynomial = rational(rows).charpoly()
+    result = []
+    for root, multiplicity in polynomial.numer().complex_roots():
+        z = flint.acb(root)
+        result.append((oracle.ends(z.real), oracle.ends(z.imag), multiplicity))
+    return result
+
+
+def inside(ends, side):
+    """Whether a ball is in an interval, up to the radius of the ball."""
+    low, high = ends
+    assert high - low < Fraction(1, 2**80)
+    return side.inf <= high and low <= side.sup
+
+
+def check_spectrum(found, rows):
+    assert sum(value.multiplicity for value in found) == len(rows)
+    with flint.ctx.workprec(400):
+        exact = roots(rows)
+    for value in found:
+        held = [m for re, im, m in exact if inside(re, value.real) and inside(im, value.imag)]
+        assert sum(held) == value.multiplicity
+    for i, x in enumerate(found):
+        for y in found[:i]:
+            assert x.real.disjoint(y.real) or x.imag.disjoint(y.imag)
+
+
+def integers(rows):
+    return [[Fraction(x) for x in row] for row in rows]
+
+
+def check_spectra(seed, count):
+    rng = random.Random(seed)
+    for _ in range(count):
+        n = rng.randint(1, 6)
+        radius = rng.choice([Fraction(0), Fraction(1, 2**30), Fraction(1, 2**8), Fraction(1)])
+        a, ends = random_matrix(rng, n, n, radius)
+        found = eigenvalues(a)
+        for _ in range(3):
+            check_spectrum(found, member(rng, ends))
+
+
+def test_eigenvalues_contain_every_exact_one():
+    check_spectra("eigenvalues", 25)
+
+
+@pytest.mark.slow
+def test_eigenvalues_contain_every_exact_one_at_length():
+    check_spectra("eigenvalues at length", 300)
+
+
+def test_eigenvalues_of_small_integer_matrices():
+    """Entries -1, 0, 1: many defective matrices, multiple eigenvalues and complex pairs."""
+    rng = random.Random(11)
+    for _ in range(40):
+        n = rng.randint(2, 5)
+        rows = [[rng.randint(-1, 1) for _ in range(n)] for _ in range(n)]
+        check_spectrum(eigenvalues(IntervalArray(rows)), integers(rows))
+
+
+def test_real_and_complex_eigenvalues_are_told_apart():
+    real = eigenvalues(IntervalArray([[2, 1], [1, 3]]))
+    assert [(x.imag.is_singleton(), x.multiplicity) for x in real] == [(True, 1)] * 2
+    pair = eigenvalues(IntervalArray([[0, 1], [-1, 0]]))
+    assert [x.multiplicity for x in pair] == [1, 1]
+    assert pair[0].imag.certainly_negative() and pair[1].imag.certainly_positive()
+    assert all(x.real.contains(0) and x.real.wid < Fraction(1, 2**40) for x in pair)
+    near = eigenvalues(IntervalArray([[1, (Fraction(-1, 2**40), Fraction(1, 2**40))], [1, 1]]))
+    assert [x.multiplicity for x in near] == [2]
+
+
+@pytest.mark.parametrize(("n", "radius"), [(2, 2.0**-22), (3, 2.0**-13), (4, 2.0**-8)])
+def test_a_similar_jordan_block(n, radius):
+    """S J S^-1 for a unimodular S: the eigenvalue 3 of multiplicity n with one eigenvector."""
+    s = [[int(i >= j) for j in range(n)] for i in range(n)]
+    block = [[3 * (i == j) + (j == i + 1) for j in range(n)] for i in range(n)]
+    product = rational(integers(s)) * rational(integers(block)) * rational(integers(s)).inv()
+    rows = [[Fraction(int(x.p), int(x.q)) for x in row] for row in product.tolist()]
+    (value,) = eigenvalues(IntervalArray(rows))
+    assert value.multiplicity == n and value.real.contains(3) and value.imag.contains(0)
+    assert value.real.wid < 8 * Fraction(radius)
+
+
+def test_discs_hold_for_a_poor_inverse():
+    """W V is far from the unit matrix: the discs must account for it."""
+    rng = np.random.default_rng(21)
+    for _ in range(40):
+        a = rng.integers(-4, 5, (3, 3))
+        v = np.eye(3) + rng.uniform(-0.4, 0.4, (3, 3))
+        w = np.linalg.inv(v) + rng.uniform(-0.12, 0.12, (3, 3))
+        zero = np.zeros((3, 3))
+        doubled = IntervalArray.from_floats(np.block([[a + zero, zero], [zero, a + zero]]))
+        square = _square(doubled, *(IntervalArray.from_floats(_real(x + 0j)) for x in (v, w)))
+        if square is None:
+            continue
+        lower, upper = square
+        with flint.ctx.workprec(300):
+            exact = roots(integers(a.tolist()))
+        for re, im, _ in exact:
+            point = np.array([float(re[0]), float(im[0])])
+            assert ((lower - 1e-12 <= point) & (point <= upper + 1e-12)).all(axis=1).any()
+
+
+def test_similarity_error_is_not_left_out():
+    """V = I, W = I + e N: W A V has other eigenvalues than A, and only e_i covers the gap."""
+    a = np.diag([1.0, 3.0])
+    w = np.diag([1.25, 0.75])
+    zero = np.zeros((2, 2))
+    doubled = IntervalArray.from_floats(np.block([[a, zero], [zero, a]]))
+    parts = (IntervalArray.from_floats(_real(x + 0j)) for x in (np.eye(2), w))
+    lower, upper = _square(doubled, *parts)
+    assert lower[0, 0] <= 1 <= upper[0, 0] and lower[1, 0] <= 3 <= upper[1, 0]
+    bad = (IntervalArray.from_floats(_real(x + 0j)) for x in (np.eye(2), 2 * np.eye(2)))
+    assert _square(doubled, *bad) is None
+
+
+def test_a_rectangle_on_the_axis_is_made_symmetric_before_it_counts_as_real(monkeypatch):
+    """i and -i, in rectangles of which one reaches across the axis: neither is real."""
+    squares = np.array([[-0.1, -0.5], [-0.1, -1.1]]), np.array([[0.1, 1.1], [0.1, -0.6]])
+    monkeypatch.setattr(linalg, "_squares", lambda a: [squares])
+    (pair,) = eigenvalues(IntervalArray([[0, 1], [-1, 0]]))
+    assert pair.multiplicity == 2 and pair.imag.contains(1) and pair.imag.contains(-1)
+
+
+def test_extreme_sizes():
+    for scale in (Fraction(2) ** -900, Fraction(2) ** 900):
+        rows = [[2 * scale, scale], [scale, 3 * scale]]
+        found = eigenvalues(IntervalArray(rows))
+        assert sum(x.multiplicity for x in found) == 2
+        low, high = (
+            scale * (5 + f(Fraction(5), 60)) / 2 for f in (oracle.sqrt_down, oracle.sqrt_up)
+        )
+        assert any(x.real.inf <= low and high <= x.real.sup for x in found)
+        x = solve(IntervalArray(rows), IntervalArray([1, 2]))
+        assert contains(x, exact_solution(rows, [[1], [2]]))
+    with pytest.raises(OverflowError):
+        eigenvalues(IntervalArray([[10**308, 10**308], [10**308, 10**308]]))
+
+
+def test_diagonal_and_triangular_matrices():
+    found = eigenvalues(IntervalArray([[1, 0, 0], [0, (2, 3), 0], [0, 0, 7]]))
+    assert [x.multiplicity for x in found] == [1, 1, 1]
+    assert found[1].real.contains(2) and found[1].real.contains(3)
+    assert found[1].real.wid < Fraction(11, 10)
+    check_spectrum(eigenvalues(IntervalArray([[1, 5], [0, 1]])), integers([[1, 5], [0, 1]]))
+
+
+def test_symmetric_matrices_sharply():
+    rng = np.random.default_rng(12)
+    half = rng.integers(-99, 100, (8, 8))
+    rows = (half + half.T).tolist()
+    found = eigenvalues(IntervalArray(rows))
+    check_spectrum(found, integers(rows))
+    assert all(x.multiplicity == 1 and x.imag.is_singleton() for x in found)
+    assert max(x.real.wid for x in found) < Fraction(1, 2**30)

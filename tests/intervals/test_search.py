@@ -1,0 +1,403 @@
+"""Branch and bound: signs, ranges and zeros of functions for which these are known."""
+
+from fractions import Fraction
+from functools import reduce
+from itertools import product
+
+import flint
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from intervals import DomainError, Interval, search
+from intervals.array import IntervalArray
+from intervals.branch import clusters, evaluated, one_box, split
+from intervals.newton import Roots
+from intervals.search import Sign, range_of, sign_of
+from intervals.zeros import _examined, zeros
+from tests.intervals import oracle
+
+rationals = st.fractions(-2, 2, max_denominator=8)
+dyadics = st.integers(-32, 32).map(lambda k: Fraction(k, 16))
+
+
+def from_roots(roots, t):
+    return reduce(lambda total, root: total * (t - root), roots, 0 * t + 1)
+
+
+def horner(coefficients, t):
+    return reduce(lambda total, c: total * t + c, reversed(coefficients), 0 * t)
+
+
+# -- the parts -------------------------------------------------------------------------------------
+
+
+def test_halves_cover_and_the_widest_side_is_cut():
+    boxes = (IntervalArray([(0, 4), (0, 1), (2, 2)]), IntervalArray([(0, 3), (0, 2), (1, 1)]))
+    unit = one_box([Interval(0, 1), Interval(0, 1)])
+    halves, cut = split(boxes, unit, 2.0**-20)
+    assert cut.tolist() == [True, True, False]
+    corners = [list(zip(x.inf.tolist(), x.sup.tolist(), strict=True)) for x in halves]
+    assert corners == [[(0, 2), (0, 1), (2, 4), (0, 1)], [(0, 3), (0, 1), (0, 3), (1, 2)]]
+    other = one_box([Interval(0, 100), Interval(0, 1)])
+    assert split(boxes, other, 2.0**-20)[0][1].sup.tolist() == [1.5, 1, 3, 2]
+    assert not split(boxes, unit, 5.0)[1].any()
+
+
+def test_a_box_without_a_number_inside_is_not_cut():
+    low = 1.0
+    tight = (IntervalArray.from_floats([low], [np.nextafter(low, 2)]),)
+    assert not split(tight, tight, 0.0)[1].any()
+
+
+def test_parts_outside_the_domain_are_isolated():
+    boxes = (IntervalArray([(1, 2), (-1, 2), (3, 4), (0, 1), (5, 6)]),)
+    seen = list(evaluated(lambda b: b[0].log(), boxes))
+    covered = [i for part, _ in seen for i in range(part.start, part.stop)]
+    assert covered == list(range(5))
+    missing = [i for part, answer in seen if answer is None for i in range(part.start, part.stop)]
+    assert missing == [1, 3]
+    with pytest.raises(ZeroDivisionError):  # only what says "not on this box" is caught
+        list(evaluated(lambda b: 1 // 0, boxes))
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(st.tuples(*[st.tuples(st.integers(0, 30), st.integers(0, 6))] * 2), max_size=12))
+def test_clusters_are_disjoint_and_hold_their_members(sides):
+    lower = np.array([[x, y] for (x, _), (y, _) in sides], dtype=float).reshape(-1, 2)
+    upper = lower + np.array([[a, b] for (_, a), (_, b) in sides], dtype=float).reshape(-1, 2)
+    groups = clusters(lower, upper)
+    assert sorted(i for _, _, members in groups for i in members) == list(range(len(sides)))
+    for low, high, members in groups:
+        assert (low == lower[members].min(axis=0)).all()
+        assert (high == upper[members].max(axis=0)).all()
+    for i, (a, b, _) in enumerate(groups):
+        for c, d, _ in groups[:i]:
+            assert (b < c).any() or (d < a).any()
+
+
+def test_only_binary64_boxes_are_taken():
+    third = Interval(Fraction(1, 3), 1, precision=200)
+    for function in (sign_of, range_of, zeros):
+        with pytest.raises(ValueError, match="binary64"):
+            function(lambda x: x - 2, third)
+
+
+# -- zeros -----------------------------------------------------------------------------------------
+
+
+def outcomes(results):
+    return [result.outcome for result in results]
+
+
+def test_zeros_on_common_faces_are_found_once():
+    """0, 1/2 and 1/4 are where [-1, 1] is cut."""
+    roots = [Fraction(0), Fraction(1, 2), Fraction(1, 4), Fraction(-1, 3)]
+    results = zeros(lambda x: from_roots(roots, x), Interval(-1, 1))
+    assert outcomes(results) == [Roots.UNIQUE] * 4
+    for root, result in zip(sorted(roots), results, strict=True):
+        assert result.box[0].contains(root) and result.box[0].wid < Fraction(1, 2**44)
+
+
+def test_zeros_at_the_ends_of_the_box():
+    results = zeros(lambda x: x * (x - 1), Interval(0, 1))
+    assert outcomes(results) == [Roots.UNIQUE] * 2
+    low, high = oracle.sqrt_down(Fraction(2), 53), oracle.sqrt_up(Fraction(2), 53)
+    for ends, count in (((1, low), 0), ((high, 2), 0), ((1, high), 1), ((low, 2), 1)):
+        results = zeros(lambda x: x.sqr() - 2, Interval(*ends))
+        assert len(results) <= 1
+        if count:
+            assert results and results[0].box[0].inf <= low and high <= results[0].box[0].sup
+        elif results:
+            assert results[0].outcome is Roots.UNDECIDED
+
+
+def test_many_zeros_of_an_oscillation():
+    """sin(40 x) has 128 zeros k pi / 40 in [0, 10], 0 <= k <= 127."""
+    results = zeros(lambda x: (40 * x).sin(), Interval(0, 10))
+    assert outcomes(results) == [Roots.UNIQUE] * 128
+    low, high = oracle.pi_bounds(100)
+    for k, result in enumerate(results):
+        assert result.box[0].inf <= k * low / 40 and k * high / 40 <= result.box[0].sup
+
+
+def test_multiple_zeros_stay_undecided_or_change_sign():
+    third = Fraction(1, 3)
+    (double,) = zeros(lambda x: (x - third).sqr(), Interval(-1, 1))
+    assert double.outcome is Roots.UNDECIDED
+    assert double.box[0].contains(third) and double.box[0].wid < Fraction(1, 10**6)
+    (triple,) = zeros(lambda x: (x - third) * (x - third).sqr(), Interval(-1, 1))
+    assert triple.outcome is Roots.AT_LEAST_ONE and triple.box[0].contains(third)
+    assert zeros(lambda x: (x - third).sqr() + Fraction(1, 10**9), Interval(-1, 1)) == []
+
+
+def test_no_zero_is_proved_by_no_result():
+    assert zeros(lambda x: x.exp(), Interval(-5, 5)) == []
+    assert zeros(lambda x, y: (x.sqr() + y.sqr() - 1, x + y - 2), [Interval(-3, 3)] * 2) == []
+
+
+def test_a_point_as_the_box():
+    assert zeros(lambda x: x - 2, Interval(1)) == []
+    (result,) = zeros(lambda x: x - 1, Interval(1))
+    assert result.outcome is not Roots.NONE and result.box == (Interval(1),)
+
+
+def test_functions_with_a_domain():
+    assert outcomes(zeros(lambda x: x.log(), Interval(Fraction(1, 2**20), 4))) == [Roots.UNIQUE]
+    (root,) = zeros(lambda x: x.sqrt() - 1, Interval(0, 4))  # sqrt has no slope at 0
+    assert root.outcome is Roots.UNIQUE and root.box[0].contains(1)
+    (root,) = zeros(lambda x: x.sqrt(), Interval(0, 4))
+    assert root.outcome is Roots.UNDECIDED and root.box[0].contains(0)
+    (pole,) = zeros(lambda x: 1 / x, Interval(-1, 1))
+    assert pole.outcome is Roots.UNDECIDED and pole.box[0].contains(0)
+
+
+def test_the_limit_leaves_undecided_boxes():
+    for limit in (1, 10, 50):
+        results = zeros(lambda x: (40 * x).sin(), Interval(0, 10), limit=limit)
+        low, high = oracle.pi_bounds(100)
+        for k in range(128):
+            assert any(
+                r.box[0].inf <= k * low / 40 and k * high / 40 <= r.box[0].sup for r in results
+            )
+        assert Roots.UNDECIDED in outcomes(results) or Roots.AT_LEAST_ONE in outcomes(results)
+
+
+def test_a_continuum_of_zeros_ends():
+    (result,) = zeros(lambda x, y: (x * y, x * y - x.sqr() * y), [Interval(-1, 1)] * 2, limit=5000)
+    assert result.outcome is Roots.UNDECIDED
+    assert result.box == (Interval(-1, 1),) * 2
+
+
+def test_a_system_in_three_variables():
+    """xyz = 6, x + y + z = 6, xy + yz + zx = 11: the permutations of (1, 2, 3)."""
+
+    def f(x, y, z):
+        return x * y * z - 6, x + y + z - 6, x * y + y * z + z * x - 11
+
+    results = zeros(f, [Interval("0.5", "3.5")] * 3, limit=200_000)
+    assert outcomes(results) == [Roots.UNIQUE] * 6
+    mids = [tuple(round(x.mid) for x in result.box) for result in results]
+    assert sorted(mids) == sorted(
+        (a, b, 6 - a - b) for a, b in ((1, 2), (1, 3), (2, 1), (2, 3), (3, 1), (3, 2))
+    )
+
+
+def check_zeros(results, roots, given_box):
+    """Every zero in some box; exactly one in each UNIQUE one, never the same."""
+    inside = [r for r in roots if all(s.contains(v) for s, v in zip(given_box, r, strict=True))]
+
+    def within(result):
+        return {r for r in inside if all(s.contains(v) for s, v in zip(result.box, r, strict=True))}
+
+    assert set(inside) == set().union(*map(within, results))
+    unique = [within(result) for result in results if result.outcome is Roots.UNIQUE]
+    assert all(len(found) == 1 for found in unique)
+    assert len(set().union(*unique)) == len(unique)
+    for result in results:
+        assert result.outcome is not Roots.NONE and result.reason
+        assert all(a.contains(b) for a, b in zip(given_box, result.box, strict=True))
+        assert result.outcome is not Roots.AT_LEAST_ONE or within(result)
+    return inside
+
+
+def test_a_zero_just_outside_the_box_is_not_reported():
+    """It is inside the larger box that is tried, and unique there."""
+    assert zeros(lambda x: 100 * x - 101, Interval(0, 1)) == []
+    assert zeros(lambda x, y: (100 * x + 1, y), [Interval(0, 1), Interval(-1, 1)]) == []
+
+
+def test_a_hull_does_not_repeat_a_zero():
+    """The zero 1 of x - 1 is in the hull; it was found before, perhaps, or was not."""
+    hull = (IntervalArray([("0.5", "1.5")]),)
+    for known, outcome in (((1, 1), []), ((1, 2), [Roots.UNDECIDED]), ((3, 4), [Roots.UNIQUE])):
+        found = _examined(lambda x: x - 1, hull, (IntervalArray([known]),))
+        assert outcomes(found) == outcome
+
+
+@st.composite
+def polynomials(draw):
+    roots = draw(st.lists(rationals | dyadics, max_size=4))
+    ends = st.sampled_from([r for r in roots if r.denominator in (1, 2, 4, 8)] or [Fraction(2)])
+    low, high = sorted([draw(ends | dyadics), draw(ends | dyadics)])
+    return roots, draw(st.booleans()), Interval(low, high)
+
+
+def check_polynomial(problem):
+    roots, lifted, box = problem
+    results = zeros(
+        lambda x: from_roots(roots, x) * (x.sqr() + Fraction(1, 5) if lifted else 1), box
+    )
+    inside = check_zeros(results, {(root,) for root in roots}, [box])
+    simple = {root for root in roots if roots.count(root) == 1 and box.inf < root < box.sup}
+    unique = {
+        r for (r,) in inside for x in results if x.outcome is Roots.UNIQUE and x.box[0].contains(r)
+    }
+    if len(roots) == len(set(roots)):
+        assert simple <= unique
+
+
+@settings(deadline=None, max_examples=30)
+@given(polynomials())
+def test_all_zeros_of_a_polynomial(problem):
+    check_polynomial(problem)
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=250)
+@given(polynomials())
+def test_all_zeros_of_a_polynomial_at_length(problem):
+    check_polynomial(problem)
+
+
+@settings(deadline=None, max_examples=10)
+@given(
+    st.lists(rationals, min_size=1, max_size=2, unique=True),
+    st.lists(rationals, min_size=1, max_size=2),
+    st.sampled_from([0, 1, -2]),
+)
+def test_all_zeros_of_a_system(first, second, shear):
+    def f(x, y):
+        p, q = from_roots(first, x - shear * y), from_roots(second, y)
+        return p + 2 * q, p - q
+
+    box = [Interval(-2, 2)] * 2
+    results = zeros(f, box, limit=5000)
+    check_zeros(results, {(r + shear * s, s) for r, s in product(first, second)}, box)
+
+
+# -- ranges and signs ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("f", "box", "low", "high"),
+    [
+        (lambda x: x * x * x - 3 * x, Interval(-2, 2), -2, 2),
+        (lambda x: x.sin(), Interval(-10, 10), -1, 1),
+        (lambda x: x, Interval("-0.5", 7), Fraction(-1, 2), 7),
+        (lambda x: 0 * x + 3, Interval(1, 2), 3, 3),
+        (lambda x, y: x.sqr() + y.sqr() - x * y, [Interval(-1, 1)] * 2, 0, 3),
+        (lambda x, y: (x - y).sqr() * (x + y), [Interval(0, 1), Interval(0, 2)], 0, 8),
+        (lambda x, y: [x - y], [Interval(0, 1), Interval(3)], -3, -2),
+        (lambda x: x.sqrt() - x, Interval(0, 4), -2, Fraction(1, 4)),
+    ],
+)
+def test_known_ranges(f, box, low, high):
+    outer, inner = range_of(f, box, limit=60_000)
+    assert outer.inf <= low and high <= outer.sup
+    assert low - outer.inf < Fraction(1, 2**25) and outer.sup - high < Fraction(1, 2**25)
+    if inner is not None:
+        assert low <= inner.inf and inner.sup <= high
+        assert inner.inf - low < Fraction(1, 2**25) and high - inner.sup < Fraction(1, 2**25)
+    else:
+        assert low == high
+
+
+def test_bounds_of_boxes_that_are_done_are_kept(monkeypatch):
+    """[0, 1/2] is done early with the least bound, the rest later with larger ones."""
+    bounds = {(0.0, 1.0): -10.0, (0.0, 0.5): 4.8, (0.5, 1.0): 0.0, (0.5, 0.75): 4.9, (0.75, 1.0): 5}
+
+    def scripted(f, boxes):
+        ends = zip(boxes[0].inf.tolist(), boxes[0].sup.tolist(), strict=True)
+        return np.array([bounds[pair] for pair in ends], dtype=float), 5.0, boxes
+
+    monkeypatch.setattr(search, "_bounds", scripted)
+    assert search._least(None, Interval(0, 1), lambda found: found - 1, 100) == (4.8, 5.0)
+
+
+def test_a_pole_has_no_range():
+    with pytest.raises(DomainError):
+        range_of(lambda x: 1 / x, Interval(-1, 1))
+    with pytest.raises(DomainError):
+        sign_of(lambda x: 1 / x.sqr(), Interval(-1, 1), limit=500)
+
+
+def test_the_limit_leaves_a_valid_range():
+    outer, inner = range_of(lambda x: (30 * x).sin() * x, Interval(0, 3), limit=3)
+    fine, _ = range_of(lambda x: (30 * x).sin() * x, Interval(0, 3))
+    assert outer.contains(fine)
+    assert inner is None or fine.contains(inner)
+    assert outer.wid > fine.wid
+
+
+def true_range(coefficients, low, high):
+    """Bounds of the range of a polynomial over [low, high], from Arb's roots of its derivative."""
+    candidates = [oracle.arb(low), oracle.arb(high)]
+    slopes = flint.fmpq_poly(
+        [k * flint.fmpq(c.numerator, c.denominator) for k, c in enumerate(coefficients)][1:]
+    )
+    if slopes.degree() > 0:
+        for root, _ in slopes.numer().complex_roots():
+            left, right = oracle.ends(root.real)
+            if root.imag.contains(0) and left <= high and low <= right:
+                candidates.append(root.real)
+    values = [horner([oracle.arb(c) for c in coefficients], t) for t in candidates]
+    return min(oracle.ends(v)[0] for v in values), max(oracle.ends(v)[1] for v in values)
+
+
+@st.composite
+def ranges(draw):
+    coefficients = draw(st.lists(st.fractions(-3, 3, max_denominator=10), min_size=1, max_size=5))
+    low, high = sorted([draw(dyadics), draw(dyadics)])
+    return coefficients, low, high
+
+
+def check_range(problem):
+    coefficients, low, high = problem
+    box, tiny = Interval(low, high), Fraction(1, 2**24)
+
+    def f(x):
+        return horner(coefficients, x)
+
+    with flint.ctx.workprec(300):
+        bottom, top = true_range(coefficients, low, high)
+    for tolerance in (2.0, 0.1, 0.001):
+        rough = range_of(f, box, tolerance).outer
+        assert rough.inf <= bottom + Fraction(1, 2**60) and top - Fraction(1, 2**60) <= rough.sup
+    outer, inner = range_of(f, box)
+    assert outer.inf - Fraction(1, 2**60) <= bottom <= outer.inf + tiny
+    assert outer.sup - tiny <= top <= outer.sup + Fraction(1, 2**60)
+    for k in range(33):
+        assert outer.contains(horner(coefficients, low + (high - low) * Fraction(k, 32)))
+    if inner is not None:
+        assert bottom <= inner.inf + Fraction(1, 2**60) and inner.sup <= top + Fraction(1, 2**60)
+    sign = sign_of(f, box, limit=5000)
+    if sign.sign is Sign.POSITIVE:
+        assert 0 < sign.lower <= bottom + Fraction(1, 2**60)
+    elif sign.sign is Sign.NEGATIVE:
+        assert top - Fraction(1, 2**60) <= sign.upper < 0
+    elif sign.sign is Sign.ZERO:
+        assert bottom <= 0 <= top
+    else:
+        assert sign.lower <= 0 <= sign.upper
+    for proved, holds in (
+        (Sign.POSITIVE, bottom > tiny),
+        (Sign.NEGATIVE, top < -tiny),
+        (Sign.ZERO, bottom < -tiny and top > tiny),
+    ):
+        assert not holds or sign.sign is proved
+
+
+@settings(deadline=None, max_examples=25)
+@given(ranges())
+def test_ranges_and_signs_of_polynomials(problem):
+    check_range(problem)
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=250)
+@given(ranges())
+def test_ranges_and_signs_of_polynomials_at_length(problem):
+    check_range(problem)
+
+
+def test_signs():
+    box = [Interval(-1, 1)] * 2
+    tiny = Fraction(1, 10**6)
+    assert sign_of(lambda x, y: x.sqr() + y.sqr() + tiny, box).sign is Sign.POSITIVE
+    assert sign_of(lambda x, y: -x.sqr() - y.sqr() - tiny, box).sign is Sign.NEGATIVE
+    assert sign_of(lambda x, y: x.sqr() + y.sqr() - tiny, box).sign is Sign.ZERO
+    touching = sign_of(lambda x, y: (x - y).sqr(), box, limit=2000)
+    assert touching.sign is Sign.UNDECIDED
+    assert -tiny < touching.lower <= 0 and 4 <= touching.upper < 4 + tiny
