@@ -62,8 +62,8 @@ def tan(x: Raw, precision: int) -> Bounds:
         s, c, error, _, _ = sincos_fixed(signed(x), x[2], bits)
         if c < 0:
             s, c = -s, -c
-        if c <= error:  # the pole is too near for these bits
-            return -1, 1, bits
+        if c <= error:  # too near to a pole for these bits
+            return enclose(2 * bits)
         low, high = s - error, s + error
         smallest = (low << bits) // (c + error if low >= 0 else c - error)
         return smallest, -((-high << bits) // (c - error if high >= 0 else c + error)), bits

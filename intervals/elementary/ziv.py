@@ -1,9 +1,8 @@
 """From an enclosure to the next numbers of `precision` bits: Ziv's strategy, and its exceptions.
 
 Theorem. Let y be a real that is no number of `precision` bits, and `enclose(bits)` integers and a
-scale with low <= y 2^scale <= high, for every number of bits. What `tighten` returns is (the
-largest number of `precision` bits <= y, the smallest >= y). It returns if high - low stays
-bounded relative to y 2^(scale - bits).
+scale with low <= y 2^scale <= high, for bits >= 8. What `tighten` returns is (the largest number
+of `precision` bits <= y, the smallest >= y). It returns if (high - low) / 2^scale tends to 0.
 
 Proof. The numbers of `precision` bits next to y span an open interval that contains y; `settled`
 answers if low and high lie in its closure. The enclosures shrink to y, so this happens.

@@ -277,6 +277,7 @@ def check_log(man, exp, bits):
 @given(arguments(), widths)
 @example((1, 0), 1)
 @example((1, -3000), 53)
+@example((1, 10**5), 1)
 def test_log(argument, bits):
     man, exp = argument
     check_log(abs(man), exp, bits)
