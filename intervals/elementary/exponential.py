@@ -5,7 +5,7 @@ are rational for integers x only: if x = a / 2^k in lowest terms, k > 0, then 2^
 the 2^k-th power of a rational. 10^x is dyadic for integers x >= 0.
 """
 
-from mpmath.libmp import fone, from_int, from_man_exp, mpf_abs, mpf_neg, mpf_pos
+from mpmath.libmp import fone, from_int, from_man_exp, fzero, mpf_abs, mpf_neg, mpf_pos
 
 from intervals.elementary.constants import log2_fixed, log10_fixed
 from intervals.elementary.explog import exp_fixed
@@ -26,6 +26,7 @@ from intervals.elementary.ziv import (
 )
 
 _LARGEST = 30  # beyond |x| = 2^30 results are of no use, and take more memory than time
+VANISHING: Bounds = fzero, from_man_exp(1, -(1 << 30))  # of e^x, 2^x, 10^x for x <= -2^30
 
 
 def _require_moderate(x: Raw, name: str) -> None:
@@ -34,12 +35,17 @@ def _require_moderate(x: Raw, name: str) -> None:
 
 
 def exp(x: Raw, precision: int) -> Bounds:
-    """Return the bounds of exp x; OverflowError beyond |x| = 2^30. |exp x - 1| < 2 |x| near 0."""
+    """Return the bounds of exp x; OverflowError beyond 2^30. |exp x - 1| < 2 |x| near 0.
+
+    Below -2^30 they are those of `VANISHING`, which are not the tightest.
+    """
     if not x[1]:
         return fone, fone
     sign, man, exponent, size = x
     size += exponent
     if size > _LARGEST:
+        if sign:
+            return VANISHING
         raise OverflowError("exp of a number beyond 2^30")
     if size < -precision:
         return beside(fone, not sign, precision)
@@ -56,6 +62,8 @@ def exp2(x: Raw, precision: int) -> Bounds:
     """Return the bounds of 2^x; OverflowError as for exp. |2^x - 1| < |x| for 0 < |x| < 1."""
     if not x[1]:
         return fone, fone
+    if x[0] and magnitude(x) > _LARGEST:
+        return VANISHING
     _require_moderate(x, "exp2")
     if x[2] >= 0:
         power = from_man_exp(1, int(signed(x)) << x[2])
@@ -70,13 +78,15 @@ def exp2(x: Raw, precision: int) -> Bounds:
 
 
 def exp10(x: Raw, precision: int) -> Bounds:
-    """Return the bounds of 10^x; OverflowError beyond |x| = 2^30. |10^x - 1| < 4 |x| if |x| < 1/4.
+    """Return the bounds of 10^x; OverflowError as for exp. |10^x - 1| < 4 |x| if |x| < 1/4.
 
     10^n = 5^n 2^n, and 5^n has more than 2 n bits: it is no number of `precision` bits if n is
     larger than that.
     """
     if not x[1]:
         return fone, fone
+    if x[0] and magnitude(x) > _LARGEST:
+        return VANISHING
     _require_moderate(x, "exp10")
     if x[2] >= 0 and not x[0] and x[1] << x[2] <= precision:
         power = from_int(10 ** int(x[1] << x[2]))

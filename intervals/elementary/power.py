@@ -13,6 +13,7 @@ from math import isqrt
 from mpmath.libmp import fone, from_man_exp, fzero, mpf_neg, mpf_pos, mpf_sub
 
 from intervals.elementary.explog import exp_fixed, log_fixed
+from intervals.elementary.exponential import VANISHING
 from intervals.elementary.ziv import (
     DOWN,
     UP,
@@ -32,28 +33,38 @@ _LARGEST = 34
 def power(x: Raw, y: Raw, precision: int) -> Bounds:
     """Return the bounds of x^y, for x > 0 or x = 0 < y.
 
-    OverflowError for |y log x| >= 2^34, and possibly from 2^30 on. With t = y log x,
-    0 < |e^t - 1| < 2 |t| for 0 < |t| < 1.
+    With t = y log x: OverflowError for t >= 2^34, and possibly from 2^30 on; `VANISHING` for
+    t <= -2^34, and possibly from -2^30 on. 0 < |e^t - 1| < 2 |t| for 0 < |t| < 1.
     """
     if not x[1]:
         return fzero, fzero
     if not y[1] or x == fone:
         return fone, fone
     size = magnitude(y) + _log_size(x)
+    growing = (magnitude(x) > 0) != bool(y[0])  # t > 0
     if size > _LARGEST:
+        if not growing:
+            return VANISHING
         raise OverflowError("a power with an exponent beyond 2^30")
-    near = near_one(size + 1, (magnitude(x) > 0) != bool(y[0]), precision)
-    if near:
-        return near
+    return (
+        near_one(size + 1, growing, precision)
+        or _dyadic(x, y, precision)
+        or tighten(lambda bits: _enclose(x, y, bits), precision)
+    )
+
+
+def _dyadic(x: Raw, y: Raw, precision: int) -> Bounds | None:
+    """Return the bounds of x^y if it is dyadic and may have `precision` bits."""
     root = _dyadic_root(x, max(0, -y[2]))
-    if root:
-        n = int(y[1]) << max(0, y[2])
-        if root[1] == 1:
-            result = from_man_exp(1, (-n if y[0] else n) * root[2])
-            return result, result
-        if not y[0] and _short(root, n, precision):
-            return _short_power(root, n, precision)
-    return tighten(lambda bits: _enclose(x, y, bits), precision)
+    if root is None:
+        return None
+    n = int(y[1]) << max(0, y[2])
+    if root[1] == 1:
+        result = from_man_exp(1, (-n if y[0] else n) * root[2])
+        return result, result
+    if y[0] or not _short(root, n, precision):
+        return None
+    return _short_power(root, n, precision)
 
 
 def integer_power(x: Raw, n: int, precision: int) -> Bounds:

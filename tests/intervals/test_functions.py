@@ -281,3 +281,18 @@ def test_functions_of_what_is_no_interval(value):
     for call in (lambda: intervals.sin(value), lambda: intervals.atan2(value, 1)):
         with pytest.raises(TypeError, match="Interval"):
             call()
+
+
+def test_exponentials_of_very_negative_numbers_vanish():
+    for name in ("exp", "exp2", "exp10"):
+        low = getattr(Interval(-(10**300), -(2**40)), name)()
+        assert low.inf == 0
+        assert low.certainly_less(Interval(1, precision=10))
+        wide = getattr(Interval(-(10**300), 0), name)()
+        assert (wide.inf, wide.sup) == (0, 1)
+        with pytest.raises(OverflowError):
+            getattr(Interval(0, 10**300), name)()
+    tiny = Interval("1/2").pow(2**60)
+    assert tiny.inf == 0 and tiny.certainly_less(Interval(1))
+    array = IntervalArray.from_floats([1e-300, 0.5]).pow(IntervalArray.from_floats([1e10, 1e300]))
+    assert array.inf.tolist() == [0, 0] and (array.sup <= 1e-300).all()
