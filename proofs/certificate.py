@@ -12,13 +12,16 @@ import os
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from proofs.facts import Parameters, Range
 
 SCHEMA = "impact-proofs.certificate/1"
+MANIFEST = "impact-proofs.manifest/1"
 MAX_BYTES = 4_000_000
+MAX_WORK = 100_000  # some seconds: see Reader.charge
 _MAX_DIGITS = 3000
 _MAX_DIGITS_OF_PARAMETERS = 400
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
@@ -40,12 +43,30 @@ def texts(values: tuple[Fraction, ...] | list[Fraction]) -> list[str]:
     return [str(value) for value in values]
 
 
+class _Broken(str):
+    """Stands in the parsed JSON for what is not allowed there, until its path is known."""
+
+
 class Reader:
     """A value in the JSON with its path; every access states what it expects."""
 
-    def __init__(self, value: Any, path: str = "$") -> None:
+    def __init__(self, value: Any, path: str = "$", spent: list[int] | None = None) -> None:
         self._value = value
         self.path = path
+        self._spent = [0] if spent is None else spent  # one count for the whole file
+
+    def _inner(self, value: Any, path: str) -> Reader:
+        return Reader(value, self.path + path, self._spent)
+
+    def charge(self, evaluations: int, bits: int) -> None:
+        """Count the evaluations that this place asks for; refuse a file that asks for too many.
+
+        The unit is an evaluation of the gap at up to 255 bits, about 50 microseconds; at 4000
+        bits it takes some 250 times as long.
+        """
+        self._spent[0] += evaluations * (1 + (bits // 256) ** 2)
+        if self._spent[0] > MAX_WORK:
+            raise self.fail("more work than the checker takes on for one file")
 
     def fail(self, message: str) -> Malformed:
         """Return the error to raise for this place."""
@@ -61,16 +82,21 @@ class Reader:
         for name in names:
             if name not in self._value:
                 raise self.fail(f"missing field {name!r}")
-        return [Reader(self._value[name], f"{self.path}.{name}") for name in names]
+        return [self._inner(self._value[name], f".{name}") for name in names]
 
-    def members(self) -> Iterator[tuple[str, Reader]]:
-        """Iterate over the members of an object with free names."""
+    def entries(self) -> Iterator[tuple[str, Reader]]:
+        """Iterate over the members of an object, whatever their names."""
         if not isinstance(self._value, dict):
             raise self.fail("an object is expected")
         for name, value in self._value.items():
+            yield name, self._inner(value, f".{_shown(name)}")
+
+    def members(self) -> Iterator[tuple[str, Reader]]:
+        """Iterate over the members of an object with free names."""
+        for name, inner in self.entries():
             if not _NAME.fullmatch(name):
                 raise self.fail(f"not a name: {name[:40]!r}")
-            yield name, Reader(value, f"{self.path}.{name}")
+            yield name, inner
 
     def items(self, least: int = 0, most: int = 10_000) -> list[Reader]:
         """Return the members of a list."""
@@ -78,7 +104,7 @@ class Reader:
             raise self.fail("a list is expected")
         if not least <= len(self._value) <= most:
             raise self.fail(f"{len(self._value)} entries, expected {least} to {most}")
-        return [Reader(value, f"{self.path}[{i}]") for i, value in enumerate(self._value)]
+        return [self._inner(value, f"[{i}]") for i, value in enumerate(self._value)]
 
     def mentioned(self) -> Iterator[str]:
         """Iterate over all strings inside, however deep."""
@@ -131,15 +157,29 @@ class Reader:
         return low, high
 
 
-def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _shown(name: str) -> str:
+    return name if _NAME.fullmatch(name) else ascii(name[:40])
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> Any:
     result = dict(pairs)
-    if len(result) != len(pairs):
-        raise Malformed("$: an object has the same field twice")
-    return result
+    return result if len(result) == len(pairs) else _Broken("a field is there twice")
 
 
 def _no_number(value: str) -> Any:
-    raise Malformed(f"$: a bare JSON number, {value[:40]}: numbers are strings here")
+    return _Broken(f"a bare JSON number, {value[:40]}: numbers are strings here")
+
+
+def _refuse_broken(value: Any, path: str) -> None:
+    """Raise Malformed at the first place that is not in the accepted form."""
+    if isinstance(value, _Broken):
+        raise Malformed(f"{path}: {value}")
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            _refuse_broken(inner, f"{path}.{_shown(name)}")
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            _refuse_broken(inner, f"{path}[{index}]")
 
 
 def parse(source: str) -> Reader:
@@ -154,11 +194,39 @@ def parse(source: str) -> Reader:
             parse_int=_no_number,
             parse_constant=_no_number,
         )
+        _refuse_broken(value, "$")
     except RecursionError:
         raise Malformed("$: nested too deeply") from None
     except json.JSONDecodeError as error:
         raise Malformed(f"$: not JSON (truncated?): {error}") from None
     return Reader(value)
+
+
+def read(path: Path) -> str:
+    """Return a file's text; Malformed if it is too large or no UTF-8."""
+    with path.open("rb") as file:
+        content = file.read(MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
+        raise Malformed(f"$: larger than {MAX_BYTES} bytes")
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise Malformed("$: not a text file") from None
+
+
+def schema_of(source: str) -> str:
+    """Return the schema that a text names, whatever else it holds; "" if it names none."""
+    fields = dict(parse(source).entries())
+    return fields["schema"].string() if "schema" in fields else ""
+
+
+def digest(source: str) -> str:
+    """Return the SHA-256 of a certificate's canonical form: sorted, without white space, ASCII.
+
+    Two files with the same digest prove the same by the same steps, however they are laid out.
+    """
+    canonical = json.dumps(json.loads(source), sort_keys=True, separators=(",", ":"))
+    return "sha256:" + sha256(canonical.encode("ascii")).hexdigest()
 
 
 def render(document: dict[str, Any]) -> str:

@@ -4,6 +4,7 @@ The main job: proves or refutes each claim at exact parameters, repairs the sets
 printed numbers fail, writes certificate and report, and has the checker re-derive them.
 """
 
+import shlex
 import sys
 from argparse import Namespace
 from collections import Counter
@@ -14,8 +15,8 @@ from pathlib import Path
 from time import perf_counter
 
 from intervals import Undecided
-from proofs.certificate import Malformed, render, write_atomically
-from proofs.check.__main__ import read
+from proofs import manifest
+from proofs.certificate import Malformed, read, render, write_atomically
 from proofs.check.verify import Rejected, check
 from proofs.cli import Parser, coloured, digits, horizon, number, progress
 from proofs.facts import PAPER, Parameters, show
@@ -26,7 +27,8 @@ from proofs.statements import STATEMENTS, Verdict
 
 EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/horseshoe.json
-(the certificate, which is also the machine form) and DIR/horseshoe.md.
+(the certificate, which is also the machine form) and DIR/horseshoe.md; DIR/MANIFEST.json says
+which file settles which claim, its digest, and how it was made.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -64,6 +66,7 @@ def main(arguments: list[str] | None = None) -> int:
         whys = {row.id: row.why for row in outcome.rows}
         page = markdown(of, outcome.corrected, outcome.certificate, whys)
         write_atomically(options.out / "horseshoe.md", page)
+        manifest.record(options.out, "horseshoe.json", content, _command(arguments))
         if options.figure:
             from proofs.figure import svg
 
@@ -81,6 +84,10 @@ def main(arguments: list[str] | None = None) -> int:
     if not agreed:
         return 3
     return int(any(row.verdict is Verdict.UNDECIDED for row in outcome.rows))
+
+
+def _command(arguments: list[str] | None) -> str:
+    return shlex.join(["python", "-m", "proofs.horseshoe", *(arguments or sys.argv[1:])])
 
 
 def _parser() -> Parser:

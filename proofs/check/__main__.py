@@ -6,7 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from proofs.certificate import MAX_BYTES, Malformed
+from proofs.certificate import MANIFEST, Malformed, digest, read, schema_of
+from proofs.check.manifest import check_manifest
 from proofs.check.verify import Rejected, Report, check
 from proofs.statements import Verdict
 
@@ -15,7 +16,9 @@ exit status: 0 every claim in every file is proved as stated (verified or refute
              1 a claim is undecided, or a file does not prove what it says
              2 a file cannot be read or is no certificate
 
-example: python -m proofs.check reports/horseshoe.json
+examples:
+  python -m proofs.check reports/horseshoe.json
+  python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
 """
 
 
@@ -35,7 +38,11 @@ def check_file(path: Path) -> int:
     """Check one file, print a line a claim; return its exit status."""
     name = str(path) if str(path).isprintable() else ascii(str(path))
     try:
-        report = check(read(path))
+        source = read(path)
+        if schema_of(source) == MANIFEST:
+            print(f"{name}: {check_manifest(source, path.parent)}")
+            return 0
+        report = check(source)
     except Malformed as error:
         print(f"{name}: malformed: {error}", file=sys.stderr)
         return 2
@@ -45,26 +52,14 @@ def check_file(path: Path) -> int:
     except Rejected as error:
         print(f"{name}: REJECTED: {error}", file=sys.stderr)
         return 1
-    print_report(name, report)
+    print_report(name, report, digest(source))
     return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
 
 
-def read(path: Path) -> str:
-    """Return a file's text; Malformed if it is too large or no UTF-8."""
-    with path.open("rb") as file:
-        content = file.read(MAX_BYTES + 1)
-    if len(content) > MAX_BYTES:
-        raise Malformed(f"$: larger than {MAX_BYTES} bytes")
-    try:
-        return content.decode()
-    except UnicodeDecodeError:
-        raise Malformed("$: not a text file") from None
-
-
-def print_report(name: str, report: Report) -> None:
+def print_report(name: str, report: Report, digest_of: str) -> None:
     """Print what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
-    print(f"{name}: accepted, {whose}")
+    print(f"{name}: accepted, {whose}, {digest_of}")
     for claim in report.claims:
         print(f"  {claim.id:4} {claim.verdict.value:9} {claim.statement} [{claim.why}]")
     if report.theorem is not None:

@@ -127,6 +127,7 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
     shortest = min(now - before for before, now in zip((_ZERO, *times), times, strict=False))
     bits = min(_MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    times_of.charge(2 * len(times) + 3, bits)
     motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, _phases(phases_of), bits)
     start = motion.start()
     before, value = _ZERO, None
@@ -169,23 +170,24 @@ def _bits_for(time: Range) -> int:
     return min(_MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
 
 
-def _bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
-    """Return the motion, proved to have its impacts in `time` for all launches in `phases`.
+def _bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
+    """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
 
     In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
     lower end and gap < 0 at the upper one bracket it.
     """
-    window, motion = step.windows[0], step.motion
+    time, window, motion = time_of.range(), step.windows[0], step.motion
     if time[0] < window[0] or time[1] > window[1]:
         raise Unproved("a bracket leaves the window of the first impact")
     bits = _bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
         precision = min(factor * bits, _MAX_BITS)
+        time_of.charge(8, precision)  # the two ends, and f' or f'' afterwards
         inner = Motion(motion.side, motion.eta, motion.nu, phases, precision)
         start = inner.start()
         low, high = (inner.gap(start, (t, t)) for t in time)
         if low.lo > 0 > high.hi:
-            return inner
+            return inner, time
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
 
@@ -213,8 +215,9 @@ def point(of: Parameters, known: Known, reader: Reader) -> PointFact:
     Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
     """
     flight, phase_of, time_of = reader.fields("flight", "phase", "time")
-    phase, time = phase_of.number(), time_of.range()
-    motion = _bracketed(_transversal(known, flight, (phase, phase)), (phase, phase), time)
+    phase = phase_of.number()
+    step = _transversal(known, flight, (phase, phase))
+    motion, time = _bracketed(step, (phase, phase), time_of)
     return PointFact(phase, motion.slope(time).range, phase_after(phase, time, motion.bits))
 
 
@@ -237,8 +240,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
         if left.phase >= right.phase:
             raise points_of.fail("phases must increase")
         phases = (left.phase, right.phase)
-        time = time_of.range()
-        motion = _bracketed(_transversal(known, flight, phases), phases, time)
+        motion, time = _bracketed(_transversal(known, flight, phases), phases, time_of)
         low, high = motion.curvature(time).range
         width = right.phase - left.phase
         fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
@@ -301,6 +303,7 @@ def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
     if not all(0 < ratio < 1 for ratio in ratios) or root[0] <= 0:
         raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
     bits = _bits_for(root)
+    root_of.charge(12, bits)
     logs = [log(ratio, bits) for ratio in ratios]
     low, high = (
         exp(rational(s, bits) * logs[0]) + exp(rational(s, bits) * logs[1]) - 1 for s in root

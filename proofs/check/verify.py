@@ -126,7 +126,7 @@ def _check_claim(
             f"{verdict_of.path}: {claim} is given as {verdict_of.string()[:20]!r}, "
             f"its proof makes it {verdict.value} ({why})"
         )
-    if not witness.is_null() and verdict is alone and verdict is not Verdict.UNDECIDED:
+    if not witness.is_null() and verdict is alone:
         raise Rejected(f"{witness.path}: a witness that the verdict does not rest on")
     correction = theorem_text if verdict is Verdict.REFUTED else None
     if not corrected.is_null() and corrected.string() != correction:
@@ -152,13 +152,15 @@ def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) ->
 
 def _named(known: Known, names: Reader, used: set[str]) -> list[Conclusion]:
     """Return the named conclusions and mark them, and the first impacts, as used."""
-    result = []
+    result: dict[str, Conclusion] = {}
     for name in names.items():
         if name.string() not in known:
             raise name.fail(f"names no step: {name.string()[:40]!r}")
-        used.add(name.string())
-        result.append(known[name.string()])
-    return result
+        if name.string() in result:
+            raise name.fail("names a step twice")
+        result[name.string()] = known[name.string()]
+    used.update(result)
+    return list(result.values())
 
 
 def _check_quantities(claim: str, facts: Facts, bounds: Reader) -> None:
