@@ -38,14 +38,19 @@ from intervals.elementary.tightest import DOWN, UP
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
 from intervals.exact import Exact, fraction, pair
-from intervals.functions import DECREASING, DOMAINS, Domain, Elementary
+from intervals.functions import DECREASING, DOMAINS, Elementary
 from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
 from intervals.relations import Overlap, Relations, overlap_state
 
 _ZERO: _Raw = fzero
 _ONE: _Raw = fone
 _MINUS_ONE: _Raw = mpf_neg(fone)
+_THREE: _Raw = from_int(3)
 _POINTS = {**tightest.FUNCTIONS, **STEPS}
+_DOMAINS = {  # the ends, and what mpf_cmp must reach there
+    name: (*(end if end is None else from_int(end) for end in domain[:2]), 1 - domain.closed)
+    for name, domain in DOMAINS.items()
+}
 _ordered_key = cmp_to_key(mpf_cmp)
 
 
@@ -312,7 +317,7 @@ class Interval(Relations[bool], Elementary):
     # -- elementary functions ------------------------------------------------------------------
 
     def _monotone(self, name: str) -> Interval:
-        if name in DOMAINS and not self._inside(DOMAINS[name]):
+        if name in DOMAINS and not self._inside(name):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         left, right = self._lo, self._hi
         if name in DECREASING:
@@ -322,10 +327,10 @@ class Interval(Relations[bool], Elementary):
             _, high = _POINTS[name](right, self.precision)
         return _make(low, high, self.precision)
 
-    def _inside(self, domain: Domain) -> bool:
-        least = 0 if domain.closed else 1
-        above = domain.low is None or compare(self._lo, from_int(domain.low)) >= least
-        return above and (domain.high is None or compare(from_int(domain.high), self._hi) >= least)
+    def _inside(self, name: str) -> bool:
+        low, high, least = _DOMAINS[name]
+        above = low is None or mpf_cmp(self._lo, low) >= least
+        return above and (high is None or mpf_cmp(high, self._hi) >= least)
 
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""
@@ -348,13 +353,19 @@ class Interval(Relations[bool], Elementary):
     def tan(self) -> Interval:
         """Return the tangent; DomainError where a pole is inside.
 
-        Between the poles, (2k - 1) pi/2 and (2k + 1) pi/2, it increases.
+        It increases between the poles, the odd multiples of pi/2. If X = [a, b] is shorter than pi
+        and a pole is inside, then tan b = tan(b - pi) < tan a, as b - pi and a are in one branch.
         """
+        p, function = self.precision, tightest.FUNCTIONS["tan"]
+        low = high = function(self._lo, p)
         if self._lo != self._hi:
-            n_low, n_high = (tightest.sincos(x, 10)[2] for x in (self._lo, self._hi))
-            if (n_low + 1) // 2 != (n_high + 1) // 2:
-                raise DomainError("tan of an interval that contains a pole")
-        return self._monotone("tan")
+            high = function(self._hi, p)
+            short = mpf_lt(mpf_sub(self._hi, self._lo, 10, UP), _THREE)
+            if not (short and mpf_lt(low[1], high[0])):  # it may rise, and yet not be seen to
+                first, last = (tightest.sincos(x, 10)[2] for x in (self._lo, self._hi))
+                if (first + 1) // 2 != (last + 1) // 2:
+                    raise DomainError("tan of an interval that contains a pole")
+        return _make(low[0], high[1], p)
 
     # -- functions of two variables ------------------------------------------------------------
 

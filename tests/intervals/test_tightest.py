@@ -1,6 +1,7 @@
 """The tightest functions against Arb at three times the precision and more, and exact cases."""
 
 import itertools
+import os
 import random
 from fractions import Fraction
 
@@ -49,6 +50,8 @@ EVERY = FUNCTIONS | {  # of one number
     "sin": lambda x, precision: tightest.sincos(x, precision)[0],
     "cos": lambda x, precision: tightest.sincos(x, precision)[1],
 }
+
+POINTS = int(os.environ.get("RANDOM_POINTS", "5000"))  # of each function: 100000 now and then
 
 
 def raw(x):
@@ -102,7 +105,7 @@ def any_number(rng):
 def test_tight_at_many_points(name):
     rng = random.Random(f"tightest {name}")
     points = 0
-    while points < 5000:
+    while points < POINTS:
         x = into_domain(name, any_number(rng))
         if DOMAINS.get(name, lambda _: True)(x):
             check(name, x, rng.choice([2, 3, 10, 53, 53, 113, 200, 333]))
@@ -182,7 +185,7 @@ def test_integer_power_is_tight(data, width, precision, n, sign):
 def test_two_numbers_at_many_points(name):
     rng = random.Random(f"tightest {name}")
     function = getattr(tightest, {"pow": "power"}.get(name, name))
-    for _ in range(5000):
+    for _ in range(POINTS):
         x, y = any_number(rng), any_number(rng)
         if name == "pow":
             x, y = abs(x), y if rng.random() < 0.7 else Fraction(rng.randint(-40, 40), 8)
