@@ -27,6 +27,7 @@ from mpmath.libmp import (
     mpf_neg,
     mpf_pos,
     mpf_shift,
+    mpf_sqrt,
     mpf_sub,
 )
 
@@ -331,6 +332,13 @@ class Interval(Relations[bool], Elementary):
         low, high, least = _DOMAINS[name]
         above = low is None or mpf_cmp(self._lo, low) >= least
         return above and (high is None or mpf_cmp(high, self._hi) >= least)
+
+    def sqrt(self) -> Interval:
+        """Return the square root; the domain is x >= 0."""
+        if self._lo[0]:
+            raise DomainError(f"sqrt of an interval that leaves {DOMAINS['sqrt']}")
+        p = self.precision
+        return _make(mpf_sqrt(self._lo, p, DOWN), mpf_sqrt(self._hi, p, UP), p)
 
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""

@@ -1,11 +1,9 @@
 """sqrt, cbrt and hypot of dyadic numbers, tightest: see `tightest`.
 
-They are algebraic, so that exact values occur; floors of integers tell them.
+They are algebraic, so that exact values occur; libmp's square root and floors tell them.
 """
 
-from math import isqrt
-
-from mpmath.libmp import from_man_exp, mpf_add, mpf_mul, mpf_pos
+from mpmath.libmp import from_man_exp, mpf_add, mpf_mul, mpf_pos, mpf_sqrt
 
 from intervals.elementary.ziv import (
     DOWN,
@@ -21,28 +19,23 @@ from intervals.elementary.ziv import (
 
 def sqrt(x: Raw, precision: int) -> Bounds:
     """Return the bounds of sqrt x, for x >= 0."""
-    return _root(x, 2, precision) if x[1] else (x, x)
+    return mpf_sqrt(x, precision, DOWN), mpf_sqrt(x, precision, UP)
 
 
 @odd
 def cbrt(x: Raw, precision: int) -> Bounds:
-    """Return the bounds of the real cube root."""
-    return _root(x, 3, precision)
+    """Return the bounds of the real cube root.
 
-
-def _root(x: Raw, n: int, precision: int) -> Bounds:
-    """Return the bounds of the root of x > 0 of order n = 2, 3.
-
-    x = (N + f) 2^(ne) with an integer N of more than n * precision bits and 0 <= f < 1. The root
-    lies in [r, r + 1) 2^e for r = floor(N^(1/n)), and is r 2^e if and only if f = 0 and r^n = N.
-    r has more than `precision` bits, so r and r + 1 are rounded as the numbers between them are,
-    or are such numbers: x^(1/n) / 2^e is rounded as 2 r or 2 r + 1, half as large.
+    x = (N + f) 8^e with an integer N of more than 3 * precision bits and 0 <= f < 1. The root lies
+    in [r, r + 1) 2^e for r = floor(N^(1/3)), and is r 2^e if and only if f = 0 and r^3 = N. r has
+    more than `precision` bits, so r and r + 1 are rounded as the numbers between them are, or are
+    such numbers: x^(1/3) / 2^e is rounded as 2 r or 2 r + 1, half as large.
     """
-    shift = max(0, n * (precision + 1) - x[3])
-    shift += (x[2] - shift) % n
+    shift = max(0, 3 * (precision + 1) - x[3])
+    shift += (x[2] - shift) % 3
     man = x[1] << shift
-    r = isqrt(man) if n == 2 else integer_cbrt(man)
-    twice = from_man_exp(2 * r + (r**n != man), (x[2] - shift) // n - 1)
+    r = integer_cbrt(man)
+    twice = from_man_exp(2 * r + (r**3 != man), (x[2] - shift) // 3 - 1)
     return mpf_pos(twice, precision, DOWN), mpf_pos(twice, precision, UP)
 
 
