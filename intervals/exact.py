@@ -26,20 +26,25 @@ def fraction(value: Exact) -> Fraction:
 
 
 def pair(lower: Exact, upper: Exact | None) -> tuple[Fraction, Fraction]:
-    """Return the ends that a constructor was given: two numbers, one, or the text "[1.1, 1.2]".
+    """Return the ends that a constructor was given: two numbers, one, or text such as "[1.1, 1.2]".
 
     Reversed ends raise ValueError.
     """
     if upper is None and isinstance(lower, str) and lower.strip().startswith("["):
-        first, _, second = lower.strip().removeprefix("[").removesuffix("]").partition(",")
-        if not second or not lower.strip().endswith("]"):
-            raise ValueError(f"not an interval: {lower!r}")
-        lower, upper = first.strip(), second.strip()
+        lower, upper = _bracketed(lower.strip())
     low = fraction(lower)
     high = low if upper is None else fraction(upper)
     if low > high:
         raise ValueError(f"reversed interval: {lower} > {upper}")
     return low, high
+
+
+def _bracketed(text: str) -> tuple[str, str]:
+    """Return the ends in "[1.1, 1.2]", and both of them in "[1.1]"."""
+    ends = [end.strip() for end in text.removeprefix("[").removesuffix("]").split(",")]
+    if not text.endswith("]") or len(ends) > 2:
+        raise ValueError(f"not an interval: {text!r}")
+    return ends[0], ends[-1]
 
 
 def _read(text: str) -> Fraction:
