@@ -23,7 +23,26 @@ X = IntervalArray.from_floats([1.1, 0.3, 5.0], [1.2, 0.3, 7.0])
 Y = IntervalArray.from_floats([0.7, 0.1, 3.0], [0.9, 0.1, 3.5])
 SMALL = IntervalArray.from_floats([TINY, -TINY, 2.0**-1040], [TINY, 3 * TINY, 2.0**-1030])
 ZERO = IntervalArray.from_floats([0.0, 0.0, 0.0])
-ELEMENTARY = ["sqrt", "cbrt", "exp", "exp2", "exp10", "expm1", "log", "log2", "log10", "log1p", "sin", "cos", "tan", "atan", "sinh", "cosh", "tanh", "asinh"]
+ELEMENTARY = [
+    "sqrt",
+    "cbrt",
+    "exp",
+    "exp2",
+    "exp10",
+    "expm1",
+    "log",
+    "log2",
+    "log10",
+    "log1p",
+    "sin",
+    "cos",
+    "tan",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "asinh",
+]
 
 OPERATIONS = {
     "from_exact": lambda: IntervalArray(["0.1", "1/3", (1, 2)]),

@@ -28,10 +28,33 @@ STATES = {
     "denormals are zero": ("flush", 0x0040),
     "both flushes": ("flush", 0x8040),
 }
-ANY_MODE = (  # what the outward step of `rounding` serves in every mode
-    "from_exact,from_floats,x + y,x - y,x * y,x / y,s + s,s * s,s - s,x * s,3 * s,abs s,x ** 3,"
-    "sum,prod,matmul,hull,intersection,sign,minimum,floor,round,sqrt,subset,positive"
-).split(",")
+ANY_MODE = [
+    "from_exact",
+    "from_floats",
+    "x + y",
+    "x - y",
+    "x * y",
+    "x / y",
+    "s + s",
+    "s * s",
+    "s - s",
+    "x * s",
+    "3 * s",
+    "abs s",
+    "x ** 3",
+    "sum",
+    "prod",
+    "matmul",
+    "hull",
+    "intersection",
+    "sign",
+    "minimum",
+    "floor",
+    "round",
+    "sqrt",
+    "subset",
+    "positive",
+]
 MULTIPRECISION = ["interval", "interval third", "interval exp"]  # on integers
 
 

@@ -277,7 +277,7 @@ def test_elements_as_intervals():
     assert first[0] == Interval(1, 2)
     assert second[1] == Interval(1, 4)
     assert IntervalArray(X.tolist()).equal(X).all()
-    with pytest.raises(ValueError, match="size 1|one element|can only convert"):
+    with pytest.raises(ValueError, match=r"size 1|one element|can only convert"):
         X.item()
     assert [row.shape for row in X] == [(3,), (3,)]
     with pytest.raises(TypeError):

@@ -34,7 +34,7 @@ def test_printed_decimals_enclose_and_are_read_back(data, precision, digits):
     "text", ["[1", "1]", "[1, 2, 3]", "[]", "[1,", "[a, b]", "[2, 1]", "[nan]", "[0.5f]"]
 )
 def test_texts_that_are_no_intervals(text):
-    with pytest.raises(ValueError, match="interval|number"):
+    with pytest.raises(ValueError, match=r"interval|number"):
         Interval(text)
 
 

@@ -3,8 +3,10 @@ import re
 
 import pytest
 
-from proofs import benchmark, benchmark_flint
-from proofs.benchmark import Row, main, table
+from proofs.benchmark import __main__ as command
+from proofs.benchmark import horseshoe
+from proofs.benchmark.__main__ import main
+from proofs.benchmark.measuring import EFFORTS, Row, figures, in_turn, table
 
 
 @pytest.mark.slow
@@ -19,7 +21,7 @@ def test_the_smallest_run_prints_its_table_and_writes_its_samples(tmp_path, caps
     assert "NOT AN ENCLOSURE" not in text
     rows = {row["name"]: row for row in json.loads(target.read_text())["rows"]}
     assert rows["main job, peak memory [MB]"]["samples"]["megabytes"]
-    if benchmark_flint.available():
+    if horseshoe.has_flint():
         for name, row in rows.items():
             if name.startswith("f' on"):
                 assert min(row["samples"]["losses"]) >= 0
@@ -28,21 +30,34 @@ def test_the_smallest_run_prints_its_table_and_writes_its_samples(tmp_path, caps
 
 
 def test_an_absent_peer_is_reported(monkeypatch):
-    monkeypatch.setattr(benchmark_flint, "available", lambda: False)
-    effort = benchmark.EFFORTS["smallest"]
-    text = table([*benchmark.accuracy(effort), *benchmark.kernel(effort)])
+    monkeypatch.setattr(horseshoe, "has_flint", lambda: False)
+    effort = EFFORTS["smallest"]
+    text = table([*horseshoe.accuracy(effort), *horseshoe.kernel(effort)])
     assert text.count("python-flint is absent") == 2
     assert text.count("not measured") == 2
 
 
-def test_a_missed_target_shows(monkeypatch, capsys):
+@pytest.mark.parametrize("subject", [[], ["horseshoe"], ["intervals"]])
+def test_a_missed_target_shows(monkeypatch, capsys, subject):
     rows = [Row("ratio", "5.00", "<= 4", False), Row("other", "1")]
-    monkeypatch.setattr(benchmark, "measure", lambda effort: rows)
-    assert main([]) == 1
+    monkeypatch.setattr(command, "measure", lambda options: rows)
+    assert main(subject) == 1
     assert re.search(r"^ratio +<= 4 +5\.00 +NO$", capsys.readouterr().out, re.M)
 
 
-@pytest.mark.parametrize("arguments", [["--nonsense"], ["--quick", "--full"]])
+def test_samples_are_taken_in_turn():
+    calls = []
+    samplers = [lambda name=name: calls.append(name) or float(len(calls)) for name in "ab"]
+    assert in_turn(samplers, 3) == [[1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]
+    assert "".join(calls) == "ababab"
+
+
+def test_numbers_are_written_without_exponents():
+    found = [figures(x) for x in (0.0123456, 1.0, 999.4, 999.5, 12345.6)]
+    assert found == ["0.0123", "1", "999", "1,000", "12,346"]
+
+
+@pytest.mark.parametrize("arguments", [["--nonsense"], ["--quick", "--full"], ["circles"]])
 def test_bad_usage_exits_2(arguments):
     with pytest.raises(SystemExit) as stopped:
         main(arguments)
@@ -52,6 +67,11 @@ def test_bad_usage_exits_2(arguments):
 def test_a_missing_directory_is_refused_before_measuring(tmp_path, capsys):
     assert main(["--json", str(tmp_path / "absent" / "x.json")]) == 2
     assert "no such directory" in capsys.readouterr().err
+
+
+def test_a_missing_interpreter_is_refused_before_measuring(tmp_path, capsys):
+    assert main(["intervals", "--codac-python", str(tmp_path / "python")]) == 2
+    assert "no such interpreter" in capsys.readouterr().err
 
 
 def test_help_has_examples(capsys):
