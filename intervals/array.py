@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 import numpy as np
@@ -351,7 +352,7 @@ class IntervalArray(Relations[Mask], Elementary):
         if n < 2:
             return self if n else self * 0 + 1
         with _quiet():
-            return _make(power(self._rows, n))
+            return _make(in_blocks(partial(power, n=n), self._rows))
 
     def __rpow__(self, base: Operand) -> IntervalArray:
         rows = _rows_of(base)
@@ -376,7 +377,7 @@ class IntervalArray(Relations[Mask], Elementary):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         with _quiet():
             if name in _IEEE:
-                return _make(_IEEE[name](self._rows))
+                return _make(in_blocks(_IEEE[name], self._rows))
             return _make(binary64.monotone(name, self._rows))
 
     def _inside(self, domain: Domain) -> bool:

@@ -209,10 +209,10 @@ class Interval(Relations[bool], Elementary):
         return -self + value
 
     def __mul__(self, value: Interval | Fraction | int) -> Interval:
-        other = self._other(value)
+        other = value if type(value) is Interval else self._other(value)
         if other is None:
             return NotImplemented
-        p = max(self.precision, other.precision)
+        p = self.precision if self.precision >= other.precision else other.precision
         a, b, c, d = self._lo, self._hi, other._lo, other._hi
         if not a[0]:  # [0] is the sign bit: X lies in x >= 0
             low = mpf_mul(b if c[0] else a, c, p, DOWN)
@@ -281,8 +281,8 @@ class Interval(Relations[bool], Elementary):
 
     def sqr(self) -> Interval:
         """Return the square, without the dependency of x * x."""
-        x = abs(self)
-        return x * x
+        x, p = abs(self), self.precision
+        return _make(mpf_mul(x._lo, x._lo, p, DOWN), mpf_mul(x._hi, x._hi, p, UP), p)
 
     def __pow__(self, n: Interval | Fraction | int) -> Interval:
         """Return x^n; for an int n also below 0, else see `pow`."""

@@ -19,7 +19,7 @@ from intervals.exact import fraction
 from intervals.rounding import Rows, float_down, float_up, outward, outward_sum
 
 if TYPE_CHECKING:
-    from intervals.interval import Interval
+    pass
 
 _BLOCK = 16384  # elements at a time
 
@@ -36,25 +36,26 @@ def _with_axes(rows: Rows, ndim: int) -> Rows:
 
 
 def is_thin(rows: Rows) -> bool:
-    """Return whether every interval is a point."""
-    return bool((-rows[0] == rows[1]).all())
+    """Return whether every interval is a point; most arrays of others show it at once."""
+    first = rows.reshape(2, -1)[:, :1]
+    return bool((-first[0] == first[1]).all() and (-rows[0] == rows[1]).all())
 
 
-def in_blocks(operation: Callable[[Rows, Rows], Rows], a: Rows, b: Rows) -> Rows:
+def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     """Do an elementwise operation on aligned rows in blocks along the longest axis.
 
     The temporaries of a block stay in the cache, and small beside a large result.
     """
-    shape = np.broadcast_shapes(a.shape, b.shape)
+    shape = np.broadcast_shapes(*(x.shape for x in operands))
     size = prod(shape)
     if size <= 2 * _BLOCK:
-        return operation(a, b)
+        return operation(*operands)
     axis = max(range(1, len(shape)), key=lambda i: shape[i])
     step = max(1, shape[axis] * 2 * _BLOCK // size)
     result = np.empty(shape)
     for start in range(0, shape[axis], step):
         part = (slice(None),) * axis + (slice(start, start + step),)
-        cut = [x[part] if x.shape[axis] > 1 else x for x in (a, b)]
+        cut = [x[part] if x.shape[axis] > 1 else x for x in operands]
         result[part] = operation(*cut)
     return result
 
@@ -94,11 +95,14 @@ def quotient(a: Rows, b: Rows) -> Rows:
 
 
 def _hull_of_four(same: Rows, cross: Rows) -> Rows:
-    """Return (-least, largest) of same[0], same[1], -cross[0], -cross[1]."""
+    """Return (-least, largest) of same[0], same[1], -cross[0], -cross[1]; `same` is used up."""
     rows = np.empty_like(same)
-    np.maximum(np.maximum(cross[0], cross[1]), -np.minimum(same[0], same[1]), out=rows[0])
-    np.maximum(np.maximum(same[0], same[1]), -np.minimum(cross[0], cross[1]), out=rows[1])
-    return rows
+    np.maximum(cross[0], cross[1], out=rows[0, ...])
+    np.maximum(same[0], same[1], out=rows[1, ...])
+    np.minimum(same[0], same[1], out=same[0, ...])
+    np.minimum(cross[0], cross[1], out=same[1, ...])
+    np.negative(same, out=same)
+    return np.maximum(rows, same, out=rows)
 
 
 def magnitude(rows: Rows) -> Rows:
@@ -110,39 +114,30 @@ def magnitude(rows: Rows) -> Rows:
 def power(rows: Rows, n: int) -> Rows:
     """Return rows that contain x^n, n >= 2.
 
-    On the rows p of X (n odd) or |X| (n even), p |p|^(n-1) is the row of the result. An upper
-    bound of p |p|^k times |p| >= 0 is an upper bound of p |p|^(k+1), and stays one outward.
+    On the rows p of X (n odd) or |X| (n even), t_n = p |p|^(n-1) is the row of the result. An upper
+    bound r of t_k gives the upper bounds r |r| of t_(2k) = t_k |t_k| and r |p| of t_(k+1).
     """
     rows = rows if n % 2 else magnitude(rows)
     size = np.abs(rows)
     result = rows
-    for _ in range(n - 1):
-        result = outward(result * size)
+    for bit in bin(n)[3:]:
+        result = outward(result * np.abs(result))
+        if bit == "1":
+            result = outward(result * size)
     return result if n % 2 else nonnegative(result)
 
 
 def square_root(rows: Rows) -> Rows:
     """Return rows that contain sqrt x, x >= 0 (IEEE's is correctly rounded)."""
-    low, high = 0.0 - rows[0], rows[1]
-    return nonnegative(outward(np.stack((-np.sqrt(low), np.sqrt(high)))))
+    roots = np.sqrt(np.abs(rows))
+    np.negative(roots[0], out=roots[0, ...])
+    return nonnegative(outward(roots))
 
 
 def nonnegative(rows: Rows) -> Rows:
     """Cut off what the outward step added below 0, in place: for values known to be >= 0."""
-    np.minimum(rows[0], 0.0, out=rows[0])
+    np.minimum(rows[0], 0.0, out=rows[0, ...])
     return rows
-
-
-def elementwise(rows: Rows, function: Callable[["Interval"], "Interval"]) -> Rows:
-    """Apply a function of `Interval` to each element, at 80 bits; the result is rounded outward."""
-    from intervals.interval import Interval
-
-    flat = rows.reshape(2, -1)
-    result = np.empty_like(flat)
-    for index, (low, high) in enumerate(zip((-flat[0]).tolist(), flat[1].tolist(), strict=True)):
-        y = function(Interval(Fraction(low), Fraction(high), precision=80))
-        result[:, index] = -float_down(y.inf), float_up(y.sup)
-    return result.reshape(rows.shape)
 
 
 # -- step functions, which are exact ---------------------------------------------------------------

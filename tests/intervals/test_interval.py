@@ -519,7 +519,7 @@ def test_far_away(name):
 
 
 def test_exp_of_what_no_memory_holds():
-    for x in (Interval(2**31), Interval(-(2**31)), Interval(0, 2**31)):
+    for x in (Interval(2**31), Interval(0, 2**31)):
         with pytest.raises(OverflowError):
             x.exp()
 
