@@ -49,7 +49,6 @@ HARMLESS = {
     "claim dropped": "says less; refused only if a step is then used by nothing",
     "claims reordered": "the same claims",
     "correction not quoted": "says less: the correction stands in its own block",
-    "reference repeated": "the same proof",
     "reference added": "the same proof, and another true step",
     "interval widened a little, texts renewed": "another statement, named as such, and true",
     "corrected slope bounds weakened, texts renewed": "a weaker theorem, named as such",

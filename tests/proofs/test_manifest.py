@@ -42,7 +42,7 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
     assert entry["made"].startswith("python -m proofs.horseshoe --only H1 H16")
     assert entry["digest"] == digest((tmp_path / "horseshoe.json").read_text(encoding="utf-8"))
     provenance = document["files"]["horseshoe.json"]
-    assert {"impact-proofs", "commit", "python", "mpmath", "platform", "date"} == set(provenance)
+    assert {"impact-proofs", "commit", "python", "mpmath", "platform", "date"} <= set(provenance)
     capsys.readouterr()
     assert check([str(path)]) == 0
     assert "2 claims in 1 files, all as listed" in capsys.readouterr().out
