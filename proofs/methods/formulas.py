@@ -1,0 +1,140 @@
+"""Formulas on intervals: values and derivatives on boxes, and subdivisions on which they decide."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import intervals
+from intervals import Interval, IntervalError, Undecided
+from proofs.check.enclose import ARITHMETIC, Box, centre_of, point_box
+from proofs.check.formula import Formula
+from proofs.check.hset import HSet
+
+_MOST_BOXES = 10_000
+_DEEPEST = 40
+Values = list[Interval]
+Matrix = list[Values]
+Tree = list[Any] | None
+
+
+@dataclass(frozen=True)
+class Intervals:
+    """The operations of formulas on intervals of one precision."""
+
+    precision: int = 53
+
+    def apply(self, op: str, arguments: list[Interval], datum: Fraction | None) -> Interval:
+        """Enclose op(arguments)."""
+        if op == "number":
+            return Interval(datum or 0, precision=self.precision)
+        if op == "pi":
+            return Interval.pi(precision=self.precision)
+        if op == "^":
+            return arguments[0] ** int(datum or 0)
+        function = ARITHMETIC.get(op) or getattr(intervals, op)
+        result: Interval = function(*arguments)
+        return result
+
+
+def values(formula: Formula, x: Values, roots: tuple[int, ...] | None = None) -> Values:
+    """Enclose a function's components, or other roots on its tape."""
+    return formula.tape.evaluate(roots or formula.roots, Intervals(x[0].precision), x)
+
+
+def jacobian(formula: Formula, x: Values, roots: tuple[int, ...] | None = None) -> Matrix:
+    """Enclose the partial derivatives of the components, or of other roots."""
+    n = len(formula.variables)
+    rows = [[formula.tape.derivative(r, v) for v in range(n)] for r in roots or formula.roots]
+    return [values(formula, x, tuple(row)) for row in rows]
+
+
+def mean_value_form(
+    of: Callable[[Values], Values], derivatives: Callable[[Values], Matrix], box: Box
+) -> Values:
+    """Enclose a map on a box by its natural and its mean value form."""
+    x = [Interval(*side) for side in box]
+    centre = [Interval(*side) for side in point_box(centre_of(box))]
+    result = []
+    steps = [a - m for a, m in zip(x, centre, strict=True)]
+    for whole, value, row in zip(of(x), of(centre), derivatives(x), strict=True):
+        common = whole.intersection(dot(row, steps) + value)
+        if common is None:
+            raise Undecided("two enclosures of the same values are disjoint")
+        result.append(common)
+    return result
+
+
+def dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
+    """Return the sum of the products."""
+    return sum((a * b for a, b in zip(row, column, strict=True)), 0)
+
+
+@dataclass(frozen=True)
+class Local:
+    """The k-th iterate of a function from one h-set to another, in their coordinates."""
+
+    formula: Formula
+    power: int
+    source: HSet
+    target: HSet
+
+    def values(self, q: Values) -> Values:
+        """Enclose B^-1 (F^k(c + A q) - d)."""
+        points = self._points(q)
+        for _ in range(self.power):
+            points = values(self.formula, points)
+        moved = [p - d for p, d in zip(points, self.target.centre, strict=True)]
+        return [dot(row, moved) for row in self.target.inverse]
+
+    def jacobian(self, q: Values) -> Matrix:
+        """Enclose the derivatives, by the chain rule."""
+        points, product = self._points(q), [list(row) for row in self.source.matrix]
+        for _ in range(self.power):
+            product = _multiply(jacobian(self.formula, points), product)
+            points = values(self.formula, points)
+        return _multiply(self.target.inverse, product)
+
+    def on(self, box: Box) -> Values:
+        """Enclose the map on a box of coordinates."""
+        return mean_value_form(self.values, self.jacobian, box)
+
+    def _points(self, q: Values) -> Values:
+        pairs = zip(self.source.matrix, self.source.centre, strict=True)
+        return [dot(row, q) + c for row, c in pairs]
+
+
+def _multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    columns = list(zip(*b, strict=True))
+    return [[dot(row, column) for column in columns] for row in a]
+
+
+def subdivide(box: Box, decided: Callable[[Box], bool], scale: Box | None = None) -> Tree:
+    """Return a tree whose leaves are all decided: undecided boxes are halved, longest side first.
+
+    Sides are compared as parts of those of `scale`, the box itself where none is given. Raises
+    Undecided if that does not end.
+    """
+    left, units = [_MOST_BOXES], [high - low for low, high in scale or box]
+
+    def divide(part: Box, depth: int) -> Tree:
+        left[0] -= 1
+        if left[0] < 0 or depth > _DEEPEST:
+            raise Undecided(f"{_MOST_BOXES} boxes, divided {_DEEPEST} times, do not suffice")
+        try:
+            if decided(part):
+                return None
+        except IntervalError:
+            pass
+        shares = [(high - low) / (unit or 1) for (low, high), unit in zip(part, units, strict=True)]
+        axis = shares.index(max(shares))
+        low, high = part[axis]
+        if low == high:
+            raise Undecided("not decided at a point")
+        cut = (low + high) / 2
+        sides = [(*part[:axis], ends, *part[axis + 1 :]) for ends in ((low, cut), (cut, high))]
+        return [str(axis + 1), str(cut), *(divide(side, depth + 1) for side in sides)]
+
+    return divide(box, 0)
