@@ -20,6 +20,7 @@ from proofs.facts import Parameters, Range
 
 SCHEMA = "impact-proofs.certificate/1"
 MANIFEST = "impact-proofs.manifest/1"
+LEMMA = "impact-proofs.lemma/1"
 MAX_BYTES = 4_000_000
 MAX_WORK = 100_000  # some seconds: see Reader.charge
 _MAX_DIGITS = 3000

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import sys
 from pathlib import Path
 
-from proofs.certificate import MANIFEST, Malformed, digest, read, schema_of
+from proofs.certificate import LEMMA, MANIFEST, Malformed, digest, read, schema_of
 from proofs.check.manifest import check_manifest
 from proofs.check.verify import Rejected, Report, check
 from proofs.statements import Verdict
@@ -19,6 +20,7 @@ exit status: 0 every claim in every file is proved as stated (verified or refute
 examples:
   python -m proofs.check reports/horseshoe.json
   python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
+  python -m proofs.check --rules                  what may be inferred, and from what
 """
 
 
@@ -30,8 +32,14 @@ def main(arguments: list[str] | None = None) -> int:
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("files", nargs="+", metavar="FILE", type=Path)
-    return max(check_file(path) for path in parser.parse_args(arguments).files)
+    parser.add_argument("files", nargs="*", metavar="FILE", type=Path)
+    parser.add_argument("--rules", action="store_true", help="print the rules of inference")
+    options = parser.parse_args(arguments)
+    if options.rules:
+        print_rules()
+    elif not options.files:
+        parser.error("no file to check")
+    return max((check_file(path) for path in options.files), default=0)
 
 
 def check_file(path: Path) -> int:
@@ -39,8 +47,12 @@ def check_file(path: Path) -> int:
     name = str(path) if str(path).isprintable() else ascii(str(path))
     try:
         source = read(path)
-        if schema_of(source) == MANIFEST:
+        schema = schema_of(source)
+        if schema == MANIFEST:
             print(f"{name}: {check_manifest(source, path.parent)}")
+            return 0
+        if schema == LEMMA:
+            print_lemma(name, source)
             return 0
         report = check(source)
     except Malformed as error:
@@ -54,6 +66,26 @@ def check_file(path: Path) -> int:
         return 1
     print_report(name, report, digest(source))
     return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
+
+
+def print_rules() -> None:
+    """Print what each rule takes, what it checks and what it concludes."""
+    from proofs.check import lemma, rules
+
+    for title, known in (("the impact map", rules.RULES), ("maps by formulas", lemma.RULES)):
+        print(f"Rules about {title}\n")
+        for rule in known.values():
+            print(inspect.cleandoc(rule.__doc__ or ""), end="\n\n")
+
+
+def print_lemma(name: str, source: str) -> None:
+    """Print what a file about formulas was found to prove."""
+    from proofs.check.lemma import check_lemma
+
+    claims = check_lemma(source).claims
+    print(f"{name}: accepted, {digest(source)}")
+    for claim in claims:
+        print(f"  {claim}")
 
 
 def print_report(name: str, report: Report, digest_of: str) -> None:
