@@ -18,6 +18,8 @@ from proofs.model.phase import turn
 from proofs.model.slope_cover import SlopeCover
 from proofs.model.system import System
 
+_STEPS = 5  # of Newton's method, from within a box of the covers
+
 
 @dataclass(frozen=True)
 class ImpactMap:
@@ -42,24 +44,29 @@ class ImpactMap:
         return System(self.of.eta, self.of.nu)
 
     @cached_property
-    def _table(self) -> tuple[Floats, Floats, Floats]:
-        """Return the lower ends of the boxes of both covers, their last times, middle times."""
-        rows = ((cover.boxes.inf, cover.last, cover.times.mid) for cover in self.covers)
-        lower, last, times = (np.concatenate(part) for part in zip(*rows, strict=True))
-        return lower, last, times
+    def _table(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """Of the boxes of both covers: both ends, last times of their grids, middle times."""
+        rows = ((c.boxes.inf, c.boxes.sup, c.last, c.times.mid) for c in self.covers)
+        lower, upper, last, times = (np.concatenate(part) for part in zip(*rows, strict=True))
+        return lower, upper, last, times
 
-    def _last(self, x: Floats) -> Floats:
-        """Return times up to which no impact follows a launch at x, in I0 or I1."""
-        lower, last, _ = self._table
-        return np.asarray(last[np.maximum(np.searchsorted(lower, x, side="right") - 1, 0)])
+    def _look_up(self, x: Floats) -> tuple[Floats, Floats]:
+        """Return a time up to which no impact follows a launch at x, and about that of the first.
+
+        x must lie in a box: it is in the last one that does not begin after it.
+        """
+        lower, upper, last, times = self._table
+        index = np.searchsorted(lower, x, side="right") - 1
+        if not ((lower[index] <= x) & (x <= upper[index])).all():
+            raise ValueError("a phase outside I0 and I1")
+        return last[index], times[index]
 
     def _flights(self, x: Floats) -> tuple[Floats, Floats]:
         """Return about the time of flight after x and f', by Newton's method from the covers."""
-        lower, _, times = self._table
-        t = np.interp(x, lower, times)
+        t = self._look_up(x)[1]
         eta, nu = float(self.of.eta), float(self.of.nu)
         start = Launch(self.system.side, eta, nu * np.sin(x), nu * np.cos(x))
-        for _ in range(4):
+        for _ in range(_STEPS):
             mass = eta * t
             now = Clock(np.sin(mass), np.cos(mass), np.sin(t), np.cos(t))
             t = t - gap(start, now) / gap(start, now, 1)
@@ -73,14 +80,14 @@ class ImpactMap:
     def defects(self, symbols: Symbols, x: Floats, y: Floats) -> IntervalArray:
         """Enclose f(x) - y."""
         t, phases = self._flights(x)[0], IntervalArray.from_floats(x)
-        times = enclose_times(Launches(self.system, phases), self._last(x), (t, t))
+        times = enclose_times(Launches(self.system, phases), self._look_up(x)[0], (t, t))
         whole = IntervalArray([turn(100) * count for count in self.turns])[symbols]
         return times - whole + phases - IntervalArray.from_floats(y)
 
     def germs(self, symbols: Symbols, boxes: IntervalArray) -> ImpactGerms:
         """Return f near the boxes; a box over two of a cover has no impact before either's last."""
         (t, slopes), launches = self._flights(boxes.mid), Launches(self.system, boxes)
-        last = np.minimum(self._last(boxes.inf), self._last(boxes.sup))
+        last = np.minimum(self._look_up(boxes.inf)[0], self._look_up(boxes.sup)[0])
         times = enclose_times(launches, last, (t, t), 2.0 * np.abs(slopes - 1.0) * boxes.rad)
         return ImpactGerms(self.system, launches, times, self.turns, symbols)
 

@@ -267,6 +267,9 @@ def test_the_stable_direction_must_stay_inside():
         check_lemma(plane_file(["x", ["*", "1/2", "y"]]))
     with pytest.raises(Rejected, match="not proved"):
         check_lemma(plane_file([["*", "1/2", "y"], ["*", "2", "x"]]))
+    for shift in ("3/5", "-3/5"):
+        with pytest.raises(Rejected, match="not proved"):
+            check_lemma(plane_file([["*", "2", "x"], ["+", ["*", "1/2", "y"], shift]]))
 
 
 def test_the_stable_direction_is_free_beyond_the_exits():
@@ -308,10 +311,22 @@ def test_overlapping_sets_make_no_graph(shift):
     refused(document, "disjoint")
 
 
-def test_relations_of_another_power_or_function_make_no_graph():
-    document = only(file("logistic"), "graph-1")
-    witness_of(document, "covers", 3)["power"] = "2"
-    refused(document, "not proved|another map", (Rejected, Malformed))
+def test_relations_of_another_power_make_no_graph():
+    """x -> 9 x: each relation holds, under F and under F^2."""
+    document = interval_file(["*", "9", "x"], ("0", "1/20"), ("1/5", "1/100"))
+    first = witness_of(document, "covers")
+    for name, power, target in (("again", "2", "two"), ("back", "1", "one")):
+        witness = {**first, "power": power, "target": target}
+        document["steps"][name] = {"rule": "covers", "witness": witness}
+    document["steps"]["arrows"] = {"rule": "graph", "witness": {"covers": ["back", "again"]}}
+    document["claims"] = ["arrows", "step"]
+    refused(document, "another map", Malformed)
+    witness_of(document, "graph")["covers"] = ["back", "step"]
+    document["claims"] = ["arrows", "again"]
+    assert check_lemma(json.dumps(document))
+
+
+def test_relations_of_another_function_make_no_graph():
     document = only(file("logistic"), "graph-1")
     document["functions"]["G"] = document["functions"]["F"]
     witness_of(document, "covers", 3)["function"] = "G"
@@ -349,6 +364,17 @@ def test_entropy_of_the_golden_mean_graph(length, vector, growth, true):
         assert f"log({growth})/{length}" in check_lemma(json.dumps(document)).claims[0]
     else:
         refused(document, "does not multiply")
+
+
+def test_entropy_follows_the_arrows():
+    """N1 => N1, N1 => N2 alone: A (1, 1) = (2, 0), the transposed matrix would give (1, 1)."""
+    document = only(file("logistic"), "entropy-1")
+    witness_of(document, "graph")["covers"] = ["covers-1", "covers-2"]
+    document = only(document, "entropy-1")
+    witness_of(document, "entropy").update(vector=["1", "1"], growth="1")
+    refused(document, "does not multiply")
+    witness_of(document, "entropy").update(vector=["1", "0"])
+    assert check_lemma(json.dumps(document))
 
 
 @pytest.mark.parametrize(
@@ -427,6 +453,16 @@ def test_other_forms_are_refused(forms):
     refused(document, "cone condition")
 
 
+def test_forms_belong_to_their_sets():
+    """|F'| <= 6.4 on the logistic horseshoe: a form 100 times larger is not exceeded."""
+    document = only(file("logistic"), "cone-1")
+    for forms in ([["1"], ["100"]], [["100"], ["1"]]):
+        witness_of(document, "cone")["forms"] = forms
+        refused(document, "cone condition")
+    witness_of(document, "cone")["forms"] = [["3"], ["4"]]
+    assert "one-sided" in check_lemma(json.dumps(document)).claims[0]
+
+
 def test_cone_steps_need_every_relation():
     document = only(file("henon_horseshoe"), "cone-1")
     witness_of(document, "cone")["relations"].pop()
@@ -469,6 +505,9 @@ def test_a_smaller_cone_box():
     document["steps"]["cones"] = {"rule": "cone", "witness": witness}
     document["claims"] = ["cones"]
     assert "one-sided shift" in check_lemma(json.dumps(document)).claims[0]
+    relation["jacobian"] = [["1/2", "4"]]
+    refused(document, "cone condition")
+    relation["jacobian"] = [["3", "4"]]
     relation["box"] = [["-1/4", "1/4"]]
     refused(document, "not proved on")
 

@@ -216,9 +216,36 @@ def test_a_zero_refutes_a_strict_sign_exactly():
     assert says(line, "refute-at", witness)
 
 
+def test_an_undecided_sign_refutes_nothing():
+    """exp(x) - exp(x) + 10^-400 > 0 is true, and beyond every precision of the checker."""
+    flat = ["+", ["-", ["exp", "x"], ["exp", "x"]], ["^", "1/10", "400"]]
+    function = {"F": {"variables": ["x"], "values": [flat]}}
+    for sign in "+-":
+        claim = on([["0", "1"]], sign=sign)
+        witness = {"rule": "sign", "claim": claim, "point": ["1/2"]}
+        refused(function, "refute-at", witness, "not proved false")
+        refused(function, "sign", {"claim": claim, "tree": None}, "not proved on")
+
+
 def test_a_refutation_needs_a_point_of_the_box():
     witness = {"rule": "sign", "claim": on([["3/2", "2"]], sign="+"), "point": ["1"]}
     refused({"F": SQUARE}, "refute-at", witness, "not in the box", Malformed)
+
+
+@pytest.mark.parametrize("point", [["1", "3"], ["3", "1"], ["-1", "1"], ["1", "-1"]])
+def test_every_coordinate_lies_in_the_box(point):
+    claim = on([["0", "2"], ["0", "2"]], sign="-")
+    witness = {"rule": "sign", "claim": claim, "point": point}
+    refused({"F": PLANE}, "refute-at", witness, "not in the box", Malformed)
+    matrix = [["1/2", "1/2"], ["1/2", "-1/2"]]
+    witness = {"function": "F", "box": claim["box"], "centre": point, "matrix": matrix}
+    refused({"F": PLANE}, "unique-zero", witness, "centre", Malformed)
+
+
+@pytest.mark.parametrize("bound", ["1", "1/2", "0", "-3"])
+def test_expansion_is_by_more_than_1(bound):
+    claim = {"function": "F", "interval": ["1", "2"], "bound": bound}
+    refused({"F": SQUARE}, "expansion", {"claim": claim, "tree": None}, "above 1", Malformed)
 
 
 def test_a_value_that_is_undefined_refutes_nothing():
@@ -532,8 +559,13 @@ HOSTILE = {
 }
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", HOSTILE)
+SLOW = ("polynomial bomb", "many generators", "wide tree", "many h-sets", "long iterate")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in HOSTILE],
+)
 def test_hostile_files_end(name):
     source = HOSTILE[name]()
     start = time.perf_counter()

@@ -109,12 +109,12 @@ def test_both_want_a_correction_that_expands(bound, outcome):
 
 @pytest.mark.parametrize(
     "number",
-    ["-0", "5/1", "0/1", "1/0", "-0/3", "2/4", "+1", "01", "1/02", "1.0", "1e3", " 1", "1\n", "",
+    ["-0", "1/1", "0/1", "1/0", "-0/3", "2/4", "+1", "01", "1/02", "1.0", "1e3", " 1", "1\n", "",
      "1/-3", "\u0661", "1_0", "0x1", "1" * 401, "1" * 5000],
 )  # fmt: skip
 def test_both_refuse_a_number_out_of_form(number):
     document = json.loads((ROOT / "tests/certificates/accepted/h16_alone.json").read_text())
-    document["parameters"]["nu"] = number
+    document["parameters"]["interval"][0] = number  # any from 0 to 1.11 would do
     found, other, _, reasons = both(json.dumps(document))
     assert found == other == "malformed", reasons
 
@@ -180,4 +180,4 @@ def test_both_refuse_the_bracket_of_a_later_impact():
     later = next(i for i in range(len(grid) - 1) if signs[i] and not signs[i + 1])
     document["steps"]["point-1"]["witness"]["time"] = [str(t) for t in grid[later : later + 2]]
     found, other, _, reasons = both(json.dumps(document))
-    assert found == other == "rejected" and "window" in reasons, reasons
+    assert found == other == "rejected" and reasons.count("window") == 2, reasons
