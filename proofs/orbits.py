@@ -1,0 +1,241 @@
+"""All periodic points of the plastic impact map that a horseshoe has, one for each word.
+
+A word such as 0010 says in which of I0, I1 the successive impacts lie. First the horseshoe is
+proved: f is C^1 and increasing on I0 and I1, f' > 1, both images cover I, which reaches from the
+left end of I0 to the right end of I1, and the phases between I0 and I1 leave I. So each word has
+exactly one phase with that itinerary that repeats it for ever, and no other phase in I is
+periodic with its orbit in I. Then each phase is enclosed, with its multiplier: the derivative of
+f^n there, n the length of the word (for a word such as 0101, of period 2, the square of that
+of its orbit).
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from intervals import Interval, IntervalError, Undecided, decimal_bounds
+from proofs.certificate import write_atomically
+from proofs.cli import Parser, digits, number, progress
+from proofs.facts import PAPER, Parameters, show, show_range
+from proofs.methods.orbits import PeriodicPoint, periodic_points
+from proofs.methods.words import Words
+from proofs.model.horseshoe_map import ImpactMap
+from proofs.model.phase import turn
+from proofs.model.slope_cover import slope_cover
+from proofs.model.system import System
+from proofs.plastic import prove
+from proofs.statements import Verdict
+
+SCHEMA = "impact-proofs.orbits/1"
+LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
+_BOXES = 16  # of each branch, for the proof that f is C^1 there
+_LONGEST_PERIOD = 16
+_LONGEST_WORD = 256
+_SHOWN = 16  # rows on the screen
+_FAST_DIGITS = 14
+_ENDS = ("lower", "upper")
+
+EPILOG = """\
+Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. The table shows the first
+rows only; --csv and --json have all of them, in bounds that are rounded outward.
+
+exit status: 0 all points are proved and enclosed, 1 undecided: the horseshoe is not proved,
+             2 bad input
+
+examples:
+  python -m proofs.orbits --period 3
+  python -m proofs.orbits --word 0010 --digits 50
+  python -m proofs.orbits --period 12 --csv orbits.csv
+  python -m proofs.orbits --period 16 --fast --json - > orbits.json
+"""
+
+
+def horseshoe(of: Parameters) -> ImpactMap:
+    """Prove that I0 and I1 make a full horseshoe, by the claims H1 and H5; Undecided if not.
+
+    The proof of H5 has f(left end) and f(right end), mod 2 pi, in [0, 2 pi) on both sides of I,
+    and f increasing by less than 2 pi between them; so the turns that f(phi) = phi + t leaves
+    out are the same on all of I_j, those that take phi + t at the left end to its f.
+    """
+    outcome = prove(of, ("H1", "H5"))
+    expanding, covering = outcome.rows
+    for row in outcome.rows:
+        if row.verdict is not Verdict.VERIFIED:
+            raise Undecided(_refusal(row.why, outcome.corrected))
+    least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
+    if not least > 1:
+        raise Undecided("f' > 1 is not proved")
+    system = System(of.eta, of.nu)
+    covers = slope_cover(system, of.left, _BOXES), slope_cover(system, of.right, _BOXES)
+    turns = []
+    for j, (cover, domain) in enumerate(zip(covers, (of.left, of.right), strict=True)):
+        image = Interval(*covering.quantities[f"image_left_I{j}"])
+        whole = (cover.times[0].item() + domain[0] - image) / turn(53)
+        count = round(whole.mid)
+        if not (whole.contains(count) and whole.wid < 1):
+            raise ArithmeticError("an impact is at another phase than it was proved to be")
+        turns.append(count)
+    return ImpactMap(of, least, covers, (turns[0], turns[1]))
+
+
+def _refusal(why: str, corrected: Parameters | None) -> str:
+    """Say why there is no proof, and on which sets there is one."""
+    if corrected is None:
+        return f"no horseshoe is proved: {why}"
+    sets = f"I0 = {show_range(corrected.left)}, I1 = {show_range(corrected.right)}"
+    return f"no horseshoe is proved: {why}; it is one on {sets}"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Enclose the periodic points asked for; return the exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    try:
+        of = _parameters(options)
+        if "-" in (options.csv, options.json) and options.csv == options.json:
+            raise ValueError("--csv - and --json - exclude each other")
+    except ValueError as error:
+        parser.error(str(error))
+    words = Words.rotations(options.word) if options.word else Words.of_length(options.period)
+    places = None if options.fast else options.digits
+    began = perf_counter()
+    try:
+        with progress() as tell:
+            tell("the horseshoe")
+            found = periodic_points(horseshoe(of), words, places, tell)
+    except (Undecided, IntervalError, OverflowError) as failure:
+        print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
+        return 1
+    seconds = perf_counter() - began
+    shown = options.digits if places else min(options.digits, _FAST_DIGITS)
+    rows = [_row(point, shown) for point in found]
+    _write(parser, options.csv, lambda: _csv(rows))
+    _write(parser, options.json, lambda: _json(of, rows, places))
+    if "-" not in (options.csv, options.json):
+        _print(of, rows, len(words.cycles), seconds)
+    return 0
+
+
+def _parser() -> Parser:
+    parser = Parser("proofs.orbits", __doc__, EPILOG)
+    which = parser.add_mutually_exclusive_group(required=True)
+    add = which.add_argument
+    add(
+        "--period", type=_period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}"
+    )
+    add("--word", type=_word, metavar="W", help="one word of 0 and 1, with its rotations")
+    add = parser.add_argument
+    add("--digits", type=digits, default=25, help="significant digits (default 25)")
+    add("--fast", action="store_true", help="binary64 only, some 12 digits")
+    add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
+    add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
+    for name, default in (("left", LEFT), ("right", RIGHT)):
+        help_text = f"default {show(default[0])} {show(default[1])}"
+        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
+    add("--csv", metavar="FILE", help="write all rows to a file, or - for the screen")
+    add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
+    return parser
+
+
+def _period(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= _LONGEST_PERIOD):
+        raise ArgumentTypeError(
+            f"a period is a whole number from 1 to {_LONGEST_PERIOD}, not {text!r}"
+        )
+    return int(text)
+
+
+def _word(text: str) -> str:
+    if not 1 <= len(text) <= _LONGEST_WORD or set(text) - {"0", "1"}:
+        raise ArgumentTypeError(
+            f"a word is made of 1 to {_LONGEST_WORD} letters 0 and 1, not {text[:40]!r}"
+        )
+    return text
+
+
+def _parameters(options: Namespace) -> Parameters:
+    """Return the horseshoe's numbers; f' >= 1 is what is asked of the slopes."""
+    left, right = tuple(options.left), tuple(options.right)
+    return replace(
+        PAPER,
+        eta=options.eta,
+        nu=options.nu,
+        left=left,
+        right=right,
+        interval=(left[0], right[1]),
+        slopes=(Fraction(1), Fraction(1)),
+        ratios=None,
+        printed_s0=None,
+    )
+
+
+def _row(point: PeriodicPoint, places: int) -> dict[str, Any]:
+    """Return the JSON object of a point: decimal strings, rounded outward."""
+    bounds = {}
+    for name, values in (("phase", point.point), ("multiplier", point.multiplier)):
+        lower, upper = decimal_bounds(*values, places)
+        bounds[name] = {"lower": lower, "upper": upper}
+    return {"word": point.word, "period": point.period, **bounds}
+
+
+def _json(of: Parameters, rows: list[dict[str, Any]], places: int | None) -> str:
+    parameters = {
+        "eta": show(of.eta),
+        "nu": show(of.nu),
+        "left": [show(x) for x in of.left],
+        "right": [show(x) for x in of.right],
+        "interval": [show(x) for x in of.interval],
+        "digits": places,
+    }
+    document = {"schema": SCHEMA, "parameters": parameters, "orbits": rows}
+    return json.dumps(document, indent=1) + "\n"
+
+
+def _csv(rows: list[dict[str, Any]]) -> str:
+    target = io.StringIO()
+    table = csv.writer(target, lineterminator="\n")
+    names = ("phase", "multiplier")
+    table.writerow(["word", "period", *(f"{name}_{end}" for name in names for end in _ENDS)])
+    for row in rows:
+        bounds = (row[name][end] for name in names for end in _ENDS)
+        table.writerow([row["word"], row["period"], *bounds])
+    return target.getvalue()
+
+
+def _write(parser: Parser, target: str | None, content: Callable[[], str]) -> None:
+    if target == "-":
+        print(content(), end="")
+    elif target is not None:
+        try:
+            write_atomically(Path(target), content())
+        except OSError as error:
+            parser.error(f"cannot write {target}: {error.strerror or error}")
+
+
+def _print(of: Parameters, rows: list[dict[str, Any]], orbits: int, seconds: float) -> None:
+    for row in rows[:_SHOWN]:
+        print(f"{row['word']}  period {row['period']}")
+        for name in ("phase", "multiplier"):
+            print(f"  {name:10} [{row[name]['lower']},")
+            print(f"  {'':10}  {row[name]['upper']}]")
+    if len(rows) > _SHOWN:
+        print(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
+    print(
+        f"\n{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved to "
+        f"exist and to be the only one of its word in I0 = {show_range(of.left)}, "
+        f"I1 = {show_range(of.right)}; orbits: {orbits}, in {seconds:.2f} s"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
