@@ -53,7 +53,7 @@ def contains(y, low, high):
     return Fraction(float(y.inf[0])) <= high and low <= Fraction(float(y.sup[0]))
 
 
-@settings(max_examples=1500)
+@settings(max_examples=500)
 @given(st.sampled_from(sorted(SMOOTH)), parts, parts, parts, st.integers(2, 200))
 def test_ranges_contain_the_values_inside(name, s, t, r, precision):
     function, least, most = SMOOTH[name]
@@ -141,7 +141,7 @@ def inner(data, box):
     return box[0] + (box[1] - box[0]) * Fraction(data.draw(st.sampled_from([0, 1, 2, 5, 8])), 8)
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(st.data())
 def test_hypot_and_powers_contain_the_values_inside(data):
     x, y = box_of(data, -9, 9), box_of(data, -9, 9)
@@ -155,7 +155,7 @@ def test_hypot_and_powers_contain_the_values_inside(data):
         assert contains(three ** Interval(*y), *power)
 
 
-@settings(max_examples=500)
+@settings(max_examples=150)
 @given(st.data())
 def test_atan2_contains_the_angles_inside(data):
     y, x = (box_of(data, -4, 4) for _ in range(2))

@@ -278,6 +278,7 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     assert "DISAGREES" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_figure_is_drawn_and_does_not_change(tmp_path):
     assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "a")]) == 0
     assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "b")]) == 0

@@ -67,6 +67,7 @@ def box_with(cover, phase):
     return max(index, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("boxes", [1, 7, 64, 1024])
 @pytest.mark.parametrize(("system", "phases"), CASES)
 def test_true_slopes_and_times_are_enclosed(system, phases, boxes):
@@ -141,6 +142,7 @@ def test_extremes_within_1e_11(phases, boxes):
         assert high - Fraction(text) < allowed
 
 
+@pytest.mark.slow
 def test_extremes_where_the_second_derivative_changes_sign():
     system = System(Fraction("0.15"), Fraction("-0.15"))
     phases = Fraction("0.98"), Fraction("1.03")

@@ -62,6 +62,7 @@ def sample(found, size=SAMPLE):
         yield from members[::step][:size]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(4))
 def test_a_sample_of_every_kind_is_refused(document, original, part):
     few = list(sample(mutations(document)))[part::4]

@@ -84,6 +84,7 @@ def compare(chosen):
     return counts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(2))
 def test_both_agree_on_a_sample_of_changed_certificates(by_kind, part):
     chosen = [members[len(members) // 3] for members in by_kind.values()]
