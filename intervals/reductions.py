@@ -4,10 +4,12 @@ Each is a tree or a chain of the rigorous + and * of `rows`, in an order that do
 inclusion principle holds for every bracketing.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
-from intervals.rounding import Rows, outward_sum
-from intervals.rows import product
+from intervals.rounding import Rows
+from intervals.rows import product, total
 
 
 def sum_rows(rows: Rows, axis: int) -> Rows:
@@ -15,28 +17,29 @@ def sum_rows(rows: Rows, axis: int) -> Rows:
 
     Pairwise: n terms lose at most ceil(log2 n) outward steps.
     """
-    work = np.moveaxis(rows, axis + 1, 1)
-    while work.shape[1] > 1:
-        half = work.shape[1] // 2
-        rest = work[:, 2 * half :]
-        work = outward_sum(work[:, :half] + work[:, half : 2 * half])
-        work = np.concatenate((work, rest), axis=1) if rest.shape[1] else work
-    return work[:, 0] if work.shape[1] else np.zeros((2, *work.shape[2:]))
+    return _pairwise(total, rows, axis, (0.0, 0.0))
 
 
 def product_rows(rows: Rows, axis: int) -> Rows:
     """Return rows of the products over the element axis `axis` >= 0; the empty product is 1."""
+    return _pairwise(product, rows, axis, (-1.0, 1.0))
+
+
+def _pairwise(
+    operation: Callable[[Rows, Rows], Rows], rows: Rows, axis: int, neutral: tuple[float, float]
+) -> Rows:
+    """Combine neighbours until one is left; `neutral` are the rows of the empty combination."""
     work = np.moveaxis(rows, axis + 1, 1)
     while work.shape[1] > 1:
         half = work.shape[1] // 2
         rest = work[:, 2 * half :]
-        work = product(work[:, :half], work[:, half : 2 * half])
+        work = operation(work[:, :half], work[:, half : 2 * half])
         work = np.concatenate((work, rest), axis=1) if rest.shape[1] else work
     if work.shape[1]:
         return work[:, 0]
-    one = np.ones((2, *work.shape[2:]))
-    one[0] = -1.0
-    return one
+    empty = np.empty((2, *work.shape[2:]))
+    empty[0], empty[1] = neutral
+    return empty
 
 
 def matrix_product(a: Rows, b: Rows) -> Rows:
@@ -50,7 +53,7 @@ def matrix_product(a: Rows, b: Rows) -> Rows:
     if not terms:
         lead = np.broadcast_shapes(a.shape[1:-2], b.shape[1:-2])
         return np.zeros((2, *lead, a.shape[-2], b.shape[-1]))
-    total = product(a[..., :, :1], b[..., :1, :])
+    result = product(a[..., :, :1], b[..., :1, :])
     for k in range(1, terms):
-        total = outward_sum(total + product(a[..., :, k : k + 1], b[..., k : k + 1, :]))
-    return total
+        result = total(result, product(a[..., :, k : k + 1], b[..., k : k + 1, :]))
+    return result

@@ -87,7 +87,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _command(arguments: list[str] | None) -> str:
-    return shlex.join(["python", "-m", "proofs.horseshoe", *(arguments or sys.argv[1:])])
+    given = sys.argv[1:] if arguments is None else arguments
+    return shlex.join(["python", "-m", "proofs.horseshoe", *given])
 
 
 def _parser() -> Parser:

@@ -25,17 +25,21 @@ def record(folder: Path, name: str, content: str, made: str) -> None:
 
     Entries about other files stay; a manifest that cannot be read is replaced.
     """
-    claims, files = ({k: v for k, v in part.items() if k != name} for part in _existing(folder))
+    claims, files = _existing(folder)
     claims = {claim: entry for claim, entry in claims.items() if entry["file"] != name}
+    source = {
+        "file": name,
+        "digest": digest(content),
+        "made": made,
+        "checked": f"python -S -O -m proofs.check {folder / name}",
+    }
     for claim in json.loads(content)["claims"]:
         claims[claim["id"]] = {
             "verdict": claim["verdict"],
             "statement": claim["statement"],
-            "file": name,
-            "digest": digest(content),
-            "made": made,
-            "checked": f"python -S -O -m proofs.check {folder / name}",
+            **source,
         }
+    files.pop(name, None)  # the newest is the last
     files[name] = _provenance()
     document = {"schema": MANIFEST, "claims": claims, "files": files}
     write_atomically(folder / NAME, render(document))

@@ -62,7 +62,7 @@ class Sign(Inequality):
 
     def holds(self, values: Range) -> bool:
         """Whether it follows where the quantity lies in these bounds."""
-        return values[0] > 0 if self.sign > 0 else values[1] < 0
+        return _has_sign(values, self.sign)
 
     def fails(self, values: Range) -> bool:
         """Whether it is false if at one point the quantity lies in these bounds."""
@@ -71,6 +71,11 @@ class Sign(Inequality):
     def says(self) -> str:
         """Return the statement."""
         return f"{self.where}: {self.quantity.name} {'>' if self.sign > 0 else '<'} 0"
+
+
+def _has_sign(values: Range, sign: int) -> bool:
+    """Whether all numbers within the bounds have this strict sign."""
+    return values[0] > 0 if sign > 0 else values[1] < 0
 
 
 @dataclass(frozen=True)
@@ -95,11 +100,11 @@ class Monotone(Inequality):
 
     def holds(self, values: Range) -> bool:
         """Whether it follows where the derivative lies in these bounds."""
-        return values[0] > 0 if self.sign > 0 else values[1] < 0
+        return _has_sign(values, self.sign)
 
     def fails(self, values: Range) -> bool:
         """Whether it is false if at one point the derivative lies in these bounds: strictly."""
-        return values[1] < 0 if self.sign > 0 else values[0] > 0
+        return _has_sign(values, -self.sign)
 
     def says(self) -> str:
         """Return the statement."""

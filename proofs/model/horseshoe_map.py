@@ -13,7 +13,7 @@ from proofs.facts import Parameters, Range
 from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
 from proofs.model.equations import Clock, Launch, gap, launch, slope
-from proofs.model.kernel import Launches, enclose_times
+from proofs.model.kernel import Launches, enclose_times, float_clock, float_launch
 from proofs.model.phase import turn
 from proofs.model.slope_cover import SlopeCover
 from proofs.model.system import System
@@ -64,11 +64,9 @@ class ImpactMap:
     def _flights(self, x: Floats) -> tuple[Floats, Floats]:
         """Return about the time of flight after x and f', by Newton's method from the covers."""
         t = self._look_up(x)[1]
-        eta, nu = float(self.of.eta), float(self.of.nu)
-        start = Launch(self.system.side, eta, nu * np.sin(x), nu * np.cos(x))
+        start = float_launch(self.system, x)
         for _ in range(_STEPS):
-            mass = eta * t
-            now = Clock(np.sin(mass), np.cos(mass), np.sin(t), np.cos(t))
+            now = float_clock(self.system, t)
             t = t - gap(start, now) / gap(start, now, 1)
         return t, np.asarray(slope(start, now))
 

@@ -201,21 +201,31 @@ def _signs(launches: Launches, low: Floats, high: Floats) -> Mask:
     return np.stack((heights[0].certainly_positive(), heights[1].certainly_negative()))
 
 
+def float_launch(system: System, phases: Floats) -> Launch:
+    """Return launches in floating point: for candidates, never evidence."""
+    nu = float(system.nu)
+    return Launch(system.side, float(system.eta), nu * np.sin(phases), nu * np.cos(phases))
+
+
+def float_clock(system: System, times: Floats) -> Clock:
+    """Return the functions of time in floating point, likewise."""
+    mass = float(system.eta) * times
+    return Clock(np.sin(mass), np.cos(mass), np.sin(times), np.cos(times))
+
+
 def find_times(system: System, phases: Floats) -> Floats:
     """Return about the time of the first impact after each of increasing phases: a candidate.
 
     Newton's method from the chord between the outermost two; Undecided if these have none.
     """
-    eta, nu = float(system.eta), float(system.nu)
     outer = [next_impact(system, float(phase), float(HORIZON)) for phase in phases[[0, -1]]]
     if outer[0] is None or outer[1] is None:
         raise Undecided("in floating point an end of the phases sticks, or never impacts")
-    start = Launch(system.side, eta, nu * np.sin(phases), nu * np.cos(phases))
+    start = float_launch(system, phases)
     share = (phases - phases[0]) / max(float(phases[-1] - phases[0]), 1e-300)
     times = np.asarray(outer[0][0] + share * (outer[1][0] - outer[0][0]))
     for _ in range(_ATTEMPTS):
-        mass, table = eta * times, times
-        now = Clock(np.sin(mass), np.cos(mass), np.sin(table), np.cos(table))
+        now = float_clock(system, times)
         with np.errstate(all="ignore"):
             step = gap(start, now) / gap(start, now, 1)
         times = np.clip(times - np.nan_to_num(step), 0.0, float(HORIZON))
