@@ -7,6 +7,7 @@ what it means: `proofs.check` does.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 import re
@@ -18,7 +19,7 @@ from typing import Any
 
 from proofs.facts import Parameters, Range
 
-SCHEMA = "impact-proofs.certificate/1"
+SCHEMA = "impact-proofs.certificate/2"
 MANIFEST = "impact-proofs.manifest/1"
 LEMMA = "impact-proofs.lemma/1"
 MAX_BYTES = 4_000_000
@@ -246,13 +247,15 @@ def parameters_to_json(of: Parameters) -> dict[str, Any]:
         "slopes": texts(of.slopes),
         "ratios": None if of.ratios is None else texts(of.ratios),
         "printed_s0": of.printed_s0,
+        "epsilon": None if of.epsilon is None else text(of.epsilon),
+        "velocities": None if of.velocities is None else texts(of.velocities),
     }
 
 
 def parameters_from_json(reader: Reader) -> Parameters:
     """Read and validate one statement's numbers."""
-    eta, nu, left, right, interval, slopes, ratios, printed = reader.fields(
-        "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0"
+    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, velocities = reader.fields(
+        *(field.name for field in dataclasses.fields(Parameters))
     )
     try:
         parameters = Parameters(
@@ -264,6 +267,8 @@ def parameters_from_json(reader: Reader) -> Parameters:
             slopes.range(),
             None if ratios.is_null() else ratios.range(),
             None if printed.is_null() else printed._matching(_DECIMAL),
+            None if epsilon.is_null() else epsilon.number(),
+            None if velocities.is_null() else velocities.range(),
         )
     except Malformed:
         raise

@@ -88,12 +88,18 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
             print("\r\x1b[K", end="", file=sys.stderr)
 
 
-_COLOURS = {Verdict.VERIFIED: "32", Verdict.REFUTED: "31", Verdict.UNDECIDED: "33"}
+_COLOURS = {
+    Verdict.VERIFIED: "32",
+    Verdict.REFUTED: "31",
+    Verdict.CONDITIONAL: "36",
+    Verdict.UNDECIDED: "33",
+    Verdict.SIMULATED: "35",
+}
 
 
 def coloured(verdict: Verdict) -> str:
     """Return the verdict padded, in colour on a terminal (and not where NO_COLOR is set)."""
-    word = f"{verdict.value:9}"
+    word = f"{verdict.value:11}"
     if sys.stdout.isatty() and "NO_COLOR" not in os.environ:
         return f"\x1b[{_COLOURS[verdict]}m{word}\x1b[0m"
     return word

@@ -45,7 +45,9 @@ class Parameters:
     """One statement's numbers, exact: the oscillator, I0 = left, I1 = right, I, slope bounds.
 
     `ratios` are eta0, eta1 of section 3.2 as printed, without them they are 1 / slopes;
-    `printed_s0` the digits printed for s_0, if any.
+    `printed_s0` the digits printed for s_0, if any. For section 3.3: the coefficient of
+    restitution and the range of the velocity gamma, both sets of phases times it being the
+    rectangles ABCD and EFGH.
     """
 
     eta: Fraction
@@ -56,6 +58,8 @@ class Parameters:
     slopes: Range
     ratios: Range | None = None
     printed_s0: str | None = None
+    epsilon: Fraction | None = None
+    velocities: Range | None = None
 
     def __post_init__(self) -> None:
         """Raise ValueError, one line, where the numbers do not describe a horseshoe."""
@@ -77,6 +81,10 @@ class Parameters:
             low, high = getattr(self, name) or (1, 1)
             if not 0 < low <= high:
                 raise ValueError(f"{name} must be positive and in increasing order")
+        if self.epsilon is not None and not 0 <= self.epsilon < 1:
+            raise ValueError(f"epsilon must be in [0, 1), not {show(self.epsilon)}")
+        if self.velocities is not None and self.velocities[0] >= self.velocities[1]:
+            raise ValueError(f"velocities reversed or empty: {show_range(self.velocities)}")
 
     @property
     def gap(self) -> Range:
@@ -103,6 +111,8 @@ PAPER = Parameters(
     slopes=(Fraction("4.2"), Fraction("5.25")),
     ratios=(Fraction("0.1905"), Fraction("0.2381")),
     printed_s0="0.449",
+    epsilon=Fraction("0.01"),
+    velocities=(Fraction("-0.45"), Fraction(0)),
 )
 
 

@@ -14,19 +14,14 @@ from itertools import islice
 from time import perf_counter
 from typing import Any, TypeVar
 
-from intervals import DomainError, Undecided, decimal_bounds
-from proofs.certificate import (
-    SCHEMA,
-    Reader,
-    parameters_to_json,
-    texts,
-    used_steps,
-)
+from intervals import DomainError, Undecided
+from proofs.certificate import parameters_to_json, texts
 from proofs.facts import Facts, Parameters, PointFact, Range, SlopeRange
 from proofs.model.candidate import next_impact
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.repair import grid, nearest_sets, places, rounded_slopes, short_decimal
+from proofs.runner import Row, certificate, printed
 from proofs.statements import (
     HORSESHOE,
     STATEMENTS,
@@ -47,17 +42,6 @@ _STAGES = {
 }
 _NEEDS_SLOPES = {"H1", "H2", "H3", "H5", "H6"}
 _NEEDS_GAP = {"H4", "H5"}
-
-
-@dataclass(frozen=True)
-class Row:
-    """One decided claim, with the numbers and the time that it took."""
-
-    id: str
-    verdict: Verdict
-    why: str
-    quantities: dict[str, Range]
-    seconds: float
 
 
 @dataclass
@@ -144,10 +128,11 @@ class _Run:
         if verdict is Verdict.UNDECIDED:
             parts = ["slopes"] * (claim in _NEEDS_SLOPES) + ["gap"] * (claim in _NEEDS_GAP)
             why = "; ".join([why] + [self.failures[x] for x in parts if x in self.failures])
-        row = Row(claim, verdict, why, quantities(claim, facts), perf_counter() - began)
+        says, seconds = STATEMENTS[claim].says(self.of), perf_counter() - began
+        row = Row(claim, verdict, says, why, quantities(claim, facts), seconds)
         return row, {
             "id": claim,
-            "statement": STATEMENTS[claim].says(self.of),
+            "statement": row.statement,
             "verdict": verdict.value,
             "proof": proof,
             "witness": witness if verdict is Verdict.REFUTED else None,
@@ -215,6 +200,8 @@ class _Run:
                 slopes=rounded_slopes(bounds, max(2, places(self.of.slopes))),
                 ratios=None,
                 printed_s0=None,
+                epsilon=None,
+                velocities=None,
             )
             if found.slopes[0] > 1 and all(
                 decide(claim, found, facts)[0] is Verdict.VERIFIED for claim in HORSESHOE
@@ -225,13 +212,6 @@ class _Run:
                     "proof": slopes + gaps,
                 }
         return None
-
-
-def printed(bounds: Range, digits: int) -> dict[str, str]:
-    """Write an enclosure outward, with a fraction of its width to spare for another arithmetic."""
-    spare = (bounds[1] - bounds[0]) / 8
-    lower, upper = decimal_bounds(bounds[0] - spare, bounds[1] + spare, digits)
-    return {"lower": lower, "upper": upper}
 
 
 def missed_interval(of: Parameters, facts: Facts) -> Range | None:
@@ -277,19 +257,8 @@ def prove(
     for entry in refuted:
         entry["corrected"] = correction and correction[1]["theorem"]
     entries = [entry for _, entry in decided]
-    named = {name for entry in entries for name in entry["proof"]}
-    if correction is not None:
-        named.update(correction[1]["proof"])
-    steps = run.prover.steps
-    needed = used_steps(Reader(steps), named)
-    certificate = {
-        "schema": SCHEMA,
-        "parameters": parameters_to_json(of),
-        "steps": {name: step for name, step in steps.items() if name in needed},
-        "claims": entries,
-        "corrected": correction and correction[1],
-    }
-    return Outcome(of, [row for row, _ in decided], correction and correction[0], certificate)
+    proved = certificate(of, run.prover.steps, entries, correction and correction[1])
+    return Outcome(of, [row for row, _ in decided], correction and correction[0], proved)
 
 
 def is_repairable(row: Row) -> bool:

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from proofs.facts import PAPER, Parameters, show, show_range
+from proofs.runner import Row
 from proofs.statements import Verdict
+
+_TITLES = {
+    "nonplastic": "Section 3.3: impacts with restitution, and their horseshoe",
+    "sets": "Sections 3.1 and 3.2: the invariant set, and the steps of Claim 1",
+    "dimension": "Section 3.2: the Hausdorff dimension of the invariant set",
+    "chaos": "Section 3.4: more chaos than the paper saw",
+    "circle": "Section 3.4: the global picture",
+    "persistence": "Section 3.4: what restitution changes",
+}
 
 _NAMES = {
     "slope_min_I0": "min f' on I0",
@@ -22,38 +33,82 @@ _NAMES = {
 
 
 def markdown(
-    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any], whys: dict[str, str]
+    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any], rows: Sequence[Row]
 ) -> str:
     """Return the report on one run: verdicts, the corrected theorem, the numbers, how to check."""
     at = f"(eta, nu) = ({show(of.eta)}, {show(of.nu)})"
     whose = "the paper's parameters" if of == PAPER else "parameters of your own"
     sections = [
-        "# The plastic horseshoe, claim by claim",
+        "# The horseshoe, claim by claim",
         f"At {at}, {whose}: I = {show_range(of.interval)}, I0 = {show_range(of.left)}, "
         f"I1 = {show_range(of.right)}, slopes between {show(of.slopes[0])} and "
         f"{show(of.slopes[1])}.",
         "The paper's f follows a mass that sticks to the table until it separates, then to its "
         "next impact. Verdicts are proved by interval arithmetic and re-derived by the checker.",
         "## Verdicts",
-        _verdicts(certificate, whys),
+        _verdicts(rows),
         *_correction(of, corrected, certificate),
-        "## Numbers",
-        "Each true value lies between the bounds; they are rounded outward.",
-        _numbers(certificate),
-        "## Check it yourself",
-        "The certificate `horseshoe.json` beside this page holds the witnesses in exact numbers. "
-        "From the repository's root, with nothing but Python:",
-        "    python -S -m proofs.check reports/horseshoe.json",
+        *_theorems(certificate),
+        *_ending(certificate, "horseshoe"),
     ]
     return "\n\n".join(sections) + "\n"
 
 
-def _verdicts(certificate: dict[str, Any], whys: dict[str, str]) -> str:
-    rows = ["| claim | verdict | statement | because |", "|---|---|---|---|"]
+def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Row]) -> str:
+    """Return the report on a group of claims: verdicts, theorems, the numbers, how to check."""
+    whose = "the paper's parameters" if of == PAPER else "parameters of your own"
+    sections = [
+        f"# {_TITLES[group]}",
+        f"At {whose}. Verdicts are proved by interval arithmetic and re-derived by the checker.",
+        "## Verdicts",
+        _verdicts(rows),
+        *_theorems(certificate),
+        *_ending(certificate, group),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def _verdicts(rows: Sequence[Row]) -> str:
+    lines = ["| claim | verdict | statement | because |", "|---|---|---|---|"]
+    for row in rows:
+        cells = (row.id, row.verdict.value, row.statement, row.why)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines)
+
+
+def _theorems(certificate: dict[str, Any]) -> list[str]:
+    """Return for each claim with a witness or a theorem of its own a section with these."""
+    sections = []
+    theorem = certificate["corrected"] and certificate["corrected"]["theorem"]
     for claim in certificate["claims"]:
-        cells = (claim["id"], claim["verdict"], claim["statement"], whys[claim["id"]])
-        rows.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(rows)
+        witness, corrected = claim["witness"], claim["corrected"]
+        if not isinstance(witness, str) and corrected in (None, theorem):
+            continue
+        sections.append(f"## {claim['id']}")
+        if isinstance(witness, str):
+            sections.append(f"Witness: {witness}")
+        if corrected is not None:
+            sections.append(f"Theorem (VERIFIED). {corrected}")
+    return sections
+
+
+def _ending(certificate: dict[str, Any], name: str) -> list[str]:
+    numbers = _numbers(certificate)
+    return [
+        *(
+            [
+                "## Numbers",
+                "Each true value lies between the bounds; they are rounded outward.",
+                numbers,
+            ]
+            if numbers
+            else []
+        ),
+        "## Check it yourself",
+        f"The certificate `{name}.json` beside this page holds the witnesses in exact numbers. "
+        "From the repository's root, with nothing but Python:",
+        f"    python -S -m proofs.check reports/{name}.json",
+    ]
 
 
 def _correction(
@@ -80,11 +135,10 @@ def _correction(
 
 
 def _numbers(certificate: dict[str, Any]) -> str:
-    rows = ["| quantity | at least | at most |", "|---|---|---|"]
-    seen: set[str] = set()
+    rows: dict[str, str] = {}
     for claim in certificate["claims"]:
         for name, bounds in claim["quantities"].items():
-            if name not in seen:
-                rows.append(f"| {_NAMES[name]} | {bounds['lower']} | {bounds['upper']} |")
-                seen.add(name)
-    return "\n".join(rows)
+            shown = _NAMES.get(name, name.replace("_", " "))
+            rows.setdefault(name, f"| {shown} | {bounds['lower']} | {bounds['upper']} |")
+    head = ["| quantity | at least | at most |", "|---|---|---|"]
+    return "\n".join([*head, *rows.values()]) if rows else ""

@@ -25,11 +25,17 @@ from proofs.facts import (
 
 
 class Verdict(Enum):
-    """The outcome of a claim: proved, proved false, or neither."""
+    """The outcome of a claim.
+
+    Proved as printed; proved false; proved under conditions that the paper leaves out; neither;
+    or no mathematics but an observation, reproduced by simulation.
+    """
 
     VERIFIED = "VERIFIED"
     REFUTED = "REFUTED"
+    CONDITIONAL = "CONDITIONAL"
     UNDECIDED = "UNDECIDED"
+    SIMULATED = "SIMULATED"
 
 
 Outcome = tuple[Verdict, str]
@@ -247,6 +253,25 @@ def _base(ratio: Fraction) -> str:
     return f"({written})" if "/" in written else written
 
 
+def fill(text: str, of: Parameters) -> str:
+    """Put the numbers of `of` into the text of a statement."""
+    return text.format(
+        eta=show(of.eta),
+        nu=show(of.nu),
+        i=show_range(of.interval),
+        i0=show_range(of.left),
+        i1=show_range(of.right),
+        gap=f"({show(of.gap[0])}, {show(of.gap[1])})",
+        lo=show(of.slopes[0]),
+        hi=show(of.slopes[1]),
+        r0=_base(of.moran_ratios[0]),
+        r1=_base(of.moran_ratios[1]),
+        s0=f", s_0 = {of.printed_s0} to the places printed" if of.printed_s0 else "",
+        epsilon="no epsilon" if of.epsilon is None else show(of.epsilon),
+        gamma="no velocities" if of.velocities is None else show_range(of.velocities),
+    )
+
+
 @dataclass(frozen=True)
 class Statement:
     """A claim: its id in the catalogue, its text, the rule that decides it from facts."""
@@ -257,19 +282,7 @@ class Statement:
 
     def says(self, of: Parameters) -> str:
         """Return the claim in words at the given numbers."""
-        return self.text.format(
-            eta=show(of.eta),
-            nu=show(of.nu),
-            i=show_range(of.interval),
-            i0=show_range(of.left),
-            i1=show_range(of.right),
-            gap=f"({show(of.gap[0])}, {show(of.gap[1])})",
-            lo=show(of.slopes[0]),
-            hi=show(of.slopes[1]),
-            r0=_base(of.moran_ratios[0]),
-            r1=_base(of.moran_ratios[1]),
-            s0=f", s_0 = {of.printed_s0} to the places printed" if of.printed_s0 else "",
-        )
+        return fill(self.text, of)
 
 
 _AT = "At (eta, nu) = ({eta}, {nu}): "

@@ -5,11 +5,13 @@ from __future__ import annotations
 import argparse
 import inspect
 import sys
+from importlib import import_module
 from pathlib import Path
 
 from proofs.certificate import LEMMA, MANIFEST, Malformed, digest, read, schema_of
 from proofs.check.manifest import check_manifest
 from proofs.check.verify import Rejected, Report, check
+from proofs.claims import GROUPS
 from proofs.statements import Verdict
 
 EPILOG = """\
@@ -72,7 +74,9 @@ def print_rules() -> None:
     """Print what each rule takes, what it checks and what it concludes."""
     from proofs.check import lemma, rules
 
-    for title, known in (("the impact map", rules.RULES), ("maps by formulas", lemma.RULES)):
+    groups = {f"group {group}": import_module(f"proofs.check.{group}").RULES for group in GROUPS}
+    titles = {"the impact map": rules.RULES, **groups, "maps by formulas": lemma.RULES}
+    for title, known in titles.items():
         print(f"Rules about {title}\n")
         for rule in known.values():
             print(inspect.cleandoc(rule.__doc__ or ""), end="\n\n")
@@ -93,7 +97,9 @@ def print_report(name: str, report: Report, digest_of: str) -> None:
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
     print(f"{name}: accepted, {whose}, {digest_of}")
     for claim in report.claims:
-        print(f"  {claim.id:4} {claim.verdict.value:9} {claim.statement} [{claim.why}]")
+        print(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
+        if claim.corrected is not None:
+            print(f"       corrected, VERIFIED: {claim.corrected}")
     if report.theorem is not None:
         print(f"  corrected theorem, VERIFIED: {report.theorem}")
 

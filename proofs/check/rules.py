@@ -96,8 +96,8 @@ class MoranRoot:
     root: Range
 
 
-Conclusion = FirstImpact | SlopeRange | Avoids | PointFact | MoranRoot
-Known = dict[str, Conclusion]
+Known = dict[str, object]  # the conclusions of the steps so far, by name
+Rule = Callable[[Parameters, Known, Reader], object]
 
 
 def _phases(reader: Reader) -> Range:
@@ -313,7 +313,7 @@ def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
     return MoranRoot((ratios[0], ratios[1]), root)
 
 
-RULES: dict[str, Callable[[Parameters, Known, Reader], Conclusion]] = {
+RULES: dict[str, Rule] = {
     "first-impact": first_impact,
     "point": point,
     "slope-range": slope_range,

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 
+from proofs import claims as catalogue
 from proofs.certificate import SCHEMA, Reader, parameters_from_json, parse, used_steps
+from proofs.check import rules
 from proofs.check.arithmetic import Unproved
-from proofs.check.rules import (
-    RULES,
-    Avoids,
-    Conclusion,
-    Known,
-    MoranRoot,
-)
-from proofs.facts import PAPER, Facts, Parameters, PointFact, SlopeRange
+from proofs.check.rules import Avoids, Known, MoranRoot, Rule
+from proofs.facts import PAPER, Facts, Parameters, PointFact, Range, SlopeRange
 from proofs.statements import HORSESHOE, STATEMENTS, Verdict, decide, quantities, theorem
 
 
@@ -30,6 +27,7 @@ class Checked:
     verdict: Verdict
     statement: str
     why: str
+    corrected: str | None = None
 
 
 @dataclass(frozen=True)
@@ -78,12 +76,13 @@ def check(source: str) -> Report:
 
 def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
     known: Known = {}
+    names = {step.fields("rule", "witness")[0].string() for _, step in steps_of.members()}
     for name, step in steps_of.members():
         rule_of, witness = step.fields("rule", "witness")
-        rule = RULES.get(rule_of.string())
+        rule = find_rule(rule_of.string())
         if rule is None:
             raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
-        if name in RULES:
+        if name in names or name in rules.RULES:
             raise step.fail("a step is not named like a rule")
         try:
             known[name] = rule(of, known, witness)
@@ -92,7 +91,17 @@ def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
     return known
 
 
-def _facts(of: Parameters, conclusions: Iterable[Conclusion]) -> Facts:
+def find_rule(name: str) -> Rule | None:
+    """Return a rule by its name; modules are imported until one has it."""
+    found = rules.RULES.get(name)
+    for group in catalogue.GROUPS:
+        if found is not None:
+            break
+        found = import_module(f"proofs.check.{group}").RULES.get(name)
+    return found
+
+
+def _facts(of: Parameters, conclusions: Iterable[object]) -> Facts:
     """Collect what the steps prove about one set of parameters, points aside."""
     facts = Facts()
     for step in conclusions:
@@ -112,6 +121,9 @@ def _check_claim(
         "id", "statement", "verdict", "proof", "witness", "corrected", "quantities"
     )
     claim = id_of.string()
+    other = None if claim in STATEMENTS else catalogue.find(claim)
+    if other is not None:
+        return _check_decision(of, known, entry, used, other)
     if claim not in STATEMENTS:
         raise id_of.fail(f"unknown claim {claim[:20]!r}")
     if statement.string() != STATEMENTS[claim].says(of):
@@ -131,8 +143,28 @@ def _check_claim(
     correction = theorem_text if verdict is Verdict.REFUTED else None
     if not corrected.is_null() and corrected.string() != correction:
         raise Rejected(f"{corrected.path}: not a proved correction of a refuted claim")
-    _check_quantities(claim, facts, bounds)
+    _check_quantities(claim, quantities(claim, facts), bounds)
     return Checked(claim, verdict, STATEMENTS[claim].says(of), why)
+
+
+def _check_decision(
+    of: Parameters, known: Known, entry: Reader, used: set[str], claim: catalogue.Claim
+) -> Checked:
+    """Check an entry whose every text must be what the conclusions of its steps decide."""
+    _, statement, verdict, proof, witness, corrected, bounds = entry.fields(
+        "id", "statement", "verdict", "proof", "witness", "corrected", "quantities"
+    )
+    decided = claim.decide(of, _named(known, proof, used))
+    for given, own in (
+        (statement, claim.says(of)),
+        (verdict, decided.verdict.value),
+        (witness, decided.witness),
+        (corrected, decided.corrected),
+    ):
+        if (None if given.is_null() else given.string()) != own:
+            raise Rejected(f"{given.path}: the proof of {claim.id} gives {str(own)[:100]!r}")
+    _check_quantities(claim.id, decided.quantities, bounds)
+    return Checked(claim.id, decided.verdict, claim.says(of), decided.why, decided.corrected)
 
 
 def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) -> None:
@@ -150,9 +182,9 @@ def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) ->
     facts.points.append(step)
 
 
-def _named(known: Known, names: Reader, used: set[str]) -> list[Conclusion]:
+def _named(known: Known, names: Reader, used: set[str]) -> list[object]:
     """Return the named conclusions and mark them, and the first impacts, as used."""
-    result: dict[str, Conclusion] = {}
+    result: dict[str, object] = {}
     for name in names.items():
         if name.string() not in known:
             raise name.fail(f"names no step: {name.string()[:40]!r}")
@@ -163,9 +195,8 @@ def _named(known: Known, names: Reader, used: set[str]) -> list[Conclusion]:
     return list(result.values())
 
 
-def _check_quantities(claim: str, facts: Facts, bounds: Reader) -> None:
+def _check_quantities(claim: str, own: Mapping[str, Range], bounds: Reader) -> None:
     """Reject a printed bound that the checker's own enclosure does not imply."""
-    own = quantities(claim, facts)
     for name, value in bounds.members():
         if name not in own:
             raise Rejected(f"{value.path}: {claim} proves no quantity of this name")
@@ -182,6 +213,8 @@ def _check_corrected(paper: Parameters, known: Known, corrected: Reader, used: s
         raise Rejected(f"{parameters_of.path}: a correction is about the same eta and nu")
     if of.ratios is not None or of.printed_s0 is not None:
         raise Rejected(f"{parameters_of.path}: a correction proves nothing about s_0")
+    if of.epsilon is not None or of.velocities is not None:
+        raise Rejected(f"{parameters_of.path}: a correction is about plastic impacts")
     facts = _facts(of, _named(known, proof, used))
     if of.slopes[0] <= 1:
         raise Rejected(f"{parameters_of.path}: the corrected slopes do not expand")

@@ -1,0 +1,69 @@
+"""The claims beyond H1-H6, H11 and H16: what they say, and what decides them. Trusted, and shared.
+
+Each module states the claims of a group: the conclusions that proof steps may reach, as frozen
+dataclasses, and for each claim a function from conclusions to a `Decision`. Prover and checker
+reach the conclusions by arithmetic of their own and decide by the same function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from types import MappingProxyType
+
+from proofs.facts import Parameters, Range
+from proofs.statements import Verdict, fill
+
+GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "nonplastic": ("N1", "N2", "N3"),
+        "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
+        "dimension": ("H13",),
+        "chaos": ("G5", "G9"),
+        "circle": ("M6", "G1", "G2", "G3", "G4", "G6"),
+        "persistence": ("G7", "G8"),
+    }
+)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What conclusions prove about a claim.
+
+    why: a line with the numbers. witness: what refutes it, or the conditions it needs, exact.
+    corrected: the strongest true statement nearby, complete. quantities: enclosures by name.
+    """
+
+    verdict: Verdict
+    why: str
+    witness: str | None = None
+    corrected: str | None = None
+    quantities: Mapping[str, Range] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim: its id in the catalogue, its text, the rule that decides it from conclusions."""
+
+    id: str
+    text: str
+    decide: Callable[[Parameters, Sequence[object]], Decision]
+
+    def says(self, of: Parameters) -> str:
+        """Return the claim in words at the given numbers."""
+        return fill(self.text, of)
+
+
+def group_of(claim: str) -> str | None:
+    """Return the group that a claim belongs to, None for an unknown id."""
+    return next((group for group, claims in GROUPS.items() if claim in claims), None)
+
+
+def find(claim: str) -> Claim | None:
+    """Return a claim by its id; only its own group's module is imported."""
+    group = group_of(claim)
+    if group is None:
+        return None
+    claims: tuple[Claim, ...] = import_module(f"{__name__}.{group}").CLAIMS
+    return next(one for one in claims if one.id == claim)

@@ -1,0 +1,298 @@
+"""What every command that proves claims shares: evidence in, a certificate, a page and a check out.
+
+A group of claims has a prover `proofs.<group>` with `CLAIMS` and `prove`; `run` is its command.
+"""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from argparse import Namespace
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from importlib import import_module
+from os import getpid
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from intervals import decimal_bounds
+from proofs import claims as catalogue
+from proofs import manifest
+from proofs.certificate import (
+    SCHEMA,
+    Malformed,
+    Reader,
+    parameters_to_json,
+    read,
+    render,
+    used_steps,
+    write_atomically,
+)
+from proofs.check.verify import Rejected, check
+from proofs.cli import Parser, coloured, digits, number, progress
+from proofs.facts import PAPER, Parameters, Range, show
+from proofs.statements import Verdict
+
+Tell = Callable[[str], None]
+
+
+@dataclass
+class Evidence:
+    """What a prover found: its steps in order, and for each claim the steps that it rests on.
+
+    Each of these comes with the conclusion that the prover's own arithmetic reached.
+    """
+
+    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+    proofs: dict[str, list[tuple[str, object]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One decided claim, with the numbers and the time that it took."""
+
+    id: str
+    verdict: Verdict
+    statement: str
+    why: str
+    quantities: Mapping[str, Range]
+    seconds: float
+    corrected: str | None = None
+
+
+def printed(bounds: Range, digits: int) -> dict[str, str]:
+    """Write an enclosure outward, with a fraction of its width to spare for another arithmetic."""
+    spare = (bounds[1] - bounds[0]) / 8
+    lower, upper = decimal_bounds(bounds[0] - spare, bounds[1] + spare, digits)
+    return {"lower": lower, "upper": upper}
+
+
+def decide(
+    claim: str, of: Parameters, proof: Sequence[tuple[str, object]], digits: int
+) -> tuple[Row, dict[str, Any]]:
+    """Decide a claim of a group by what was proved; return its row and its certificate entry."""
+    stated = catalogue.find(claim)
+    if stated is None:
+        raise ValueError(f"no group has the claim {claim}")
+    found = stated.decide(of, [conclusion for _, conclusion in proof])
+    row = Row(
+        claim, found.verdict, stated.says(of), found.why, found.quantities, 0.0, found.corrected
+    )
+    return row, {
+        "id": claim,
+        "statement": row.statement,
+        "verdict": found.verdict.value,
+        "proof": [name for name, _ in proof],
+        "witness": found.witness,
+        "corrected": found.corrected,
+        "quantities": {name: printed(each, digits) for name, each in found.quantities.items()},
+    }
+
+
+def certificate(
+    of: Parameters,
+    steps: Mapping[str, dict[str, Any]],
+    entries: Sequence[dict[str, Any]],
+    corrected: dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Assemble a certificate; steps that nothing uses are left out."""
+    named = {name for entry in entries for name in entry["proof"]}
+    if corrected is not None:
+        named.update(corrected["proof"])
+    needed = used_steps(Reader(dict(steps)), named)
+    return {
+        "schema": SCHEMA,
+        "parameters": parameters_to_json(of),
+        "steps": {name: step for name, step in steps.items() if name in needed},
+        "claims": list(entries),
+        "corrected": corrected,
+    }
+
+
+def settle(
+    group: str, of: Parameters, claims: Iterable[str] | None = None, *, digits: int, tell: Tell
+) -> tuple[list[Row], dict[str, Any]]:
+    """Prove and decide claims of a group; return rows for people and the certificate."""
+    asked = set(catalogue.GROUPS[group] if claims is None else claims)
+    wanted = [claim for claim in catalogue.GROUPS[group] if claim in asked]
+    began = perf_counter()
+    evidence: Evidence = import_module(f"proofs.{group}").prove(
+        of, wanted, digits=digits, tell=tell
+    )
+    decided = [decide(claim, of, evidence.proofs.get(claim, []), digits) for claim in wanted]
+    spent = (perf_counter() - began) / max(1, len(wanted))
+    rows = [replace(row, seconds=spent) for row, _ in decided]
+    return rows, certificate(of, evidence.steps, [entry for _, entry in decided])
+
+
+# -- the command line ------------------------------------------------------------------------------
+
+EPILOG = """\
+Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json
+(the certificate, which is also the machine form) and DIR/{group}.md; DIR/MANIFEST.json says which
+file settles which claim, its digest, and how it was made.
+
+exit status: 0 every claim asked for is decided, 1 something is undecided,
+             2 bad input (nothing is written), 3 the checker disagrees (a bug)
+
+examples:
+  python -m proofs.{group}
+  python -m proofs.{group} --only {first} --digits 40
+  python -m proofs.{group} --json - > {group}.json
+"""
+
+
+def run(group: str, arguments: list[str] | None = None, description: str | None = None) -> int:
+    """Run the command of a group; return the exit status."""
+    claims = catalogue.GROUPS[group]
+    parser = Parser(f"proofs.{group}", description, EPILOG.format(group=group, first=claims[0]))
+    add_parameters(parser)
+    add_outputs(parser, claims)
+    options = parser.parse_args(arguments)
+    of = prepared(parser, options)
+    began = perf_counter()
+    with progress() as tell:
+        rows, found = settle(group, of, options.only, digits=options.digits, tell=tell)
+    seconds = perf_counter() - began
+    from proofs.report import page
+
+    try:
+        content = write(options.out, group, found, command(f"proofs.{group}", arguments))
+        write_atomically(options.out / f"{group}.md", page(group, of, found, rows))
+    except OSError as error:
+        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    return finish(rows, seconds, content, options, f"{group}.json")
+
+
+def add_parameters(parser: Parser) -> None:
+    """Add the options for the numbers of a statement, the paper's by default."""
+    add = parser.add_argument
+    add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
+    add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
+    for name, default in (("left", PAPER.left), ("right", PAPER.right), ("slopes", PAPER.slopes)):
+        help_text = f"default {show(default[0])} {show(default[1])}"
+        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
+    interval = "I (default: from the left end of I0 to the right end of I1)"
+    add("--interval", type=number, nargs=2, metavar=("A", "B"), help=interval)
+    add("--epsilon", type=number, default=PAPER.epsilon, help="of restitution (default 0.01)")
+    gamma = "range of velocities gamma (default -0.45 0)"
+    add(
+        "--velocities",
+        type=number,
+        nargs=2,
+        default=PAPER.velocities,
+        metavar=("A", "B"),
+        help=gamma,
+    )
+
+
+def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
+    """Add the options for what is asked and where results go."""
+    add = parser.add_argument
+    add("--only", nargs="+", choices=claims, metavar="ID", help=f"claims, of {' '.join(claims)}")
+    add("--digits", type=digits, default=30, help="significant digits of the numbers (default 30)")
+    add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
+    add("--json", choices=["-"], help="print the machine form on standard output")
+    add("--no-check", action="store_true", help="do not run the checker on what was written")
+
+
+def prepared(parser: Parser, options: Namespace) -> Parameters:
+    """Return the statement's numbers, the output folder tried; leave with one line if bad."""
+    try:
+        of = parameters(options)
+        _writable(options.out)
+    except ValueError as error:
+        parser.error(str(error))
+    except OSError as error:
+        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    return of
+
+
+def parameters(options: Namespace) -> Parameters:
+    """Return the statement's numbers; those printed for s_0 go with the printed slopes only."""
+    left, right, slopes = tuple(options.left), tuple(options.right), tuple(options.slopes)
+    of = replace(
+        PAPER,
+        eta=options.eta,
+        nu=options.nu,
+        left=left,
+        right=right,
+        interval=tuple(options.interval) if options.interval else (left[0], right[1]),
+        slopes=slopes,
+        epsilon=options.epsilon,
+        velocities=tuple(options.velocities),
+    )
+    return of if slopes == PAPER.slopes else replace(of, ratios=None, printed_s0=None)
+
+
+def _writable(folder: Path) -> None:
+    """Raise OSError if nothing can be written to the folder, before any work is done."""
+    folder.mkdir(parents=True, exist_ok=True)
+    trial = folder / f".trial.{getpid()}"
+    trial.touch(exist_ok=False)
+    trial.unlink()
+
+
+def command(module: str, arguments: list[str] | None) -> str:
+    """Return the command that is running, as the manifest records it."""
+    return shlex.join(["python", "-m", module, *(sys.argv[1:] if arguments is None else arguments)])
+
+
+def write(folder: Path, name: str, found: dict[str, Any], made: str) -> str:
+    """Write a certificate and enter it in the manifest; return its text."""
+    content = render(found)
+    write_atomically(folder / f"{name}.json", content)
+    manifest.record(folder, f"{name}.json", content, made)
+    return content
+
+
+def finish(
+    rows: Sequence[Row],
+    seconds: float,
+    content: str,
+    options: Namespace,
+    name: str,
+    *,
+    theorem: str | None = None,
+) -> int:
+    """Print what was decided, have it checked, and return the exit status."""
+    if options.json:
+        print(content, end="")
+    else:
+        print_rows(rows, seconds, theorem)
+    if not options.no_check and not _checked(options.out / name, quiet=bool(options.json)):
+        return 3
+    return int(any(row.verdict is Verdict.UNDECIDED for row in rows))
+
+
+def print_rows(rows: Sequence[Row], seconds: float, theorem: str | None = None) -> None:
+    """Print a paragraph a claim, the corrected theorem and a summary line."""
+    for row in rows:
+        print(f"{row.id:4} {coloured(row.verdict)} {row.statement}")
+        print(f"     {row.why}  ({row.seconds * 1000:.1f} ms)")
+        for name, bounds in row.quantities.items():
+            lower, upper = printed(bounds, 17).values()
+            print(f"     {name} in [{lower}, {upper}]")
+    for text in dict.fromkeys((theorem, *(row.corrected for row in rows))):
+        if text is not None:
+            print(f"\nCorrected theorem, VERIFIED: {text}")
+    counts = Counter(row.verdict.value for row in rows)
+    summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
+
+
+def _checked(path: Path, quiet: bool) -> bool:
+    """Run the independent checker on what was written; say loudly if it disagrees."""
+    began = perf_counter()
+    try:
+        report = check(read(path))
+    except (Malformed, Rejected) as error:
+        print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
+        return False
+    if not quiet:
+        spent = (perf_counter() - began) * 1000
+        count = f"{len(report.claims)} claim{'s' if len(report.claims) > 1 else ''}"
+        print(f"checker: accepted {path}, {count}, in {spent:.0f} ms")
+    return True
