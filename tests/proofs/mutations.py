@@ -558,7 +558,7 @@ def texts(document: Document) -> Iterator[tuple[str, str, str]]:
     for share in range(1, 40):
         yield "truncated", f"{share}/40", whole[: len(whole) * share // 40]
     for old, new in (
-        (f'"{SCHEMA}"', '"impact-proofs.certificate/2"'),
+        (f'"{SCHEMA}"', '"impact-proofs.certificate/1"'),
         (f'"{SCHEMA}"', '""'),
         ('"schema"', '"Schema"'),
     ):

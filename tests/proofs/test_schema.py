@@ -16,6 +16,7 @@ from proofs.statements import STATEMENTS, Verdict, quantities
 from tests.proofs.mutations import mutations, outcome
 
 ROOT = Path(__file__).parents[2]
+ACCEPTED = ROOT / "tests/certificates/accepted/horseshoe.json"
 CORPUS = sorted((ROOT / "tests/certificates").glob("[amr]*/*.json"))
 FORM = json.loads((ROOT / "proofs/certificate.schema.json").read_text())
 VALIDATOR = Draft202012Validator(FORM)
@@ -57,14 +58,19 @@ def test_every_name_is_the_code_s():
     steps = FORM["properties"]["steps"]
     assert steps["propertyNames"]["allOf"][1]["not"]["enum"] == list(RULES)
     named = [each["$ref"].rpartition("/")[2] for each in steps["additionalProperties"]["oneOf"]]
-    assert named == list(RULES)
+    assert named == [*RULES, "other-step"]
     assert [definitions[rule]["properties"]["rule"]["const"] for rule in RULES] == list(RULES)
     claim = definitions["claim"]["properties"]
     assert claim["id"]["enum"] == list(STATEMENTS)
     once = [part["contains"]["properties"]["id"]["const"] for part in
             FORM["properties"]["claims"]["allOf"]]  # fmt: skip
     assert once == list(STATEMENTS)
-    assert claim["verdict"]["enum"] == [verdict.value for verdict in Verdict]
+    other = definitions["other-claim"]["properties"]
+    assert other["id"]["not"]["enum"] == list(STATEMENTS)
+    assert other["verdict"]["enum"] == [verdict.value for verdict in Verdict]
+    assert set(claim["verdict"]["enum"]) < set(other["verdict"]["enum"])
+    own = definitions["other-step"]["properties"]["rule"]["not"]["enum"]
+    assert own == list(RULES)
     assert definitions["parameters"]["required"] == [field.name for field in fields(Parameters)]
     assert definitions["number"]["maxLength"] == _MAX_DIGITS
     eta = definitions["parameters"]["properties"]["eta"]
@@ -95,7 +101,7 @@ def test_every_exception_is_of_the_corpus():
 
 
 def test_the_report_has_the_form():
-    assert valid((ROOT / "reports/horseshoe.json").read_text())
+    assert valid(ACCEPTED.read_text())
 
 
 def compare(chosen):
@@ -114,7 +120,7 @@ def compare(chosen):
 
 @pytest.fixture(scope="module")
 def all_mutations():
-    return list(mutations(json.loads((ROOT / "reports/horseshoe.json").read_text())))
+    return list(mutations(json.loads(ACCEPTED.read_text())))
 
 
 def test_changed_certificates(all_mutations):

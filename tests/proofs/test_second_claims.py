@@ -27,7 +27,7 @@ def dimension(slopes, ratios, printed, roots, claim):
     entry = {"id": claim, "statement": STATEMENTS[claim].says(of), "proof": list(steps)}
     entry |= {"witness": None, "corrected": None, "quantities": {}}
     return {
-        "schema": "impact-proofs.certificate/1",
+        "schema": "impact-proofs.certificate/2",
         "parameters": parameters_to_json(of),
         "steps": steps,
         "claims": [entry],

@@ -17,16 +17,16 @@ from tests.proofs import second_kernels
 from tests.proofs.second_opinion import opinions, summary, table
 
 ROOT = Path(__file__).parents[2]
-REPORT = ROOT / "reports/horseshoe.json"
+ACCEPTED = ROOT / "tests/certificates/accepted/horseshoe.json"
 
 
 @pytest.fixture(scope="module")
 def found():
-    return list(opinions(REPORT.read_text()))
+    return list(opinions(ACCEPTED.read_text()))
 
 
 def witnesses(rule):
-    steps = json.loads(REPORT.read_text())["steps"].values()
+    steps = json.loads(ACCEPTED.read_text())["steps"].values()
     return [step["witness"] for step in steps if step["rule"] == rule]
 
 
@@ -98,20 +98,20 @@ def test_a_wrong_kernel_is_noticed(monkeypatch, name):
         return low + shift, high + shift
 
     monkeypatch.setattr(second_kernels.Checker, name, wrong)
-    assert any(opinion.contradicted() for opinion in opinions(REPORT.read_text(), (128,)))
+    assert any(opinion.contradicted() for opinion in opinions(ACCEPTED.read_text(), (128,)))
 
 
 def test_the_table_has_every_leaf(found):
     rows = table(found).splitlines()
     assert len(rows) == len(found) + 2 and rows[2].startswith("| first-impact | first-impact-1 |")
-    told = summary(REPORT.read_text(), found)
+    told = summary(ACCEPTED.read_text(), found)
     assert f"{len(found)} leaves, 0 contradictions" in told
     assert all(f"\n{rule}: " in told for rule in rules.RULES)
 
 
 def test_the_command():
     done = subprocess.run(
-        [sys.executable, "-m", "tests.proofs.second_opinion", str(REPORT)],
+        [sys.executable, "-m", "tests.proofs.second_opinion", str(ACCEPTED)],
         capture_output=True, text=True, cwd=ROOT, check=True,
     )  # fmt: skip
     assert "0 contradictions" in done.stdout and "| moran-root |" in done.stdout

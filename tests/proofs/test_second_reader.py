@@ -22,6 +22,7 @@ from tests.proofs.second_both import both
 from tests.proofs.second_map import Impacts, ball
 
 ROOT = Path(__file__).parents[2]
+ACCEPTED = ROOT / "tests/certificates/accepted/horseshoe.json"
 CORPUS = sorted((ROOT / "tests/certificates").glob("[amr]*/*.json"))
 OTHER_SCHEMA = "impact-proofs.lemma/1"
 
@@ -53,7 +54,7 @@ def test_both_agree_on_the_corpus(path):
 
 
 def test_both_read_the_same_verdicts_in_the_report():
-    found, other, same, reasons = both((ROOT / "reports/horseshoe.json").read_text())
+    found, other, same, reasons = both(ACCEPTED.read_text())
     assert found == other == "accepted" and same, reasons
 
 
@@ -63,7 +64,7 @@ def test_both_read_the_same_verdicts_in_the_report():
 @pytest.fixture(scope="module")
 def by_kind():
     kinds = {}
-    for mutation in mutations(json.loads((ROOT / "reports/horseshoe.json").read_text())):
+    for mutation in mutations(json.loads(ACCEPTED.read_text())):
         kinds.setdefault(mutation.kind, []).append(mutation)
     return kinds
 
@@ -101,7 +102,7 @@ def test_both_agree_on_many_changed_certificates(by_kind, part):
 
 @pytest.mark.parametrize(("bound", "outcome"), [("1001/1000", "accepted"), ("1", "rejected")])
 def test_both_want_a_correction_that_expands(bound, outcome):
-    document = json.loads((ROOT / "tests/certificates/accepted/horseshoe.json").read_text())
+    document = json.loads(ACCEPTED.read_text())
     document["corrected"]["parameters"]["slopes"][0] = bound
     renew_texts(document)
     found, other, _, reasons = both(json.dumps(document))
@@ -174,7 +175,7 @@ def test_a_piece_is_closed_exactly_where_a_parabola_stays_above_0():
 
 def test_both_refuse_the_bracket_of_a_later_impact():
     """The equations go on after the first impact: at 1.13, gap falls through 0 near 56 again."""
-    document = json.loads((ROOT / "tests/certificates/accepted/horseshoe.json").read_text())
+    document = json.loads(ACCEPTED.read_text())
     impacts, phase = Impacts(PAPER.eta, PAPER.nu), ball(Fraction("1.13"))
     grid = [Fraction(k, 8) for k in range(8 * 26, 8 * 90)]
     signs = [impacts.gap(phase, ball(t)) > 0 for t in grid]
