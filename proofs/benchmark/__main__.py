@@ -17,6 +17,7 @@ EXAMPLES = """
 examples:
   python -m proofs.benchmark
   python -m proofs.benchmark intervals --codac-python ~/codac/bin/python
+  python -m proofs.benchmark claims --smallest
   python -m proofs.benchmark --full --json benchmark.json
   python -m proofs.benchmark --quick --json - > benchmark.json
 
@@ -30,6 +31,9 @@ long as ours. Tables of constants are filled before, but for the first calls, in
 mpmath.iv works on 100 elements at most, codac in a process of its own. At 1,000,000 elements only
 --full measures every function.
 
+claims: the command of each group of claims, a whole process with its check, the check alone, and
+time against digits (dimension) and period (orbits).
+
 exit status: 0 every target was reached, 1 one was missed or could not be measured, 2 bad usage
 """
 
@@ -41,6 +45,11 @@ def measure(options: argparse.Namespace) -> list[Row]:
         from proofs.benchmark import horseshoe
 
         return horseshoe.measure(effort)
+    if options.subject == "claims":
+        from proofs.benchmark import groups
+
+        with progress() as tell:
+            return groups.measure(effort, tell)
     from proofs.benchmark import arrays, first_calls, memory, scalars
 
     with progress() as tell:
@@ -57,7 +66,7 @@ def _parser() -> Parser:
     parser.add_argument(
         "subject",
         nargs="?",
-        choices=("horseshoe", "intervals"),
+        choices=("horseshoe", "claims", "intervals"),
         default="horseshoe",
         help="what is measured (default: horseshoe)",
     )
