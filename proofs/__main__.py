@@ -1,11 +1,8 @@
-"""`python -m proofs`: every claim decided so far, with one exit status.
-
-Today that is the main job, `python -m proofs.horseshoe`, whose options it takes.
-"""
+"""`python -m proofs`: every claim decided so far, with one exit status."""
 
 import sys
 
-from proofs.horseshoe import main
+from proofs.ledger import main
 
 if __name__ == "__main__":
     sys.exit(main())

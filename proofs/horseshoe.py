@@ -5,22 +5,22 @@ printed numbers fail, writes certificate and report, and has the checker re-deri
 """
 
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from time import perf_counter
-from typing import Any
 
 from intervals import Undecided
 from proofs import plastic, runner
-from proofs.certificate import write_atomically
+from proofs.certificate import render, write_atomically
 from proofs.cli import Parser, horizon, progress
 from proofs.facts import Parameters
 from proofs.model.impact import HORIZON
 from proofs.report import markdown
-from proofs.runner import Row, Tell
+from proofs.runner import Made, Tell
 
-CLAIMS = (*plastic.CLAIMS, "N1", "N2")
+RESTITUTION = ("N1", "N2")
+CLAIMS = (*plastic.CLAIMS, *RESTITUTION)
 EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/horseshoe.json
 (the certificate, which is also the machine form) and DIR/horseshoe.md; DIR/MANIFEST.json says
@@ -39,35 +39,28 @@ examples:
 """
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a run proved: rows for people, corrected sets if any, a certificate for the checker."""
-
-    rows: list[Row]
-    corrected: Parameters | None
-    certificate: dict[str, Any]
-
-
-def prove(
+def produce(
     of: Parameters,
-    claims: tuple[str, ...] = CLAIMS,
+    claims: Sequence[str] = CLAIMS,
     *,
     digits: int = 30,
     longest: Fraction = HORIZON,
     tell: Tell = lambda stage: None,
-) -> Outcome:
+) -> Made:
     """Decide the claims asked for, of the plastic map and of the one with restitution."""
     flat = [claim for claim in plastic.CLAIMS if claim in claims]
     found = plastic.prove(of, flat, digits=digits, horizon=longest, tell=tell)
     rows, proved = list(found.rows), found.certificate
-    others = [claim for claim in ("N1", "N2") if claim in claims]
+    others = [claim for claim in RESTITUTION if claim in claims]
     if others:
         more, also = runner.settle("nonplastic", of, others, digits=digits, tell=tell)
         rows += more
         steps = proved["steps"] | also["steps"]
         entries = proved["claims"] + also["claims"]
         proved = runner.certificate(of, steps, entries, proved["corrected"])
-    return Outcome(rows, found.corrected, proved)
+    page = markdown(of, found.corrected, proved, rows)
+    theorem = proved["corrected"] and proved["corrected"]["theorem"]
+    return Made(rows, render(proved), page, theorem, found.corrected)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -85,25 +78,20 @@ def main(arguments: list[str] | None = None) -> int:
     began = perf_counter()
     asked = tuple(options.only or CLAIMS)
     with progress() as tell:
-        outcome = prove(of, asked, digits=options.digits, longest=options.horizon, tell=tell)
+        made = produce(of, asked, digits=options.digits, longest=options.horizon, tell=tell)
     seconds = perf_counter() - began
     try:
-        made = runner.command("proofs.horseshoe", arguments)
-        content = runner.write(options.out, "horseshoe", outcome.certificate, made)
-        page = markdown(of, outcome.corrected, outcome.certificate, outcome.rows)
-        write_atomically(options.out / "horseshoe.md", page)
+        by = runner.command("proofs.horseshoe", arguments)
+        runner.write(options.out, "horseshoe", made.certificate, made.page, by)
         if options.figure:
             from proofs.figure import svg
 
-            picture = svg(of, outcome.corrected)
-            write_atomically(options.out / "horseshoe.svg", picture)
+            write_atomically(options.out / "horseshoe.svg", svg(of, made.corrected))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     except (Undecided, OverflowError) as failure:
         print(f"{parser.prog}: no figure: {failure}", file=sys.stderr)
-    correction = outcome.certificate["corrected"]
-    theorem = correction and correction["theorem"]
-    return runner.finish(outcome.rows, seconds, content, options, "horseshoe.json", theorem=theorem)
+    return runner.finish(made, seconds, options, "horseshoe.json")
 
 
 if __name__ == "__main__":

@@ -127,6 +127,32 @@ def settle(
     return rows, certificate(of, evidence.steps, [entry for _, entry in decided])
 
 
+@dataclass(frozen=True)
+class Made:
+    """What a run made: rows for the screen, certificate, page; theorem about corrected sets."""
+
+    rows: list[Row]
+    certificate: str
+    page: str
+    theorem: str | None = None
+    corrected: Parameters | None = None
+
+
+def produce(
+    group: str,
+    of: Parameters,
+    claims: Iterable[str] | None = None,
+    *,
+    digits: int,
+    tell: Tell = lambda stage: None,
+) -> Made:
+    """Prove and decide claims of a group; return the texts of the certificate and the page."""
+    from proofs.report import page
+
+    rows, found = settle(group, of, claims, digits=digits, tell=tell)
+    return Made(rows, render(found), page(group, of, found, rows))
+
+
 # -- the command line ------------------------------------------------------------------------------
 
 EPILOG = """\
@@ -154,16 +180,14 @@ def run(group: str, arguments: list[str] | None = None, description: str | None 
     of = prepared(parser, options)
     began = perf_counter()
     with progress() as tell:
-        rows, found = settle(group, of, options.only, digits=options.digits, tell=tell)
+        made = produce(group, of, options.only, digits=options.digits, tell=tell)
     seconds = perf_counter() - began
-    from proofs.report import page
-
+    made_by = command(f"proofs.{group}", arguments)
     try:
-        content = write(options.out, group, found, command(f"proofs.{group}", arguments))
-        write_atomically(options.out / f"{group}.md", page(group, of, found, rows))
+        write(options.out, group, made.certificate, made.page, made_by)
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
-    return finish(rows, seconds, content, options, f"{group}.json")
+    return finish(made, seconds, options, f"{group}.json")
 
 
 def add_parameters(parser: Parser) -> None:
@@ -202,11 +226,9 @@ def prepared(parser: Parser, options: Namespace) -> Parameters:
     """Return the statement's numbers, the output folder tried; leave with one line if bad."""
     try:
         of = parameters(options)
-        _writable(options.out)
     except ValueError as error:
         parser.error(str(error))
-    except OSError as error:
-        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    writable(parser, options.out)
     return of
 
 
@@ -227,12 +249,15 @@ def parameters(options: Namespace) -> Parameters:
     return of if slopes == PAPER.slopes else replace(of, ratios=None, printed_s0=None)
 
 
-def _writable(folder: Path) -> None:
-    """Raise OSError if nothing can be written to the folder, before any work is done."""
-    folder.mkdir(parents=True, exist_ok=True)
-    trial = folder / f".trial.{getpid()}"
-    trial.touch(exist_ok=False)
-    trial.unlink()
+def writable(parser: Parser, folder: Path) -> None:
+    """Leave with one line if nothing can be written to the folder, before any work is done."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        trial = folder / f".trial.{getpid()}"
+        trial.touch(exist_ok=False)
+        trial.unlink()
+    except OSError as error:
+        parser.error(f"cannot write to {folder}: {error.strerror or error}")
 
 
 def command(module: str, arguments: list[str] | None) -> str:
@@ -240,31 +265,22 @@ def command(module: str, arguments: list[str] | None) -> str:
     return shlex.join(["python", "-m", module, *(sys.argv[1:] if arguments is None else arguments)])
 
 
-def write(folder: Path, name: str, found: dict[str, Any], made: str) -> str:
-    """Write a certificate and enter it in the manifest; return its text."""
-    content = render(found)
-    write_atomically(folder / f"{name}.json", content)
-    manifest.record(folder, f"{name}.json", content, made)
-    return content
+def write(folder: Path, name: str, certificate: str, page: str, made: str) -> None:
+    """Write a certificate and its page, and enter it in the manifest."""
+    write_atomically(folder / f"{name}.json", certificate)
+    write_atomically(folder / f"{name}.md", page)
+    manifest.record(folder, f"{name}.json", certificate, made)
 
 
-def finish(
-    rows: Sequence[Row],
-    seconds: float,
-    content: str,
-    options: Namespace,
-    name: str,
-    *,
-    theorem: str | None = None,
-) -> int:
+def finish(made: Made, seconds: float, options: Namespace, name: str) -> int:
     """Print what was decided, have it checked, and return the exit status."""
     if options.json:
-        print(content, end="")
+        print(made.certificate, end="")
     else:
-        print_rows(rows, seconds, theorem)
+        print_rows(made.rows, seconds, made.theorem)
     if not options.no_check and not _checked(options.out / name, quiet=bool(options.json)):
         return 3
-    return int(any(row.verdict is Verdict.UNDECIDED for row in rows))
+    return int(any(row.verdict is Verdict.UNDECIDED for row in made.rows))
 
 
 def print_rows(rows: Sequence[Row], seconds: float, theorem: str | None = None) -> None:
