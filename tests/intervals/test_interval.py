@@ -204,7 +204,7 @@ def test_arithmetic_is_the_tightest_enclosure_of_the_range(symbol, data, p, q):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("symbol", sorted(BINARY))
-@settings(deadline=None, max_examples=2000)
+@settings(deadline=None, max_examples=700)
 @given(st.data(), precisions, precisions)
 def test_arithmetic_is_the_tightest_enclosure_of_the_range_at_length(symbol, data, p, q):
     check_arithmetic(symbol, data.draw(boxes(p)), data.draw(boxes(q)), p, q)
@@ -347,7 +347,7 @@ def test_functions_are_the_tightest_enclosure_of_the_range(data, p, name):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=3000)
+@settings(deadline=None, max_examples=1200)
 @given(st.data(), precisions, st.sampled_from(FUNCTIONS))
 def test_functions_are_the_tightest_enclosure_of_the_range_at_length(data, p, name):
     check_range(name, data.draw(boxes_for(name, p)), p)

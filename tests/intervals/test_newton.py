@@ -239,7 +239,7 @@ def test_what_is_claimed_of_a_polynomial_is_true(problem):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=1500)
+@settings(deadline=None, max_examples=600)
 @given(problems())
 def test_what_is_claimed_of_a_polynomial_is_true_at_length(problem):
     check_newton(*problem)

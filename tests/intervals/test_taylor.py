@@ -163,7 +163,7 @@ def test_ranges_of_families_of_polynomials(family, seed):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=600)
+@settings(deadline=None, max_examples=250)
 @given(families(), st.integers(0, 99))
 def test_ranges_of_families_of_polynomials_at_length(family, seed):
     check_family(family, seed)

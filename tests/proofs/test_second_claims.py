@@ -175,5 +175,5 @@ def test_both_tables_of_claims_give_the_same_verdicts():
 
 @pytest.mark.slow
 def test_both_tables_of_claims_give_the_same_verdicts_often():
-    counts = compare_tables(2, 5000)
-    assert min(counts.values()) >= 20, counts
+    counts = compare_tables(2, 2500)
+    assert min(counts.values()) >= 10, counts

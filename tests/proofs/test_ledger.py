@@ -1,0 +1,69 @@
+"""python -m proofs: what is asked for is proved once, what is there is checked."""
+
+import json
+
+import pytest
+
+from proofs.check.verify import check
+from proofs.ledger import CLAIMS, FILES, jobs, main, settle
+
+FLAT = ["H1", "H2", "H11"]
+
+
+def run(folder, *more):
+    return main(["--only", *FLAT, "--out", str(folder), *more])
+
+
+def test_every_claim_once():
+    assert len(CLAIMS) == len(set(CLAIMS))
+    found = [claim for job in jobs(CLAIMS, None, 30, False) for claim in job.claims]
+    assert sorted(found) == sorted(CLAIMS)
+
+
+def test_proves_writes_and_reuses(tmp_path, capsys):
+    assert run(tmp_path) == 0
+    ledger = json.loads((tmp_path / "ledger.json").read_text())
+    assert [row["verdict"] for row in ledger["claims"]] == ["VERIFIED", "REFUTED", "VERIFIED"]
+    assert all(row["file"] == "horseshoe.json" for row in ledger["claims"])
+    assert [each.id for each in check((tmp_path / "horseshoe.json").read_text()).claims] == FLAT
+    before = (tmp_path / "horseshoe.json").stat().st_mtime_ns
+    assert "proved and checked" in capsys.readouterr().out
+    assert run(tmp_path) == 0
+    assert "checked again" in capsys.readouterr().out
+    assert (tmp_path / "horseshoe.json").stat().st_mtime_ns == before
+    assert run(tmp_path, "--fresh") == 0
+    assert "proved and checked" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "old, new", [('"REFUTED"', '"VERIFIED"'), ("2121/10000", "2122/10000"), ("}", "")]
+)
+def test_a_file_that_does_not_prove_it_is_proved_again(tmp_path, old, new):
+    assert run(tmp_path) == 0
+    path = tmp_path / "horseshoe.json"
+    good = path.read_text()
+    path.write_text(good.replace(old, new, 1))
+    (job,) = jobs(FLAT, tmp_path, 30, False)
+    found = settle(job)
+    assert found.page is not None and found.certificate == good
+
+
+def test_a_claim_that_is_not_there_is_proved(tmp_path):
+    assert run(tmp_path) == 0
+    (job,) = jobs(["H1", "H16"], tmp_path, 30, False)
+    found = settle(job)
+    assert found.page is not None
+    assert {claim.id for claim in found.report.claims} == {"H1", "H16"}
+
+
+def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys):
+    for arguments in (["--only", "H99"], ["--digits", "0"]):
+        with pytest.raises(SystemExit) as failure:
+            main([*arguments, "--out", str(tmp_path)])
+        assert failure.value.code == 2
+        assert capsys.readouterr().err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_group_is_a_file():
+    assert set(FILES["nonplastic"]) > {"N3"} and "H1" in FILES["horseshoe"]
