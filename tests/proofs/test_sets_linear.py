@@ -2,11 +2,16 @@
 
 import random
 import re
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 from flint import arb, ctx
 
+from proofs.certificate import Malformed, Reader
+from proofs.check.arithmetic import Unproved
+from proofs.check.rules import MoranRoot
+from proofs.check.sets import RULES
 from proofs.claims.cantor import (
     Excess,
     LinearSet,
@@ -25,6 +30,10 @@ from proofs.statements import Verdict
 DECIDE = {claim.id: claim.decide for claim in CLAIMS}
 EXACT = (Fraction(4, 21), Fraction(5, 21))
 ROUNDED = (Fraction("0.1905"), Fraction("0.2381"))
+ROOTS = {  # mpmath, 50 digits
+    EXACT: Fraction("0.44896935113647966112"),
+    ROUNDED: Fraction("0.44898970740667915011"),
+}
 BOTH = pytest.mark.parametrize("ratios", [EXACT, ROUNDED])
 I = PAPER.interval  # noqa: E741
 
@@ -71,6 +80,11 @@ def test_decimal_between(low, high, value):
     assert decimal_between(Fraction(low), Fraction(high)) == Fraction(value)
 
 
+def test_no_decimal_between():
+    with pytest.raises(ValueError, match="nothing"):
+        decimal_between(Fraction(1), Fraction(1))
+
+
 # -- the witnesses ---------------------------------------------------------------------------------
 
 
@@ -83,13 +97,11 @@ def largest(found, interval):
     return sorted(chosen, key=lambda word: found[word])
 
 
-@pytest.mark.parametrize(("index", "ratios"), enumerate([EXACT, ROUNDED]))
+@pytest.mark.parametrize(("index", "ratios"), [(0, EXACT), (1, ROUNDED)])
 def test_gap_estimates_fail_at_the_witness(index, ratios):
     decision = DECIDE["H15"](PAPER, [])
     assert decision.verdict is Verdict.REFUTED
-    first, second = intervals_named(decision.witness.split(f"{ratios[0]}")[0] or decision.witness)[
-        :0
-    ] or intervals_named(decision.witness.split("(eta0, eta1)")[1 + index])
+    first, second = intervals_named(decision.witness.split("(eta0, eta1)")[1 + index])
     found = cylinders(ratios, 10)
     left, right = largest(found, first)
     assert (left, right) == ("001", "01")
@@ -108,7 +120,7 @@ def sides(found, interval):
     return [w for w in chosen if w[0] == "0"], [w for w in chosen if w[0] == "1"]
 
 
-@pytest.mark.parametrize(("index", "ratios"), enumerate([EXACT, ROUNDED]))
+@pytest.mark.parametrize(("index", "ratios"), [(0, EXACT), (1, ROUNDED)])
 def test_no_two_intervals_replace_the_witness(index, ratios):
     decision = DECIDE["H17"](PAPER, [])
     assert decision.verdict is Verdict.REFUTED
@@ -141,7 +153,7 @@ def test_without_a_gap_nothing_is_decided(claim):
 @BOTH
 def test_lemma_on_random_intervals(ratios):
     """|J|^s is at least the sum over the cylinders in J, with equality for J = I."""
-    s = 0.4489693511364797 if ratios == EXACT else 0.4489897074066792
+    s = float(ROOTS[ratios])
     parts = [(float(a), float(b)) for w, (a, b) in cylinders(ratios, 8).items() if len(w) == 8]
     powers = [(b - a) ** s for a, b in parts]
     assert sum(powers) == pytest.approx(float(length(I)) ** s)
@@ -178,21 +190,75 @@ def test_excess_by_arb(evidence):
     ctx.prec = 200
     for _, found in evidence.proofs["H14"]:
         assert isinstance(found, Excess)
-        r0, r1 = found.ratios
-        s = exact_arb({EXACT: Fraction("0.44896935113647966112"),
-                       ROUNDED: Fraction("0.44898970740667915011")}[found.ratios])  # fmt: skip
+        r1, s = found.ratios[1], exact_arb(ROOTS[found.ratios])
         part, delta = exact_arb(r1 * r1 * length(I)), exact_arb(found.epsilon / 4)
         value = (part + delta) ** s - part**s - delta
         assert exact_arb(found.excess[0]) - arb("1e-18") < value
         assert value < exact_arb(found.excess[1]) + arb("1e-18")
         assert found.epsilon < r1 - r1**2
         assert r1 * r1 * length(I) + found.epsilon / 4 > r1 * length(I)
-        del r0
+
+
+# -- the rules of the checker ----------------------------------------------------------------------
+
+
+def rule(name, known, **witness):
+    return RULES[name](PAPER, known, Reader(witness))
+
+
+@pytest.fixture(scope="module")
+def roots():
+    reach = Fraction(1, 10**19)
+    return {"r": MoranRoot(EXACT, (ROOTS[EXACT] - reach, ROOTS[EXACT] + reach))}
+
+
+@pytest.mark.parametrize(("epsilon", "word"), [("17/100", "11"), ("1/10", "0"), ("1/9", "0110")])
+def test_excess_of_the_checker_by_arb(roots, epsilon, word):
+    ctx.prec = 200
+    found = rule("excess", roots, root="r", epsilon=epsilon, word=word)
+    s, part = exact_arb(ROOTS[EXACT]), length(cylinders(EXACT, 4)[word])
+    delta = Fraction(epsilon) / 2 ** len(word)
+    value = exact_arb(part + delta) ** s - exact_arb(part) ** s - exact_arb(delta)
+    assert exact_arb(found.excess[0]) < value < exact_arb(found.excess[1])
+    assert found.excess[1] - found.excess[0] < Fraction(1, 10**17)
+    assert (found.ratios, found.epsilon, found.word) == (EXACT, Fraction(epsilon), word)
+
+
+def test_measure_of_the_checker_by_arb(roots):
+    ctx.prec = 200
+    found = rule("linear-set", roots, root="r")
+    value = exact_arb(length(I)) ** exact_arb(ROOTS[EXACT])
+    assert exact_arb(found.measure[0]) < value < exact_arb(found.measure[1])
+    assert found.measure[1] - found.measure[0] < Fraction(1, 10**17)
+
+
+@pytest.mark.parametrize(
+    ("epsilon", "word"),
+    [("0", "11"), ("-1/10", "11"), ("1/10", ""), ("1/10", "12"), ("1/10", "0" * 13)],
+)
+def test_excess_of_nothing(roots, epsilon, word):
+    with pytest.raises(Malformed):
+        rule("excess", roots, root="r", epsilon=epsilon, word=word)
+
+
+def test_parts_that_overlap_are_no_cantor_set():
+    whole = {"r": MoranRoot((Fraction(1, 2), Fraction(1, 2)), (Fraction(1, 2), Fraction(2)))}
+    with pytest.raises(Unproved, match="overlap or touch"):
+        rule("linear-set", whole, root="r")
+
+
+@pytest.mark.parametrize("name", ["linear-set", "excess"])
+def test_a_root_is_named(name):
+    more = {} if name == "linear-set" else {"epsilon": "1/10", "word": "11"}
+    for known in ({}, {"r": LinearSet(EXACT, EXACT, EXACT)}):
+        with pytest.raises(Malformed, match="moran-root"):
+            rule(name, known, root="r", **more)
+
+
+# -- decisions -------------------------------------------------------------------------------------
 
 
 def edited(evidence, claim, **changes):
-    from dataclasses import replace
-
     return [replace(found, **changes) for _, found in evidence.proofs[claim]]
 
 

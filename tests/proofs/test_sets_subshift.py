@@ -5,6 +5,7 @@ from itertools import product
 
 import pytest
 
+from proofs.claims import subshift
 from proofs.claims.subshift import Subshift, words
 
 
@@ -14,9 +15,7 @@ def allowed(word, factors):
 
 def cyclic_words(period, factors):
     """How many periodic sequences of this period, not necessarily least, have no factor."""
-    return sum(
-        allowed("".join(letters) * 8, factors) for letters in product("01", repeat=period)
-    )
+    return sum(allowed("".join(letters) * 8, factors) for letters in product("01", repeat=period))
 
 
 FACTORS = [(), ("000",), ("11",), ("1111",), ("00000", "1111"), ("010", "11"), ("01", "000")]
@@ -82,6 +81,7 @@ def test_shortest_missing_word(factors, missing):
         (("000",), True, True),
         (("00", "11"), True, False),  # one periodic orbit
         (("01",), False, False),  # 1...1 0 0 ...: no way back
+        (("10",), False, False),
         (("0",), True, False),  # one point
         (("0", "1"), False, False),  # none
         (("10", "11"), True, False),  # 1 begins no sequence
@@ -91,6 +91,12 @@ def test_irreducible_and_chaotic(factors, irreducible, chaotic):
     shift = Subshift.without(factors)
     assert shift.irreducible is irreducible
     assert shift.chaotic is chaotic
+
+
+def test_growth_is_enclosed_however_rough_the_vector(monkeypatch):
+    monkeypatch.setattr(subshift, "_ROUNDS", 2)
+    low, high = Subshift.without(["000"]).growth
+    assert low < Fraction("1.8392867") < high
 
 
 def test_growth_needs_an_irreducible_graph():
