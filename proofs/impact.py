@@ -1,13 +1,19 @@
-"""The plastic impact map, certified: where and when is the next impact after one at phase PHI?
+"""The impact map, certified: where and when is the next impact after one at phase PHI?
 
 Give one phase, or two for an interval. Prints bounds on the time of flight (in units of
 1 / omega, from the moment the mass leaves the table), on the next impact phase (mod 2 pi), on
 the slope of the map, and whether the mass sticks first: then it dwells on the table up to the
 separation phase, leaves there, and the slope is 0.
+
+This is the plastic map. With a coefficient of restitution EPSILON and the velocity GAMMA = v /
+(omega_n p) of the mass before the impact, one or two numbers like PHI, it is the map F of section
+3.3: the velocity before the next impact is bounded too, and DF, rows (phase, velocity) by columns
+(PHI, GAMMA), instead of the slope.
 """
 
 import json
 import sys
+from argparse import Namespace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -18,6 +24,7 @@ from proofs.cli import Parser, digits, horizon, number
 from proofs.facts import TURN, Range, show
 from proofs.model.image import Image, PossibleImages, image
 from proofs.model.impact import HORIZON, NoImpact
+from proofs.model.rebound import Impossible, Rebound, rebound
 from proofs.model.system import System
 
 _COARSE_DIGITS = 9  # of a set of possible images, whose ends mean little
@@ -35,6 +42,7 @@ examples:
   python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11
   python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11 1.15 --json -
   python -m proofs.impact --eta 2/3 --nu 0.9 --phi 0.5 --digits 100
+  python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11 --epsilon 0.01 --gamma -0.3
 """
 
 
@@ -45,16 +53,19 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         system = System(options.eta, options.nu)
         phases = _phases(options.phi)
+        _check_restitution(options)
     except ValueError as error:
         parser.error(str(error))
     try:
-        found = image(system, phases, digits=options.digits, horizon=options.horizon)
-    except NoImpact as failure:
+        found = _answer(system, phases, options)
+    except (NoImpact, Impossible) as failure:
         parser.error(str(failure))
     except (Undecided, IntervalError) as failure:
         print(f"{parser.prog}: undecided: {failure}", file=sys.stderr)
         return 1
     answer = {"eta": show(system.eta), "nu": show(system.nu), "phi": [show(x) for x in phases]}
+    if options.gamma:
+        answer |= {"epsilon": show(options.epsilon), "gamma": [show(x) for x in options.gamma]}
     answer |= machine_form(found, options.digits)
     if options.json == "-":
         print(json.dumps(answer, indent=1))
@@ -74,25 +85,58 @@ def _parser() -> Parser:
     add("--eta", type=number, required=True, help="omega_n / omega > 0")
     add("--nu", type=number, required=True, help="-beta / p, not 0: negative for a table below")
     add("--phi", type=number, nargs="+", required=True, metavar="A [B]", help="launch phase(s)")
+    add("--epsilon", type=number, help="coefficient of restitution, from 0 to 1")
+    add("--gamma", type=number, nargs="+", metavar=("A", "B"), help="velocity before the impact")
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
     add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
     return parser
 
 
-def _phases(values: list[Fraction]) -> Range:
-    """Return the interval of launch phases; ValueError if it is none, or not on the circle."""
+def _answer(system: System, phases: Range, options: Namespace) -> Image | PossibleImages | Rebound:
+    """Ask the plastic map, or F if a velocity is given."""
+    if not options.gamma:
+        return image(system, phases, digits=options.digits, horizon=options.horizon)
+    return rebound(
+        system,
+        phases,
+        _ends("--gamma", options.gamma, "velocity", "velocities"),
+        options.epsilon,
+        digits=options.digits,
+        horizon=options.horizon,
+    )
+
+
+def _check_restitution(options: Namespace) -> None:
+    """Raise ValueError unless epsilon and gamma come together, and describe an impact."""
+    if (options.epsilon is None) != (options.gamma is None):
+        missing = "--epsilon" if options.epsilon is None else "--gamma"
+        raise ValueError(f"{missing} is missing: F takes both --epsilon and --gamma")
+    if options.gamma:
+        _ends("--gamma", options.gamma, "velocity", "velocities")
+        if not 0 <= options.epsilon <= 1:
+            raise ValueError(f"epsilon must be in [0, 1], not {show(options.epsilon)}")
+
+
+def _ends(option: str, values: list[Fraction], one: str, two: str) -> Range:
+    """Return the interval that one number or two stand for; ValueError if it is none."""
     if len(values) > 2:
-        raise ValueError(f"--phi takes one phase or two, not {len(values)}")
+        raise ValueError(f"{option} takes one {one} or two {two}, not {len(values)}")
     low, high = values[0], values[-1]
     if low > high:
         raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
+    return low, high
+
+
+def _phases(values: list[Fraction]) -> Range:
+    """Return the interval of launch phases; ValueError if it is none, or not on the circle."""
+    low, high = _ends("--phi", values, "phase", "phases")
     if low < 0 or high > TURN:
         raise ValueError(f"phase outside the circle [0, 2 pi): {show(low if low < 0 else high)}")
     return low, high
 
 
-def machine_form(found: Image | PossibleImages, places: int) -> dict[str, Any]:
+def machine_form(found: Image | PossibleImages | Rebound, places: int) -> dict[str, Any]:
     """Return the JSON object of an answer: decimal strings, rounded outward."""
 
     def bounds(values: Range) -> dict[str, str]:
@@ -108,12 +152,13 @@ def machine_form(found: Image | PossibleImages, places: int) -> dict[str, Any]:
                 {"flight": bounds(flight), "phase": bounds(phase)} for flight, phase in found.images
             ],
         }
-    answer: dict[str, Any] = {
-        "flight": bounds(found.flight),
-        "phase": bounds(found.phase),
-        "slope": bounds(found.slope),
-        "sticking": found.sticking,
-    }
+    answer: dict[str, Any] = {"flight": bounds(found.flight), "phase": bounds(found.phase)}
+    if isinstance(found, Rebound):
+        answer["velocity"] = bounds(found.velocity)
+        answer["jacobian"] = [[bounds(entry) for entry in row] for row in found.jacobian]
+    else:
+        answer["slope"] = bounds(found.slope)
+    answer["sticking"] = found.sticking
     if found.dwell is not None:
         answer["dwell"] = bounds(found.dwell)
     return answer
@@ -122,22 +167,30 @@ def machine_form(found: Image | PossibleImages, places: int) -> dict[str, Any]:
 def _text(answer: dict[str, Any]) -> str:
     phases = " to ".join(dict.fromkeys(answer["phi"]))
     at = f"eta = {answer['eta']}, nu = {answer['nu']}, phi = {phases}"
+    if "gamma" in answer:
+        velocities = " to ".join(dict.fromkeys(answer["gamma"]))
+        at += f", epsilon = {answer['epsilon']}, gamma = {velocities}"
     if "possible" in answer:
         lines = [at, f"several images are possible: {answer['reason']}; each is one of"]
         for pair in answer["possible"]:
             flight, phase = (f"[{x['lower']}, {x['upper']}]" for x in pair.values())
             lines.append(f"  flight {flight}, phase {phase}")
         return "\n".join(lines)
+    rows = [
+        ("dwell on the table", answer.get("dwell")),
+        ("time of flight", answer["flight"]),
+        ("next impact phase", answer["phase"]),
+        ("slope of the map", answer.get("slope")),
+        ("velocity gamma", answer.get("velocity")),
+    ]
+    entries = [entry for row in answer.get("jacobian", []) for entry in row]
+    names = ("d phase / d phi", "d phase / d gamma", "d gamma / d phi", "d gamma / d gamma")
+    rows += zip(names, entries, strict=False)
     lines = [at]
-    for name, label in (
-        ("dwell", "dwell on the table"),
-        ("flight", "time of flight"),
-        ("phase", "next impact phase"),
-        ("slope", "slope of the map"),
-    ):
-        if name in answer:
-            lines.append(f"  {label:18} [{answer[name]['lower']},")
-            lines.append(f"  {'':18}  {answer[name]['upper']}]")
+    for label, bounds in rows:
+        if bounds is not None:
+            lines.append(f"  {label:18} [{bounds['lower']},")
+            lines.append(f"  {'':18}  {bounds['upper']}]")
     lines.append(f"  sticks first       {'yes' if answer['sticking'] else 'no'}")
     return "\n".join(lines)
 

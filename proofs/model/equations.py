@@ -74,7 +74,17 @@ def launch_with_restitution(
     units, is multiplied by -epsilon.
     """
     plastic = launch(side, eta, nu, phi)
-    return plastic._replace(kick=epsilon * (eta * gamma + plastic.rate))
+    return plastic._replace(kick=epsilon * closing(plastic, gamma))
+
+
+def closing(start: Launch, gamma: Number) -> Number:
+    """Return -(X' - Z') = eta gamma + rate before an impact with velocity gamma.
+
+    There gap' = -side closing, and gap > 0 before it: the state (phi, gamma) is possible only
+    if side closing >= 0, else the mass would come from inside the table. Then the launch has
+    gap' = side kick = epsilon side closing >= 0.
+    """
+    return start.eta * gamma + start.rate
 
 
 def clock(eta: Number, t: Number) -> Clock:
@@ -121,3 +131,40 @@ def slope(start: Launch, now: Clock) -> Number:
     derivative 1 - (dg/dphi) / (dg/dt) = (sin(eta t) / eta) launch_acceleration / (dg/dt).
     """
     return now.mass_sin / start.eta * launch_acceleration(start) / gap(start, now, 1)
+
+
+def arrival(start: Launch, now: Clock) -> tuple[Number, Number]:
+    """Return the mass's position X and velocity gamma = -X' / eta at a time of its flight.
+
+    Source: (15) is the second one at the impact.
+    """
+    speed = start.rate if start.kick is None else start.rate + start.kick
+    height, speed = 1 + start.lift, speed / start.eta
+    return (
+        height * now.mass_cos + speed * now.mass_sin,
+        height * now.mass_sin - speed * now.mass_cos,
+    )
+
+
+def return_map_derivative(
+    start: Launch, now: Clock, epsilon: Number
+) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
+    """Return DF, rows (phase, velocity) by columns (phi, gamma), at an impact `now` after `start`.
+
+    Theorem. Let S, C = sin(eta t), cos(eta t), K = kick and a = nu sin(phi) (1 + epsilon) -
+    eta^2 (1 + nu sin(phi)). With D = d/dt - d/dphi, D Z = 0, D X = a S/eta + K C and
+    D X' = a C - eta K S, since dK/dphi = -epsilon lift; dX/dgamma = epsilon S and
+    dX'/dgamma = epsilon eta C. Where gap = 0 > gap', the impact phase phi + t has the derivatives
+    p = side D X / gap' and q = -side epsilon S / gap', and X'' = -eta^2 X gives those of
+    gamma = -X'/eta: eta X p + (D X')/eta and eta X q - epsilon C. For epsilon = 0, p is `slope`.
+    """
+    side, eta, lift, _, kick = start
+    big_s, big_c = now.mass_sin, now.mass_cos
+    fall = side * gap(start, now, 1)
+    along = (side * launch_acceleration(start) + epsilon * lift) / eta
+    moved, turned = along * big_s, along * big_c
+    if kick is not None:
+        moved, turned = moved + kick * big_c, turned - kick * big_s
+    by_phi, by_gamma = moved / fall, -(epsilon * big_s) / fall
+    pull = eta * arrival(start, now)[0]
+    return (by_phi, by_gamma), (pull * by_phi + turned, pull * by_gamma - epsilon * big_c)

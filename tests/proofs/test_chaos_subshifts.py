@@ -1,6 +1,7 @@
 """The largest subshift of piecewise monotone maps whose entropy is known in closed form."""
 
 from fractions import Fraction as F
+from itertools import pairwise
 from math import log, sqrt
 
 import numpy as np
@@ -42,7 +43,7 @@ def beta_map(beta):
     """x -> beta x mod 1 on its whole pieces and the last one (Renyi): the entropy is log beta."""
     count = int(beta)
     ends = [F(k) / beta for k in range(count + 1)] + [F(1)]
-    pieces = [(low, high - F(1, 10**9)) for low, high in zip(ends, ends[1:])]
+    pieces = [(low, high - F(1, 10**9)) for low, high in pairwise(ends)]
     return pieces, exact(*((lambda x, k=k: beta * x - k) for k in range(count + 1)))
 
 
