@@ -1,0 +1,161 @@
+"""Large subshifts in a piecewise monotone map, and their entropy, by covering graphs.
+
+A map f of an interval is continuous and monotone on disjoint closed pieces Z_1, ..., Z_m. A state
+is a closed interval D. For each piece, f(D and Z_b) is the interval between the images of two
+ends; if it contains a state E, there is an edge D -> E. Two edges from one state belong to
+different pieces, so different paths from one state are followed by different orbits, and the log
+of the spectral radius of the graph bounds the topological entropy of f from below.
+
+The states to take: the images of the pieces, the images of their parts, and so on (Hofbauer's
+tower). With all of them the bound is the entropy of f on the pieces; a few steps come close.
+Source: F. Hofbauer, On intrinsic ergodicity of piecewise monotonic transformations with positive
+entropy, Israel J. Math. 34 (1979).
+
+Everything here is a candidate; `Subshift.growth` is exact for the images that were given.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from proofs.facts import Range
+
+Image = Callable[[int, Fraction], Range]  # an enclosure of f at a point of a piece
+
+_ROUNDS = 400
+_SCALE = 10**12
+
+
+@dataclass(frozen=True)
+class Subshift:
+    """States, and a vector v of whole numbers with A v >= growth v for the covering graph A.
+
+    growth is at most the spectral radius of A (Collatz and Wielandt).
+    """
+
+    states: tuple[Range, ...]
+    vector: tuple[int, ...]
+    growth: Fraction
+
+
+def common(piece: Range, state: Range) -> Range | None:
+    """Return the common part of two intervals if it is longer than a point."""
+    low, high = max(piece[0], state[0]), min(piece[1], state[1])
+    return (low, high) if low < high else None
+
+
+def between(one: Range, two: Range) -> Range | None:
+    """Return what certainly lies between two enclosed numbers: the image of an interval has it."""
+    low, high = min(one[1], two[1]), max(one[0], two[0])
+    return (low, high) if low < high else None
+
+
+def arc(pieces: Sequence[Range], image: Image, index: int, state: Range) -> Range | None:
+    """Return what f is known to cover by the part of a state in a piece."""
+    part = common(pieces[index], state)
+    return None if part is None else between(image(index, part[0]), image(index, part[1]))
+
+
+def tower(pieces: Sequence[Range], image: Image, depth: int, places: int) -> list[Range]:
+    """Return the images of the pieces and, depth times, those of the parts that states cut off.
+
+    They are rounded inward to decimals, and so lie inside the images.
+    """
+    fresh = _images(pieces, image, ((i, piece) for i, piece in enumerate(pieces)), places)
+    states = set(fresh)
+    for _ in range(depth):
+        cut = (
+            (i, state)
+            for state in fresh
+            for i, piece in enumerate(pieces)
+            if common(piece, state) not in (None, piece)
+        )
+        fresh = _images(pieces, image, cut, places) - states
+        states |= fresh
+    return sorted(states)
+
+
+def _images(
+    pieces: Sequence[Range], image: Image, parts: Iterable[tuple[int, Range]], places: int
+) -> set[Range]:
+    """Return the images of parts of pieces, rounded inward."""
+    unit, found = Fraction(1, 10**places), set()
+    for index, state in parts:
+        whole = arc(pieces, image, index, state)
+        if whole is not None:
+            low, high = -(-whole[0] // unit) * unit, whole[1] // unit * unit
+            if low < high:
+                found.add((low, high))
+    return found
+
+
+def largest_subshift(
+    pieces: Sequence[Range], image: Image, states: Sequence[Range]
+) -> Subshift | None:
+    """Return the subshift of greatest growth found on the states; None if no path goes on.
+
+    The value v_i of a state is the number of long paths from it. An edge goes to the state of
+    greatest value that the image contains; values and edges are improved in turn, and the states
+    that are not reached from the best one are left out. The growth is exact for the integer v.
+    """
+    sources, choices = _choices(pieces, image, states)
+    if not len(sources):
+        return None
+    values = np.array([float(high - low) for low, high in states])
+    for _ in range(_ROUNDS):
+        targets = np.where(choices, values, -1.0).argmax(axis=1)
+        image_values = np.bincount(sources, values[targets], len(states))
+        if not image_values.max() > 0.0:
+            return None
+        values = values / values.max() + image_values / image_values.max()
+    kept = _reached(int(values.argmax()), sources, targets)
+    vector = [round(float(values[i]) / float(values.max()) * _SCALE) for i in kept]
+    sums = dict.fromkeys(kept, 0)
+    value_of = dict(zip(kept, vector, strict=True))
+    for source, target in zip(sources.tolist(), targets.tolist(), strict=True):
+        if source in sums:
+            sums[source] += value_of[target]
+    growth = min(Fraction(sums[i], v) for i, v in value_of.items() if v)
+    return Subshift(tuple(states[i] for i in kept), tuple(vector), growth)
+
+
+def _choices(
+    pieces: Sequence[Range], image: Image, states: Sequence[Range]
+) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return for each state and piece that has a target: the state, and which states it covers."""
+    lows = sorted({low for low, _ in states})
+    highs = sorted({high for _, high in states})
+    low_ranks = np.array([bisect_left(lows, low) for low, _ in states])
+    high_ranks = np.array([bisect_left(highs, high) for _, high in states])
+    sources, choices = [], []
+    for i, state in enumerate(states):
+        for index in range(len(pieces)):
+            whole = arc(pieces, image, index, state)
+            if whole is None:
+                continue
+            inside = (low_ranks >= bisect_left(lows, whole[0])) & (
+                high_ranks < bisect_right(highs, whole[1])
+            )
+            if inside.any():
+                sources.append(i)
+                choices.append(inside)
+    return np.array(sources, dtype=np.intp), np.array(choices)
+
+
+def _reached(first: int, sources: NDArray[np.intp], targets: NDArray[np.intp]) -> list[int]:
+    """Return the states reached from one, in order."""
+    after: dict[int, set[int]] = {}
+    for source, target in zip(sources.tolist(), targets.tolist(), strict=True):
+        after.setdefault(source, set()).add(target)
+    reached, waiting = {first}, [first]
+    while waiting:
+        new = after.get(waiting.pop(), set()) - reached
+        reached |= new
+        waiting += new
+    return sorted(reached)
