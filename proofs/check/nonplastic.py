@@ -1,0 +1,204 @@
+"""Rules about impacts with restitution, for boxes of oscillators and of states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+
+from proofs.certificate import Reader
+from proofs.check.arithmetic import Enclosure, Unproved
+from proofs.check.rules import (
+    _LATEST,
+    _MAX_BITS,
+    COVER_BITS,
+    Known,
+    Rule,
+    _phases,
+    _turns,
+)
+from proofs.claims.rebounds import BarredWord, Rebound, Rectangle, Unjoined, barred
+from proofs.claims.rebounds import rectangle as join
+from proofs.facts import Parameters, Range
+from proofs.model.equations import (
+    Launch,
+    arrival,
+    clock,
+    closing,
+    gap,
+    launch_with_restitution,
+    return_map_derivative,
+)
+
+_ZERO = Fraction(0)
+_JOINING = 200  # what joining steps costs, and deciding by them, in evaluations of the gap
+Gap = Callable[[Range, int], Enclosure]
+
+
+@dataclass(frozen=True)
+class _Flights:
+    """All flights of a box: their launches, and the constants of their equations."""
+
+    start: Launch
+    epsilon: Enclosure
+    closing_speed: Enclosure
+
+    def gap(self, time: Range, order: int = 0) -> Enclosure:
+        """Enclose a time derivative of the gap."""
+        eta: Enclosure = self.start.eta
+        value: Enclosure = gap(self.start, clock(eta, Enclosure.of(*time, eta.bits)), order)
+        return value
+
+
+def rebound(of: Parameters, known: Known, reader: Reader) -> Rebound:
+    """Rule `rebound`: {eta, nu, epsilon, phases, velocities, times 0 < t_1 < ... < t_n, impact}.
+
+    The first five are ranges: a box of oscillators, and of states (phi, gamma) before an impact,
+    gamma = v / (omega_n p). Hypotheses, for all of them: closing speed -gap' >= 0 before the
+    impact; gap'' > 0 on [0, t_1], or gap' > 0 there; gap < 0 at t_n. A piece [t_j, t_(j+1)] of
+    width w is closed if min(gap(t_j), gap(t_(j+1))) > w^2/8 max(0, sup gap'') on it; the open
+    pieces are one interval that ends at t_n, with gap' < 0 on it. `impact` lies in it, gap > 0
+    at its lower and gap < 0 at its upper end.
+
+    Conclusion: each state is physically possible and has its first impact after a time of flight
+    in `impact`; it depends smoothly on state and parameters; F and DF are enclosed.
+    Proof. At launch gap = 0 and gap' = epsilon (closing speed) >= 0, so gap > 0 on (0, t_1]; on
+    closed pieces by the error of linear interpolation. In the open interval gap falls through its
+    only zero. Then (15), the implicit function theorem, and `return_map_derivative`.
+    """
+    *box_of, times_of, impact_of = reader.fields(
+        "eta", "nu", "epsilon", "phases", "velocities", "times", "impact"
+    )
+    eta, nu, epsilon = (part.range() for part in box_of[:3])
+    if eta[0] <= 0 or nu[0] <= 0 <= nu[1] or not 0 <= epsilon[0] <= epsilon[1] <= 1:
+        raise reader.fail("the model has eta > 0, nu != 0 and epsilon in [0, 1]")
+    phases, velocities, impact = _phases(box_of[3]), box_of[4].range(), impact_of.range()
+    times = times_of.numbers(least=2)
+    if times[-1] > _LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
+        raise times_of.fail(f"times must increase from 0, to at most {_LATEST}")
+    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
+    narrowest = impact[1] - impact[0]
+    if narrowest == 0:
+        raise Unproved("an empty bracket")
+    bits = COVER_BITS + 2 * (1 / min(shortest, narrowest)).__ceil__().bit_length()
+    bits = min(_MAX_BITS, bits)
+    times_of.charge(2 * len(times) + 16, bits)
+    flights = _flights((eta, nu, epsilon, phases, velocities), bits)
+    if flights.closing_speed.lo < 0:
+        raise Unproved("the states are not proved possible: the mass would come from the table")
+    window = _window(flights.gap, times)
+    if not window[0] <= impact[0] < impact[1] <= window[1]:
+        raise Unproved("the bracket leaves the window of the first impact")
+    low, high = (flights.gap((time, time)) for time in impact)
+    if not low.lo > 0 > high.hi:
+        raise Unproved("the bracket does not have the signs +, - at its ends")
+    now = clock(flights.start.eta, Enclosure.of(*impact, bits))
+    (p, q), (r, s) = return_map_derivative(flights.start, now, flights.epsilon)
+    turns, phase = _after(phases, impact, bits)
+    velocity: Enclosure = arrival(flights.start, now)[1]
+    derivative = ((p.range, q.range), (r.range, s.range))
+    box = (eta, nu, epsilon)
+    return Rebound(box, phases, velocities, turns, phase, velocity.range, derivative)
+
+
+def _flights(box: Sequence[Range], bits: int) -> _Flights:
+    """Return the flights of a box (eta, nu, epsilon, phases, velocities)."""
+    eta, nu, epsilon, phi, gamma = (Enclosure.of(*part, bits) for part in box)
+    side = 1 if nu.lo > 0 else -1
+    start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
+    return _Flights(start, epsilon, side * closing(start, gamma))
+
+
+def _window(gap_of: Gap, times: Sequence[Fraction]) -> Range:
+    """Return the one interval of open pieces, where all first impacts are and gap' < 0."""
+    first = (_ZERO, times[0])
+    if gap_of(first, 2).lo <= 0 and gap_of(first, 1).lo <= 0:
+        raise Unproved("the flights are not proved to leave the table")
+    windows: list[Range] = []
+    value = gap_of((times[0], times[0]), 0)
+    for before, now in pairwise(times):
+        following = gap_of((now, now), 0)
+        bend = max(_ZERO, gap_of((before, now), 2).range[1]) * (now - before) ** 2 / 8
+        if min(value.range[0], following.range[0]) <= bend:
+            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
+            windows.append((begin, now))
+        value = following
+    if value.hi >= 0:
+        raise Unproved("the gap is not proved negative at the last time")
+    if len(windows) != 1 or windows[0][1] != times[-1] or not _falls(gap_of, windows[0]):
+        raise Unproved("the first impact is not transversal")
+    return windows[0]
+
+
+def _falls(gap_of: Gap, time: Range) -> bool:
+    """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
+    width, bend = time[1] - time[0], gap_of(time, 2).range
+    first, last = (gap_of((t, t), 1).range[1] for t in time)
+    return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
+
+
+def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:
+    """Return a count and phases + time less 2 pi times it, the lower end about in [0, 2 pi)."""
+    count = (phases[0] + time[0]) // _turns(1, bits)[0]
+    low, high = _turns(count, bits)
+    return count, (phases[0] + time[0] - high, phases[1] + time[1] - low)
+
+
+def _rebounds(known: Known, names: Reader) -> list[Rebound]:
+    found = []
+    for name in names.items(least=1):
+        step = known.get(name.string())
+        if not isinstance(step, Rebound):
+            raise name.fail("names no earlier rebound step")
+        found.append(step)
+    return found
+
+
+def rectangle(of: Parameters, known: Known, reader: Reader) -> Rectangle:
+    """Rule `rectangle`: {impacts, eta, nu, epsilon, phases, velocities}: rebound steps that join.
+
+    Hypotheses, conclusion and proof: `proofs.claims.rebounds.rectangle`.
+    """
+    impacts, *box_of = reader.fields("impacts", "eta", "nu", "epsilon", "phases", "velocities")
+    eta, nu, epsilon, phases, velocities = (part.range() for part in box_of)
+    reader.charge(_JOINING, COVER_BITS)
+    try:
+        return join(_rebounds(known, impacts), (eta, nu, epsilon), phases, velocities)
+    except Unjoined as failure:
+        raise Unproved(str(failure)) from None
+
+
+def barred_word(of: Parameters, known: Known, reader: Reader) -> BarredWord:
+    """Rule `barred-word`: {impacts, rectangles: two names, word of 0 and 1, bounds, from}.
+
+    from: "above" or "below". Hypotheses, conclusion and proof: `proofs.claims.rebounds.barred`.
+    """
+    impacts, names, word_of, bounds, side = reader.fields(
+        "impacts", "rectangles", "word", "bounds", "from"
+    )
+    if side.string() not in ("above", "below"):
+        raise side.fail("above or below")
+    sign = 1 if side.string() == "above" else -1
+    pair = []
+    for name in names.items(2, 2):
+        step = known.get(name.string())
+        if not isinstance(step, Rectangle):
+            raise name.fail("names no earlier rectangle step")
+        pair.append(step)
+    word = word_of.string()
+    if not set(word) <= {"0", "1"}:
+        raise word_of.fail("a word is written in 0 and 1")
+    parts, symbols = _rebounds(known, impacts), tuple(map(int, word))
+    reader.charge(_JOINING, COVER_BITS)
+    try:
+        return barred(parts, (pair[0], pair[1]), symbols, bounds.numbers(), sign)
+    except Unjoined as failure:
+        raise Unproved(str(failure)) from None
+
+
+RULES: dict[str, Rule] = {
+    "rebound": rebound,
+    "rectangle": rectangle,
+    "barred-word": barred_word,
+}
