@@ -11,6 +11,7 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from importlib import import_module
 from os import getpid
 from pathlib import Path
@@ -36,6 +37,7 @@ from proofs.facts import PAPER, Parameters, Range, show
 from proofs.statements import Verdict
 
 Tell = Callable[[str], None]
+_SPARE = Fraction(1, 10**12)
 
 
 @dataclass
@@ -63,8 +65,8 @@ class Row:
 
 
 def printed(bounds: Range, digits: int) -> dict[str, str]:
-    """Write an enclosure outward, with a fraction of its width to spare for another arithmetic."""
-    spare = (bounds[1] - bounds[0]) / 8
+    """Write an enclosure outward, with a little to spare for another arithmetic."""
+    spare = min((bounds[1] - bounds[0]) / 8, _SPARE)
     lower, upper = decimal_bounds(bounds[0] - spare, bounds[1] + spare, digits)
     return {"lower": lower, "upper": upper}
 

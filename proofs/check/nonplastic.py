@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -13,10 +13,13 @@ from proofs.check.rules import (
     _LATEST,
     _MAX_BITS,
     COVER_BITS,
+    Gap,
     Known,
     Rule,
     _phases,
     _turns,
+    falls,
+    open_windows,
 )
 from proofs.claims.rebounds import BarredWord, Rebound, Rectangle, Unjoined, barred
 from proofs.claims.rebounds import rectangle as join
@@ -33,7 +36,6 @@ from proofs.model.equations import (
 
 _ZERO = Fraction(0)
 _JOINING = 200  # what joining steps costs, and deciding by them, in evaluations of the gap
-Gap = Callable[[Range, int], Enclosure]
 
 
 @dataclass(frozen=True)
@@ -115,27 +117,10 @@ def _window(gap_of: Gap, times: Sequence[Fraction]) -> Range:
     first = (_ZERO, times[0])
     if gap_of(first, 2).lo <= 0 and gap_of(first, 1).lo <= 0:
         raise Unproved("the flights are not proved to leave the table")
-    windows: list[Range] = []
-    value = gap_of((times[0], times[0]), 0)
-    for before, now in pairwise(times):
-        following = gap_of((now, now), 0)
-        bend = max(_ZERO, gap_of((before, now), 2).range[1]) * (now - before) ** 2 / 8
-        if min(value.range[0], following.range[0]) <= bend:
-            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
-            windows.append((begin, now))
-        value = following
-    if value.hi >= 0:
-        raise Unproved("the gap is not proved negative at the last time")
-    if len(windows) != 1 or windows[0][1] != times[-1] or not _falls(gap_of, windows[0]):
+    windows = open_windows(gap_of, times)
+    if len(windows) != 1 or windows[0][1] != times[-1] or not falls(gap_of, windows[0]):
         raise Unproved("the first impact is not transversal")
     return windows[0]
-
-
-def _falls(gap_of: Gap, time: Range) -> bool:
-    """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
-    width, bend = time[1] - time[0], gap_of(time, 2).range
-    first, last = (gap_of((t, t), 1).range[1] for t in time)
-    return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
 
 
 def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:

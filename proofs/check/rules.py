@@ -6,9 +6,11 @@ A rule's docstring is its theorem. Conclusions are recomputed from exact data by
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
+from itertools import pairwise
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
@@ -51,11 +53,8 @@ class Motion:
         return value if isinstance(value, Enclosure) else rational(Fraction(value), self.bits)
 
     def falls(self, start: Launch, time: Range) -> bool:
-        """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
-        width = time[1] - time[0]
-        bend = self.gap(start, time, 2).range
-        first, last = (self.gap(start, (t, t), 1).range[1] for t in time)
-        return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
+        """Whether gap' < 0 on an interval of times."""
+        return falls(partial(self.gap, start), time)
 
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
@@ -98,6 +97,7 @@ class MoranRoot:
 
 Known = dict[str, object]  # the conclusions of the steps so far, by name
 Rule = Callable[[Parameters, Known, Reader], object]
+Gap = Callable[[Range, int], Enclosure]
 
 
 def _phases(reader: Reader) -> Range:
@@ -130,24 +130,38 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     times_of.charge(2 * len(times) + 3, bits)
     motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, _phases(phases_of), bits)
     start = motion.start()
-    before, value = _ZERO, None
-    windows: list[Range] = []
-    for now in times:
-        acceleration = motion.gap(start, (before, now), 2)
-        following = motion.gap(start, (now, now))
-        if value is None:
-            if acceleration.lo <= 0:
-                raise Unproved("the launches are not proved to leave the table")
-        else:
-            bend = max(_ZERO, acceleration.range[1]) * (now - before) ** 2 / 8
-            if min(value.range[0], following.range[0]) <= bend:
-                begin = windows.pop()[0] if windows and windows[-1][1] == before else before
-                windows.append((begin, now))
-        before, value = now, following
-    if value is None or value.hi >= 0:
-        raise Unproved("the gap is not proved negative at the last time")
+    gap_of = partial(motion.gap, start)
+    if gap_of((_ZERO, times[0]), 2).lo <= 0:
+        raise Unproved("the launches are not proved to leave the table")
+    windows = open_windows(gap_of, times)
     single = len(windows) == 1 and windows[0][1] == times[-1]
     return FirstImpact(motion, tuple(windows), single and motion.falls(start, windows[0]))
+
+
+def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
+    """Return the runs of open pieces of [times[0], times[-1]]; gap < 0 must hold at the end.
+
+    gap_of(interval of times, order) encloses derivatives of the gap of the flights in question.
+    """
+    windows: list[Range] = []
+    value = gap_of((times[0], times[0]), 0)
+    for before, now in pairwise(times):
+        following = gap_of((now, now), 0)
+        bend = max(_ZERO, gap_of((before, now), 2).range[1]) * (now - before) ** 2 / 8
+        if min(value.range[0], following.range[0]) <= bend:
+            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
+            windows.append((begin, now))
+        value = following
+    if value.hi >= 0:
+        raise Unproved("the gap is not proved negative at the last time")
+    return windows
+
+
+def falls(gap_of: Gap, time: Range) -> bool:
+    """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
+    width, bend = time[1] - time[0], gap_of(time, 2).range
+    first, last = (gap_of((t, t), 1).range[1] for t in time)
+    return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
 
 
 def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:

@@ -80,7 +80,12 @@ def first_impact(
         if launch_acceleration(flight.start).certainly_negative():
             raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
         raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
-    times = [Fraction(0), _first_step(flight)]
+    return march(flight, _first_step(flight), horizon, finest)
+
+
+def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) -> FirstImpact:
+    """Exclude impacts as `first_impact` does, from a time on up to which gap > 0 is known."""
+    times = [Fraction(0), first]
     open_pieces: list[Range] = []
     value = flight.gap(times[-1])
     step, allowed, certain = times[-1], finest, False

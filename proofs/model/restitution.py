@@ -16,7 +16,7 @@ from proofs.model.equations import (
     return_map_derivative,
 )
 from proofs.model.flight import Flight
-from proofs.model.impact import HORIZON, FirstImpact, NoImpact, _positive_between, impact_time
+from proofs.model.impact import HORIZON, FirstImpact, NoImpact, impact_time, march
 from proofs.model.phase import turn
 
 Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
@@ -108,31 +108,7 @@ def first_impact(
     gap'(0) >= 0, so that gap' > 0 or gap'' > 0 on [0, t_1] gives gap > 0. Raises NoImpact at the
     horizon, Undecided where a state is not proved possible, or leaves the table too slowly.
     """
-    times = [_NONE, _first_step(flight)]
-    open_pieces: list[Range] = []
-    value = flight.gap(times[-1])
-    step, allowed, certain = times[-1], finest, False
-    while not certain:
-        now = times[-1]
-        if now >= horizon:
-            raise NoImpact(f"no impact is certain up to time {float(horizon):g} (the horizon)")
-        ahead = now + step
-        next_value = flight.gap(ahead)
-        if _positive_between(flight, now, value, ahead, next_value):
-            step, allowed = 2 * step, finest
-        elif step > allowed:
-            step = max(step / 2, allowed)
-            continue
-        else:
-            certain = next_value.certainly_negative()
-            joined = open_pieces and open_pieces[-1][1] == now
-            begin = open_pieces.pop()[0] if joined else now
-            open_pieces.append((begin, ahead))
-            step = allowed = min(2 * allowed, 16 * finest)
-        times.append(ahead)
-        value = next_value
-    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).certainly_negative()
-    return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
+    return march(flight, _first_step(flight), horizon, finest)
 
 
 def _first_step(flight: Rebounds) -> Fraction:
