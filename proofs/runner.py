@@ -60,7 +60,7 @@ class Row:
     statement: str
     why: str
     quantities: Mapping[str, Range]
-    seconds: float
+    seconds: float | None = None
     corrected: str | None = None
 
 
@@ -80,7 +80,7 @@ def decide(
         raise ValueError(f"no group has the claim {claim}")
     found = stated.decide(of, [conclusion for _, conclusion in proof])
     row = Row(
-        claim, found.verdict, stated.says(of), found.why, found.quantities, 0.0, found.corrected
+        claim, found.verdict, stated.says(of), found.why, found.quantities, None, found.corrected
     )
     return row, {
         "id": claim,
@@ -119,14 +119,13 @@ def settle(
     """Prove and decide claims of a group; return rows for people and the certificate."""
     asked = set(catalogue.GROUPS[group] if claims is None else claims)
     wanted = [claim for claim in catalogue.GROUPS[group] if claim in asked]
-    began = perf_counter()
     evidence: Evidence = import_module(f"proofs.{group}").prove(
         of, wanted, digits=digits, tell=tell
     )
     decided = [decide(claim, of, evidence.proofs.get(claim, []), digits) for claim in wanted]
-    spent = (perf_counter() - began) / max(1, len(wanted))
-    rows = [replace(row, seconds=spent) for row, _ in decided]
-    return rows, certificate(of, evidence.steps, [entry for _, entry in decided])
+    return [row for row, _ in decided], certificate(
+        of, evidence.steps, [entry for _, entry in decided]
+    )
 
 
 @dataclass(frozen=True)
@@ -289,13 +288,16 @@ def print_rows(rows: Sequence[Row], seconds: float, theorem: str | None = None) 
     """Print a paragraph a claim, the corrected theorem and a summary line."""
     for row in rows:
         print(f"{row.id:4} {coloured(row.verdict)} {row.statement}")
-        print(f"     {row.why}  ({row.seconds * 1000:.1f} ms)")
+        spent = "" if row.seconds is None else f"  ({row.seconds * 1000:.1f} ms)"
+        print(f"     {row.why}{spent}")
         for name, bounds in row.quantities.items():
             lower, upper = printed(bounds, 17).values()
             print(f"     {name} in [{lower}, {upper}]")
-    for text in dict.fromkeys((theorem, *(row.corrected for row in rows))):
-        if text is not None:
-            print(f"\nCorrected theorem, VERIFIED: {text}")
+    if theorem is not None:
+        print(f"\nCorrected theorem, VERIFIED: {theorem}")
+    for text in dict.fromkeys(row.corrected for row in rows if row.corrected is not None):
+        beside = ", ".join(row.id for row in rows if row.corrected == text)
+        print(f"\nTheorem beside {beside}, VERIFIED: {text}")
     counts = Counter(row.verdict.value for row in rows)
     summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
