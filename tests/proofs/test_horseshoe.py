@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from flint import arb, ctx
 
-from proofs import horseshoe
+from proofs import horseshoe, runner
 from proofs.certificate import render
 from proofs.check.verify import check
 from proofs.facts import PAPER
@@ -201,7 +201,7 @@ def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
 def test_the_machine_form(capsys, tmp_path):
     assert horseshoe.main(["--json", "-", "--out", str(tmp_path)]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert [claim["id"] for claim in printed["claims"]] == list(CLAIMS)
+    assert [claim["id"] for claim in printed["claims"]] == list(horseshoe.CLAIMS)
     names = {name for claim in printed["claims"] for name in claim["quantities"]}
     assert names >= {
         f"slope_{kind}_{which}" for kind in ("min", "max") for which in ("I0", "I1")
@@ -273,7 +273,7 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     def refuse(_):
         raise Rejected("on purpose")
 
-    monkeypatch.setattr(horseshoe, "check", refuse)
+    monkeypatch.setattr(runner, "check", refuse)
     assert horseshoe.main(["--only", "H16", "--out", str(tmp_path)]) == 3
     assert "DISAGREES" in capsys.readouterr().err
 
