@@ -139,5 +139,12 @@ def _fixed_point(system: System, low: float, high: float) -> float:
     return low
 
 
+def _figure(certificate: str) -> str:
+    """Draw figure 6 as proved."""
+    from proofs.circle_figure import svg
+
+    return svg(certificate)
+
+
 if __name__ == "__main__":
-    sys.exit(run("circle", description=__doc__))
+    sys.exit(run("circle", description=__doc__, figure=_figure))

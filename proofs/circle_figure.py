@@ -1,18 +1,15 @@
 """Figure 6 of the paper as a theorem: how many impacts phases need at most to stick.
 
-`python -m proofs.circle_figure reports/circle.json > reports/circle.svg` draws the intervals that
-a certificate proves; matplotlib is imported here only.
+matplotlib is imported here only.
 """
 
 from __future__ import annotations
 
 import io
 import math
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from proofs.certificate import Malformed, parse, read
+from proofs.certificate import parse
 from proofs.facts import Range
 
 if TYPE_CHECKING:
@@ -81,17 +78,3 @@ def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:
     for low, high in never:
         axes.axvspan(low, high, color="C3", lw=1, label="no impact ever")
     axes.set_ylim(0, max(heights, default=0) + 2)
-
-
-def main(arguments: list[str]) -> int:
-    """Draw the certificate named; 2 if there is none."""
-    try:
-        print(svg(read(Path(arguments[0]))))
-    except (IndexError, OSError, Malformed, KeyError) as error:
-        print(f"proofs.circle_figure: {error}", file=sys.stderr)
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -7,7 +7,6 @@ printed numbers fail, writes certificate and report, and has the checker re-deri
 import sys
 from collections.abc import Sequence
 from fractions import Fraction
-from importlib.util import find_spec
 from time import perf_counter
 
 from intervals import Undecided
@@ -68,12 +67,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser = Parser("proofs.horseshoe", __doc__, EPILOG)
     runner.add_parameters(parser)
     runner.add_outputs(parser, CLAIMS)
-    add = parser.add_argument
-    add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
-    add("--figure", action="store_true", help="draw DIR/horseshoe.svg too (needs matplotlib)")
+    longest = "longest flight looked at (default 1000)"
+    parser.add_argument("--horizon", type=horizon, default=HORIZON, help=longest)
+    runner.add_figure(parser, "horseshoe")
     options = parser.parse_args(arguments)
-    if options.figure and find_spec("matplotlib") is None:
-        parser.error("--figure needs matplotlib: pip install matplotlib")
+    runner.check_figure(parser, options)
     of = runner.prepared(parser, options)
     began = perf_counter()
     asked = tuple(options.only or CLAIMS)

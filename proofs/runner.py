@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from importlib import import_module
+from importlib.util import find_spec
 from os import getpid
 from pathlib import Path
 from time import perf_counter
@@ -171,13 +172,24 @@ examples:
 """
 
 
-def run(group: str, arguments: list[str] | None = None, description: str | None = None) -> int:
-    """Run the command of a group; return the exit status."""
+def run(
+    group: str,
+    arguments: list[str] | None = None,
+    description: str | None = None,
+    figure: Callable[[str], str] | None = None,
+) -> int:
+    """Run the command of a group; return the exit status.
+
+    figure: draws an SVG of what a certificate proves, if the group has a picture.
+    """
     claims = catalogue.GROUPS[group]
     parser = Parser(f"proofs.{group}", description, EPILOG.format(group=group, first=claims[0]))
     add_parameters(parser)
     add_outputs(parser, claims)
+    if figure is not None:
+        add_figure(parser, group)
     options = parser.parse_args(arguments)
+    check_figure(parser, options)
     of = prepared(parser, options)
     began = perf_counter()
     with progress() as tell:
@@ -186,6 +198,8 @@ def run(group: str, arguments: list[str] | None = None, description: str | None 
     made_by = command(f"proofs.{group}", arguments)
     try:
         write(options.out, group, made.certificate, made.page, made_by)
+        if figure is not None and options.figure:
+            write_atomically(options.out / f"{group}.svg", figure(made.certificate))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     return finish(made, seconds, options, f"{group}.json")
@@ -221,6 +235,18 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")
+
+
+def add_figure(parser: Parser, name: str) -> None:
+    """Add the option for a picture."""
+    help_text = f"draw DIR/{name}.svg too (needs matplotlib)"
+    parser.add_argument("--figure", action="store_true", help=help_text)
+
+
+def check_figure(parser: Parser, options: Namespace) -> None:
+    """Leave with one line if a picture is asked for and cannot be drawn."""
+    if getattr(options, "figure", False) and find_spec("matplotlib") is None:
+        parser.error("--figure needs matplotlib: pip install matplotlib")
 
 
 def prepared(parser: Parser, options: Namespace) -> Parameters:

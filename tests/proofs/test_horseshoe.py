@@ -287,7 +287,7 @@ def test_the_figure_is_drawn_and_does_not_change(tmp_path):
 
 
 def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(horseshoe, "find_spec", lambda name: None)
+    monkeypatch.setattr(runner, "find_spec", lambda name: None)
     with pytest.raises(SystemExit) as leave:
         horseshoe.main(["--figure", "--out", str(tmp_path / "new")])
     assert leave.value.code == 2 and "needs matplotlib" in capsys.readouterr().err
