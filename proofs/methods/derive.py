@@ -1,0 +1,81 @@
+"""Formulas in sympy: equalities and power series found by computer algebra.
+
+A text is read as `proofs.claims.formulas` says. What sympy finds is a candidate: the checker has a
+computation of its own. sympy is imported by what needs it.
+"""
+
+from __future__ import annotations
+
+import ast
+from math import lcm
+from typing import Any
+
+
+def read(text: str) -> Any:
+    """Return a formula as a sympy expression."""
+    import sympy
+    from sympy.parsing.sympy_parser import parse_expr
+
+    def at(function: Any, **places: Any) -> Any:
+        pairs = [(sympy.Symbol(name), place) for name, place in places.items()]
+        return sympy.sympify(function).subs(pairs, simultaneous=True)
+
+    known = {name: getattr(sympy, name) for name in ("sin", "cos", "sqrt", "exp", "log", "pi")}
+    known |= {"D": sympy.diff, "at": at}
+    names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
+    symbols = {name: sympy.Symbol(name) for name in names if name not in known}
+    return parse_expr(text, local_dict={**known, **symbols})
+
+
+def vanishes(expression: Any) -> bool:
+    """Whether sympy reduces an expression to 0: expanded angles, sin^2 = 1 - cos^2, numerators."""
+    import sympy
+
+    expression = sympy.expand_trig(_whole_angles(expression))
+    top = sympy.expand(sympy.numer(sympy.together(expression)))
+    for sine in top.atoms(sympy.sin):
+        square = 1 - sympy.cos(sine.args[0]) ** 2
+        top = sympy.expand(sympy.rem(top, sine**2 - square, sine))
+    return bool(top == 0)
+
+
+def _whole_angles(expression: Any) -> Any:
+    """Write angles as sums, and scale the variables until they have integer coefficients."""
+    import sympy
+
+    circular = (sympy.sin, sympy.cos)
+    parts = {part: part.func(sympy.expand(part.args[0])) for part in expression.atoms(*circular)}
+    expression = expression.xreplace(parts)
+    terms = [
+        term
+        for part in parts.values()
+        for angle in part.args
+        for term in sympy.Add.make_args(angle)
+    ]
+    scale = lcm(*(int(sympy.denom(term.as_coeff_Mul()[0])) for term in terms))
+    pairs = [(symbol, scale * symbol) for symbol in expression.free_symbols]
+    return expression.subs(pairs, simultaneous=True) if scale > 1 else expression
+
+
+def equal(left: str, right: str) -> bool:
+    """Whether sympy finds two formulas equal."""
+    return vanishes(read(left) - read(right))
+
+
+def begins(function: str, variable: str, coefficients: tuple[str, ...]) -> bool:
+    """Whether sympy finds that a power series begins with these coefficients."""
+    import sympy
+
+    x = sympy.Symbol(variable)
+    rest = read(function) - sum(read(text) * x**n for n, text in enumerate(coefficients))
+    top, bottom = sympy.fraction(sympy.together(rest))
+    return _order(top, x) >= _order(bottom, x) + len(coefficients)
+
+
+def _order(function: Any, x: Any, most: int = 16) -> int:
+    """Return the least order of a derivative that is not 0 at x = 0."""
+    for order in range(most):
+        if not vanishes(function.subs(x, 0)):
+            return order
+        function = function.diff(x)
+    return most

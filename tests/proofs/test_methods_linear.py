@@ -1,0 +1,105 @@
+"""A linear horseshoe by the lemma kernel: two strips, each mapped affinely across both.
+
+F(x, y) = (5|x| - 4, y/4 + sign(x)/2), with sqrt(x^2) for |x|. All is known: points with an infinite
+past and future in the strips form a product of two Cantor sets, and F on it is the 2-shift.
+"""
+
+import copy
+import json
+from fractions import Fraction
+from functools import cache
+
+import pytest
+
+from intervals import Undecided
+from proofs.certificate import Malformed, render
+from proofs.check.lemma import check_lemma
+from proofs.check.verify import Rejected
+from proofs.methods.symbolic import SymbolicLemmas
+
+MODULUS = ["sqrt", ["^", "x", "2"]]
+LINEAR = (
+    ["x", "y"],
+    [["-", ["*", "5", MODULUS], "4"], ["+", ["/", "y", "4"], ["/", "x", ["*", "2", MODULUS]]]],
+)
+
+
+def horseshoe(reach="21/100"):
+    """|x| within `reach` of 4/5, all of |y| <= 1; for 1/5 the edges go to the edges exactly."""
+    file = SymbolicLemmas({"F": LINEAR})
+    return file, [file.h_set([x, "0"], [[reach, "0"], ["0", "1"]]) for x in ("-4/5", "4/5")]
+
+
+@cache
+def certificate():
+    file, sets = horseshoe()
+    graph = file.graph([file.covers("F", 1, a, b) for a in sets for b in sets])
+    file.entropy(graph)
+    file.cone(graph, ["4", "-1"])
+    return render(file.document())
+
+
+def test_the_two_shift():
+    report = check_lemma(certificate())
+    entropy, cone = report.claims[-2:]
+    assert "at least log(2)/1, which lies in [0.69314718055" in entropy
+    assert "exactly one full orbit" in cone
+    for arrow in ("N1 => N1", "N1 => N2", "N2 => N1", "N2 => N2"):
+        assert arrow in cone
+    assert "(0.21, 0), (0, 1)" in cone
+
+
+def test_strips_that_are_covered_with_no_margin():
+    """The edges |x| = 3/5, 1 of the strips go to x = -1, 1: no strict covering."""
+    file, sets = horseshoe("1/5")
+    with pytest.raises(Undecided):
+        file.covers("F", 1, sets[0], sets[1])
+
+
+def test_a_cone_of_the_wrong_form():
+    """5 > 1 > 1/4: 4 q_1^2 - q_2^2 increases along differences of orbits, the others do not."""
+    file, sets = horseshoe()
+    graph = file.graph([file.covers("F", 1, a, b) for a in sets for b in sets])
+    for form in (["-1", "1"], ["1", "1"]):
+        with pytest.raises(Undecided):
+            file.cone(graph, form)
+
+
+def edits():
+    """Places in the file, and what to write there."""
+    yield "more growth", ("entropy-1", "growth"), "3"
+    yield "one strip moved off", ("h-set-2", "centre"), ["9/10", "0"]
+    yield "a strip as its own edge", ("h-set-1", "matrix"), [["1/5", "0"], ["0", "1"]]
+    yield "a flat strip", ("h-set-1", "matrix"), [["21/100", "0"], ["0", "0"]]
+    yield "a low strip", ("h-set-1", "matrix"), [["21/100", "0"], ["0", "1/2"]]
+    yield "the other orientation", ("covers-2", "sign"), "+"
+    yield "two iterates", ("covers-1", "power"), "2"
+    yield "the strips meet", ("h-set-2", "centre"), ["-1/2", "0"]
+    yield "a cone that contracts", ("cone-1", "forms"), [["-1", "1"], ["-1", "1"]]
+    yield "no cone in y", ("cone-1", "forms"), [["1", "0"], ["1", "0"]]
+
+
+@pytest.mark.parametrize(("place", "value"), [e[1:] for e in edits()], ids=[e[0] for e in edits()])
+def test_edited_files_are_refused(place, value):
+    document = json.loads(certificate())
+    step, name = place
+    assert document["steps"][step]["witness"][name] != value
+    document["steps"][step]["witness"][name] = value
+    with pytest.raises((Rejected, Malformed)):
+        check_lemma(json.dumps(document))
+
+
+def test_another_map_in_the_file():
+    """5 becomes 4: no strip is covered any more."""
+    document = copy.deepcopy(json.loads(certificate()))
+    text = json.dumps(document).replace('["*", "5", ', '["*", "4", ')
+    with pytest.raises(Rejected):
+        check_lemma(text)
+
+
+def test_the_bounds_of_the_derivative_are_those_of_the_strips():
+    """In the coordinates of the strips F' is diag(+-5, 1/4), up to the enclosure of x/|x|."""
+    relations = json.loads(certificate())["steps"]["cone-1"]["witness"]["relations"]
+    for relation, sign in zip(relations, (-1, -1, 1, 1), strict=True):
+        (a, b), _, _, (c, d) = ([Fraction(end) for end in ends] for ends in relation["jacobian"])
+        assert a <= 5 * sign <= b and c <= Fraction(1, 4) <= d

@@ -1,0 +1,227 @@
+"""All periodic orbits in a region: closed forms, other algorithms, and what stays undecided."""
+
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+
+from intervals import DomainError, Interval, IntervalArray, Undecided
+from intervals.jet import Jet
+from proofs.methods.cells import Region, invariant_cover
+from proofs.methods.horseshoes import full_horseshoe
+from proofs.methods.orbits import periodic_points
+from proofs.methods.periodic import (
+    _NOWHERE,
+    _distinct,
+    _successors,
+    iterate,
+    periodic_orbits,
+)
+from proofs.methods.words import Words
+
+
+def logistic(x):
+    return 5 * x * (1 - x)
+
+
+def on_line(f, low, high, g=None, depth=10):
+    return invariant_cover(f, Region((Interval(low, high),), g), depth=depth)
+
+
+LOGISTIC = on_line(logistic, -1, 2)
+
+
+def test_the_logistic_map_in_closed_form():
+    """0 and 4/5, multipliers 5 and -3; the roots of 25 x^2 - 30 x + 6, multiplier -11."""
+    fixed = periodic_orbits(LOGISTIC, 1)
+    for orbit, x, slope in zip(fixed, (0, Fraction(4, 5)), (5, -3), strict=True):
+        assert orbit.points[0][0].contains(x) and orbit.trace.contains(slope)
+    (cycle,) = [orbit for orbit in periodic_orbits(LOGISTIC, 2) if orbit.period == 2]
+    (low,), (high,) = cycle.points
+    assert low < high
+    assert (low + high).contains("6/5") and (low * high).contains("6/25")
+    assert cycle.trace.contains(-11)
+    assert (logistic(low) - high).contains(0) and (logistic(high) - low).contains(0)
+
+
+@pytest.mark.parametrize("period", [1, 2, 3, 4, 6])
+def test_all_points_of_the_logistic_map_by_its_inverse_branches(period):
+    """The same points as those of the words, found without any subdivision."""
+    of = full_horseshoe(logistic, [("0", "0.2764"), ("0.7236", "1")])
+    rows = sorted(row.point for row in periodic_points(of, Words.of_length(period), 25))
+    orbits = periodic_orbits(LOGISTIC, period)
+    found = sorted((x.inf, x.sup) for orbit in orbits for (x,) in orbit.points)
+    assert len(found) == 2**period
+    for (low, high), (inner_low, inner_high) in zip(found, rows, strict=True):
+        assert low <= inner_high and inner_low <= high
+        assert high - low < Fraction(1, 10**11)
+    assert all(period % orbit.period == 0 for orbit in orbits)
+    assert [o.period for o in orbits] == sorted(o.period for o in orbits)
+
+
+def linear_horseshoe(x, y):
+    """(3x - 2, y/4 + 1/2) for x > 0, (-3x - 2, y/4 - 1/2) for x < 0."""
+    value = x.value if isinstance(x, Jet) else x
+    if np.any(value.contains_zero()):
+        raise DomainError("x = 0")
+    if isinstance(value, Interval):
+        sign = Interval(1 if value.inf > 0 else -1)
+    else:
+        sign = IntervalArray.from_floats(np.sign(value.mid))
+    return [x * sign * 3 - 2, y / 4 + sign / 2]
+
+
+def linear_point(signs):
+    """The fixed point of a composition of the two affine maps, in fractions."""
+    a, b, c, d = Fraction(1), Fraction(0), Fraction(1), Fraction(0)
+    for sign in signs:
+        a, b = 3 * sign * a, 3 * sign * b - 2
+        c, d = c / 4, d / 4 + Fraction(sign, 2)
+    return b / (1 - a), d / (1 - c)
+
+
+@pytest.mark.parametrize("period", [1, 2, 3, 4])
+def test_the_linear_horseshoe(period):
+    square = Interval(-2, 2)
+    strips = Region((square, square), lambda x, y: [x.sqr() - Fraction(1, 25)])
+    orbits = periodic_orbits(invariant_cover(linear_horseshoe, strips), period)
+    found = [p for orbit in orbits for p in orbit.points]
+    expected = [linear_point(signs) for signs in product((1, -1), repeat=period)]
+    assert len(found) == len(expected) == 2**period
+    for point in expected:
+        (box,) = [p for p in found if p[0].contains(point[0]) and p[1].contains(point[1])]
+        assert max(side.wid for side in box) < Fraction(1, 10**10)
+    for orbit in orbits:
+        (a, b), (c, d) = orbit.derivative
+        assert abs(a).contains(3**orbit.period) and d.contains(Fraction(1, 4**orbit.period))
+        assert b.mag == 0 and c.mag == 0
+
+
+def test_three_dimensions():
+    """A product of x -> 5x(1-x), y -> y/2 + x, and z -> z^2 + 1/5: 2 2^n points."""
+
+    def f(x, y, z):
+        return [logistic(x), y / 2 + x, z.sqr() + Fraction(1, 5)]
+
+    box = (Interval(-1, 2), Interval(-3, 4), Interval(-1, 1))
+    cover = invariant_cover(f, Region(box), depth=4)
+    for period in (1, 2):
+        points = [p for orbit in periodic_orbits(cover, period) for p in orbit.points]
+        assert len(points) == 2 * 2**period
+        for x, _, z in points:
+            assert (z.sqr() - z + Fraction(1, 5)).contains(0)
+            assert (iterate(logistic, period)(x)[0] - x).contains(0)
+
+
+def test_boxes_that_are_cut_beside_a_point():
+    """z = z^2 + 1/5 is enclosed long before x: the boxes of uniqueness would be too narrow in z."""
+    box = (Interval(-1, 2), Interval(-1, 1))
+    cover = invariant_cover(
+        lambda x, z: [logistic(x), z.sqr() + Fraction(1, 5)], Region(box), depth=4
+    )
+    assert sum(orbit.period for orbit in periodic_orbits(cover, 4)) == 2 * 2**4
+
+
+def test_the_orbit_is_in_the_region_not_its_point_alone():
+    """Without the surroundings of 4/5; without 0.946, the other point of the cycle of period 2."""
+    without = on_line(logistic, -1, 2, lambda x: [(x - Fraction(4, 5)).sqr() - Fraction(1, 10**4)])
+    (zero,) = periodic_orbits(without, 1)
+    assert zero.points[0][0].contains(0)
+    below = on_line(logistic, -1, "15/16")
+    assert [o.period for o in periodic_orbits(below, 2)] == [1, 1]
+    assert [o.period for o in periodic_orbits(LOGISTIC, 2)] == [1, 1, 2]
+
+
+def test_images_beyond_the_domain():
+    """5 x (1 - x) written so that it is not defined for x > 1: orbits in R stay below 0.98."""
+    partial = on_line(lambda x: 5 * x * (1 - x).sqrt().sqr(), "0.1", "0.98", depth=3)
+    for period in (1, 3):
+        expected = [
+            orbit
+            for orbit in periodic_orbits(LOGISTIC, period)
+            if all(x.inf > Fraction("0.1") and x.sup < Fraction("0.98") for (x,) in orbit.points)
+        ]
+        found = periodic_orbits(partial, period)
+        assert [o.period for o in found] == [o.period for o in expected]
+        for one, two in zip(found, expected, strict=True):
+            assert one.points[0][0].intersection(two.points[0][0]) is not None
+
+
+def test_which_point_follows():
+    """Images within, apart from, and partly in the boxes where 1/4 and 3/4 are alone."""
+    points = (IntervalArray([("0.24", "0.26"), ("0.74", "0.76")]),)
+    near = (IntervalArray([("0.2", "0.3"), ("0.7", "0.8")]),)
+    assert _successors(lambda x: 1 - x, points, near) == [1, 0]
+    assert _successors(lambda x: x + Fraction(1, 2), points, near) == [1, _NOWHERE]
+    assert _successors(lambda x: x + Fraction(3, 100), points, near) == [0, 1]
+    beside = Fraction(4, 100) + Fraction(1, 1000)
+    assert _successors(lambda x: x + beside, points, near) == [_NOWHERE, _NOWHERE]
+    with pytest.raises(Undecided, match="which point follows"):
+        _successors(lambda x: 8 * x - Fraction(7, 4), points, near)
+
+
+def test_one_point_or_two():
+    """Boxes with one point each: one within the other's, apart, and neither."""
+    points = (IntervalArray([("0.24", "0.26"), ("0.25", "0.27"), ("0.74", "0.76")]),)
+    near = (IntervalArray([("0.2", "0.3"), ("0.25", "0.27"), ("0.7", "0.8")]),)
+    kept, around = _distinct(points, near)
+    assert kept[0].equal(points[0][[0, 2]]).all() and around[0].equal(near[0][[0, 2]]).all()
+    with pytest.raises(Undecided, match="perhaps two"):
+        _distinct(points, points)
+
+
+def test_no_cells_no_orbits():
+    nothing = on_line(lambda x: x.sqr() + 2, -10, 10)
+    assert not len(nothing.cells[0])
+    assert periodic_orbits(nothing, 3) == []
+
+
+def test_a_rotation_by_a_quarter():
+    """The origin alone is fixed by the first three iterates; the fourth is the identity."""
+    square = (Interval(-1, 1), Interval(-1, 1))
+    cover = invariant_cover(lambda x, y: [-y, 1 * x], Region(square), depth=4)
+    for period in (1, 2, 3):
+        (origin,) = periodic_orbits(cover, period)
+        assert origin.period == 1 and all(side.contains(0) for side in origin.points[0])
+    with pytest.raises(Undecided):
+        periodic_orbits(cover, 4, limit=10_000)
+
+
+@pytest.mark.parametrize(
+    ("f", "low", "high", "period", "reason"),
+    [
+        (logistic, 0, 1, 1, "boundary of the region"),
+        (logistic, -1, "4/5", 1, "boundary of the region"),
+        (lambda x: x.sqr() + Fraction(1, 4), -2, 2, 1, "whether there is a periodic point in"),
+        (lambda x: -x, -1, 1, 2, "too many sub-boxes"),
+        (lambda x: 1 * x, -1, 1, 1, "too many sub-boxes"),
+    ],
+)
+def test_undecided(f, low, high, period, reason):
+    """A point at an end; a double root at 1/2; fixed points that are not isolated."""
+    with pytest.raises(Undecided, match=reason):
+        periodic_orbits(on_line(f, low, high), period, limit=20_000)
+
+
+def test_the_message_has_the_box():
+    parabola = on_line(lambda x: x.sqr() + Fraction(1, 4), -2, 2)
+    with pytest.raises(Undecided) as caught:
+        periodic_orbits(parabola, 1)
+    low, high = (float(end) for end in str(caught.value).split("[")[1].rstrip("]").split(","))
+    assert low <= high and abs(low - 0.5) < 1e-5 and abs(high - 0.5) < 1e-5
+
+
+def test_near_a_double_root():
+    """x^2 + 1/4 - e^2 has the fixed points 1/2 - e and 1/2 + e; x^2 + 1/4 + e^2 none."""
+    e = Fraction(1, 1000)
+    apart = on_line(lambda x: x.sqr() + Fraction(1, 4) - e**2, -2, 2)
+    low, high = (orbit.points[0][0] for orbit in periodic_orbits(apart, 1))
+    assert low.contains(Fraction(1, 2) - e) and high.contains(Fraction(1, 2) + e)
+    none = on_line(lambda x: x.sqr() + Fraction(1, 4) + e**2, -2, 2)
+    assert periodic_orbits(none, 1) == []
+
+
+def test_a_period_is_positive():
+    with pytest.raises(ValueError, match="at least 1"):
+        periodic_orbits(LOGISTIC, 0)

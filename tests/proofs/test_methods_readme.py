@@ -1,0 +1,14 @@
+"""The page on your own map: every example is run."""
+
+import doctest
+from pathlib import Path
+
+import proofs.methods
+
+PAGE = Path(proofs.methods.__file__).with_name("README.md")
+
+
+def test_the_page():
+    outcome = doctest.testfile(str(PAGE), module_relative=False)
+    assert outcome.attempted > 20
+    assert not outcome.failed
