@@ -44,7 +44,8 @@ class SymbolicLemmas(Lemmas):
         whole = (_CUBE_SIDE,) * n
         right = ((Fraction(1), Fraction(1)), *whole[1:])
         left = ((Fraction(-1), Fraction(-1)), *whole[1:])
-        tip = [Interval(1), *[Interval(0)] * (n - 1)]  # one point: of all the face it may be unclear
+        # the sign at one point: over the whole face it may be unclear
+        tip = [Interval(1), *[Interval(0)] * (n - 1)]
         way = 1 if local.values(tip)[0].mid > 0 else -1
 
         def clear(part: Box) -> bool:
