@@ -217,10 +217,12 @@ def _rounded(value: float) -> Fraction:
     return Fraction(round(value * _GRID), _GRID)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run `python -m proofs.persistence`."""
-    return run("persistence", None if arguments is None else list(arguments), __doc__)
+def _figure(certificate: str) -> str:
+    """Draw transients against epsilon, simulated."""
+    from proofs.persistence_figure import svg
+
+    return svg(certificate)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("persistence", description=__doc__, figure=_figure))
