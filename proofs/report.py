@@ -16,6 +16,10 @@ _TITLES = {
     "chaos": "Section 3.4: more chaos than the paper saw",
     "circle": "Section 3.4: the global picture",
     "persistence": "Section 3.4: what restitution changes",
+    "single": "Section 4: single-impact periodic orbits",
+    "soft": "Section 5: soft springs, equation by equation",
+    "resonance": "Sections 6 and 7: resonance",
+    "foundations": "Section 2 and the appendix",
 }
 
 _NAMES = {

@@ -1,0 +1,162 @@
+"""Section 5: the verdicts, the map iterated at 50 digits beside them, and bent certificates."""
+
+import copy
+import random
+from fractions import Fraction
+
+import pytest
+
+from proofs import runner
+from proofs.certificate import Malformed, Reader, render
+from proofs.check.derivation import RULES, Formulas
+from proofs.check.verify import Rejected, check
+from proofs.claims import GROUPS, find
+from proofs.claims import section5 as eq
+from proofs.claims import soft_lemmas as given
+from proofs.claims.formulas import Asked, Equal, Series, differ
+from proofs.claims.soft import DERIVATIONS
+from proofs.derivations import Steps
+from proofs.facts import PAPER
+from proofs.methods import derive
+from proofs.soft import CLAIMS, prove
+
+VERDICTS = {
+    "VERIFIED": "S1 S2 S4 S6 S7 S9 S11 S12 S20 S23",
+    "REFUTED": "S3 S5 S8 S10 S13 S14 S16 S17 S18 S19 S21 S22",
+    "CONDITIONAL": "S15",
+}
+
+
+@pytest.fixture
+def believing(monkeypatch):
+    """A prover that takes every lemma for proved: what is wrong the checker has to find."""
+    monkeypatch.setattr(derive, "equal", lambda left, right: True)
+    monkeypatch.setattr(derive, "begins", lambda function, variable, coefficients: True)
+
+
+def certificate(*claims):
+    return runner.settle("soft", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
+
+
+def test_every_claim_and_its_verdict(believing):
+    document = certificate()
+    assert CLAIMS == GROUPS["soft"] == tuple(f"S{n}" for n in range(1, 24))
+    found = {claim.id: claim.verdict.value for claim in check(render(document)).claims}
+    assert found == {name: word for word, names in VERDICTS.items() for name in names.split()}
+    for entry in document["claims"]:
+        refuted = entry["verdict"] == "REFUTED"
+        assert not refuted or (entry["witness"] and entry["corrected"])
+    assert len(render(document)) < 100_000
+
+
+@pytest.mark.slow
+def test_sympy_proves_every_lemma():
+    evidence = prove(PAPER, CLAIMS, digits=20)
+    for derivation in DERIVATIONS:
+        proof = evidence.proofs[derivation.id]
+        assert len(proof) == len(derivation.lemmas) + len(derivation.values), derivation.id
+
+
+def test_one_claim_at_a_time(believing):
+    document = certificate("S21")
+    assert [entry["id"] for entry in document["claims"]] == ["S21"]
+    assert [claim.verdict.value for claim in check(render(document)).claims] == ["REFUTED"]
+
+
+# -- bent certificates -----------------------------------------------------------------------------
+
+
+def _bent(text, chance):
+    """Return a formula with one thing changed: a sign, a digit, a function, a variable."""
+    swaps = [(" + ", " - "), (" - ", " + "), ("sin", "cos"), ("cos", "sin"), ("2", "3")]
+    swaps += [("*", "/"), ("epsilon", "rho"), ("omega_n", "omega"), ("psi1", "psi"), ("h", "j")]
+    swaps = [(old, new) for old, new in swaps if old in text]
+    old, new = chance.choice(swaps or [(text, f"({text}) + 1")])
+    places = [i for i in range(len(text)) if text.startswith(old, i)]
+    place = chance.choice(places)
+    return text[:place] + new + text[place + len(old) :]
+
+
+@pytest.mark.slow
+def test_bent_formulas_are_refused(believing):
+    """No step with another formula proves the claim: the step fails, or the verdict does."""
+    whole, chance, tried = certificate(), random.Random(5), 0
+    for name in list(whole["steps"])[::3]:
+        entries = [entry for entry in whole["claims"] if name in entry["proof"]]
+        entry = min(entries, key=lambda one: len(one["proof"]))
+        steps = {other: copy.deepcopy(whole["steps"][other]) for other in entry["proof"]}
+        document = dict(whole, steps=steps, claims=[entry])
+        witness = steps[name]["witness"]
+        field = chance.choice([key for key, text in witness.items() if isinstance(text, str)])
+        witness[field] = _bent(witness[field], chance)
+        tried += 1
+        with pytest.raises((Rejected, Malformed)):
+            check(render(document))
+            pytest.fail(f"accepted {name}: {witness[field]}")
+    assert tried > 35
+
+
+def test_every_step_is_needed(believing):
+    for claim in ("S3", "S7", "S8", "S13"):
+        document = certificate(claim)
+        for name in list(document["steps"]):
+            changed = copy.deepcopy(document)
+            del changed["steps"][name]
+            changed["claims"][0]["proof"].remove(name)
+            with pytest.raises((Rejected, Malformed)):
+                check(render(changed))
+
+
+def test_verdicts_texts_and_quantities_are_not_believed(believing):
+    document = certificate("S3", "S4", "S22")
+    for index, field, text in (
+        (0, "verdict", "VERIFIED"),
+        (0, "witness", None),
+        (0, "corrected", "(26) is right."),
+        (1, "verdict", "REFUTED"),
+        (1, "statement", "The fixed points satisfy (26)."),
+        (2, "quantities", {"f2_psi_rho": {"lower": "1.87", "upper": "2"}}),
+    ):
+        changed = copy.deepcopy(document)
+        changed["claims"][index][field] = text
+        with pytest.raises((Rejected, Malformed)):
+            check(render(changed))
+
+
+def test_bent_bounds_are_refused(believing):
+    document = certificate("S14")
+    name = next(name for name in document["steps"] if name.startswith("value"))
+    for bounds in (["-1", "-4/5"], ["-7/10", "0"], ["0", "1"]):
+        changed = copy.deepcopy(document)
+        changed["steps"][name]["witness"]["bounds"] = bounds
+        with pytest.raises(Rejected):
+            check(render(changed))
+
+
+@pytest.mark.parametrize(
+    ("printed", "misprinted"),
+    [
+        (eq.S27, eq.S27.replace("- g/omega_n", "+ g/omega_n")),
+        (eq.JACOBIAN[0], "1 + (1 + epsilon)/2*alpha"),
+        (eq.TRUE26, eq.S26),
+    ],
+)
+def test_a_misprint_is_refuted_and_what_is_right_is_not(printed, misprinted):
+    formulas = Formulas()
+    names = formulas.free(formulas.read(Reader(printed)))
+    point = {name: str(Fraction(n + 2, 7)) for n, name in enumerate(names)}
+    for other, met in ((misprinted, True), (f"{printed} + 0", False)):
+        asked = differ(other, printed, **point)
+        assert asked.met_by(Steps(20).prove(asked)[1]) is met
+
+
+def test_the_lemmas_that_texts_quote_are_there():
+    """A certificate for the wrong lemma decides nothing."""
+    wrong = Equal(eq.DISCRIMINANT, eq.PRINTED_SUM)
+    with pytest.raises(Exception, match="differ"):
+        RULES["formula-equal"](PAPER, {}, Reader({"left": wrong.left, "right": wrong.right}))
+    for derivation in DERIVATIONS:
+        assert find(derivation.id).decide(PAPER, []).verdict.value == "UNDECIDED"
+        for lemma in (*derivation.lemmas, *derivation.values):
+            assert isinstance(lemma, Equal | Series | Asked)
+    assert given.JACOBIAN[-1] in given.CHARACTERISTIC
