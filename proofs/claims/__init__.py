@@ -17,6 +17,7 @@ from proofs.statements import Verdict, fill
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
+        "foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9", "A1", "A2"),
         "nonplastic": ("N1", "N2", "N3"),
         "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
         "dimension": ("H13",),
@@ -24,6 +25,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "circle": ("M6", "G1", "G2", "G3", "G4", "G6"),
         "persistence": ("G7", "G8"),
         "soft": tuple(f"S{number}" for number in range(1, 24)),
+        "resonance": (*(f"R{number}" for number in range(1, 14)), "E1"),
     }
 )
 
