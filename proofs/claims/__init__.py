@@ -24,6 +24,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "chaos": ("G5", "G9"),
         "circle": ("M6", "G1", "G2", "G3", "G4", "G6"),
         "persistence": ("G7", "G8"),
+        "single": ("P1", "P2", "P3", "P4", "P5", "P6"),
         "soft": tuple(f"S{number}" for number in range(1, 24)),
         "resonance": (*(f"R{number}" for number in range(1, 14)), "E1"),
     }
