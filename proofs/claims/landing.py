@@ -78,9 +78,9 @@ def closest_approach(
     T = 2r (1/(n c) + 1/(a eta^2 d)), s^2 <= S = 2r/(a eta^2 d).
     (1) In an oscillation m that p does not divide, w + 2 pi m q/p is 2 pi/p - |w| or more from all
     multiples of 2 pi: no impact if (|w| + |u| + |s|)^2 <= 2 (w^2 + T) < (2 pi/p)^2.
-    (2) In the others, by periodicity m = 0: where s^2 <= S, gap'' = n cos(u) - R eta^2 cos(eta s)
-    >= n (1 - S - w^2) - (a + r) eta^2. If that is > 0 the gap is convex there, 0 with its
-    derivative at launch: > 0 elsewhere.
+    (2) In the others, by periodicity m = 0: where s^2 <= S, gap'' = n cos(u) + R eta^2 cos(eta s)
+    >= n (1 - S - w^2) - (a + r) eta^2, R = a + r. If that is > 0 the gap is convex there, 0 with
+    its derivative at launch: > 0 elsewhere.
     Below r is bounded by (R^2 - a^2) / (2a), and w by away + rate / (eta^2 (1 + lift)); the
     numbers are the differences in (1) and (2), n c and a eta^2 d.
     """
