@@ -1,0 +1,125 @@
+"""Section 6, resonance: the map in closed form, every formula derived, and what the paper missed.
+
+Without options this proves the claims R1 to R13, and E1. With NU, EPSILON, PHI and GAMMA, exact
+numbers, it prints bounds on the next impact after one at phase PHI with the velocity GAMMA = v /
+(omega_n p): its phase (mod 2 pi), its velocity, and the limit phase that all further impacts tend
+to:
+
+  python -m proofs.resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3 [--digits 30] [--json -]
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from intervals import Undecided, decimal_bounds
+from proofs.claims.resonance import DERIVATIONS
+from proofs.cli import Parser, digits, number
+from proofs.derivations import prove_derivations
+from proofs.facts import TURN, Parameters, Range, show
+from proofs.model.resonant import Motion, motion
+from proofs.runner import Evidence, run
+
+CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
+
+_STATE = ("--phi", "--gamma")  # options that only the map takes
+EPILOG = """\
+Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified. A
+mass that rests on the table for ever has no next impact, elastic impacts have no limit phase:
+null in the machine form.
+
+exit status: 0 certified, 1 undecided, 2 bad input
+
+examples:
+  python -m proofs.resonance
+  python -m proofs.resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3
+  python -m proofs.resonance --nu 3/2 --epsilon 0.9 --phi 2 --gamma 1 --digits 50 --json -
+"""
+
+
+def prove(
+    of: Parameters,
+    claims: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Callable[[str], None] = lambda stage: None,
+) -> Evidence:
+    """Prove what the claims asked for follow from; they are about eta = 1 and all nu, epsilon."""
+    return prove_derivations(DERIVATIONS, claims, digits, tell)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Prove the claims, or answer for the state on the command line; return the exit status."""
+    given = sys.argv[1:] if arguments is None else arguments
+    if any(option.partition("=")[0] in _STATE for option in given):
+        return next_impact(given)
+    return run("resonance", given, __doc__)
+
+
+def next_impact(arguments: list[str]) -> int:
+    """Print the next impact and the limit phase; return the exit status."""
+    parser = Parser("proofs.resonance", __doc__, EPILOG)
+    add = parser.add_argument
+    add("--nu", type=number, required=True, help="amplitude -beta/p, not 0")
+    add("--epsilon", type=number, required=True, help="coefficient of restitution, from 0 to 1")
+    add("--phi", type=number, required=True, help="phase of an impact, in [0, 2 pi)")
+    add("--gamma", type=number, required=True, help="velocity of the mass before it")
+    add("--digits", type=digits, default=30, help="significant digits (default 30)")
+    add("--json", choices=["-"], help="print the machine form on standard output")
+    options = parser.parse_args(arguments)
+    state: dict[str, Fraction] = {
+        name: getattr(options, name) for name in ("nu", "epsilon", "phi", "gamma")
+    }
+    if not 0 <= state["phi"] <= TURN:
+        parser.error(f"phase outside the circle [0, 2 pi): {show(state['phi'])}")
+    try:
+        found = motion(**state, digits=options.digits)
+    except ValueError as error:
+        parser.error(str(error))
+    except Undecided as failure:
+        print(f"{parser.prog}: undecided: {failure}", file=sys.stderr)
+        return 1
+    answer = {"eta": "1"} | {name: show(value) for name, value in state.items()}
+    machine = answer | machine_form(found, options.digits)
+    print(json.dumps(machine, indent=1) if options.json else _text(machine))
+    return 0
+
+
+def machine_form(found: Motion, places: int) -> dict[str, Any]:
+    """Return the JSON object of an answer: decimal strings, rounded outward."""
+
+    def bounds(values: Range | None) -> dict[str, str] | None:
+        if values is None:
+            return None
+        lower, upper = decimal_bounds(*values, places)
+        return {"lower": lower, "upper": upper}
+
+    return {
+        "phase": bounds(found.phase),
+        "velocity": bounds(found.velocity),
+        "limit_phase": bounds(found.limit),
+        "sticking": found.sticking,
+    }
+
+
+def _text(answer: dict[str, Any]) -> str:
+    lines = [", ".join(f"{name} = {answer[name]}" for name in ("nu", "epsilon", "phi", "gamma"))]
+    for label, key in (
+        ("next impact phase", "phase"),
+        ("velocity gamma", "velocity"),
+        ("limit phase", "limit_phase"),
+    ):
+        ends = answer[key]
+        lines.append(f"  {label:18} " + (f"[{ends['lower']}," if ends else "none"))
+        if ends:
+            lines.append(f"  {'':18}  {ends['upper']}]")
+    lines.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
