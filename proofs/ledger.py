@@ -84,13 +84,14 @@ class Settled:
 
 
 def jobs(claims: Iterable[str], folder: Path, places: int, fresh: bool) -> list[Job]:
-    """Return the files to settle; each claim is settled in the first file that has it."""
-    left, found = set(claims), []
+    """Return the files to settle: those that have a claim which no file before them has."""
+    asked, found = set(claims), []
+    left = set(asked)
     for name, members in FILES.items():
-        wanted = tuple(claim for claim in members if claim in left)
-        left.difference_update(wanted)
-        if wanted:
+        if left.intersection(members):
+            wanted = tuple(claim for claim in members if claim in asked)
             found.append(Job(name, wanted, folder, places, fresh))
+            left.difference_update(members)
     return found
 
 
@@ -135,7 +136,7 @@ def main(arguments: list[str] | None = None) -> int:
     except (Malformed, Rejected) as error:
         print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
         return 3
-    rows = [row for one in settled for row in one.rows()]
+    rows = _first([row for one in settled for row in one.rows()])
     text = render({"schema": SCHEMA, "claims": rows})
     try:
         for one in settled:
@@ -150,6 +151,11 @@ def main(arguments: list[str] | None = None) -> int:
     else:
         _print(rows, settled, perf_counter() - began)
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
+
+
+def _first(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return for each claim the first of its rows."""
+    return list({row["id"]: row for row in reversed(rows)}.values())[::-1]
 
 
 def _settle_all(wanted: Sequence[Job]) -> list[Settled]:

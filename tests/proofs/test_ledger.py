@@ -16,8 +16,11 @@ def run(folder, *more):
 
 def test_every_claim_once():
     assert len(CLAIMS) == len(set(CLAIMS))
-    found = [claim for job in jobs(CLAIMS, None, 30, False) for claim in job.claims]
-    assert sorted(found) == sorted(CLAIMS)
+    settled = {job.name: job.claims for job in jobs(CLAIMS, None, 30, False)}
+    assert settled == dict(FILES)
+    for claim in CLAIMS:
+        (job,) = jobs([claim], None, 30, False)
+        assert job.claims == (claim,)
 
 
 def test_proves_writes_and_reuses(tmp_path, capsys):
