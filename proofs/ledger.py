@@ -32,7 +32,12 @@ SCHEMA = "impact-proofs.ledger/1"
 FILES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {"horseshoe": (*STATEMENTS, "N1", "N2"), **GROUPS}
 )
-CLAIMS = tuple(dict.fromkeys(claim for claims in FILES.values() for claim in claims))
+CLAIMS = tuple(
+    sorted(
+        {claim for claims in FILES.values() for claim in claims},
+        key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
+    )
+)
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json,
 DIR/ledger.md and for each group a certificate, which the checker re-derives. A certificate that is
@@ -136,7 +141,7 @@ def main(arguments: list[str] | None = None) -> int:
     except (Malformed, Rejected) as error:
         print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
         return 3
-    rows = _first([row for one in settled for row in one.rows()])
+    rows = _in_order([row for one in settled for row in one.rows()])
     text = render({"schema": SCHEMA, "claims": rows})
     try:
         for one in settled:
@@ -153,9 +158,10 @@ def main(arguments: list[str] | None = None) -> int:
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
 
 
-def _first(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return for each claim the first of its rows."""
-    return list({row["id"]: row for row in reversed(rows)}.values())[::-1]
+def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return for each claim the first of its rows, in the order of the catalogue."""
+    first = {row["id"]: row for row in reversed(rows)}
+    return [first[claim] for claim in CLAIMS if claim in first]
 
 
 def _settle_all(wanted: Sequence[Job]) -> list[Settled]:
