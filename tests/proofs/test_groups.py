@@ -6,13 +6,15 @@ import random
 import re
 from decimal import Decimal
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from proofs import claims as catalogue
 from proofs.certificate import Malformed, Reader, parameters_from_json, parse, render
-from proofs.check.verify import Rejected, _check_claim, _derive_steps, check
+from proofs.check import rules
+from proofs.check.verify import Rejected, _check_claim, _derive_steps, check, find_rule
 from proofs.claims import GROUPS
 from proofs.facts import PAPER
 from proofs.manifest import NAME
@@ -105,6 +107,14 @@ def test_without_conclusions_nothing_is_decided_but_a_simulation(group):
         open_ones = (Verdict.UNDECIDED, Verdict.SIMULATED)
         assert decided.verdict in open_ones or claim in EXACT, claim
         assert decided.why
+
+
+def test_a_rule_s_name_has_one_meaning():
+    meaning = dict(rules.RULES)
+    for group in GROUPS:
+        for name, rule in import_module(f"proofs.check.{group}").RULES.items():
+            assert meaning.setdefault(name, rule) is rule, name
+            assert find_rule(name) is rule
 
 
 def numbers(value, path=()):
