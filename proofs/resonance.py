@@ -57,7 +57,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else arguments
     if any(option.partition("=")[0] in _STATE for option in given):
         return next_impact(given)
-    return run("resonance", given, __doc__)
+    return run("resonance", given, __doc__, _figure)
 
 
 def next_impact(arguments: list[str]) -> int:
@@ -119,6 +119,13 @@ def _text(answer: dict[str, Any]) -> str:
             lines.append(f"  {'':18}  {ends['upper']}]")
     lines.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
     return "\n".join(lines)
+
+
+def _figure(certificate: str) -> str:
+    """Draw figure 10, simulated: no certificate says what it shows."""
+    from proofs.resonance_figure import svg
+
+    return svg()
 
 
 if __name__ == "__main__":

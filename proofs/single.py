@@ -243,5 +243,12 @@ def prove(
     return evidence
 
 
+def _figure(certificate: str) -> str:
+    """Draw figures 7a and 7b, the proved windows."""
+    from proofs.single_figure import svg
+
+    return svg(certificate)
+
+
 if __name__ == "__main__":
-    sys.exit(run("single", description=__doc__))
+    sys.exit(run("single", description=__doc__, figure=_figure))

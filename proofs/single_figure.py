@@ -1,23 +1,19 @@
 """Figures 7a and 7b of the paper, certified: solutions of (16), and the stable orbits among them.
 
-`python -m proofs.single_figure reports/single.json > reports/single.svg` draws what a certificate
-proves: thick curves are stable orbits, in the proved windows; thin ones solutions of (16) with
-|slope| < 1 that are none. Curves are (17); matplotlib is imported here only.
+What a certificate proves is drawn: thick curves are stable orbits, in the proved windows; thin ones
+solutions of (16) with |slope| < 1 that are none. Curves are (17); matplotlib is imported here only.
 """
 
 from __future__ import annotations
 
 import io
 import math
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.certificate import Malformed, Reader, parse, read
-from proofs.check.arithmetic import Unproved
+from proofs.certificate import Reader, parse
 from proofs.check.single import RULES
 from proofs.claims.single_facts import EtaWindows, NuWindows
 from proofs.facts import PAPER
@@ -119,17 +115,3 @@ def svg(source: str) -> str:
         figure.savefig(file, format="svg", metadata={"Date": None})
         plt.close(figure)
     return file.getvalue()
-
-
-def main(arguments: list[str]) -> int:
-    """Draw the certificate named; 2 if there is none."""
-    try:
-        print(svg(read(Path(arguments[0]))))
-    except (IndexError, OSError, Malformed, Unproved, KeyError) as error:
-        print(f"proofs.single_figure: {error}", file=sys.stderr)
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
