@@ -249,14 +249,16 @@ def parameters_to_json(of: Parameters) -> dict[str, Any]:
         "printed_s0": of.printed_s0,
         "epsilon": None if of.epsilon is None else text(of.epsilon),
         "velocities": None if of.velocities is None else texts(of.velocities),
+        "reach": None if of.reach is None else texts(of.reach),
     }
 
 
 def parameters_from_json(reader: Reader) -> Parameters:
     """Read and validate one statement's numbers."""
-    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, velocities = reader.fields(
+    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(
         *(field.name for field in dataclasses.fields(Parameters))
     )
+    velocities, reach = more
     try:
         parameters = Parameters(
             eta.number(),
@@ -269,6 +271,7 @@ def parameters_from_json(reader: Reader) -> Parameters:
             None if printed.is_null() else printed._matching(_DECIMAL),
             None if epsilon.is_null() else epsilon.number(),
             None if velocities.is_null() else velocities.range(),
+            None if reach.is_null() else _three(reach),
         )
     except Malformed:
         raise
@@ -277,6 +280,11 @@ def parameters_from_json(reader: Reader) -> Parameters:
     if any(len(number) > _MAX_DIGITS_OF_PARAMETERS for number in reader.mentioned()):
         raise reader.fail(f"a number of more than {_MAX_DIGITS_OF_PARAMETERS} digits")
     return parameters
+
+
+def _three(reader: Reader) -> tuple[Fraction, Fraction, Fraction]:
+    first, second, third = reader.numbers(3, 3)
+    return first, second, third
 
 
 def used_steps(steps: Reader, named: set[str]) -> set[str]:

@@ -40,6 +40,15 @@ def ceil_text(value: Fraction, places: int = 6) -> str:
     return show(-Fraction(-value * 10**places // 1, 10**places))
 
 
+def parameters_text(box: tuple[Range, Range, Range]) -> str:
+    """Write eta, nu and epsilon, exact or in ranges."""
+    parts = zip(("eta", "nu", "epsilon"), box, strict=True)
+    return ", ".join(
+        f"{name} = {show(low)}" if low == high else f"{name} in {show_range((low, high))}"
+        for name, (low, high) in parts
+    )
+
+
 @dataclass(frozen=True)
 class Parameters:
     """One statement's numbers, exact: the oscillator, I0 = left, I1 = right, I, slope bounds.
@@ -47,7 +56,8 @@ class Parameters:
     `ratios` are eta0, eta1 of section 3.2 as printed, without them they are 1 / slopes;
     `printed_s0` the digits printed for s_0, if any. For section 3.3: the coefficient of
     restitution and the range of the velocity gamma, both sets of phases times it being the
-    rectangles ABCD and EFGH.
+    rectangles ABCD and EFGH. `reach`: how far eta, nu and epsilon may be from these, for claims
+    about a box of parameters.
     """
 
     eta: Fraction
@@ -60,6 +70,7 @@ class Parameters:
     printed_s0: str | None = None
     epsilon: Fraction | None = None
     velocities: Range | None = None
+    reach: tuple[Fraction, Fraction, Fraction] | None = None
 
     def __post_init__(self) -> None:
         """Raise ValueError, one line, where the numbers do not describe a horseshoe."""
@@ -85,6 +96,31 @@ class Parameters:
             raise ValueError(f"epsilon must be in [0, 1), not {show(self.epsilon)}")
         if self.velocities is not None and self.velocities[0] >= self.velocities[1]:
             raise ValueError(f"velocities reversed or empty: {show_range(self.velocities)}")
+        if self.reach is not None:
+            self._check_reach(*self.reach)
+
+    def _check_reach(self, eta: Fraction, nu: Fraction, epsilon: Fraction) -> None:
+        """Raise ValueError where numbers of the box leave the model."""
+        if min(eta, nu, epsilon) < 0:
+            raise ValueError("reach: distances from eta, nu and epsilon must not be negative")
+        if eta >= self.eta:
+            raise ValueError(f"reach: eta - {show(eta)} must be positive")
+        if nu >= abs(self.nu):
+            raise ValueError(f"reach: nu must keep its sign, {show(nu)} around it does not")
+        if self.epsilon is not None and self.epsilon + epsilon >= 1:
+            raise ValueError(f"reach: epsilon + {show(epsilon)} must be below 1")
+
+    @property
+    def box(self) -> tuple[Range, Range, Range] | None:
+        """The ranges of eta, nu and epsilon >= 0 within reach; None without epsilon."""
+        if self.epsilon is None:
+            return None
+        eta, nu, epsilon = self.reach or (Fraction(0),) * 3
+        return (
+            (self.eta - eta, self.eta + eta),
+            (self.nu - nu, self.nu + nu),
+            (max(Fraction(0), self.epsilon - epsilon), self.epsilon + epsilon),
+        )
 
     @property
     def gap(self) -> Range:
@@ -113,6 +149,7 @@ PAPER = Parameters(
     printed_s0="0.449",
     epsilon=Fraction("0.01"),
     velocities=(Fraction("-0.45"), Fraction(0)),
+    reach=(Fraction("0.00005"), Fraction("0.00005"), Fraction("0.005")),
 )
 
 

@@ -1,4 +1,4 @@
-"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1, N2, N3.
+"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1 to N4.
 
 Candidates by floating point; every impact, rectangle and barred word is proved by interval
 arithmetic and recorded for the checker.
@@ -15,17 +15,18 @@ from itertools import islice, product
 
 from intervals import DomainError, Undecided
 from proofs.claims.rebound_facts import oscillator
-from proofs.claims.rebounds import Unjoined
+from proofs.claims.rebounds import Box, Unjoined
 from proofs.facts import Parameters, Range
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
+from proofs.rebound_boxes import on_box
 from proofs.rebound_steps import ReboundProver
 from proofs.rectangles import Sets, image_phases, narrowed, nearest_rectangles, widened
 from proofs.repair import places, short_decimal
 from proofs.runner import Evidence, run
 from proofs.steps import Prover
 
-CLAIMS = ("N1", "N2", "N3")
+CLAIMS = ("N1", "N2", "N3", "N4")
 _ATTEMPTS = 12  # with widened rectangles
 
 
@@ -36,7 +37,7 @@ def prove(
     digits: int = 30,
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
-    """Decide the claims asked for: the printed rectangles, the nearest that do, and for N3 ranges.
+    """Decide the claims asked for: the printed rectangles, the nearest that do, and boxes.
 
     What cannot be proved leaves no step; the claim is then undecided for want of it.
     """
@@ -44,6 +45,24 @@ def prove(
     if box is None or of.velocities is None:
         return Evidence()
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
+    exact = [claim for claim in claims if claim != "N4"]
+    named = _at_exact_numbers(prover, box, exact, tell) if exact else {}
+    if "N4" in claims:
+        tell("the box of parameters")
+        named["N4"] = on_box(prover)
+    found = {**prover.rebounds, **prover.rectangles, **prover.words}
+    proofs = {
+        claim: [(name, found[name]) for name in dict.fromkeys(names)]
+        for claim, names in named.items()
+    }
+    return Evidence(prover.steps, proofs)
+
+
+def _at_exact_numbers(
+    prover: ReboundProver, box: Box, claims: Sequence[str], tell: Callable[[str], None]
+) -> dict[str, list[str]]:
+    """Return the names of steps for N1, N2 and N3."""
+    of = prover.of
     images, sets = image_phases(of), (of.left, of.right)
     nearest = next(nearest_rectangles(of, images), None)
     cuts = sorted({end for pair in (sets, nearest or sets) for ends in pair for end in ends})
@@ -51,9 +70,7 @@ def prove(
     try:
         pair = prover.pair(box, sets, cuts)
     except (Undecided, DomainError, Unjoined):
-        states = prover.corners(box, sets)
-        known: list[tuple[str, object]] = [(name, prover.rebounds[name]) for name in states]
-        return Evidence(prover.steps, {"N1": known})
+        return {"N1": prover.corners(box, sets)} if "N1" in claims else {}
     named = {claim: list(pair) for claim in claims}
     if nearest != sets and {"N1", "N3"} & set(claims):
         tell("which itineraries are missing")
@@ -68,12 +85,7 @@ def prove(
     if "N3" in claims and nearest is not None:
         tell("ranges of parameters")
         named["N3"] += _ranges(prover, nearest)
-    found = {**prover.rebounds, **prover.rectangles, **prover.words}
-    proofs = {
-        claim: [(name, found[name]) for name in dict.fromkeys(names)]
-        for claim, names in named.items()
-    }
-    return Evidence(prover.steps, proofs)
+    return named
 
 
 def _attempt(prover: ReboundProver, make: Callable[[], list[str]]) -> list[str]:
@@ -116,7 +128,7 @@ def _ranges(prover: ReboundProver, nearest: Sets) -> list[str]:
     half, unit = _half_unit(epsilon), _half_unit(nu) / 50
     etas = (eta - _half_unit(eta), eta + _half_unit(eta))
     epsilons = (max(Fraction(0), epsilon - 2 * half), epsilon + half)
-    corners = [replace(of, eta=x, epsilon=y) for x, y in product(etas, epsilons)]
+    corners = [replace(of, eta=x, epsilon=y, reach=None) for x, y in product(etas, epsilons)]
     box = (etas, (nu - unit, nu + unit), epsilons)
     for sets in islice(widened(of, nearest, corners), _ATTEMPTS):
         with suppress(Unjoined):

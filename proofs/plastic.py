@@ -202,6 +202,7 @@ class _Run:
                 printed_s0=None,
                 epsilon=None,
                 velocities=None,
+                reach=None,
             )
             if found.slopes[0] > 1 and all(
                 decide(claim, found, facts)[0] is Verdict.VERIFIED for claim in HORSESHOE

@@ -14,6 +14,7 @@ from typing import Any
 
 from intervals import DomainError, Undecided
 from proofs.certificate import texts
+from proofs.claims.rebound_boxes import with_side
 from proofs.claims.rebound_facts import FULL, oscillator
 from proofs.claims.rebounds import (
     BarredWord,
@@ -118,8 +119,11 @@ class ReboundProver:
         return name
 
     def rectangle(self, box: Box, phases: Range, cuts: Sequence[Fraction]) -> str:
-        """Prove what F does on a rectangle (rule rectangle), from parts between the cuts."""
+        """Prove what F does on a rectangle (rule rectangle), from parts between the cuts, once."""
         (low, high), velocities = phases, self.velocities
+        for name, known in self.rectangles.items():
+            if (known.box, known.phases) == (box, phases):
+                return name
         edges = [self.rebound(box, (end, end), velocities)[0] for end in phases]
         names = edges + [
             name
@@ -162,11 +166,12 @@ class ReboundProver:
 
     def bar(self, pair: Sequence[str], word: tuple[int, ...], sign: int) -> str:
         """Prove that no orbit follows a word (rule barred-word); Unjoined if one seems to."""
+        rectangles = (self.rectangles[pair[0]], self.rectangles[pair[1]])
+        about = rectangles[0].box, tuple(one.phases for one in rectangles), word
         for name, known in self.words.items():
-            if known.word == word:
+            if (known.box, known.sets, known.word) == about:
                 return name
         before = dict(self.plain.steps)
-        rectangles = (self.rectangles[pair[0]], self.rectangles[pair[1]])
         far = 1 if sign > 0 else 0
         extreme, gammas = rectangles[word[0]].phases[far], self.velocities
         names, bounds = [], []
@@ -205,6 +210,15 @@ class ReboundProver:
             with suppress(Unjoined):
                 return self.bar(pair, (symbol,) * length, sign)
         raise Unjoined("no word of one symbol is excluded")
+
+    def missing_word(self, pair: Sequence[str]) -> str:
+        """Prove that no orbit follows some word of one symbol, but perhaps for the first."""
+        with suppress(Unjoined):
+            return self.constant_word(pair)
+        for length, start in product(range(2, _LONGEST + 1), (0, 1)):
+            with suppress(Unjoined):
+                return self.bar(pair, (start,) + (1 - start,) * (length - 1), 1 - 2 * start)
+        raise Unjoined("no word is excluded")
 
     def corners(self, box: Box, sets: Sets) -> list[str]:
         """Prove impacts of the corners that decide whether the edges go beyond both sets."""
@@ -271,7 +285,7 @@ class ReboundProver:
         while abs(size) >= abs(step) / _FINEST and len(names) < _MOST_SLABS:
             low, high = sorted((reach, reach + size))
             try:
-                names += self.horseshoe(_with(box, side, (low, high)), sets)
+                names += self.horseshoe(with_side(box, side, (low, high)), sets)
                 reach += size
             except (Unjoined, ValueError):
                 size /= 2
@@ -279,16 +293,10 @@ class ReboundProver:
         for count in range(1, _MOST_SLABS):
             value = reach + count * step / _FINEST
             if exact is not None and abs(value) < 1:
-                states = self.refuting_states(_with(exact, side, (value, value)), sets)
+                states = self.refuting_states(with_side(exact, side, (value, value)), sets)
                 if states:
                     return names + states
         return names
-
-
-def _with(box: Box, side: int, values: Range) -> Box:
-    """Return the box with one side replaced."""
-    eta, nu, epsilon = (values if index == side else old for index, old in enumerate(box))
-    return eta, nu, epsilon
 
 
 def _outward(value: Fraction, sign: int) -> Fraction:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import product
 
+from proofs.claims.rebounds import Box
 from proofs.facts import Parameters, Range
 from proofs.model.equations import (
     arrival,
@@ -73,6 +75,23 @@ def image_phases(of: Parameters) -> Images:
     return images
 
 
+def images_over(of: Parameters, box: Box) -> Images:
+    """Return such a function for all oscillators of a box, as its corners have it."""
+    corners = [
+        image_phases(replace(of, eta=eta, nu=nu, epsilon=epsilon, reach=None))
+        for eta, nu, epsilon in product(*(sorted(set(side)) for side in box))
+    ]
+
+    @cache
+    def images(phase: Fraction) -> tuple[float, float] | None:
+        found = [each for corner in corners if (each := corner(phase)) is not None]
+        if len(found) < len(corners):
+            return None
+        return min(low for low, _ in found), max(high for _, high in found)
+
+    return images
+
+
 def overshoot(ends: tuple[Fraction, ...], images: Images) -> float:
     """Return about the least margin by which the four edges are mapped beyond the rectangles."""
     margins = []
@@ -82,6 +101,31 @@ def overshoot(ends: tuple[Fraction, ...], images: Images) -> float:
             return -math.inf
         margins.append(ends[0] - found[1] if index % 2 == 0 else found[0] - ends[3])
     return float(min(margins))
+
+
+def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
+    """Whether all of an edge seems to be mapped short of the outer edges.
+
+    And that of each rectangle the right edge is mapped to the right of the left one: where it is
+    not, some of its impacts graze.
+    """
+    found = [images(end) for end in ends]
+    known = [each for each in found if each is not None]
+    if len(known) < len(ends) or any(known[k][1] >= known[k + 1][0] for k in (0, 2)):
+        return False
+    return any(ends[0] < low and high < ends[3] for low, high in known)
+
+
+def stays(of: Parameters, box: Box, sets: Sets) -> bool:
+    """Whether image velocities seem to stay in the rectangles, for the middle of a box."""
+    eta, nu, epsilon = (float(low + high) / 2 for low, high in box)
+    low, high = map(float, of.velocities or (0, 0))
+    images = [
+        state_after(eta, nu, epsilon, (float(phi), gamma))
+        for ends in sets
+        for phi, gamma in product(ends, (low, high))
+    ]
+    return all(image is not None and low < image[1] < high for image in images)
 
 
 def nearest_rectangles(of: Parameters, images: Images) -> Iterator[Sets]:

@@ -10,6 +10,7 @@ import sys
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from importlib import import_module
@@ -17,7 +18,7 @@ from importlib.util import find_spec
 from os import getpid
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from intervals import decimal_bounds
 from proofs import claims as catalogue
@@ -36,6 +37,9 @@ from proofs.check.verify import Rejected, check
 from proofs.cli import Parser, coloured, digits, number, progress
 from proofs.facts import PAPER, Parameters, Range, show
 from proofs.statements import Verdict
+
+if TYPE_CHECKING:
+    from proofs.counting import Counts
 
 Tell = Callable[[str], None]
 _SPARE = Fraction(1, 10**12)
@@ -192,7 +196,7 @@ def run(
     check_figure(parser, options)
     of = prepared(parser, options)
     began = perf_counter()
-    with progress() as tell:
+    with counting(options.stats) as counts, progress() as tell:
         made = produce(group, of, options.only, digits=options.digits, tell=tell)
     seconds = perf_counter() - began
     made_by = command(f"proofs.{group}", arguments)
@@ -202,7 +206,7 @@ def run(
             write_atomically(options.out / f"{group}.svg", figure(made.certificate))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
-    return finish(made, seconds, options, f"{group}.json")
+    return finish(made, seconds, options, f"{group}.json", counts)
 
 
 def add_parameters(parser: Parser) -> None:
@@ -225,6 +229,13 @@ def add_parameters(parser: Parser) -> None:
         metavar=("A", "B"),
         help=gamma,
     )
+    add(
+        "--reach",
+        type=number,
+        nargs=3,
+        metavar=("DETA", "DNU", "DEPSILON"),
+        help="box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)",
+    )
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
@@ -235,6 +246,7 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")
+    add("--stats", action="store_true", help="count what is evaluated (takes three times as long)")
 
 
 def add_figure(parser: Parser, name: str) -> None:
@@ -272,8 +284,23 @@ def parameters(options: Namespace) -> Parameters:
         slopes=slopes,
         epsilon=options.epsilon,
         velocities=tuple(options.velocities),
+        reach=_reach(options),
     )
     return of if slopes == PAPER.slopes else replace(of, ratios=None, printed_s0=None)
+
+
+def _reach(options: Namespace) -> tuple[Fraction, Fraction, Fraction] | None:
+    """Return the box asked for, else the paper's, narrowed where the numbers leave less room."""
+    eta, nu, epsilon = options.eta, abs(options.nu), options.epsilon
+    if options.reach:
+        if options.reach[2] > epsilon:
+            raise ValueError("reach: epsilon must stay in [0, 1)")
+        return tuple(options.reach)
+    room = (eta / 2, nu / 2, min(epsilon, (1 - epsilon) / 2))
+    if PAPER.reach is None or min(room) < 0:
+        return None
+    first, second, third = map(min, PAPER.reach, room)
+    return first, second, third
 
 
 def writable(parser: Parser, folder: Path) -> None:
@@ -299,13 +326,32 @@ def write(folder: Path, name: str, certificate: str, page: str, made: str) -> No
     manifest.record(folder, f"{name}.json", certificate, made)
 
 
-def finish(made: Made, seconds: float, options: Namespace, name: str) -> int:
-    """Print what was decided, have it checked, and return the exit status."""
+def counting(wanted: bool) -> AbstractContextManager[Counts]:
+    """Return what counts evaluations inside a `with` if that is wanted, else what does nothing."""
+    if not wanted:
+        return nullcontext(Counter())
+    from proofs.counting import counted
+
+    return counted()
+
+
+def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:
+    """Print what was decided, have it checked, and return the exit status.
+
+    counts: of what was evaluated up to here; with what the check evaluates they are printed, if
+    that is asked for.
+    """
     if options.json:
         print(made.certificate, end="")
     else:
         print_rows(made.rows, seconds, made.theorem)
-    if not options.no_check and not _checked(options.out / name, quiet=bool(options.json)):
+    with counting(options.stats) as checking:
+        accepted = options.no_check or _checked(options.out / name, quiet=bool(options.json))
+    if options.stats:
+        from proofs.counting import show
+
+        show(counts + checking, [row.id for row in made.rows], quiet=bool(options.json))
+    if not accepted:
         return 3
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.rows))
 

@@ -19,6 +19,7 @@ from proofs.facts import (
     Range,
     ceil_text,
     floor_text,
+    parameters_text,
     show,
     show_range,
 )
@@ -269,6 +270,7 @@ def fill(text: str, of: Parameters) -> str:
         s0=f", s_0 = {of.printed_s0} to the places printed" if of.printed_s0 else "",
         epsilon="no epsilon" if of.epsilon is None else show(of.epsilon),
         gamma="no velocities" if of.velocities is None else show_range(of.velocities),
+        box="no epsilon" if of.box is None else parameters_text(of.box),
     )
 
 

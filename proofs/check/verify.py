@@ -213,7 +213,7 @@ def _check_corrected(paper: Parameters, known: Known, corrected: Reader, used: s
         raise Rejected(f"{parameters_of.path}: a correction is about the same eta and nu")
     if of.ratios is not None or of.printed_s0 is not None:
         raise Rejected(f"{parameters_of.path}: a correction proves nothing about s_0")
-    if of.epsilon is not None or of.velocities is not None:
+    if (of.epsilon, of.velocities, of.reach) != (None, None, None):
         raise Rejected(f"{parameters_of.path}: a correction is about plastic impacts")
     facts = _facts(of, _named(known, proof, used))
     if of.slopes[0] <= 1:

@@ -18,7 +18,7 @@ from proofs.statements import Verdict, fill
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9", "A1", "A2"),
-        "nonplastic": ("N1", "N2", "N3"),
+        "nonplastic": ("N1", "N2", "N3", "N4"),
         "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
         "dimension": ("H13",),
         "chaos": ("G5", "G9"),

@@ -1,4 +1,4 @@
-"""Claims N1-N3: the impact map with restitution on the rectangles of section 3.3."""
+"""Claims N1-N4: the impact map with restitution on the rectangles of section 3.3."""
 
 from __future__ import annotations
 
@@ -6,19 +6,22 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from proofs.claims import Claim, Decision
+from proofs.claims.rebound_boxes import on_box
 from proofs.claims.rebound_facts import (
     FULL,
     Pair,
     barred_words,
+    corner_of,
     horseshoes,
+    is_state,
     oscillator,
     printed_pair,
     restricted,
 )
 from proofs.claims.rebound_texts import (
+    edge_text,
     full_text,
     merged,
-    parameters_text,
     restricted_text,
     word_text,
 )
@@ -32,7 +35,7 @@ from proofs.claims.rebounds import (
     size,
     stable_slope,
 )
-from proofs.facts import Parameters, Range, ceil_text, floor_text, show
+from proofs.facts import Parameters, Range, ceil_text, floor_text, parameters_text, show
 from proofs.statements import Verdict
 
 # -- N1 --------------------------------------------------------------------------------------------
@@ -43,11 +46,11 @@ _PLASTIC = "without restitution F forgets velocities and is not one-to-one: see 
 
 def _horseshoe(of: Parameters, found: Sequence[object]) -> Decision:
     pair, words = printed_pair(of, found), barred_words(of, found)
-    edges = [_edge_text(of, *each) for each in _corners(of, found) if _is_inside(of, each[2])]
+    edges = [edge_text(of, *each) for each in _corners(of, found) if _is_inside(of, each[2])]
     if pair is None:
         if edges:
             return Decision(Verdict.REFUTED, edges[0], witness="; ".join(edges))
-        corners = [_edge_text(of, *each) for each in _corners(of, found)]
+        corners = [edge_text(of, *each) for each in _corners(of, found)]
         return Decision(Verdict.UNDECIDED, "; ".join([_NOTHING, *corners]))
     extremes = list(_extremes(of, found, pair))
     images = {
@@ -62,7 +65,7 @@ def _horseshoe(of: Parameters, found: Sequence[object]) -> Decision:
     else:
         why = f"edges overshoot both rectangles by at least {floor_text(whole.margin)}"
         return Decision(Verdict.VERIFIED, why, quantities=images)
-    edges = list(dict.fromkeys([*edges, *(_edge_text(of, *each) for each in extremes)]))
+    edges = list(dict.fromkeys([*edges, *(edge_text(of, *each) for each in extremes)]))
     if words:
         word = words[min(words, key=lambda word: (len(set(word)), len(word), word))]
         edges = [
@@ -83,19 +86,8 @@ def _corners(of: Parameters, found: Sequence[object]) -> Iterator[tuple[int, str
     """Yield what is known about corners of V1 and V2: the rectangle, the edge, the state."""
     for one in found:
         if isinstance(one, Rebound) and one.box == oscillator(of):
-            for number, side in _corner_of(one, (of.left, of.right), of.velocities):
+            for number, side in corner_of(one, (of.left, of.right), of.velocities):
                 yield number, side, one
-
-
-def _corner_of(
-    one: Rebound, sets: tuple[Range, Range], velocities: Range | None
-) -> Iterator[tuple[int, str]]:
-    """Yield the rectangle and the edge, if it is about a corner."""
-    if velocities is not None and is_state(one) and one.velocities[0] in velocities:
-        for number, ends in enumerate(sets):
-            for end, side in zip(ends, ("left", "right"), strict=True):
-                if end == one.phases[0]:
-                    yield number, side
 
 
 def _is_inside(of: Parameters, one: Rebound) -> bool:
@@ -124,26 +116,6 @@ def _extremes(
             ):
                 yield number, side, known
                 break
-
-
-def _edge_text(of: Parameters, number: int, side: str, one: Rebound) -> str:
-    """Write the extreme image of an edge, and by how much it is beyond V1 and V2, or short."""
-    end = of.left[0] if side == "left" else of.right[1]
-    short = one.phase[0] - end if side == "left" else end - one.phase[1]
-    beyond = end - one.phase[1] if side == "left" else one.phase[0] - end
-    verdict = f"beyond {show(end)} by at least {floor_text(beyond)}"
-    if beyond <= 0:
-        verdict = f"short of {show(end)} by at least {floor_text(short)}" if short > 0 else "near"
-    return (
-        f"the {side} edge of V{number + 1} reaches phase [{floor_text(one.phase[0])}, "
-        f"{ceil_text(one.phase[1])}] from (phi, gamma) = ({show(one.phases[0])}, "
-        f"{show(one.velocities[0])}), {verdict}"
-    )
-
-
-def is_state(one: Rebound) -> bool:
-    """Whether it is about a single state."""
-    return one.phases[0] == one.phases[1] and one.velocities[0] == one.velocities[1]
 
 
 def _corrections(of: Parameters, found: Sequence[object]) -> str | None:
@@ -231,7 +203,7 @@ def _boxes_text(of: Parameters, found: Sequence[object]) -> str | None:
         f"at a phase in [{floor_text(one.phase[0])}, {ceil_text(one.phase[1])}]"
         for one in found
         if isinstance(one, Rebound) and one.box != oscillator(of)
-        for number, side in _corner_of(one, (sets[0], sets[1]), of.velocities)
+        for number, side in corner_of(one, (sets[0], sets[1]), of.velocities)
         if sets[0][0] < one.phase[0] and one.phase[1] < sets[1][1]
     ]
     if beyond:
@@ -261,5 +233,13 @@ CLAIMS = (
         "periodic orbits of arbitrarily high periods, uncountably many nonperiodic orbits, and an "
         "orbit that is dense in it.",
         _orbits,
+    ),
+    Claim(
+        "N4",
+        "For all {box}, with V1 = {i0} x {gamma}, V2 = {i1} x {gamma}: every two-sided sequence of "
+        "1 and 2 is the itinerary of exactly one full orbit of F in V1 and V2, and F on the states "
+        "of these is uniformly hyperbolic, and conjugate to the full shift on two symbols "
+        "(where epsilon = 0: f, on the phases whose orbits stay there, to the one-sided one).",
+        on_box,
     ),
 )

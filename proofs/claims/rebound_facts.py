@@ -9,11 +9,12 @@ from proofs.claims.rebounds import (
     BarredWord,
     Box,
     Horseshoe,
+    Rebound,
     Rectangle,
     Unjoined,
     horseshoe,
 )
-from proofs.facts import Parameters
+from proofs.facts import Parameters, Range
 
 FULL = ((0, 1), (0, 1))
 NO_REPEATED_ONE = ((0, 1), (0,))  # as 11 is barred: the golden mean shift
@@ -93,3 +94,19 @@ def never_twice(words: Collection[tuple[int, ...]]) -> bool:
         any((*start, 1, 1)[k : k + len(word)] == word for word in words for k in range(longest))
         for start in product((0, 1), repeat=longest - 2)
     )
+
+
+def is_state(one: Rebound) -> bool:
+    """Whether it is about a single state."""
+    return one.phases[0] == one.phases[1] and one.velocities[0] == one.velocities[1]
+
+
+def corner_of(
+    one: Rebound, sets: tuple[Range, Range], velocities: Range | None
+) -> Iterator[tuple[int, str]]:
+    """Yield the rectangle and the edge, if it is about a corner."""
+    if velocities is not None and is_state(one) and one.velocities[0] in velocities:
+        for number, ends in enumerate(sets):
+            for end, side in zip(ends, ("left", "right"), strict=True):
+                if end == one.phases[0]:
+                    yield number, side

@@ -5,22 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from proofs.claims.rebounds import Box, Horseshoe, hull
-from proofs.facts import Range, ceil_text, floor_text, show, show_range
+from proofs.claims.rebounds import Box, Horseshoe, Rebound, hull
+from proofs.facts import (
+    Parameters,
+    Range,
+    ceil_text,
+    floor_text,
+    parameters_text,
+    show,
+    show_range,
+)
 
 
 def word_text(word: Sequence[int]) -> str:
     """Write an itinerary."""
     return " ".join(f"V{symbol + 1}" for symbol in word)
-
-
-def parameters_text(box: Box) -> str:
-    """Write parameters, exact or in ranges."""
-    parts = zip(("eta", "nu", "epsilon"), box, strict=True)
-    return ", ".join(
-        f"{name} = {show(low)}" if low == high else f"{name} in {show_range((low, high))}"
-        for name, (low, high) in parts
-    )
 
 
 def _sets(one: Horseshoe) -> str:
@@ -53,6 +52,8 @@ def restricted_text(one: Horseshoe) -> str:
 
 def full_text(found: Sequence[Horseshoe], boxes: Sequence[Box]) -> str:
     """State the theorem about rectangles that are mapped across both, for all these parameters."""
+    if all(box[2][1] == 0 for box in boxes):
+        return _plastic_text(found, boxes)
     where = "; or ".join(map(parameters_text, boxes))
     plastic = any(box[2][0] == 0 for box in boxes)
     return (
@@ -73,6 +74,19 @@ def full_text(found: Sequence[Horseshoe], boxes: Sequence[Box]) -> str:
     )
 
 
+def _plastic_text(found: Sequence[Horseshoe], boxes: Sequence[Box]) -> str:
+    """State it for epsilon = 0 alone: p = f', and no state depends on the velocity before."""
+    first, second = (show_range(one.phases) for one in found[0].rectangles)
+    return (
+        f"For {'; or '.join(map(parameters_text, boxes))}: the plastic map f is continuously "
+        f"differentiable on the intervals {first} and {second}, with f' >= "
+        f"{floor_text(min(one.expansion for one in found), 2)}, and maps each across both, beyond "
+        f"them by at least {floor_text(min(one.margin for one in found))}. Each one-sided sequence "
+        "of 1 and 2 is the itinerary of exactly one phase whose orbit stays in them, and f on "
+        "these phases is conjugate to the one-sided full shift on two symbols, of entropy log 2."
+    )
+
+
 def merged(boxes: Sequence[Box]) -> list[Box]:
     """Join boxes that agree in two sides and meet in the third, until none do."""
     rest = sorted(boxes)
@@ -88,3 +102,18 @@ def merged(boxes: Sequence[Box]) -> list[Box]:
 
 def _meet(one: Range, two: Range) -> bool:
     return one[0] <= two[1] and two[0] <= one[1]
+
+
+def edge_text(of: Parameters, number: int, side: str, one: Rebound) -> str:
+    """Write the extreme image of an edge, and by how much it is beyond V1 and V2, or short."""
+    end = of.left[0] if side == "left" else of.right[1]
+    short = one.phase[0] - end if side == "left" else end - one.phase[1]
+    beyond = end - one.phase[1] if side == "left" else one.phase[0] - end
+    verdict = f"beyond {show(end)} by at least {floor_text(beyond)}"
+    if beyond <= 0:
+        verdict = f"short of {show(end)} by at least {floor_text(short)}" if short > 0 else "near"
+    return (
+        f"the {side} edge of V{number + 1} reaches phase [{floor_text(one.phase[0])}, "
+        f"{ceil_text(one.phase[1])}] from (phi, gamma) = ({show(one.phases[0])}, "
+        f"{show(one.velocities[0])}), {verdict}"
+    )

@@ -78,7 +78,7 @@ class Rectangle:
 
 @dataclass(frozen=True)
 class BarredWord:
-    """At an exact oscillator: no orbit x_0, ..., x_n of F with x_k in the rectangle word[k].
+    """For oscillators in `box`: no orbit x_0, ..., x_n of F with x_k in the rectangle word[k].
 
     0 stands for left x velocities, 1 for right x velocities. short: by how much the n-th image
     at least falls short of the last rectangle.

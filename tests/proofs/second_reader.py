@@ -19,7 +19,7 @@ from tests.proofs.second_map import Impacts, NotAProof, avoids, moran_root, proo
 __all__ = ["NotACertificate", "NotAProof", "read"]
 
 RULES = ("first-impact", "point", "slope-range", "avoids", "moran-root")
-PARAMETERS_OF_CLAIMS = ("slopes", "ratios", "printed_s0", "epsilon", "velocities")
+PARAMETERS_OF_CLAIMS = ("slopes", "ratios", "printed_s0", "epsilon", "velocities", "reach")
 NUMBER = "-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?"
 DECIMAL = r"-?(0|[1-9][0-9]*)(\.[0-9]+)?"
 NAME = "[A-Za-z][A-Za-z0-9_-]{0,59}"
@@ -96,7 +96,7 @@ def parameters(value):
     eta, nu, left, right, whole, *more = fields(
         value, "eta", "nu", "left", "right", "interval", *PARAMETERS_OF_CLAIMS
     )
-    slopes, ratios, printed, epsilon, gamma = more
+    slopes, ratios, printed, epsilon, gamma, reach = more
     left, right, whole = (phases(each, 400) for each in (left, right, whole))
     eta, nu, slopes = number(eta, 400), number(nu, 400), interval(slopes, 400)
     ratios = None if ratios is None else interval(ratios, 400)
@@ -104,12 +104,16 @@ def parameters(value):
     epsilon = None if epsilon is None else number(epsilon, 400)
     gamma = None if gamma is None else interval(gamma, 400)
     form(epsilon is None or 0 <= epsilon < 1, "epsilon in [0, 1)")
+    if reach is not None:
+        reach = tuple(entries(reach, lambda end: number(end, 400), 3, 3))
+        form(min(reach) >= 0 and reach[0] < eta and reach[1] < abs(nu), "reach")
+        form(epsilon is None or epsilon + reach[2] < 1, "reach of epsilon")
     form(gamma is None or gamma[0] < gamma[1], "a range of velocities")
     form(eta > 0 and nu != 0 and slopes[0] > 0, "signs of the parameters")
     form(ratios is None or ratios[0] > 0, "signs of the ratios")
     form(all(low < high for low, high in (left, right, whole)), "a point")
     form(whole[0] <= left[0] and left[1] < right[0] and right[1] <= whole[1], "order of I0, I1, I")
-    return Parameters(eta, nu, left, right, whole, slopes, ratios, printed, epsilon, gamma)
+    return Parameters(eta, nu, left, right, whole, slopes, ratios, printed, epsilon, gamma, reach)
 
 
 # -- steps -----------------------------------------------------------------------------------------
@@ -263,8 +267,8 @@ def read(text):
         if corrected is not None:
             its, says, names = corrected
             proof((its.eta, its.nu) == (of.eta, of.nu), "another oscillator")
-            last = (its.ratios, its.printed_s0, its.epsilon, its.velocities)
-            proof(last == (None,) * 4, "digits that are not proved")
+            last = (its.ratios, its.printed_s0, its.epsilon, its.velocities, its.reach)
+            proof(last == (None,) * 5, "digits that are not proved")
             proof(its.slopes[0] > 1 and says == theorem(its), "another theorem")
             mine = Facts(its, [facts[name] for name in names])
             proof(all(verified(f"H{k}", mine) for k in range(1, 7)), "the correction")
