@@ -75,7 +75,7 @@ def main(arguments: list[str] | None = None) -> int:
     of = runner.prepared(parser, options)
     began = perf_counter()
     asked = tuple(options.only or CLAIMS)
-    with progress() as tell:
+    with runner.counting(options.stats) as counts, progress() as tell:
         made = produce(of, asked, digits=options.digits, longest=options.horizon, tell=tell)
     seconds = perf_counter() - began
     try:
@@ -89,7 +89,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     except (Undecided, OverflowError) as failure:
         print(f"{parser.prog}: no figure: {failure}", file=sys.stderr)
-    return runner.finish(made, seconds, options, "horseshoe.json")
+    return runner.finish(made, seconds, options, "horseshoe.json", counts)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -25,6 +25,7 @@ from proofs.certificate import Malformed, read, render, write_atomically
 from proofs.check.verify import Rejected, Report, check
 from proofs.claims import GROUPS
 from proofs.cli import Parser, coloured, progress
+from proofs.counting import Counts, show
 from proofs.facts import PAPER
 from proofs.statements import STATEMENTS, Verdict
 
@@ -55,13 +56,17 @@ examples:
 
 @dataclass(frozen=True)
 class Job:
-    """A file of claims to settle in a folder; `fresh`: prove it whatever is there."""
+    """A file of claims to settle in a folder.
+
+    fresh: prove it whatever is there. stats: count what is evaluated.
+    """
 
     name: str
     claims: tuple[str, ...]
     folder: Path
     digits: int
     fresh: bool
+    stats: bool = False
 
 
 @dataclass(frozen=True)
@@ -73,6 +78,7 @@ class Settled:
     report: Report
     page: str | None
     seconds: float
+    counts: Counts = field(default_factory=Counter)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the entries asked for, for the ledger."""
@@ -88,14 +94,16 @@ class Settled:
         ]
 
 
-def jobs(claims: Iterable[str], folder: Path, places: int, fresh: bool) -> list[Job]:
+def jobs(
+    claims: Iterable[str], folder: Path, places: int, fresh: bool, stats: bool = False
+) -> list[Job]:
     """Return the files to settle: those that have a claim which no file before them has."""
     asked, found = set(claims), []
     left = set(asked)
     for name, members in FILES.items():
         if left.intersection(members):
             wanted = tuple(claim for claim in members if claim in asked)
-            found.append(Job(name, wanted, folder, places, fresh))
+            found.append(Job(name, wanted, folder, places, fresh, stats))
             left.difference_update(members)
     return found
 
@@ -113,6 +121,12 @@ def settle(job: Job) -> Settled:
     made = prove(PAPER, job.claims, digits=job.digits)
     report = check(made.certificate)
     return Settled(job, made.certificate, report, made.page, perf_counter() - began)
+
+
+def settle_counting(job: Job) -> Settled:
+    """Do `settle`, and count what it evaluates, if that is wanted."""
+    with runner.counting(job.stats) as counts:
+        return replace(settle(job), counts=counts)
 
 
 def _there(job: Job) -> tuple[str, Report] | None:
@@ -134,7 +148,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--fresh", action="store_true", help="prove again what is there already")
     options = parser.parse_args(arguments)
     runner.writable(parser, options.out)
-    wanted = jobs(options.only or CLAIMS, options.out, options.digits, options.fresh)
+    asked = options.only or CLAIMS
+    wanted = jobs(asked, options.out, options.digits, options.fresh, options.stats)
     began = perf_counter()
     try:
         settled = _settle_all(wanted)
@@ -155,6 +170,8 @@ def main(arguments: list[str] | None = None) -> int:
         print(text, end="")
     else:
         _print(rows, settled, perf_counter() - began)
+    for one in settled if options.stats else ():
+        show(one.counts, one.job.claims, quiet=bool(options.json))
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
 
 
@@ -167,7 +184,7 @@ def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 def _settle_all(wanted: Sequence[Job]) -> list[Settled]:
     """Settle the files in processes of their own, as many at a time as there are processors."""
     with progress() as tell, ProcessPoolExecutor(min(len(wanted), os.cpu_count() or 1)) as pool:
-        futures = {pool.submit(settle, job): job for job in wanted}
+        futures = {pool.submit(settle_counting, job): job for job in wanted}
         found = {}
         for future in as_completed(futures):
             found[futures[future]] = future.result()
