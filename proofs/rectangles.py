@@ -19,7 +19,7 @@ from proofs.model.equations import (
     launch_acceleration,
     launch_with_restitution,
 )
-from proofs.repair import _REACH, _moves, places
+from proofs.repair import REACH, moves, places
 
 Sets = tuple[Range, Range]
 Images = Callable[[Fraction], tuple[float, float] | None]
@@ -136,8 +136,8 @@ def nearest_rectangles(of: Parameters, images: Images) -> Iterator[Sets]:
     ends = (*of.left, *of.right)
     for count in (places(ends), places(ends) + 1):
         unit = Fraction(1, 10**count)
-        for total in range(_REACH + 1):
-            for move in _moves(total):
+        for total in range(REACH + 1):
+            for move in moves(total):
                 moved = tuple(end + unit * step for end, step in zip(ends, move, strict=True))
                 ordered = sorted(set(moved)) == list(moved) and moved[0] >= 0
                 if ordered and overshoot(moved, images) > 0:

@@ -15,7 +15,7 @@ from proofs.facts import Parameters, Range
 from proofs.model.candidate import next_impact
 from proofs.model.system import System
 
-_REACH = 6  # units in the last printed place, in all
+REACH = 6  # units in the last printed place, in all
 
 
 def places(values: tuple[Fraction, ...]) -> int:
@@ -26,7 +26,7 @@ def places(values: tuple[Fraction, ...]) -> int:
     return 6
 
 
-def _moves(total: int) -> list[tuple[int, ...]]:
+def moves(total: int) -> list[tuple[int, ...]]:
     """Return all displacements of four ends by `total` units in sum."""
     span = range(-total, total + 1)
     return [move for move in product(span, repeat=4) if sum(map(abs, move)) == total]
@@ -48,8 +48,8 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
 
     for count in (places(ends), places(ends) + 1):
         unit = Fraction(1, 10**count)
-        for total in range(_REACH + 1):
-            for move in _moves(total):
+        for total in range(REACH + 1):
+            for move in moves(total):
                 moved = [end + unit * step for end, step in zip(ends, move, strict=True)]
                 if sorted(set(moved)) == moved and moved[0] >= 0 and _covers(moved, image):
                     left, right = (moved[0], moved[1]), (moved[2], moved[3])

@@ -13,10 +13,10 @@ from proofs.check.rules import (
     FirstImpact,
     Known,
     Motion,
-    _bits_for,
-    _phases,
-    _transversal,
-    _turns,
+    bits_for,
+    read_phases,
+    transversal_step,
+    whole_turns,
 )
 from proofs.check.series import Series, polynomial
 from proofs.claims.dimension import Repeller
@@ -41,7 +41,7 @@ class _Branch:
         Let T = x - phase + 2 pi turns, t the time of the impact. F(phase) > x means T < t. In the
         window the gap has the one zero t; it is positive before that and negative after.
         """
-        low, high = _turns(self.turns, self.bits)
+        low, high = whole_turns(self.turns, self.bits)
         time = (image[0] - phase + low, image[1] - phase + high)
         begin, end = self.step.windows[0]
         if time[1] < begin or time[0] > end:
@@ -109,7 +109,7 @@ class _System:
         """Show that all inverse branches are where the witness puts them, and disjoint."""
         low, high = self.hull
         for branch in self.branches:
-            turn = _turns(1, self.bits)
+            turn = whole_turns(1, self.bits)
             last, first = (high - turn[1], high - turn[0]), (low + turn[0], low + turn[1])
             bottom, top = branch.domain
             if not branch.excess(bottom, last) > 0 > branch.excess(top, first):
@@ -249,10 +249,10 @@ def _read(of: Parameters, known: Known, reader: Reader) -> tuple[_System, _Test,
         "pieces", "order", "test", "dimension",
     )  # fmt: skip
     pieces_of, order_of, test_of, dimension_of = rest
-    hull, radius, span = _phases(hull_of), radius_of.number(), dimension_of.range()
+    hull, radius, span = read_phases(hull_of), radius_of.number(), dimension_of.range()
     if radius <= 0 or hull[0] == hull[1] or not 0 < span[0] < span[1]:
         raise reader.fail("an empty hull, no radius, or no bounds of a dimension")
-    bits = _bits_for((-radius, radius))
+    bits = bits_for((-radius, radius))
     pieces, order = _whole(pieces_of, 1, _MOST_PIECES), _whole(order_of, 1, _HIGHEST)
     words = _words(words_of)
     suffixes = {word[k:] for word in words for k in range(len(word))}
@@ -274,8 +274,8 @@ def _read(of: Parameters, known: Known, reader: Reader) -> tuple[_System, _Test,
 
 def _branch(known: Known, flight: Reader, domain: Reader, turns: Reader, bits: int) -> _Branch:
     """Read one branch, and show that F' > 0 on it: the slope's other factors have known signs."""
-    phases = _phases(domain)
-    step = _transversal(known, flight, phases)
+    phases = read_phases(domain)
+    step = transversal_step(known, flight, phases)
     eta = rational(step.motion.eta, step.motion.bits)
     if (eta * Enclosure.of(*step.windows[0], step.motion.bits)).sincos()[0].hi >= 0:
         raise Unproved("f is not proved to increase on a domain")

@@ -10,16 +10,16 @@ from itertools import pairwise
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Enclosure, Unproved
 from proofs.check.rules import (
-    _LATEST,
-    _MAX_BITS,
     COVER_BITS,
+    LATEST,
+    MAX_BITS,
     Gap,
     Known,
     Rule,
-    _phases,
-    _turns,
     falls,
     open_windows,
+    read_phases,
+    whole_turns,
 )
 from proofs.claims.rebounds import BarredWord, Rebound, Rectangle, Unjoined, barred
 from proofs.claims.rebounds import rectangle as join
@@ -75,16 +75,16 @@ def rebound(of: Parameters, known: Known, reader: Reader) -> Rebound:
     eta, nu, epsilon = (part.range() for part in box_of[:3])
     if eta[0] <= 0 or nu[0] <= 0 <= nu[1] or not 0 <= epsilon[0] <= epsilon[1] <= 1:
         raise reader.fail("the model has eta > 0, nu != 0 and epsilon in [0, 1]")
-    phases, velocities, impact = _phases(box_of[3]), box_of[4].range(), impact_of.range()
+    phases, velocities, impact = read_phases(box_of[3]), box_of[4].range(), impact_of.range()
     times = times_of.numbers(least=2)
-    if times[-1] > _LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
-        raise times_of.fail(f"times must increase from 0, to at most {_LATEST}")
+    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
+        raise times_of.fail(f"times must increase from 0, to at most {LATEST}")
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
     narrowest = impact[1] - impact[0]
     if narrowest == 0:
         raise Unproved("an empty bracket")
     bits = COVER_BITS + 2 * (1 / min(shortest, narrowest)).__ceil__().bit_length()
-    bits = min(_MAX_BITS, bits)
+    bits = min(MAX_BITS, bits)
     times_of.charge(2 * len(times) + 16, bits)
     flights = _flights((eta, nu, epsilon, phases, velocities), bits)
     if flights.closing_speed.lo < 0:
@@ -125,8 +125,8 @@ def _window(gap_of: Gap, times: Sequence[Fraction]) -> Range:
 
 def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:
     """Return a count and phases + time less 2 pi times it, the lower end about in [0, 2 pi)."""
-    count = (phases[0] + time[0]) // _turns(1, bits)[0]
-    low, high = _turns(count, bits)
+    count = (phases[0] + time[0]) // whole_turns(1, bits)[0]
+    low, high = whole_turns(count, bits)
     return count, (phases[0] + time[0] - high, phases[1] + time[1] - low)
 
 

@@ -39,10 +39,10 @@ from proofs.check.rules import (
     FirstImpact,
     Known,
     Motion,
-    _bits_for,
-    _bracketed,
-    _phases,
-    _turns,
+    bits_for,
+    bracketed,
+    read_phases,
+    whole_turns,
 )
 from proofs.claims.persistence import Chatter, SeparationFlight
 from proofs.facts import Parameters, Range
@@ -78,8 +78,8 @@ def separation_flight(of: Parameters, known: Known, reader: Reader) -> Separatio
     impact comes in `time`, after `turns` turns of the table less up to one.
     """
     separation_of, times_of, time_of = reader.fields("separation", "times", "time")
-    separation, times = _phases(separation_of), times_of.numbers(least=2)
-    bits = _bits_for(separation)
+    separation, times = read_phases(separation_of), times_of.numbers(least=2)
+    bits = bits_for(separation)
     times_of.charge(2 * len(times) + 8, bits)
     motion = Motion(_side(of), of.eta, of.nu, separation, bits)
     _isolate(of, motion)
@@ -87,11 +87,11 @@ def separation_flight(of: Parameters, known: Known, reader: Reader) -> Separatio
     window = (times[-2], times[-1])
     if not motion.falls(motion.start(), window):
         raise Unproved("the gap is not proved to fall in the last piece")
-    inner, time = _bracketed(FirstImpact(motion, (window,), True), separation, time_of)
+    inner, time = bracketed(FirstImpact(motion, (window,), True), separation, time_of)
     speed = (-inner.gap(inner.start(), time, 1)).range
     arrival = (separation[0] + time[0], separation[1] + time[1])
-    turns = int((arrival[1] - separation[0]) // _turns(1, bits)[0]) + 1
-    low, high = _turns(turns, bits)
+    turns = int((arrival[1] - separation[0]) // whole_turns(1, bits)[0]) + 1
+    low, high = whole_turns(turns, bits)
     impact = (arrival[0] - high, arrival[1] - low)
     return SeparationFlight(separation, time, turns, impact, speed)
 
@@ -141,7 +141,7 @@ def chatter(of: Parameters, known: Known, reader: Reader) -> Chatter:
     arc = (states[0][0], after.separation[0])
     if not (spread > 0 and states[1][0] > 0 and states[0][1] < arc[1]):
         raise Unproved("the states near the impact are not all in the sticking arc, with speed > 0")
-    if _accelerations(of, arc, _bits_for(after.separation))[1] >= 0:
+    if _accelerations(of, arc, bits_for(after.separation))[1] >= 0:
         raise Unproved("the table does not push from the impact to the separation phase")
     begin, rests = _ZERO, []
     for cell in cells_of.items(least=1):

@@ -18,8 +18,8 @@ from proofs.facts import TURN, Parameters, PointFact, Range, SlopeRange
 from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
 
 COVER_BITS = 64
-_MAX_BITS = 4000
-_LATEST = 10**6
+MAX_BITS = 4000
+LATEST = 10**6
 _ZERO = Fraction(0)
 
 
@@ -100,7 +100,7 @@ Rule = Callable[[Parameters, Known, Reader], object]
 Gap = Callable[[Range, int], Enclosure]
 
 
-def _phases(reader: Reader) -> Range:
+def read_phases(reader: Reader) -> Range:
     """Read an interval of phases from 0 to 2 pi."""
     low, high = reader.range()
     if low < 0 or high > TURN:
@@ -120,15 +120,15 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times = times_of.numbers(least=2)
-    if times[-1] > _LATEST:
-        raise times_of.fail(f"times beyond {_LATEST} are not examined")
+    if times[-1] > LATEST:
+        raise times_of.fail(f"times beyond {LATEST} are not examined")
     if any(now <= before for before, now in zip((_ZERO, *times), times, strict=False)):
         raise times_of.fail("times must increase from 0")
     # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
     shortest = min(now - before for before, now in zip((_ZERO, *times), times, strict=False))
-    bits = min(_MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
     times_of.charge(2 * len(times) + 3, bits)
-    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, _phases(phases_of), bits)
+    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, read_phases(phases_of), bits)
     start = motion.start()
     gap_of = partial(motion.gap, start)
     if gap_of((_ZERO, times[0]), 2).lo <= 0:
@@ -164,7 +164,7 @@ def falls(gap_of: Gap, time: Range) -> bool:
     return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
 
 
-def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:
+def transversal_step(known: Known, name: Reader, phases: Range) -> FirstImpact:
     """Return the transversal first-impact step of that name, which must contain `phases`."""
     step = known.get(name.string())
     if not isinstance(step, FirstImpact):
@@ -176,15 +176,15 @@ def _transversal(known: Known, name: Reader, phases: Range) -> FirstImpact:
     return step
 
 
-def _bits_for(time: Range) -> int:
+def bits_for(time: Range) -> int:
     """Return the precision that a bracket of this width deserves."""
     width = time[1] - time[0]
     if width == 0:
         raise Unproved("an empty bracket")
-    return min(_MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+    return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
 
 
-def _bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
+def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
     """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
 
     In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
@@ -193,9 +193,9 @@ def _bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motio
     time, window, motion = time_of.range(), step.windows[0], step.motion
     if time[0] < window[0] or time[1] > window[1]:
         raise Unproved("a bracket leaves the window of the first impact")
-    bits = _bits_for(time)
+    bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
-        precision = min(factor * bits, _MAX_BITS)
+        precision = min(factor * bits, MAX_BITS)
         time_of.charge(8, precision)  # the two ends, and f' or f'' afterwards
         inner = Motion(motion.side, motion.eta, motion.nu, phases, precision)
         start = inner.start()
@@ -205,7 +205,7 @@ def _bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motio
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
 
-def _turns(count: int, bits: int) -> Range:
+def whole_turns(count: int, bits: int) -> Range:
     """Enclose count 2 pi."""
     return (pi(bits) * (2 * count)).range
 
@@ -216,10 +216,10 @@ def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
     The upper end may lie beyond 2 pi.
     """
     total = phase + time[0]
-    count = total // _turns(1, bits)[0]
-    if total < _turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
+    count = total // whole_turns(1, bits)[0]
+    if total < whole_turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
         count -= 1
-    low, high = _turns(count, bits)
+    low, high = whole_turns(count, bits)
     return total - high, phase + time[1] - low
 
 
@@ -230,8 +230,8 @@ def point(of: Parameters, known: Known, reader: Reader) -> PointFact:
     """
     flight, phase_of, time_of = reader.fields("flight", "phase", "time")
     phase = phase_of.number()
-    step = _transversal(known, flight, (phase, phase))
-    motion, time = _bracketed(step, (phase, phase), time_of)
+    step = transversal_step(known, flight, (phase, phase))
+    motion, time = bracketed(step, (phase, phase), time_of)
     return PointFact(phase, motion.slope(time).range, phase_after(phase, time, motion.bits))
 
 
@@ -254,7 +254,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
         if left.phase >= right.phase:
             raise points_of.fail("phases must increase")
         phases = (left.phase, right.phase)
-        motion, time = _bracketed(_transversal(known, flight, phases), phases, time_of)
+        motion, time = bracketed(transversal_step(known, flight, phases), phases, time_of)
         low, high = motion.curvature(time).range
         width = right.phase - left.phase
         fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
@@ -279,7 +279,7 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
     for every k. Conclusion: no phase of the union has its first impact in the target.
     """
     flights_of, target_of = reader.fields("flights", "target")
-    target = _phases(target_of)
+    target = read_phases(target_of)
     steps: list[FirstImpact] = []
     for name in flights_of.items(least=1):
         step = known.get(name.string())
@@ -297,9 +297,11 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
 def _meets(phases: Range, time: Range, target: Range) -> bool:
     """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
     arrival = (phases[0] + time[0], phases[1] + time[1])
-    count = arrival[0] // _turns(1, COVER_BITS)[0] - 1  # target + 2 pi k for lower k lies before
+    count = (
+        arrival[0] // whole_turns(1, COVER_BITS)[0] - 1
+    )  # target + 2 pi k for lower k lies before
     while True:
-        low, high = _turns(count, COVER_BITS)
+        low, high = whole_turns(count, COVER_BITS)
         if arrival[1] < low + target[0]:
             return False
         if arrival[0] <= high + target[1]:
@@ -316,7 +318,7 @@ def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
     ratios, root = ratios_of.numbers(2, 2), root_of.range()
     if not all(0 < ratio < 1 for ratio in ratios) or root[0] <= 0:
         raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
-    bits = _bits_for(root)
+    bits = bits_for(root)
     root_of.charge(12, bits)
     logs = [log(ratio, bits) for ratio in ratios]
     low, high = (

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Enclosure, Unproved, exp, log, rational
-from proofs.check.rules import Avoids, Known, MoranRoot, Rule, _bits_for
+from proofs.check.rules import Avoids, Known, MoranRoot, Rule, bits_for
 from proofs.claims.cantor import Excess, LinearSet, cylinder, length
 from proofs.claims.itinerary import Horseshoe, Itinerary, follow, horseshoe_sets, obstacle
 from proofs.facts import Facts, Parameters, Range, SlopeRange, show
@@ -72,7 +72,7 @@ def _root(known: Known, name: Reader) -> MoranRoot:
 
 def _power(base: Fraction, exponent: Range) -> Enclosure:
     """Enclose base^s for all s in an interval, base > 0, at the precision that this deserves."""
-    bits = _bits_for(exponent)
+    bits = bits_for(exponent)
     return exp(Enclosure.of(*exponent, bits) * log(base, bits))
 
 
@@ -86,7 +86,7 @@ def linear_set(of: Parameters, known: Known, reader: Reader) -> LinearSet:
     step = _root(known, name)
     if sum(step.ratios) >= 1:
         raise Unproved("the two parts overlap or touch: the ratios do not sum to less than 1")
-    reader.charge(10, _bits_for(step.root))
+    reader.charge(10, bits_for(step.root))
     return LinearSet(step.ratios, step.root, _power(length(of.interval), step.root).range)
 
 
@@ -101,7 +101,7 @@ def excess(of: Parameters, known: Known, reader: Reader) -> Excess:
         raise word_of.fail("a word over 0 and 1 is expected")
     if epsilon <= 0:
         raise epsilon_of.fail("a positive number is expected")
-    reader.charge(20, _bits_for(step.root))
+    reader.charge(20, bits_for(step.root))
     inside = length(cylinder(step.ratios, of.interval, word))
     delta = epsilon / 2 ** len(word)
     bounds = _power(inside + delta, step.root) - _power(inside, step.root)

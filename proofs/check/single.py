@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, pi, rational
-from proofs.check.rules import _MAX_BITS, COVER_BITS, FirstImpact, Motion, Rule
+from proofs.check.rules import COVER_BITS, MAX_BITS, FirstImpact, Motion, Rule
 from proofs.claims.single_facts import (
     FLIP,
     MOST_PERIODS,
@@ -50,7 +50,7 @@ def _bits(width: Fraction, n: int) -> int:
     if width <= 0:
         raise Unproved("an empty bracket")
     needed = (1 / width).__ceil__().bit_length() + 2 * n.bit_length() + 64
-    return min(_MAX_BITS, max(COVER_BITS, needed))
+    return min(MAX_BITS, max(COVER_BITS, needed))
 
 
 def _turn(eta: Fraction, n: int, bits: int) -> Turn:

@@ -121,7 +121,7 @@ def parts_of(rule: str, conclusion: Any, data: Any, known: Known) -> Iterator[tu
         ends = pairwise(phase for _, phase, _ in points)
         brackets += [(flight, end, time) for (flight, time), end in zip(pieces, ends, strict=True)]
         for flight, phases, time in brackets:
-            motion, _ = rules._bracketed(known[flight], phases, Reader(list(map(str, time))))
+            motion, _ = rules.bracketed(known[flight], phases, Reader(list(map(str, time))))
             for part in bracket(phases, time):
                 yield motion, motion.bits, part
     elif rule == "avoids":
@@ -135,7 +135,7 @@ def parts_of(rule: str, conclusion: Any, data: Any, known: Known) -> Iterator[tu
         for end, sign in zip(root, (1, -1), strict=True):
             value = partial(moran, ratios=ratios, exponent=end)
             signed = value if sign > 0 else lambda kernel, value=value: minus(value(kernel))
-            yield None, rules._bits_for(root), (f"sum at s = {float(end):g}", True, signed)
+            yield None, rules.bits_for(root), (f"sum at s = {float(end):g}", True, signed)
 
 
 class Opinion(NamedTuple):
