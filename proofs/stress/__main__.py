@@ -1,0 +1,127 @@
+"""The command line: which cases, how many, and where the report goes."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from time import perf_counter
+
+import proofs.stress
+from proofs.certificate import write_atomically
+from proofs.cli import USAGE_ERROR, Parser, progress
+from proofs.stress import report
+from proofs.stress.cases import Case
+from proofs.stress.families import FAMILIES, Family, cases
+from proofs.stress.judge import Judgement, judge
+from proofs.stress.kernels import Kernel, kernel
+from proofs.stress.shrink import shrunk
+
+_CASES = 600
+_MOST_CASES = 10**7
+_SHRUNK = 3  # failures of a run that are made smaller
+
+EXAMPLES = """
+examples:
+  python -m proofs.stress
+  python -m proofs.stress --family grazing tangent --cases 500 --seed 7
+  python -m proofs.stress --cases 10000 --out reports
+  python -m proofs.stress --family functions --json - > functions.json
+
+The same seed draws the same cases. With --out the report is written as stress.md, stress.json and,
+where matplotlib is installed, stress.svg. The first failures are made smaller before they are
+shown, so that the input printed is the shortest found that still fails.
+
+families:
+"""
+
+EXIT = """
+exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2 bad usage
+"""
+
+
+def stress(
+    families: Sequence[Family], count: int, seed: int, by: Kernel, tell: Callable[[str], None]
+) -> report.Run:
+    """Try about `count` cases of some families."""
+    began = perf_counter()
+    found: list[Judgement] = []
+    for case in cases(families, count, seed, by):
+        tell(f"{len(found)} cases, {case.family}")
+        found.append(_smaller(case, judge(case, by), by, found))
+    return report.Run(found, seed, by.name, perf_counter() - began)
+
+
+def _smaller(case: Case, one: Judgement, by: Kernel, before: Sequence[Judgement]) -> Judgement:
+    """Shrink a failure, unless there were enough of them."""
+    if not one.outcome.failure or sum(other.outcome.failure for other in before) >= _SHRUNK:
+        return one
+
+    def fails(other: Case) -> bool:
+        try:
+            return judge(other, by).outcome is one.outcome
+        except (ArithmeticError, ValueError):
+            return False
+
+    return judge(shrunk(case, fails), by)
+
+
+def _parser() -> Parser:
+    listed = "".join(f"  {family.name:14} {family.about}\n" for family in FAMILIES)
+    parser = Parser("proofs.stress", proofs.stress.__doc__, EXAMPLES + listed + EXIT)
+    add = parser.add_argument
+    names = [family.name for family in FAMILIES]
+    add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
+    add("--cases", type=_whole(1, _MOST_CASES), default=_CASES, metavar="N",
+        help=f"how many, about (default {_CASES})")  # fmt: skip
+    add("--seed", type=_whole(0, 10**18), default=1, metavar="N", help="of the draw (default 1)")
+    add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
+    add("--out", type=Path, metavar="DIR", help="write the report there (default: print only)")
+    add("--json", choices=("-",), help="print the machine form instead of the table")
+    return parser
+
+
+def _whole(least: int, most: int) -> Callable[[str], int]:
+    def read(text: str) -> int:
+        if not (text.isascii() and text.isdigit() and least <= int(text[:20]) <= most):
+            raise argparse.ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
+        return int(text)
+
+    return read
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the stress test; return the exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.out is not None and not options.out.is_dir():
+        print(f"{parser.prog}: no such directory: {options.out}", file=sys.stderr)
+        return USAGE_ERROR
+    try:
+        by = kernel(options.kernel)
+    except ImportError:
+        print(f"{parser.prog}: python-flint is not installed", file=sys.stderr)
+        return USAGE_ERROR
+    chosen = [f for f in FAMILIES if options.family is None or f.name in options.family]
+    with progress() as tell:
+        run = stress(chosen, options.cases, options.seed, by, tell)
+    print(report.machine_form(run) if options.json else report.text(run))
+    if options.out is not None:
+        _write(options.out, run)
+    return int(bool(run.failures))
+
+
+def _write(folder: Path, run: report.Run) -> None:
+    write_atomically(folder / "stress.md", report.markdown(run))
+    write_atomically(folder / "stress.json", report.machine_form(run))
+    try:
+        picture = report.svg(run)
+    except ImportError:
+        print("no picture: matplotlib is not installed", file=sys.stderr)
+        return
+    write_atomically(folder / "stress.svg", picture)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
