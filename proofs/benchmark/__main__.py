@@ -6,18 +6,27 @@ import argparse
 import shutil
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import proofs.benchmark
 from proofs.benchmark.measuring import EFFORTS, Row, machine_form, table
+from proofs.certificate import write_atomically
 from proofs.cli import USAGE_ERROR, Parser, progress
+from proofs.runner import writable
+
+if TYPE_CHECKING:
+    from proofs.benchmark.diagrams import Diagram
 
 EXAMPLES = """
 examples:
   python -m proofs.benchmark
   python -m proofs.benchmark intervals --codac-python ~/codac/bin/python
   python -m proofs.benchmark claims --smallest
+  python -m proofs.benchmark precision --figures diagrams --json precision.json
+  python -m proofs.benchmark limit
   python -m proofs.benchmark --full --json benchmark.json
   python -m proofs.benchmark --quick --json - > benchmark.json
 
@@ -34,13 +43,33 @@ mpmath.iv works on 100 elements at most, codac in a process of its own. At 1,000
 claims: the command of each group of claims, a whole process with its check, the check alone, and
 time against digits (dimension) and period (orbits).
 
+precision: time against error: bounds of f' by natural, mean-value and Taylor forms and by
+monotonicity, flight times beside algorithm A.1 and an ODE solver, s_0, images of edges, dimensions,
+periodic points, checks. Peers do the same work; fitted orders; diagrams with --figures.
+
+limit: the whole process of the main job, stage by stage: interpreter, imports, search, proof,
+certificate, report, check.
+
 exit status: 0 every target was reached, 1 one was missed or could not be measured, 2 bad usage
 """
 
 
 def measure(options: argparse.Namespace) -> list[Row]:
-    """Measure the subject."""
+    """Measure the subject; draw its diagrams, if there are any and they are wanted."""
     effort = EFFORTS[options.mode]
+    if options.subject == "precision":
+        from proofs.benchmark import precision
+
+        with progress() as tell:
+            python = options.codac_python
+            rows, diagrams = precision.measure(options.mode, python, options.reports, tell)
+        if options.figures is not None:
+            draw(diagrams, options.figures)
+        return rows
+    if options.subject == "limit":
+        from proofs.benchmark import limit
+
+        return limit.measure(effort)
     if options.subject == "horseshoe":
         from proofs.benchmark import horseshoe
 
@@ -61,12 +90,20 @@ def measure(options: argparse.Namespace) -> list[Row]:
         ]
 
 
+def draw(diagrams: Sequence[Diagram], folder: Path) -> None:
+    """Write the diagrams that have something to show."""
+    from proofs.benchmark.diagrams import svg
+
+    for diagram in diagrams:
+        write_atomically(folder / f"{diagram.name}.svg", svg(diagram))
+
+
 def _parser() -> Parser:
     parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
     parser.add_argument(
         "subject",
         nargs="?",
-        choices=("horseshoe", "claims", "intervals"),
+        choices=("horseshoe", "claims", "intervals", "precision", "limit"),
         default="horseshoe",
         help="what is measured (default: horseshoe)",
     )
@@ -77,6 +114,16 @@ def _parser() -> Parser:
         "--smallest", dest="mode", action="store_const", const="smallest", help="each once"
     )
     parser.add_argument("--json", metavar="FILE", help="write all samples; - for standard output")
+    parser.add_argument(
+        "--figures", metavar="DIR", type=Path, help="draw SVG diagrams (precision, with matplotlib)"
+    )
+    parser.add_argument(
+        "--reports",
+        metavar="DIR",
+        type=Path,
+        default=Path("reports"),
+        help="where the certificates are whose check is measured (default: reports)",
+    )
     parser.add_argument(
         "--codac-python",
         metavar="PATH",
@@ -98,6 +145,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if shutil.which(options.codac_python) is None:
         print(f"{parser.prog}: no such interpreter: {options.codac_python}", file=sys.stderr)
         return USAGE_ERROR
+    if options.figures is not None:
+        if options.subject != "precision" or find_spec("matplotlib") is None:
+            parser.error("--figures takes the subject precision, and matplotlib")
+        writable(parser, options.figures)
     began = perf_counter()
     rows = measure(options)
     text = machine_form(rows, options.subject, options.mode)

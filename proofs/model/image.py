@@ -154,7 +154,9 @@ def _after_sticking(system: System, phases: Range, digits: int, horizon: Fractio
         arrival = (leave[0] + time[0], leave[1] + time[1])
         dwell = _modulo_turn(leave[0] - phases[1], leave[1] - phases[0], bits)
         result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
-        if _agree(result.flight, digits + 1) and _agree(result.phase, digits + 1):
+        exact = phases[0] == phases[1]  # else the dwell times differ
+        wanted = (result.flight, result.phase, *([dwell] if exact else []))
+        if all(_agree(each, digits + 1) for each in wanted):
             return result
     raise Undecided(f"{digits} digits are not reached")
 

@@ -91,8 +91,12 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
     step, allowed, certain = times[-1], finest, False
     while not certain:
         now = times[-1]
+        if now >= horizon and open_pieces:
+            raise Undecided(
+                f"an impact near time {float(open_pieces[0][0]):.9g} is neither proved nor excluded"
+            )
         if now >= horizon:
-            raise NoImpact(f"no impact is certain up to time {float(horizon):g} (the horizon)")
+            raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
         next_value = flight.gap(ahead)
         if _positive_between(flight, now, value, ahead, next_value):

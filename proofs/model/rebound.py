@@ -70,9 +70,19 @@ def rebound(
 
 
 def _require_possible(states: Rebounds) -> None:
-    """Raise Impossible unless gap' <= 0 before each impact: the mass comes from above."""
-    if states.closing_speed.inf >= 0:
-        return
+    """Raise Impossible unless gap' <= 0 before each impact: the mass comes from above.
+
+    One state is looked at ever more closely; where its closing speed may be 0, Undecided says so.
+    """
+    for precision in (64, 256, 1024):
+        speed = replace(states, precision=precision).closing_speed
+        if speed.inf >= 0:
+            return
+        if speed.sup < 0:
+            break
+    else:
+        if states.single:
+            raise Undecided("the closing speed is 0, or too close to it to tell its sign")
     limit = -states.start.rate / states.eta
     if states.system.side < 0:
         bound = f"gamma is at most {floor_text(limit.inf)}"

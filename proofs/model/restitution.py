@@ -22,7 +22,6 @@ from proofs.model.phase import turn
 Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
 _TINIEST = Fraction(1, 2**60)
 _NONE = Fraction(0)
-_HALVINGS = 12  # of a window of at most 2 time units: far below the spread of times in a box
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +81,13 @@ class Rebounds(Flight):
         return self.eta_reach == self.nu_reach == 0 and all(low == high for low, high in ranges)
 
     @property
+    def narrowest(self) -> Fraction:
+        """The width of the narrowest side of a box of flights that is no point."""
+        ranges = (self.phases, self.velocities, self.epsilon)
+        widths = [*(high - low for low, high in ranges), 2 * self.eta_reach, 2 * self.nu_reach]
+        return min(width for width in widths if width > 0)
+
+    @property
     def leaves(self) -> bool:
         """Whether each state is possible, and each flight begins with gap' > 0 or gap'' > 0."""
         if self.closing_speed.inf < 0:
@@ -131,12 +137,14 @@ def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
     if flight.single:
         return impact_time(found, flight.phases, bits)
     low, high = found.window
+    # until what bisection may still gain is small beside the narrowest side of the box
+    halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
     inner = high
-    for _ in range(_HALVINGS):
+    for _ in range(halvings):
         middle = (low + inner) / 2
         low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)
     inner = low
-    for _ in range(_HALVINGS):
+    for _ in range(halvings):
         middle = (inner + high) / 2
         inner, high = (inner, middle) if flight.gap(middle).certainly_negative() else (middle, high)
     return low, high

@@ -1,0 +1,120 @@
+"""Work-precision of whole proofs: dimensions, periodic orbits, and the checks of certificates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache, partial
+from pathlib import Path
+from time import perf_counter
+
+from proofs import dimension, orbits
+from proofs.benchmark.curves import Budget, Curve, Point, Task, sweep
+from proofs.benchmark.measuring import Row, in_turn, spread, timed
+from proofs.certificate import Malformed, read
+from proofs.check.verify import Rejected, check
+from proofs.claims.dimension import Repeller
+from proofs.facts import PAPER
+from proofs.methods.orbits import periodic_points
+from proofs.methods.words import Words
+from proofs.model.horseshoe_map import ImpactMap
+
+_PERIOD = 4
+_DIGITS = 25
+
+
+def dimensions(budget: Budget, digits: Sequence[float]) -> list[Curve]:
+    """Measure the proof of both Hausdorff dimensions, to so many digits."""
+    curve = Curve("both dimensions (H13)", "proofs.dimension", "digits", against="time")
+    return sweep({"": (curve, _dimension)}, digits, budget)
+
+
+def _dimension(digits: float) -> Task:
+    def task() -> float:
+        found = dimension.prove(PAPER, ["H13"], digits=int(digits)).proofs["H13"]
+        sizes = [one.dimension for _, one in found if isinstance(one, Repeller)]
+        return float(max(high - low for low, high in sizes))
+
+    return task
+
+
+@cache
+def _horseshoe() -> ImpactMap:
+    of = replace(
+        PAPER,
+        left=orbits.LEFT,
+        right=orbits.RIGHT,
+        interval=(orbits.LEFT[0], orbits.RIGHT[1]),
+        slopes=(Fraction(1), Fraction(1)),
+        ratios=None,
+        printed_s0=None,
+    )
+    return orbits.horseshoe(of)
+
+
+def _points(period: int, digits: int | None) -> Task:
+    """Return the enclosure of all periodic points of a horseshoe that is proved before."""
+    given, words = _horseshoe(), Words.of_length(period)
+
+    def task() -> float:
+        points = periodic_points(given, words, digits)
+        return float(max(one.point[1] - one.point[0] for one in points))
+
+    return task
+
+
+def periodic(budget: Budget, periods: Sequence[int], digits: Sequence[float]) -> list[Curve]:
+    """Measure all periodic points against the number of words, and against digits."""
+    words = [float(2**n) for n in periods]
+    title = "all periodic points of a period"
+
+    def of_length(places: int | None, count: float) -> Task:
+        return _points(int(count).bit_length() - 1, places)
+
+    ways = {"binary64": None, f"{_DIGITS} digits": _DIGITS}
+    curves = sweep(
+        {
+            way: (Curve(title, way, "words", against="time"), partial(of_length, places))
+            for way, places in ways.items()
+        },
+        words,
+        budget,
+    )
+    against = Curve(f"{title}, {2**_PERIOD} words", "multiprecision", "digits", against="time")
+    return curves + sweep({"": (against, lambda d: _points(_PERIOD, int(d)))}, digits, budget)
+
+
+def checks(budget: Budget, folder: Path, most: float) -> tuple[list[Curve], list[Row]]:
+    """Measure the check of each certificate in a folder, the small ones first.
+
+    Ends when `most` seconds are spent; what is then not checked is reported so.
+    """
+    curve = Curve("check", "certificates", "kB", against="time", proved=False)
+    rows, began = [], perf_counter()
+    files = sorted(folder.glob("*.json"), key=lambda path: path.stat().st_size)
+    for path in files:
+        if path.name == "MANIFEST.json":
+            continue
+        kilobytes, name = path.stat().st_size / 1000, f"check of {path.name}"
+        if perf_counter() - began > most:
+            rows.append(Row(name, f"{kilobytes:.0f} kB, not measured: --full does"))
+            continue
+        task = partial(_check, path)
+        try:
+            seconds = [timed(task)]
+        except (Malformed, Rejected) as error:
+            rows.append(Row(name, f"{kilobytes:.0f} kB, not accepted: {error}", "accepted", False))
+            continue
+        if seconds[0] <= budget.limit:
+            (seconds,) = in_turn([partial(timed, task)], budget.rounds)
+        samples = {"seconds": seconds, "bytes": path.stat().st_size}
+        rows.append(Row(f"{name} [s]", f"{spread(seconds)}, {kilobytes:.0f} kB", samples=samples))
+        curve.points.append(Point(kilobytes, None, seconds, path.stem))
+    if not files:
+        rows.append(Row("check of certificates", f"no certificates in {folder}"))
+    return [curve], rows
+
+
+def _check(path: Path) -> None:
+    check(read(path))
