@@ -16,10 +16,10 @@ from time import perf_counter
 
 import numpy as np
 
+from intervals import Undecided
 from proofs.facts import PAPER, Range
 from proofs.model.equations import gap
 from proofs.model.image import Image, image
-from proofs.model.impact import NoImpact
 from proofs.model.kernel import Floats, float_clock, float_launch
 from proofs.model.system import System
 
@@ -76,11 +76,11 @@ def trials(system: System, phase: Fraction, deltas: Sequence[float] = STEPS) -> 
 def flight(system: System, phase: Fraction) -> Range | None:
     """Return the certified time from this phase to the next impact, rest on the table included.
 
-    None if there is no transversal impact up to the horizon.
+    None if none is certified up to the horizon: there is none, or mass and table touch only.
     """
     try:
         found = image(system, (phase, phase), digits=12, horizon=Fraction(_HORIZON))
-    except NoImpact:
+    except Undecided:
         return None
     if not isinstance(found, Image):
         raise TypeError("the image of one phase is one phase")

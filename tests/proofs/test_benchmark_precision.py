@@ -383,6 +383,8 @@ import time:        30 |         57 |   mpmath.libmp
 import time:         5 |         62 | mpmath
 import time:         2 |          2 |   json
 import time:        10 |         12 | proofs.horseshoe
+
+pytestmark = pytest.mark.slow
 """
 
 

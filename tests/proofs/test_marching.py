@@ -9,6 +9,8 @@ from proofs.model.marching import STEPS, flight, march, trials, wrong_inputs
 from proofs.model.system import System
 from tests.proofs import reference
 
+pytestmark = pytest.mark.slow
+
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 
 

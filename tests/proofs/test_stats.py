@@ -50,6 +50,8 @@ from proofs.model.equations import clock, gap, launch, slope
 from proofs.model.kernel import float_clock, float_launch
 from proofs.model.system import System
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SYSTEM = System(PAPER.eta, PAPER.nu)
 PROVER = (FLOATS, INTERVALS, ARRAYS)

@@ -27,6 +27,8 @@ from proofs.stress.shrink import shrunk
 from proofs.stress.truth import Launched, first_impact
 from tests.proofs import reference
 
+pytestmark = pytest.mark.slow
+
 COUNT = int(os.environ.get("STRESS_CASES", "10000"))
 EXACT = ("operations", "functions", "arrays")
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")
