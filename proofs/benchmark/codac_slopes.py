@@ -8,14 +8,10 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict
 from fractions import Fraction
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 from intervals import Undecided
@@ -25,8 +21,6 @@ from proofs.benchmark.peers import Codac
 from proofs.benchmark.slope_forms import Work, exclude, one_by_one
 from proofs.facts import Range
 from proofs.model.system import System
-
-_ROOT = Path(__file__).parents[2]
 
 
 def slopes(server: Codac, work: Work, order: int) -> Range:
@@ -50,25 +44,6 @@ def _written(given: Any) -> Any:
 def _read(given: Any) -> Any:
     """Replace texts by numbers."""
     return [_read(one) for one in given] if isinstance(given, list) else float.fromhex(given)
-
-
-@contextmanager
-def codac(python: str) -> Iterator[Codac | None]:
-    """Yield codac in a process of the interpreter `python`, None where that cannot import it."""
-    path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
-    with subprocess.Popen(
-        [python, "-m", "proofs.benchmark.codac_slopes"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, "PYTHONPATH": path},
-    ) as server:
-        try:
-            version = server.stdout.readline().strip() if server.stdout else ""
-            yield Codac(server, version) if version else None
-        finally:
-            server.terminate()
 
 
 class _Numbers(Jets):

@@ -90,11 +90,11 @@ class Codac:
 
 
 @contextmanager
-def codac(python: str) -> Iterator[Codac | None]:
+def codac(python: str, server_module: str = "codac_server") -> Iterator[Codac | None]:
     """Yield codac in a process of the interpreter `python`, None where that cannot import it."""
     path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
     with subprocess.Popen(
-        [python, "-m", "proofs.benchmark.codac_server"],
+        [python, "-m", f"proofs.benchmark.{server_module}"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,

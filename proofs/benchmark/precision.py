@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from proofs.benchmark import long_curves, point_curves, slope_curves
-from proofs.benchmark.codac_slopes import codac
 from proofs.benchmark.curves import Budget, Curve, ratios, row
 from proofs.benchmark.diagrams import Diagram
 from proofs.benchmark.measuring import Row
-from proofs.benchmark.peers import CODAC, FLINT, IV, Codac, has_flint
+from proofs.benchmark.peers import CODAC, FLINT, IV, Codac, codac, has_flint
 
 Tell = Callable[[str], None]
 Sizes = tuple[float, ...]
@@ -95,7 +94,7 @@ _PEERS = (FLINT, IV, CODAC)
 def measure(mode: str, python: str, reports: Path, tell: Tell) -> tuple[list[Row], list[Diagram]]:
     """Measure everything; codac in a process of the interpreter `python`."""
     plan, flint = PLANS[mode], has_flint()
-    with codac(python) as server:
+    with codac(python, "codac_slopes") as server:
         rows = [*_absent(flint, server)]
         tell("slope bounds in binary64")
         slopes = slope_curves.binary64(plan.budget, plan.boxes, flint, server)

@@ -235,16 +235,21 @@ def halves(part: Range) -> tuple[Range, Range]:
 
 
 def time_range(impact: FirstImpact, phases: Range) -> Range:
-    """Enclose the impact times of all launches in `phases`, a part of a transversal impact's.
-
-    The gap decreases through its one zero in the window: where it is > 0 for all launches no
-    zero lies before, where it is < 0 none lies after. Both ends move by bisection.
-    """
-    flight = impact.part(phases)
+    """Enclose the impact times of all launches in `phases`, a part of a transversal impact's."""
     low, high = impact.window
     # until what bisection may still gain is small beside the width of the phases
     steps = ((high - low) / (phases[1] - phases[0])).__ceil__().bit_length() + 5
-    inner = high
+    return bisected(impact.part(phases), impact.window, steps)
+
+
+def bisected(flight: Flight, window: Range, steps: int) -> Range:
+    """Narrow the window of a transversal impact of all flights.
+
+    The gap decreases through its one zero there: where it is > 0 for all flights no zero lies
+    before, where it is < 0 none lies after. Both ends move by so many bisections.
+    """
+    low, inner = window
+    high = inner
     for _ in range(steps):
         middle = (low + inner) / 2
         low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)

@@ -16,7 +16,7 @@ from proofs.model.equations import (
     return_map_derivative,
 )
 from proofs.model.flight import Flight
-from proofs.model.impact import HORIZON, FirstImpact, NoImpact, impact_time, march
+from proofs.model.impact import HORIZON, FirstImpact, NoImpact, bisected, impact_time, march
 from proofs.model.phase import turn
 
 Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
@@ -131,23 +131,14 @@ def _first_step(flight: Rebounds) -> Fraction:
 def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
     """Enclose the times of a transversal first impact: of a single flight to 2^(1 - bits).
 
-    Of a box of flights as the gap's signs allow: where it is > 0 for all of them no zero lies
-    before, where it is < 0 none lies after; both ends move by bisection.
+    Of a box of flights as the gap's signs allow.
     """
     if flight.single:
         return impact_time(found, flight.phases, bits)
     low, high = found.window
     # until what bisection may still gain is small beside the narrowest side of the box
     halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
-    inner = high
-    for _ in range(halvings):
-        middle = (low + inner) / 2
-        low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)
-    inner = low
-    for _ in range(halvings):
-        middle = (inner + high) / 2
-        inner, high = (inner, middle) if flight.gap(middle).certainly_negative() else (middle, high)
-    return low, high
+    return bisected(flight, found.window, halvings)
 
 
 @dataclass(frozen=True)

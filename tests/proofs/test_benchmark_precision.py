@@ -18,6 +18,7 @@ from proofs.benchmark import (
     horseshoe_flint,
     limit,
     long_curves,
+    peers,
     point_curves,
     precision,
     slope_curves,
@@ -289,7 +290,7 @@ def test_codac_does_the_same_work_in_a_process_of_its_own(tmp_path, monkeypatch)
     (tmp_path / "codac-9.8.7.dist-info" / "METADATA").write_text("Name: codac\nVersion: 9.8.7\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     work = slope_curves.works(4)[0]
-    with codac_slopes.codac(sys.executable) as server:
+    with peers.codac(sys.executable, "codac_slopes") as server:
         assert server.version == "9.8.7"
         for order in (0, 1, 2):
             low, high = codac_slopes.slopes(server, work, order)
