@@ -16,11 +16,12 @@ from intervals import DomainError, Interval, Undecided, log
 from proofs.certificate import texts
 from proofs.claims.chaos import PRINTED, Branch, CoveringGraph
 from proofs.facts import Parameters, Range
+from proofs.groups import Evidence
 from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.model.windows import Candidate, Candidates, bracket, prove_branch
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.staying import prove_staying
 from proofs.steps import Prover
 

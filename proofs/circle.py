@@ -21,11 +21,12 @@ from proofs.claims.circle import CLAIMS as STATED
 from proofs.claims.circle import LONG
 from proofs.claims.landing import Separation
 from proofs.facts import Parameters
+from proofs.groups import Evidence
 from proofs.model.candidate import next_impact
 from proofs.model.impact import HORIZON
 from proofs.model.landing import prove_never, prove_separation
 from proofs.model.system import System
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = tuple(claim.id for claim in STATED)

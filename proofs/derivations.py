@@ -19,6 +19,7 @@ from proofs.check.enclose import Box, size
 from proofs.check.formula import Formula
 from proofs.claims.formulas import Asked, Derivation, Equal, Lemma, Value
 from proofs.facts import Range
+from proofs.groups import Evidence
 from proofs.methods import derive
 from proofs.methods.formulas import (
     Intervals,
@@ -28,7 +29,6 @@ from proofs.methods.formulas import (
     subdivide,
     values,
 )
-from proofs.runner import Evidence
 
 SPARE_BITS = 40
 _COARSE_DIGITS = 3

@@ -15,12 +15,13 @@ from proofs.check.rules import Avoids, MoranRoot
 from proofs.claims.dimension import CLAIMS as STATED
 from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
 from proofs.facts import Parameters, Range
+from proofs.groups import Evidence, Tell
 from proofs.methods.dimension import dimension, precision
 from proofs.model.impact import HORIZON, FirstImpact, cover_by_impacts
 from proofs.model.inverse import InverseBranch, InverseSystem
 from proofs.model.system import System
 from proofs.repair import nearest_sets, short_decimal
-from proofs.runner import Evidence, Tell, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = tuple(claim.id for claim in STATED)

@@ -19,9 +19,10 @@ from proofs.claims.appendix import NEGATIVE
 from proofs.claims.foundations import DERIVATIONS
 from proofs.derivations import prove_derivations
 from proofs.facts import Parameters
+from proofs.groups import Evidence
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = GROUPS["foundations"]

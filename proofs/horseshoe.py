@@ -10,13 +10,13 @@ from fractions import Fraction
 from time import perf_counter
 
 from intervals import Undecided
-from proofs import plastic, runner
+from proofs import groups, plastic, runner
 from proofs.certificate import render, write_atomically
 from proofs.cli import Parser, horizon, progress
 from proofs.facts import Parameters
+from proofs.groups import Made, Tell
 from proofs.model.impact import HORIZON
 from proofs.report import markdown
-from proofs.runner import Made, Tell
 
 RESTITUTION = ("N1", "N2")
 CLAIMS = (*plastic.CLAIMS, *RESTITUTION)
@@ -52,11 +52,11 @@ def produce(
     rows, proved = list(found.rows), found.certificate
     others = [claim for claim in RESTITUTION if claim in claims]
     if others:
-        more, also = runner.settle("nonplastic", of, others, digits=digits, tell=tell)
+        more, also = groups.settle("nonplastic", of, others, digits=digits, tell=tell)
         rows += more
         steps = proved["steps"] | also["steps"]
         entries = proved["claims"] + also["claims"]
-        proved = runner.certificate(of, steps, entries, proved["corrected"])
+        proved = groups.certificate(of, steps, entries, proved["corrected"])
     page = markdown(of, found.corrected, proved, rows)
     theorem = proved["corrected"] and proved["corrected"]["theorem"]
     return Made(rows, render(proved), page, theorem, found.corrected)

@@ -20,7 +20,7 @@ from time import perf_counter
 from types import MappingProxyType
 from typing import Any
 
-from proofs import horseshoe, runner
+from proofs import groups, horseshoe, runner
 from proofs.certificate import Malformed, read, render, write_atomically
 from proofs.check.verify import Rejected, Report, check
 from proofs.claims import GROUPS
@@ -117,7 +117,7 @@ def settle(job: Job) -> Settled:
     there = None if job.fresh else _there(job)
     if there is not None:
         return Settled(job, *there, None, perf_counter() - began)
-    prove = horseshoe.produce if job.name == "horseshoe" else partial(runner.produce, job.name)
+    prove = horseshoe.produce if job.name == "horseshoe" else partial(groups.produce, job.name)
     made = prove(PAPER, job.claims, digits=job.digits)
     report = check(made.certificate)
     return Settled(job, made.certificate, report, made.page, perf_counter() - began)

@@ -17,13 +17,14 @@ from intervals import DomainError, Undecided
 from proofs.claims.rebound_facts import oscillator
 from proofs.claims.rebounds import Box, Unjoined
 from proofs.facts import Parameters, Range
+from proofs.groups import Evidence
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.rebound_boxes import on_box
 from proofs.rebound_steps import ReboundProver
 from proofs.rectangles import Sets, image_phases, narrowed, nearest_rectangles, widened
 from proofs.repair import places, short_decimal
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = ("N1", "N2", "N3", "N4")

@@ -17,6 +17,7 @@ from proofs.certificate import texts
 from proofs.claims.persistence import Chatter, SeparationFlight, stable_pair
 from proofs.claims.rebounds import Rebound, size
 from proofs.facts import TURN, Parameters, Range
+from proofs.groups import Evidence
 from proofs.model.chatter import Pushing, Settled
 from proofs.model.image import separation_phase
 from proofs.model.impact import HORIZON, FirstImpact, halves, impact_time, locate
@@ -24,7 +25,7 @@ from proofs.model.phase import turn
 from proofs.model.simulate import late_state
 from proofs.model.system import System
 from proofs.rebound_steps import ReboundProver
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = ("G7", "G8")

@@ -17,11 +17,11 @@ from typing import Any, TypeVar
 from intervals import DomainError, Undecided
 from proofs.certificate import parameters_to_json, texts
 from proofs.facts import Facts, Parameters, PointFact, Range, SlopeRange
+from proofs.groups import Row, certificate, printed
 from proofs.model.candidate import next_impact
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.repair import grid, nearest_sets, places, rounded_slopes, short_decimal
-from proofs.runner import Row, certificate, printed
 from proofs.statements import (
     HORSESHOE,
     STATEMENTS,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from proofs.facts import PAPER, Parameters, show, show_range
-from proofs.runner import Row
+from proofs.groups import Row
 from proofs.statements import Verdict
 
 _TITLES = {

@@ -21,8 +21,9 @@ from proofs.claims.resonance import DERIVATIONS
 from proofs.cli import Parser, digits, number
 from proofs.derivations import prove_derivations
 from proofs.facts import TURN, Parameters, Range, show
+from proofs.groups import Evidence
 from proofs.model.resonant import Motion, motion
-from proofs.runner import Evidence, run
+from proofs.runner import run
 
 CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
 

@@ -1,6 +1,6 @@
-"""What every command that proves claims shares: evidence in, a certificate, a page and a check out.
+"""What every command that proves claims shares: options, files, the screen, the check.
 
-A group of claims has a prover `proofs.<group>` with `CLAIMS` and `prove`; `run` is its command.
+`run` is the command of a group of claims.
 """
 
 from __future__ import annotations
@@ -9,157 +9,31 @@ import shlex
 import sys
 from argparse import Namespace
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 from importlib.util import find_spec
 from os import getpid
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from intervals import decimal_bounds
 from proofs import claims as catalogue
 from proofs import manifest
 from proofs.certificate import (
-    SCHEMA,
     Malformed,
-    Reader,
-    parameters_to_json,
     read,
-    render,
-    used_steps,
     write_atomically,
 )
 from proofs.check.verify import Rejected, check
 from proofs.cli import Parser, coloured, digits, number, progress
-from proofs.facts import PAPER, Parameters, Range, show
+from proofs.facts import PAPER, Parameters, show
+from proofs.groups import Made, Row, printed, produce
 from proofs.statements import Verdict
 
 if TYPE_CHECKING:
     from proofs.counting import Counts
-
-Tell = Callable[[str], None]
-_SPARE = Fraction(1, 10**12)
-
-
-@dataclass
-class Evidence:
-    """What a prover found: its steps in order, and for each claim the steps that it rests on.
-
-    Each of these comes with the conclusion that the prover's own arithmetic reached.
-    """
-
-    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    proofs: dict[str, list[tuple[str, object]]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Row:
-    """One decided claim, with the numbers and the time that it took."""
-
-    id: str
-    verdict: Verdict
-    statement: str
-    why: str
-    quantities: Mapping[str, Range]
-    seconds: float | None = None
-    corrected: str | None = None
-
-
-def printed(bounds: Range, digits: int) -> dict[str, str]:
-    """Write an enclosure outward, with a little to spare for another arithmetic."""
-    spare = min((bounds[1] - bounds[0]) / 8, _SPARE)
-    lower, upper = decimal_bounds(bounds[0] - spare, bounds[1] + spare, digits)
-    return {"lower": lower, "upper": upper}
-
-
-def decide(
-    claim: str, of: Parameters, proof: Sequence[tuple[str, object]], digits: int
-) -> tuple[Row, dict[str, Any]]:
-    """Decide a claim of a group by what was proved; return its row and its certificate entry."""
-    stated = catalogue.find(claim)
-    if stated is None:
-        raise ValueError(f"no group has the claim {claim}")
-    found = stated.decide(of, [conclusion for _, conclusion in proof])
-    row = Row(
-        claim, found.verdict, stated.says(of), found.why, found.quantities, None, found.corrected
-    )
-    return row, {
-        "id": claim,
-        "statement": row.statement,
-        "verdict": found.verdict.value,
-        "proof": [name for name, _ in proof],
-        "witness": found.witness,
-        "corrected": found.corrected,
-        "quantities": {name: printed(each, digits) for name, each in found.quantities.items()},
-    }
-
-
-def certificate(
-    of: Parameters,
-    steps: Mapping[str, dict[str, Any]],
-    entries: Sequence[dict[str, Any]],
-    corrected: dict[str, Any] | None = None,
-) -> dict[str, Any]:
-    """Assemble a certificate; steps that nothing uses are left out."""
-    named = {name for entry in entries for name in entry["proof"]}
-    if corrected is not None:
-        named.update(corrected["proof"])
-    needed = used_steps(Reader(dict(steps)), named)
-    return {
-        "schema": SCHEMA,
-        "parameters": parameters_to_json(of),
-        "steps": {name: step for name, step in steps.items() if name in needed},
-        "claims": list(entries),
-        "corrected": corrected,
-    }
-
-
-def settle(
-    group: str, of: Parameters, claims: Iterable[str] | None = None, *, digits: int, tell: Tell
-) -> tuple[list[Row], dict[str, Any]]:
-    """Prove and decide claims of a group; return rows for people and the certificate."""
-    asked = set(catalogue.GROUPS[group] if claims is None else claims)
-    wanted = [claim for claim in catalogue.GROUPS[group] if claim in asked]
-    evidence: Evidence = import_module(f"proofs.{group}").prove(
-        of, wanted, digits=digits, tell=tell
-    )
-    decided = [decide(claim, of, evidence.proofs.get(claim, []), digits) for claim in wanted]
-    return [row for row, _ in decided], certificate(
-        of, evidence.steps, [entry for _, entry in decided]
-    )
-
-
-@dataclass(frozen=True)
-class Made:
-    """What a run made: rows for the screen, certificate, page; theorem about corrected sets."""
-
-    rows: list[Row]
-    certificate: str
-    page: str
-    theorem: str | None = None
-    corrected: Parameters | None = None
-
-
-def produce(
-    group: str,
-    of: Parameters,
-    claims: Iterable[str] | None = None,
-    *,
-    digits: int,
-    tell: Tell = lambda stage: None,
-) -> Made:
-    """Prove and decide claims of a group; return the texts of the certificate and the page."""
-    from proofs.report import page
-
-    rows, found = settle(group, of, claims, digits=digits, tell=tell)
-    return Made(rows, render(found), page(group, of, found, rows))
-
-
-# -- the command line ------------------------------------------------------------------------------
 
 EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json

@@ -19,11 +19,12 @@ from proofs.claims.itinerary import Horseshoe, Itinerary, follow, horseshoe_sets
 from proofs.claims.sets import CLAIMS as STATED
 from proofs.claims.subshift import words
 from proofs.facts import Facts, Parameters, Range, SlopeRange
+from proofs.groups import Evidence
 from proofs.model.candidate import next_impact
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.repair import nearest_sets, places, rounded_slopes
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = tuple(claim.id for claim in STATED)

@@ -29,6 +29,7 @@ from proofs.claims.single_facts import (
 )
 from proofs.derivations import Steps
 from proofs.facts import PAPER, TURN, Parameters, Range
+from proofs.groups import Evidence
 from proofs.model.equations import clock, launch_acceleration, slope
 from proofs.model.flight import Flight
 from proofs.model.impact import HORIZON, locate
@@ -42,7 +43,7 @@ from proofs.model.single_orbits import (
     solutions,
 )
 from proofs.model.system import System
-from proofs.runner import Evidence, run
+from proofs.runner import run
 from proofs.steps import Prover
 
 CLAIMS = ("P1", "P2", "P3", "P4", "P5", "P6")

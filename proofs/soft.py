@@ -8,7 +8,8 @@ from collections.abc import Callable, Sequence
 from proofs.claims.soft import DERIVATIONS
 from proofs.derivations import prove_derivations
 from proofs.facts import Parameters
-from proofs.runner import Evidence, run
+from proofs.groups import Evidence
+from proofs.runner import run
 
 CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
 

@@ -38,10 +38,10 @@ _STAGES = {
     "proof: witnesses": ("proofs.steps:Prover.point",),
     "proof: s_0": ("proofs.steps:Prover.root",),
     "proof: impacts with restitution": ("proofs.rebound_steps:ReboundProver.rebound",),
-    "decisions": ("proofs.plastic:prove", "proofs.runner:settle"),
+    "decisions": ("proofs.plastic:prove", "proofs.groups:settle"),
     "certificate": (
         "proofs.certificate:render",
-        "proofs.runner:certificate",
+        "proofs.groups:certificate",
         "proofs.runner:write",
     ),
     "manifest": ("proofs.manifest:record",),

@@ -24,11 +24,11 @@ from proofs.check.windows import BITS, Meetings
 from proofs.claims.chaos import CLAIMS, PRINTED, Branch, CoveringGraph, brackets
 from proofs.claims.staying import Cell, StayingSet
 from proofs.facts import PAPER, PointFact, SlopeRange
+from proofs.groups import certificate, decide, produce
 from proofs.model.flight import Flight
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.model.windows import Candidates, Windows, prove_branch
-from proofs.runner import certificate, decide, produce
 from proofs.statements import Verdict
 from proofs.steps import Prover
 from tests.proofs import reference

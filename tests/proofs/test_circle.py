@@ -26,10 +26,10 @@ from proofs.claims import find
 from proofs.claims.absorption import Cell, absorbed, links
 from proofs.claims.landing import Absorption, NeverImpacts, Separation
 from proofs.facts import PAPER
+from proofs.groups import certificate, decide
 from proofs.model.impact import HORIZON
 from proofs.model.landing import prove_never
 from proofs.model.system import System
-from proofs.runner import certificate, decide
 from proofs.statements import Verdict
 from proofs.steps import Prover
 from tests.proofs import reference

@@ -10,7 +10,7 @@ import pytest
 from mpmath import findroot, mp, mpf
 
 from intervals import Interval, Jet, Undecided
-from proofs import dimension, runner
+from proofs import dimension, groups
 from proofs.certificate import render
 from proofs.check.rules import Avoids, MoranRoot
 from proofs.check.verify import Rejected, check
@@ -244,9 +244,9 @@ def test_no_root_no_dimension():
 
 @cache
 def document():
-    row, entry = runner.decide("H13", PAPER, evidence().proofs["H13"], DIGITS)
+    row, entry = groups.decide("H13", PAPER, evidence().proofs["H13"], DIGITS)
     assert row.verdict is Verdict.REFUTED
-    return json.loads(render(runner.certificate(PAPER, evidence().steps, [entry])))
+    return json.loads(render(groups.certificate(PAPER, evidence().steps, [entry])))
 
 
 def test_the_certificate_is_accepted_and_small():
@@ -266,5 +266,5 @@ def test_narrower_bounds_are_rejected():
 
 def test_other_parameters_without_a_horseshoe():
     of = replace(PAPER, nu=Fraction("-0.05"))
-    rows, _ = runner.settle("dimension", of, digits=5, tell=lambda stage: None)
+    rows, _ = groups.settle("dimension", of, digits=5, tell=lambda stage: None)
     assert rows[0].verdict is Verdict.UNDECIDED

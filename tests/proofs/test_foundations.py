@@ -24,8 +24,8 @@ from proofs.claims.foundations import DERIVATIONS
 from proofs.claims.landing import NeverImpacts
 from proofs.facts import PAPER
 from proofs.foundations import prove
+from proofs.groups import settle
 from proofs.methods import derive
-from proofs.runner import settle
 from proofs.statements import Verdict
 from tests.proofs import reference
 

@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 from proofs.certificate import Malformed, render
 from proofs.check.verify import Rejected, check
 from proofs.facts import PAPER
-from proofs.runner import settle
+from proofs.groups import settle
 from proofs.statements import Verdict
 from tests.proofs import reference
 

@@ -16,10 +16,11 @@ from proofs.claims import find
 from proofs.claims.rebound_boxes import covered
 from proofs.claims.rebounds import BarredWord, Rebound, Rectangle
 from proofs.facts import PAPER
+from proofs.groups import settle
 from proofs.model.impact import HORIZON
 from proofs.model.system import System
 from proofs.rebound_steps import ReboundProver
-from proofs.runner import run, settle
+from proofs.runner import run
 from proofs.statements import Verdict
 from proofs.steps import Prover
 from tests.proofs import reference

@@ -20,10 +20,10 @@ from proofs.check.verify import Rejected, check
 from proofs.claims.persistence import CLAIMS, Chatter, SeparationFlight, stable_pair
 from proofs.claims.rebounds import Rebound
 from proofs.facts import PAPER
+from proofs.groups import certificate, decide
 from proofs.model.chatter import Pushing
 from proofs.model.system import System
 from proofs.persistence import prove
-from proofs.runner import certificate, decide
 from proofs.statements import Verdict
 from tests.proofs import reference
 

@@ -6,7 +6,7 @@ import random
 import pytest
 from mpmath import mp, mpf
 
-from proofs import runner
+from proofs import groups
 from proofs.certificate import Malformed, Reader, render
 from proofs.check.arithmetic import Unproved
 from proofs.check.derivation import RULES
@@ -37,7 +37,7 @@ def believing(monkeypatch):
 
 
 def certificate(*claims):
-    return runner.settle("resonance", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
+    return groups.settle("resonance", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
 
 
 def equal(left, right):

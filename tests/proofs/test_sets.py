@@ -16,7 +16,7 @@ from proofs.claims.itinerary import Horseshoe, Itinerary, follow, invariant_set
 from proofs.claims.sets import CLAIMS
 from proofs.claims.subshift import words
 from proofs.facts import PAPER, Parameters, Range, SlopeRange
-from proofs.runner import settle
+from proofs.groups import settle
 from proofs.sets import prove
 from proofs.statements import Verdict
 

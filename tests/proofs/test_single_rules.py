@@ -23,7 +23,7 @@ from proofs.claims import section4 as eq
 from proofs.claims.formulas import Value
 from proofs.claims.single_facts import EtaWindows, NuWindows, Orbit, Solution
 from proofs.facts import PAPER
-from proofs.runner import certificate, decide, settle
+from proofs.groups import certificate, decide, settle
 from proofs.single_figure import svg
 from proofs.statements import Verdict
 from tests.proofs import reference

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from proofs import runner
+from proofs import groups
 from proofs.certificate import Malformed, Reader, render
 from proofs.check.derivation import RULES, Formulas
 from proofs.check.verify import Rejected, check
@@ -35,7 +35,7 @@ def believing(monkeypatch):
 
 
 def certificate(*claims):
-    return runner.settle("soft", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
+    return groups.settle("soft", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
 
 
 def test_every_claim_and_its_verdict(believing):

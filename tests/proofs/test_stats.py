@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from intervals import Interval, IntervalArray, Jet
-from proofs import counting, horseshoe, ledger, runner
+from proofs import counting, groups, horseshoe, ledger, runner
 from proofs.check.arithmetic import Dual, rational
 from proofs.check.verify import Rejected, check
 from proofs.claims.foundations import DERIVATIONS as BASIC
@@ -59,7 +59,7 @@ PROVER = (FLOATS, INTERVALS, ARRAYS)
 
 def proved(group, *claims, of=PAPER):
     """Prove claims; return the certificate and what that evaluated."""
-    produce = horseshoe.produce if group == "horseshoe" else partial(runner.produce, group)
+    produce = horseshoe.produce if group == "horseshoe" else partial(groups.produce, group)
     with counted() as counts:
         made = produce(of, claims, digits=30)
     return made.certificate, counts
