@@ -17,10 +17,20 @@ from proofs.model.system import System
 
 HORIZON = Fraction(1000)
 _TINIEST = Fraction(1, 2**200)
+_TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
 
 
 class NoImpact(Undecided):
     """No impact was found up to the horizon (or the mass never separates from the table)."""
+
+
+class Unsettled(Undecided):
+    """Up to the horizon impacts are possible, in so many windows of time, and none is certain."""
+
+    def __init__(self, windows: list[Range]) -> None:
+        first = float(windows[0][0])
+        super().__init__(f"an impact near time {first:.9g} is neither proved nor excluded")
+        self.windows = len(windows)
 
 
 class Sticks(Undecided):
@@ -73,8 +83,8 @@ def first_impact(
     Steps adapt down to `finest`; what is then not excluded opens a window, in which they grow
     again, to 16 times that.
 
-    Raises NoImpact at the horizon, Sticks where all phases do, Undecided where the launch itself
-    is not decided.
+    Raises NoImpact or Unsettled at the horizon, Sticks where all phases do, Undecided where the
+    launch itself is not decided.
     """
     if not flight.leaves:
         if launch_acceleration(flight.start).certainly_negative():
@@ -92,9 +102,7 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
     while not certain:
         now = times[-1]
         if now >= horizon and open_pieces:
-            raise Undecided(
-                f"an impact near time {float(open_pieces[0][0]):.9g} is neither proved nor excluded"
-            )
+            raise Unsettled(open_pieces)
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
@@ -150,6 +158,10 @@ def locate(
             found = first_impact(flight, horizon, Fraction(1, 2 ** (3 + 5 * attempt)))
         except (NoImpact, Sticks):
             raise
+        except Unsettled as failure:
+            if failure.windows > _TOUCHES:
+                raise
+            continue
         except Undecided:
             continue
         if found.transversal:
@@ -195,7 +207,7 @@ def cover_by(
             found = first_impact(Flight(system, part), horizon, steps_for(part))
         except Sticks:
             raise
-        except NoImpact:
+        except (NoImpact, Unsettled):
             if narrowed >= 2**4:
                 raise
             return None

@@ -12,7 +12,7 @@ from proofs.facts import Range, ceil_text, floor_text
 from proofs.model.equations import arrival
 from proofs.model.flight import Flight
 from proofs.model.image import Image, image, separation_phase
-from proofs.model.impact import HORIZON, NoImpact, halves
+from proofs.model.impact import HORIZON, NoImpact, Unsettled, halves
 from proofs.model.phase import turn
 from proofs.model.restitution import Arrival, Rebounds, next_impact
 from proofs.model.system import System
@@ -123,7 +123,7 @@ def _over_box(states: Rebounds, horizon: Fraction) -> Rebound:
     def decide(part: Rebounds) -> Arrival | None:
         try:
             return next_impact(part, horizon=horizon)
-        except NoImpact:
+        except (NoImpact, Unsettled):
             raise
         except (Undecided, DomainError):
             return None
