@@ -57,7 +57,7 @@ def check(source: str) -> Report:
     if schema.string() != SCHEMA:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     parameters = parameters_from_json(parameters_of)
-    known = _derive_steps(parameters, steps_of)
+    known = _derive_steps(parameters, steps_of, _groups(claims_of))
     used: set[str] = set()
     theorem_text = None
     if not corrected_of.is_null():
@@ -74,12 +74,21 @@ def check(source: str) -> Report:
     return Report(parameters, tuple(claims), theorem_text)
 
 
-def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
+def _groups(claims_of: Reader) -> list[str]:
+    """Return all groups of claims, those that the file is about first."""
+    named = set(claims_of.mentioned())
+    groups = catalogue.GROUPS
+    return sorted(groups, key=lambda group: named.isdisjoint(groups[group]))
+
+
+def _derive_steps(
+    of: Parameters, steps_of: Reader, groups: Iterable[str] = tuple(catalogue.GROUPS)
+) -> Known:
     known: Known = {}
     names = {step.fields("rule", "witness")[0].string() for _, step in steps_of.members()}
     for name, step in steps_of.members():
         rule_of, witness = step.fields("rule", "witness")
-        rule = find_rule(rule_of.string())
+        rule = find_rule(rule_of.string(), groups)
         if rule is None:
             raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
         if name in names or name in rules.RULES:
@@ -91,10 +100,10 @@ def _derive_steps(of: Parameters, steps_of: Reader) -> Known:
     return known
 
 
-def find_rule(name: str) -> Rule | None:
-    """Return a rule by its name; modules are imported until one has it."""
+def find_rule(name: str, groups: Iterable[str] = tuple(catalogue.GROUPS)) -> Rule | None:
+    """Return a rule by its name; the modules of the groups are imported until one has it."""
     found = rules.RULES.get(name)
-    for group in catalogue.GROUPS:
+    for group in groups:
         if found is not None:
             break
         found = import_module(f"proofs.check.{group}").RULES.get(name)
