@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Unproved, log, pi
-from proofs.check.rules import Avoids, Motion
+from proofs.check.rules import Avoids, Known, Motion, Rule, earlier
 from proofs.check.windows import BITS, Meetings, clear, falls, leaves, level
 from proofs.claims.chaos import Branch, CoveringGraph
 from proofs.claims.staying import StayingSet
@@ -16,7 +16,6 @@ from proofs.facts import TURN, Parameters, Range, SlopeRange
 
 _MOST_TURNS = 20_000
 _LOG_BITS = 160
-Known = dict[str, object]
 
 
 def branch(of: Parameters, known: Known, reader: Reader) -> Branch:
@@ -107,9 +106,7 @@ def _branches(known: Known, reader: Reader) -> list[Branch]:
     """Read the branches, in order, disjoint, within one turn."""
     branches: list[Branch] = []
     for name in reader.items(1, 1000):
-        step = known.get(name.string())
-        if not isinstance(step, Branch):
-            raise name.fail("names no earlier branch step")
+        step = earlier(known, name, Branch, "branch")
         if branches and step.phases[0] <= branches[-1].phases[1]:
             raise name.fail("branches must be disjoint and in order")
         branches.append(step)
@@ -175,15 +172,11 @@ def staying_set(of: Parameters, known: Known, reader: Reader) -> StayingSet:
     pieces: list[tuple[SlopeRange, tuple[Fraction, ...]]] = []
     for entry in pieces_of.items(0, 20):
         name, cuts_of = entry.fields("slopes", "cuts")
-        slopes = known.get(name.string())
-        if not isinstance(slopes, SlopeRange):
-            raise name.fail("names no earlier slope-range step")
+        slopes = earlier(known, name, SlopeRange, "slope-range")
         pieces.append((slopes, cuts_of.numbers(2, 100)))
     gaps: list[tuple[Range, Range]] = []
     for name in gaps_of.items(0, 20):
-        gap = known.get(name.string())
-        if not isinstance(gap, Avoids):
-            raise name.fail("names no earlier avoids step")
+        gap = earlier(known, name, Avoids, "avoids")
         gaps.append((gap.phases, gap.target))
     try:
         return StayingSet.of(interval_of.range(), pieces, gaps)
@@ -191,7 +184,7 @@ def staying_set(of: Parameters, known: Known, reader: Reader) -> StayingSet:
         raise Unproved(str(error)) from None
 
 
-RULES: dict[str, Callable[[Parameters, Known, Reader], object]] = {
+RULES: dict[str, Rule] = {
     "branch": branch,
     "covering-graph": covering_graph,
     "staying-set": staying_set,

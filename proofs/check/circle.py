@@ -6,11 +6,10 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
-from typing import TypeVar
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Enclosure, Unproved, pi, rational
-from proofs.check.rules import FirstImpact, Motion, phase_after
+from proofs.check.rules import FirstImpact, Known, Motion, earlier, phase_after
 from proofs.check.windows import BITS, clear, falls, level
 from proofs.claims.absorption import Cell, absorbed, cells_met, links, with_gaps
 from proofs.claims.chaos import Branch
@@ -23,8 +22,6 @@ _MOST_STEPS = 400
 _MAX_BITS = 2000
 _THREE = 3  # less than pi
 _EARLIER = Fraction(1, 4)
-Known = dict[str, object]
-_Conclusion = TypeVar("_Conclusion")
 
 
 def _motion(of: Parameters, phases: Range, bits: int = BITS) -> Motion:
@@ -79,14 +76,6 @@ def separation(of: Parameters, known: Known, reader: Reader) -> Separation:
     return Separation(arc, phase, time, (low, high))
 
 
-def _step(known: Known, name: Reader, kind: type[_Conclusion]) -> _Conclusion:
-    """Return the conclusion of an earlier step, of this kind."""
-    found = known.get(name.string())
-    if not isinstance(found, kind):
-        raise name.fail(f"names no earlier step that proves {kind.__name__}")
-    return found
-
-
 def _lifted(ends: Range, turns: int) -> Range:
     """Add 2 pi turns to an enclosure."""
     low, high = (pi(BITS) * (2 * turns)).range
@@ -109,7 +98,7 @@ def lands(of: Parameters, known: Known, reader: Reader) -> Lands:
     The first zero is where A < 0: the mass sticks.
     """
     separation_of, cuts_of, turns_of = reader.fields("separation", "cuts", "turns")
-    arc, cuts = _step(known, separation_of, Separation), cuts_of.numbers(2, 200)
+    arc, cuts = earlier(known, separation_of, Separation, "separation"), cuts_of.numbers(2, 200)
     turns = turns_of.number()
     if turns.denominator != 1 or not 0 <= turns <= 1000:
         raise turns_of.fail("a whole number from 0 to 1000 is expected")
@@ -176,14 +165,16 @@ def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
     separation_of, lands_of, impacts_of, cells_of, rest_of, within_of = reader.fields(
         "separation", "lands", "impacts", "cells", "rest", "within"
     )
-    arc = _step(known, separation_of, Separation)
-    cells = [Cell(_step(known, name, Lands).phases, ()) for name in lands_of.items(least=2)]
+    arc = earlier(known, separation_of, Separation, "separation")
+    cells = [
+        Cell(earlier(known, name, Lands, "lands").phases, ()) for name in lands_of.items(least=2)
+    ]
     cells.sort(key=lambda cell: cell.phases)
     origin, end = cells[0].phases[0], cells[-1].phases[1]
     if origin > _lifted(arc.phase, -1)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
     for name in impacts_of.items():
-        cells.append(_whole(_step(known, name, FirstImpact), origin))
+        cells.append(_whole(earlier(known, name, FirstImpact, "first-impact"), origin))
     for entry in cells_of.items():
         cells += _cells(of, known, entry, origin)
     cells.sort(key=lambda cell: cell.phases)
@@ -210,7 +201,7 @@ def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
 def _cells(of: Parameters, known: Known, reader: Reader, origin: Fraction) -> list[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
-    branch = _step(known, branch_of, Branch)
+    branch = earlier(known, branch_of, Branch, "branch")
     cuts = cuts_of.numbers(2)
     times = times_of.numbers(len(cuts), len(cuts))
     cuts_of.charge(6 * len(cuts), BITS)

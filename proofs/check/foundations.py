@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from math import inf
 
 from proofs.certificate import Reader
 from proofs.check import derivation
-from proofs.check.rules import Known
+from proofs.check.rules import Known, Rule
 from proofs.claims.appendix import MethodOne
 from proofs.facts import Parameters
 
@@ -54,7 +53,7 @@ def _infima(points: int, values: dict[int, Fraction]) -> tuple[Fraction | float,
     return tuple(-inf if below and value < inf else value for value in best)
 
 
-RULES: dict[str, Callable[[Parameters, Known, Reader], object]] = {
+RULES: dict[str, Rule] = {
     **derivation.RULES,
     "method-one": method_one,
 }

@@ -16,6 +16,7 @@ from proofs.check.rules import (
     Gap,
     Known,
     Rule,
+    earlier,
     falls,
     open_windows,
     read_phases,
@@ -131,13 +132,7 @@ def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:
 
 
 def _rebounds(known: Known, names: Reader) -> list[Rebound]:
-    found = []
-    for name in names.items(least=1):
-        step = known.get(name.string())
-        if not isinstance(step, Rebound):
-            raise name.fail("names no earlier rebound step")
-        found.append(step)
-    return found
+    return [earlier(known, name, Rebound, "rebound") for name in names.items(least=1)]
 
 
 def rectangle(of: Parameters, known: Known, reader: Reader) -> Rectangle:
@@ -165,12 +160,7 @@ def barred_word(of: Parameters, known: Known, reader: Reader) -> BarredWord:
     if side.string() not in ("above", "below"):
         raise side.fail("above or below")
     sign = 1 if side.string() == "above" else -1
-    pair = []
-    for name in names.items(2, 2):
-        step = known.get(name.string())
-        if not isinstance(step, Rectangle):
-            raise name.fail("names no earlier rectangle step")
-        pair.append(step)
+    pair = [earlier(known, name, Rectangle, "rectangle") for name in names.items(2, 2)]
     word = word_of.string()
     if not set(word) <= {"0", "1"}:
         raise word_of.fail("a word is written in 0 and 1")

@@ -28,7 +28,6 @@ impacts the mass is at rest on the table, where a < 0: it sticks there, as long 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 
@@ -39,8 +38,10 @@ from proofs.check.rules import (
     FirstImpact,
     Known,
     Motion,
+    Rule,
     bits_for,
     bracketed,
+    earlier,
     read_phases,
     whole_turns,
 )
@@ -133,9 +134,7 @@ def chatter(of: Parameters, known: Known, reader: Reader) -> Chatter:
     rest < phi_s, since the launch acceleration is < 0 up to `rest`.
     """
     flight_of, spread_of, cells_of = reader.fields("flight", "spread", "cells")
-    after = known.get(flight_of.string())
-    if not isinstance(after, SeparationFlight):
-        raise flight_of.fail("names no earlier separation-flight step")
+    after = earlier(known, flight_of, SeparationFlight, "separation-flight")
     spread = spread_of.number()
     states = [(low - spread, high + spread) for low, high in (after.impact, after.speed)]
     arc = (states[0][0], after.separation[0])
@@ -204,7 +203,7 @@ def _settle(
     return end
 
 
-RULES: dict[str, Callable[[Parameters, Known, Reader], object]] = {
+RULES: dict[str, Rule] = {
     "separation-flight": separation_flight,
     "chatter": chatter,
 }

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
+from typing import TypeVar
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
@@ -98,6 +99,7 @@ class MoranRoot:
 Known = dict[str, object]  # the conclusions of the steps so far, by name
 Rule = Callable[[Parameters, Known, Reader], object]
 Gap = Callable[[Range, int], Enclosure]
+_Conclusion = TypeVar("_Conclusion")
 
 
 def read_phases(reader: Reader) -> Range:
@@ -164,11 +166,17 @@ def falls(gap_of: Gap, time: Range) -> bool:
     return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
 
 
+def earlier(known: Known, name: Reader, kind: type[_Conclusion], rule: str) -> _Conclusion:
+    """Return the conclusion of an earlier step by a rule, which is of this kind."""
+    step = known.get(name.string())
+    if not isinstance(step, kind):
+        raise name.fail(f"names no earlier {rule} step that proves {kind.__name__}")
+    return step
+
+
 def transversal_step(known: Known, name: Reader, phases: Range) -> FirstImpact:
     """Return the transversal first-impact step of that name, which must contain `phases`."""
-    step = known.get(name.string())
-    if not isinstance(step, FirstImpact):
-        raise name.fail("names no earlier first-impact step")
+    step = earlier(known, name, FirstImpact, "first-impact")
     if not step.transversal:
         raise Unproved("the first impact is not transversal")
     if phases[0] < step.motion.phases[0] or phases[1] > step.motion.phases[1]:
@@ -282,9 +290,7 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
     target = read_phases(target_of)
     steps: list[FirstImpact] = []
     for name in flights_of.items(least=1):
-        step = known.get(name.string())
-        if not isinstance(step, FirstImpact):
-            raise name.fail("names no earlier first-impact step")
+        step = earlier(known, name, FirstImpact, "first-impact")
         if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
             raise name.fail("its phases do not continue those of the step before")
         steps.append(step)

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Enclosure, Unproved, exp, log, rational
-from proofs.check.rules import Avoids, Known, MoranRoot, Rule, bits_for
+from proofs.check.rules import Avoids, Known, MoranRoot, Rule, bits_for, earlier
 from proofs.claims.cantor import Excess, LinearSet, cylinder, length
 from proofs.claims.itinerary import Horseshoe, Itinerary, follow, horseshoe_sets, obstacle
 from proofs.facts import Facts, Parameters, Range, SlopeRange, show
@@ -48,15 +48,9 @@ def itinerary(of: Parameters, known: Known, reader: Reader) -> Itinerary:
     of the phase is enclosed until it leaves both, within 10 steps. Conclusion: where it went.
     """
     horseshoe_of, slopes_of, phase_of = reader.fields("horseshoe", "slopes", "phase")
-    base = known.get(horseshoe_of.string())
-    if not isinstance(base, Horseshoe):
-        raise horseshoe_of.fail("names no earlier horseshoe step")
-    slopes = []
-    for name in slopes_of.items(most=10):
-        step = known.get(name.string())
-        if not isinstance(step, SlopeRange):
-            raise name.fail("names no earlier slope-range step")
-        slopes.append(step)
+    base = earlier(known, horseshoe_of, Horseshoe, "horseshoe")
+    names = slopes_of.items(most=10)
+    slopes = [earlier(known, name, SlopeRange, "slope-range") for name in names]
     found = follow(base.sets, slopes, phase := phase_of.number())
     if found is None:
         raise Unproved(f"the orbit of {show(phase)} is not known until it leaves I0 and I1")
@@ -64,10 +58,7 @@ def itinerary(of: Parameters, known: Known, reader: Reader) -> Itinerary:
 
 
 def _root(known: Known, name: Reader) -> MoranRoot:
-    step = known.get(name.string())
-    if not isinstance(step, MoranRoot):
-        raise name.fail("names no earlier moran-root step")
-    return step
+    return earlier(known, name, MoranRoot, "moran-root")
 
 
 def _power(base: Fraction, exponent: Range) -> Enclosure:

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, pi, rational
-from proofs.check.rules import COVER_BITS, MAX_BITS, FirstImpact, Motion, Rule
+from proofs.check.rules import COVER_BITS, MAX_BITS, FirstImpact, Motion, Rule, earlier
 from proofs.claims.single_facts import (
     FLIP,
     MOST_PERIODS,
@@ -106,11 +106,8 @@ def single_orbit(of: Parameters, known: Known, reader: Reader) -> Orbit:
     there and has one zero in the window, that is the first impact.
     """
     solution_of, flight_of = reader.fields("solution", "flight")
-    solution, flight = known.get(solution_of.string()), known.get(flight_of.string())
-    if not isinstance(solution, Solution):
-        raise solution_of.fail("names no earlier single-solution step")
-    if not isinstance(flight, FirstImpact):
-        raise flight_of.fail("names no earlier first-impact step")
+    solution = earlier(known, solution_of, Solution, "single-solution")
+    flight = earlier(known, flight_of, FirstImpact, "first-impact")
     motion = flight.motion
     if (solution.eta, solution.nu) != (motion.eta, motion.nu):
         raise flight_of.fail("is about other parameters")
