@@ -11,10 +11,9 @@ from itertools import islice
 
 from intervals import DomainError, Undecided
 from proofs.certificate import texts
-from proofs.check.rules import Avoids, MoranRoot
 from proofs.claims.dimension import CLAIMS as STATED
 from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
-from proofs.facts import Parameters, Range
+from proofs.facts import Avoids, MoranRoot, Parameters, Range
 from proofs.groups import Evidence, Tell
 from proofs.methods.dimension import dimension, precision
 from proofs.model.impact import HORIZON, FirstImpact, cover_by_impacts

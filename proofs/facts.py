@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -47,6 +48,21 @@ def parameters_text(box: tuple[Range, Range, Range]) -> str:
         f"{name} = {show(low)}" if low == high else f"{name} in {show_range((low, high))}"
         for name, (low, high) in parts
     )
+
+
+def within(inner: Range, outer: Range) -> bool:
+    """Whether one range contains another."""
+    return outer[0] <= inner[0] and inner[1] <= outer[1]
+
+
+def hull(ranges: Sequence[Range]) -> Range:
+    """Return the smallest range that contains all."""
+    return min(low for low, _ in ranges), max(high for _, high in ranges)
+
+
+def agree(bounds: Range, digits: int) -> bool:
+    """Whether two bounds are equal to `digits` significant digits."""
+    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
 
 
 @dataclass(frozen=True)
@@ -172,6 +188,22 @@ class SlopeRange:
     pieces: tuple[Range, ...]
 
 
+@dataclass(frozen=True)
+class Avoids:
+    """No phase in `phases` has its first impact at a phase in `target`, mod 2 pi."""
+
+    phases: Range
+    target: Range
+
+
+@dataclass(frozen=True)
+class MoranRoot:
+    """The one root s > 0 of ratios[0]^s + ratios[1]^s = 1 lies in `root`."""
+
+    ratios: Range
+    root: Range
+
+
 @dataclass
 class Facts:
     """What has been proved, as rational enclosures; empty where nothing has.
@@ -191,6 +223,18 @@ class Facts:
     missed: Range | None = None
     s0: Range | None = None
     s0_reciprocal: Range | None = None
+
+    def add(self, of: Parameters, step: object) -> bool:
+        """Take what a conclusion says about these sets; False if it is of another kind."""
+        if isinstance(step, SlopeRange):
+            self.add_slopes(of, step)
+        elif isinstance(step, Avoids):
+            self.add_avoided(of, step.phases, step.target)
+        elif isinstance(step, MoranRoot):
+            self.add_root(of, step.ratios, step.root)
+        else:
+            return False
+        return True
 
     def add_slopes(self, of: Parameters, found: SlopeRange) -> None:
         """Take what `found` says about I0 and I1, where their ends are among its points.

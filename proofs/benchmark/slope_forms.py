@@ -18,7 +18,7 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.benchmark.arithmetics import Arithmetic
-from proofs.facts import Range
+from proofs.facts import Range, hull
 from proofs.model.equations import clock, gap, launch, slope
 from proofs.model.system import System
 
@@ -94,7 +94,7 @@ def one_by_one(of: Arithmetic, coarse: Arithmetic, system: System, work: Work, o
 def _range(of: Arithmetic, values: Sequence[Any]) -> Range:
     """Return the ends of all; balls lose much to a hull of two."""
     ends = [of.ends(value) for value in values]
-    return min(low for low, _ in ends), max(high for _, high in ends)
+    return hull(ends)
 
 
 def exclude(of: Arithmetic, system: System, boxes: Sequence[Any], grid: Sequence[float]) -> None:

@@ -8,11 +8,11 @@ from itertools import pairwise
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Unproved, log, pi
-from proofs.check.rules import Avoids, Known, Motion, Rule, earlier
+from proofs.check.rules import Known, Motion, Rule, earlier
 from proofs.check.windows import BITS, Meetings, clear, falls, leaves, level
 from proofs.claims.chaos import Branch, CoveringGraph
 from proofs.claims.staying import StayingSet
-from proofs.facts import TURN, Parameters, Range, SlopeRange
+from proofs.facts import TURN, Avoids, Parameters, Range, SlopeRange
 
 _MOST_TURNS = 20_000
 _LOG_BITS = 160

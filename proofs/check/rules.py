@@ -15,7 +15,7 @@ from typing import TypeVar
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
-from proofs.facts import TURN, Parameters, PointFact, Range, SlopeRange
+from proofs.facts import TURN, Avoids, MoranRoot, Parameters, PointFact, Range, SlopeRange
 from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
 
 COVER_BITS = 64
@@ -78,22 +78,6 @@ class FirstImpact:
     motion: Motion
     windows: tuple[Range, ...]
     transversal: bool
-
-
-@dataclass(frozen=True)
-class Avoids:
-    """No phase in `phases` has its first impact at a phase in `target`, mod 2 pi."""
-
-    phases: Range
-    target: Range
-
-
-@dataclass(frozen=True)
-class MoranRoot:
-    """The one root s > 0 of ratios[0]^s + ratios[1]^s = 1 lies in `root`."""
-
-    ratios: Range
-    root: Range
 
 
 Known = dict[str, object]  # the conclusions of the steps so far, by name

@@ -6,10 +6,10 @@ from fractions import Fraction
 
 from proofs.certificate import Reader
 from proofs.check.arithmetic import Enclosure, Unproved, exp, log, rational
-from proofs.check.rules import Avoids, Known, MoranRoot, Rule, bits_for, earlier
+from proofs.check.rules import Known, Rule, bits_for, earlier
 from proofs.claims.cantor import Excess, LinearSet, cylinder, length
 from proofs.claims.itinerary import Horseshoe, Itinerary, follow, horseshoe_sets, obstacle
-from proofs.facts import Facts, Parameters, Range, SlopeRange, show
+from proofs.facts import Avoids, Facts, MoranRoot, Parameters, Range, SlopeRange, show
 
 _LONGEST_WORD = 12
 
@@ -29,12 +29,9 @@ def horseshoe(of: Parameters, known: Known, reader: Reader) -> Horseshoe:
         raise reader.fail(str(error)) from None
     for name in proof.items(least=1):
         step = known.get(name.string())
-        if isinstance(step, SlopeRange):
-            facts.add_slopes(sets, step)
-        elif isinstance(step, Avoids):
-            facts.add_avoided(sets, step.phases, step.target)
-        else:
+        if not isinstance(step, SlopeRange | Avoids):
             raise name.fail("names no earlier slope-range or avoids step")
+        facts.add(sets, step)
     missing = obstacle(sets, facts)
     if missing is not None:
         raise Unproved(f"no horseshoe: {missing}")

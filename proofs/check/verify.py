@@ -10,8 +10,8 @@ from proofs import claims as catalogue
 from proofs.certificate import SCHEMA, Reader, parameters_from_json, parse, used_steps
 from proofs.check import rules
 from proofs.check.arithmetic import Unproved
-from proofs.check.rules import Avoids, Known, MoranRoot, Rule
-from proofs.facts import PAPER, Facts, Parameters, PointFact, Range, SlopeRange
+from proofs.check.rules import Known, Rule
+from proofs.facts import PAPER, Facts, Parameters, PointFact, Range
 from proofs.statements import HORSESHOE, STATEMENTS, Verdict, decide, quantities, theorem
 
 
@@ -114,12 +114,7 @@ def _facts(of: Parameters, conclusions: Iterable[object]) -> Facts:
     """Collect what the steps prove about one set of parameters, points aside."""
     facts = Facts()
     for step in conclusions:
-        if isinstance(step, SlopeRange):
-            facts.add_slopes(of, step)
-        elif isinstance(step, Avoids):
-            facts.add_avoided(of, step.phases, step.target)
-        elif isinstance(step, MoranRoot):
-            facts.add_root(of, step.ratios, step.root)
+        facts.add(of, step)
     return facts
 
 

@@ -46,6 +46,11 @@ class Decision:
     quantities: Mapping[str, Range] = field(default_factory=dict)
 
 
+def undecided(missing: str) -> Decision:
+    """Return that nothing is decided, and what is missing."""
+    return Decision(Verdict.UNDECIDED, missing)
+
+
 @dataclass(frozen=True)
 class Claim:
     """A claim: its id in the catalogue, its text, the rule that decides it from conclusions."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims import section2 as eq
 from proofs.claims.formulas import Asked, Derivation, Equal, at
 from proofs.claims.landing import NeverImpacts
@@ -167,7 +167,7 @@ def _measures(of: Parameters, found: Sequence[object]) -> Decision:
         and step.outer[0] == -inf
     ]
     if not bad:
-        return Decision(Verdict.UNDECIDED, "not proved: Method I with a negative premeasure")
+        return undecided("not proved: Method I with a negative premeasure")
     return Decision(
         Verdict.CONDITIONAL,
         "true with tau >= 0 in Definition 6 (as in Theorem 6), and diameter(empty set) = 0; with "

@@ -31,7 +31,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.facts import Parameters, Range, ceil_text, floor_text, show
 from proofs.statements import Verdict
 
@@ -101,11 +101,6 @@ def _in_gap(ratios: Range, interval: Range, word: str) -> Fraction:
 
 def _named(ratios: Range) -> str:
     return f"(eta0, eta1) = ({show(ratios[0])}, {show(ratios[1])})"
-
-
-def undecided(missing: str) -> Decision:
-    """Return that nothing is decided, and what is missing."""
-    return Decision(Verdict.UNDECIDED, missing)
 
 
 _NO_GAP = "eta0 + eta1 >= 1: there is no gap"

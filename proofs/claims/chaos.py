@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims.staying import Cell, StayingSet
 from proofs.facts import (
     TURN,
@@ -69,11 +69,11 @@ def _another_set(of: Parameters, found: Sequence[object]) -> Decision:
     where = show_range(PRINTED)
     printed = next((one for one in sets if one.interval == PRINTED), None)
     if printed is None:
-        return Decision(Verdict.UNDECIDED, f"no proof which orbits stay in {where}")
+        return undecided(f"no proof which orbits stay in {where}")
     if printed.is_full_shift:
         return Decision(Verdict.VERIFIED, _shift_text(printed))
     if not printed.finite:
-        return Decision(Verdict.UNDECIDED, f"infinitely many orbits may stay in {where}")
+        return undecided(f"infinitely many orbits may stay in {where}")
     shifts = [one for one in sets if one.is_full_shift and one.increasing]
     points = [one for one in found if isinstance(one, PointFact)]
     named = _named([printed, *shifts], points)
@@ -197,12 +197,12 @@ def _entropy(of: Parameters, found: Sequence[object]) -> Decision:
     """Decide G9 by the best covering graph."""
     graphs = [one for one in found if isinstance(one, CoveringGraph)]
     if not graphs:
-        return Decision(Verdict.UNDECIDED, "no covering graph is proved")
+        return undecided("no covering graph is proved")
     best = max(graphs, key=lambda one: one.growth)
     size = f"{len(best.branches)} branches of f, {best.states} intervals"
     bound = f"entropy >= log {show(best.growth)} >= {floor_text(best.entropy[0])}"
     if best.growth < 2:
-        return Decision(Verdict.UNDECIDED, f"{bound} only, by {size}")
+        return undecided(f"{bound} only, by {size}")
     return Decision(
         Verdict.VERIFIED,
         f"{bound}, by a covering graph on {size}",

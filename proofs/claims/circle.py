@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims.landing import (
     Absorption,
     NeverImpacts,
@@ -38,10 +38,6 @@ _HALF = Fraction(1, 200)  # half a unit of the last place printed
 
 
 # -- what the conclusions decide -----------------------------------------------------------------
-
-
-def _undecided(missing: str) -> Decision:
-    return Decision(Verdict.UNDECIDED, missing)
 
 
 _NO_ARC = "no proof where the mass sticks, and where it lands then"
@@ -76,7 +72,7 @@ def _arc(of: Parameters, step: Separation) -> str:
 def _constant(of: Parameters, found: Sequence[object]) -> Decision:
     step = _separation(found)
     if step is None:
-        return _undecided(_NO_ARC)
+        return undecided(_NO_ARC)
     low, high = CONSTANT
     ends = {"arc_start": step.start, "separation_phase": step.phase}
     if not (step.start[1] <= low and high <= step.phase[0]):
@@ -98,7 +94,7 @@ def _constant(of: Parameters, found: Sequence[object]) -> Decision:
 def _periodic(of: Parameters, found: Sequence[object]) -> Decision:
     step = _separation(found)
     if step is None:
-        return _undecided(_NO_ARC)
+        return undecided(_NO_ARC)
     quantities = {"impact_phase": step.arrival, "separation_phase": step.phase}
     printed = zip(ORBIT, (step.arrival, step.phase), strict=True)
     rounded = all(x - _HALF < low and high < x + _HALF for x, (low, high) in printed)
@@ -137,10 +133,10 @@ def _right_of(step: Separation, known: Absorption) -> Fraction | None:
 def _stable(of: Parameters, found: Sequence[object]) -> Decision:
     step, known = _separation(found), _absorption(found)
     if step is None or known is None or not step.returns:
-        return _undecided(_NO_ARC)
+        return undecided(_NO_ARC)
     beyond = _right_of(step, known)
     if beyond is None:
-        return _undecided("no neighbourhood of the separation phase is proved to stick next")
+        return undecided("no neighbourhood of the separation phase is proved to stick next")
     whole = f"Every phase from {ceil_text(step.start[1])} to 2 pi + {floor_text(beyond)}"
     return Decision(
         Verdict.VERIFIED,
@@ -156,7 +152,7 @@ def _attracts(of: Parameters, found: Sequence[object]) -> Decision:
     """Decide G4: an interval of phases that never impact again refutes "almost every"."""
     step, known, never = _separation(found), _absorption(found), _never(found)
     if step is None or known is None or not step.returns:
-        return _undecided("no proof which phases reach the sticking arc")
+        return undecided("no proof which phases reach the sticking arc")
     least = 1 - known.rest[-1] / TURN
     lost = Fraction(0) if never is None else never.phases[1] - never.phases[0]
     quantities = {"basin_fraction": (least, 1 - lost / _TURN_MORE)}
@@ -231,14 +227,14 @@ def _transient(of: Parameters, found: Sequence[object]) -> Decision:
     """Decide G6 by a fixed point in [1.1, 1.5] and what surrounds it."""
     step, known = _separation(found), _absorption(found)
     if step is None or known is None:
-        return _undecided("no proof which phases reach the sticking arc")
+        return undecided("no proof which phases reach the sticking arc")
     fixed = repelling(found, LONG)
     if not fixed:
-        return _undecided("no repelling fixed point in [1.1, 1.5]")
+        return undecided("no repelling fixed point in [1.1, 1.5]")
     (low, high), image = (fixed[0].points[0], fixed[0].points[-1]), fixed[0].images[0][0]
     least = min(bottom for bottom, _ in fixed[0].pieces)
     if not any(a <= image and low <= b for (a, b), _ in _joined(known)):
-        return _undecided("the phases beside the fixed point are not proved to reach the arc")
+        return undecided("the phases beside the fixed point are not proved to reach the arc")
     point = fixed_point(fixed)
     never = _never(found)
     outside = never is not None and not LONG[0] <= never.phases[0] <= LONG[1]
@@ -265,7 +261,7 @@ def _determined(of: Parameters, found: Sequence[object]) -> Decision:
     """Decide M6: does every phase have a next impact?"""
     step, never = _separation(found), _never(found)
     if step is None or never is None:
-        return _undecided("no phase is proved to have no next impact, and none to have one")
+        return undecided("no phase is proved to have no next impact, and none to have one")
     where, turns = show_range(never.phases), of.eta.denominator
     first = (
         f"For every phase the gap returns to 0 by the time {2 * turns} pi, at which mass and table "

@@ -9,15 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from proofs.check.rules import Avoids, MoranRoot
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.facts import (
     TURN,
+    Avoids,
+    MoranRoot,
     Parameters,
     PointFact,
     Range,
     ceil_text,
     floor_text,
+    hull,
     show,
     show_range,
 )
@@ -129,7 +131,7 @@ def _decide_dimension(of: Parameters, found: Sequence[object]) -> Decision:
     around = [one for one in _whole(found) if _within(of.interval, one.hull)]
     if not roots or not around:
         missing = "no bracket of s_0" if not roots else "no full horseshoe around I with dimension"
-        return Decision(Verdict.UNDECIDED, missing)
+        return undecided(missing)
     root, whole, itself = roots[0], around[0], _without_000(of, found)
     quantities = {"dimension": whole.dimension, "s0": root}
     crude = _crude(whole, found)
@@ -160,7 +162,7 @@ def _theorem(
     of: Parameters, whole: Repeller, itself: Repeller | None, root: Range, crude: Range | None
 ) -> str:
     """State what is proved about the dimension."""
-    flat, steep = min(low for low, _ in whole.slopes), max(high for _, high in whole.slopes)
+    flat, steep = hull(whole.slopes)
     first, second = whole.domains
     parts = [
         f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}) let Lambda(I) be the set of the phases "

@@ -11,9 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.facts import Parameters, Range, ceil_text, floor_text
-from proofs.statements import Verdict
 
 
 @dataclass(frozen=True)
@@ -116,7 +115,7 @@ class Derivation:
                 missing.append(value)
         if missing:
             count = f"{len(missing)} of {len(self.lemmas) + len(self.values)}"
-            return Decision(Verdict.UNDECIDED, f"not proved: {count} of what it follows from")
+            return undecided(f"not proved: {count} of what it follows from")
         return self.decision(*bounds)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import product
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims.rebound_boxes import on_box
 from proofs.claims.rebound_facts import (
     FULL,
@@ -25,17 +25,8 @@ from proofs.claims.rebound_texts import (
     restricted_text,
     word_text,
 )
-from proofs.claims.rebounds import (
-    CONE,
-    Rebound,
-    Unjoined,
-    horseshoe,
-    hull,
-    rates,
-    size,
-    stable_slope,
-)
-from proofs.facts import Parameters, Range, ceil_text, floor_text, parameters_text, show
+from proofs.claims.rebounds import CONE, Rebound, Unjoined, horseshoe, rates, size, stable_slope
+from proofs.facts import Parameters, Range, ceil_text, floor_text, hull, parameters_text, show
 from proofs.statements import Verdict
 
 # -- N1 --------------------------------------------------------------------------------------------
@@ -51,7 +42,7 @@ def _horseshoe(of: Parameters, found: Sequence[object]) -> Decision:
         if edges:
             return Decision(Verdict.REFUTED, edges[0], witness="; ".join(edges))
         corners = [edge_text(of, *each) for each in _corners(of, found)]
-        return Decision(Verdict.UNDECIDED, "; ".join([_NOTHING, *corners]))
+        return undecided("; ".join([_NOTHING, *corners]))
     extremes = list(_extremes(of, found, pair))
     images = {
         f"{'greatest' if side == 'left' else 'least'}_image_{side}_V{number + 1}": one.phase
@@ -136,16 +127,16 @@ def _corrections(of: Parameters, found: Sequence[object]) -> str | None:
 def _hyperbolic(of: Parameters, found: Sequence[object]) -> Decision:
     pair = printed_pair(of, found)
     if pair is None or not of.epsilon:
-        return Decision(Verdict.UNDECIDED, _NOTHING if of.epsilon else _PLASTIC)
+        return undecided(_NOTHING if of.epsilon else _PLASTIC)
     (p, q), (r, s) = (
         [hull([one.derivative[row][column] for one in pair]) for column in (0, 1)] for row in (0, 1)
     )
     try:
         expansion, contraction = rates(pair)
     except Unjoined as failure:
-        return Decision(Verdict.UNDECIDED, str(failure))
+        return undecided(str(failure))
     if p[0] <= 1 or size(q) + size(s) >= 1:
-        return Decision(Verdict.UNDECIDED, "distances are not proved to grow and to shrink")
+        return undecided("distances are not proved to grow and to shrink")
     grow, shrink = floor_text(p[0], 2), ceil_text(size(q) + size(s), 3)
     slope = max(stable_slope(one.derivative) for one in pair) / CONE
     corrected = (
@@ -172,7 +163,7 @@ def _rounded(values: Range) -> str:
 
 def _orbits(of: Parameters, found: Sequence[object]) -> Decision:
     if not of.epsilon:
-        return Decision(Verdict.UNDECIDED, _PLASTIC)
+        return undecided(_PLASTIC)
     golden, corrected = restricted(of, found), _boxes_text(of, found)
     if golden is not None:
         why = "F on Lambda_2 is conjugate to the two-sided shift on sequences without 22"
@@ -182,7 +173,7 @@ def _orbits(of: Parameters, found: Sequence[object]) -> Decision:
         if one.rectangles == printed_pair(of, found):
             why = "F on Lambda_2 is conjugate to the two-sided full shift"
             return Decision(Verdict.VERIFIED, why, corrected=corrected)
-    return Decision(Verdict.UNDECIDED, "no proof of which words orbits in V1 and V2 follow")
+    return undecided("no proof of which words orbits in V1 and V2 follow")
 
 
 def _boxes_text(of: Parameters, found: Sequence[object]) -> str | None:

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.claims import Claim, Decision
-from proofs.claims.rebounds import Rebound, size, within
-from proofs.facts import Parameters, Range, ceil_text, floor_text, show, show_range
+from proofs.claims import Claim, Decision, undecided
+from proofs.claims.rebounds import Rebound, size
+from proofs.facts import Parameters, Range, ceil_text, floor_text, show, show_range, within
 from proofs.statements import Verdict
 
 
@@ -122,7 +122,7 @@ def _decide_orbit(of: Parameters, found: Sequence[object]) -> Decision:
     """
     proved = [step for step in found if isinstance(step, Chatter)]
     if not proved:
-        return Decision(Verdict.UNDECIDED, "no proof that the motion from phi_s comes to rest")
+        return undecided("no proof that the motion from phi_s comes to rest")
     best = max(proved, key=lambda step: step.epsilon[1])
     if of.epsilon is None or best.epsilon[0] != 0 or not 0 < of.epsilon <= best.epsilon[1]:
         return Decision(

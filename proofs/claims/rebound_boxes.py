@@ -4,11 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from proofs.claims import Decision
+from proofs.claims import Decision, undecided
 from proofs.claims.rebound_facts import FULL, corner_of, horseshoes
 from proofs.claims.rebound_texts import edge_text, full_text, merged, word_text
-from proofs.claims.rebounds import BarredWord, Box, Horseshoe, Rebound, hull, within
-from proofs.facts import Parameters, Range, ceil_text, floor_text, parameters_text, show
+from proofs.claims.rebounds import BarredWord, Box, Horseshoe, Rebound
+from proofs.facts import (
+    Parameters,
+    Range,
+    ceil_text,
+    floor_text,
+    hull,
+    parameters_text,
+    show,
+    within,
+)
 from proofs.statements import Verdict
 
 _MOST_PARTS = 32  # that a box is covered with
@@ -21,7 +30,7 @@ def on_box(of: Parameters, found: Sequence[object]) -> Decision:
     the others. Nothing less than a proof for the whole box verifies it.
     """
     if of.box is None or of.velocities is None:
-        return Decision(Verdict.UNDECIDED, "no box of parameters or no velocities are given")
+        return undecided("no box of parameters or no velocities are given")
     proved = _proved(of, of.box, found)
     whole = [parts for parts in proved.values() if covered(of.box, _boxes(parts))]
     own = proved.get((of.left, of.right))

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from proofs.claims.rebounds import Box, Horseshoe, Rebound, hull
+from proofs.claims.rebounds import Box, Horseshoe, Rebound
 from proofs.facts import (
     Parameters,
     Range,
     ceil_text,
     floor_text,
+    hull,
     parameters_text,
     show,
     show_range,

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.facts import TURN, Range, ceil_text
+from proofs.facts import TURN, Range, ceil_text, hull, within
 
 Box = tuple[Range, Range, Range]  # eta, nu, epsilon
 Entries = tuple[tuple[Range, Range], tuple[Range, Range]]  # DF: rows (phase, velocity)
@@ -19,16 +19,6 @@ CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
 
 class Unjoined(ValueError):
     """Conclusions that do not join to the one wanted, and why."""
-
-
-def within(inner: Range, outer: Range) -> bool:
-    """Whether one range contains another."""
-    return outer[0] <= inner[0] and inner[1] <= outer[1]
-
-
-def hull(ranges: Sequence[Range]) -> Range:
-    """Return the smallest range that contains all."""
-    return min(low for low, _ in ranges), max(high for _, high in ranges)
 
 
 def size(values: Range) -> Fraction:

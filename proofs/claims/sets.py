@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims.cantor import CLAIMS as LINEAR_CLAIMS
-from proofs.claims.cantor import undecided
 from proofs.claims.itinerary import NO_HORSESHOE, Itinerary, invariant_set, surrounding
 from proofs.claims.subshift import Subshift
 from proofs.facts import Parameters, ceil_text, floor_text, show, show_range
@@ -152,36 +151,40 @@ def _corrected(of: Parameters, sets: Parameters, shift: Subshift) -> str:
     )
 
 
-def _chaotic(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide H8 by the conjugacy to a subshift: see `Subshift.chaotic`, 2 to 4."""
+def _subshift(of: Parameters, found: Sequence[object]) -> tuple[str, Subshift] | Decision:
+    """Return how Lambda is told and its irreducible subshift, or what is decided without one."""
     known = invariant_set(of, found)
     if isinstance(known, str):
         return undecided(known)
     sets, shift = known
+    told = _told(sets, of, shift)
     if not shift.arrows:
-        return Decision(Verdict.REFUTED, "Lambda is empty", witness=_told(sets, of, shift))
+        return Decision(Verdict.REFUTED, "Lambda is empty", witness=told)
     if not shift.chaotic:
-        return undecided(f"the subshift is not irreducible: {_told(sets, of, shift)}")
+        return undecided(f"the subshift is not irreducible: {told}")
+    return told, shift
+
+
+def _chaotic(of: Parameters, found: Sequence[object]) -> Decision:
+    """Decide H8 by the conjugacy to a subshift: see `Subshift.chaotic`, 2 to 4."""
+    known = _subshift(of, found)
+    if isinstance(known, Decision):
+        return known
+    told, shift = known
     return Decision(
         Verdict.VERIFIED,
-        f"{_told(sets, of, shift)}, an irreducible subshift; {_counts(shift)}",
+        f"{told}, an irreducible subshift; {_counts(shift)}",
         quantities={"growth": shift.growth},
     )
 
 
 def _cantor(of: Parameters, found: Sequence[object]) -> Decision:
     """Decide H9 by the homeomorphism to a subshift: see `Subshift.chaotic`, 1."""
-    known = invariant_set(of, found)
-    if isinstance(known, str):
-        return undecided(known)
-    sets, shift = known
-    if not shift.arrows:
-        return Decision(Verdict.REFUTED, "Lambda is empty", witness=_told(sets, of, shift))
-    if not shift.chaotic:
-        return undecided(f"the subshift is not irreducible: {_told(sets, of, shift)}")
+    known = _subshift(of, found)
+    if isinstance(known, Decision):
+        return known
     return Decision(
-        Verdict.VERIFIED,
-        f"{_told(sets, of, shift)}: compact, nowhere dense, without isolated points",
+        Verdict.VERIFIED, f"{known[0]}: compact, nowhere dense, without isolated points"
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.claims import Claim, Decision
+from proofs.claims import Claim, Decision, undecided
 from proofs.claims import section4 as eq
 from proofs.claims.formulas import Derivation, Equal, Value, at
 from proofs.claims.single_facts import EtaWindows, NuWindows, Orbit, Solution, Window
@@ -47,7 +47,7 @@ _ORBITS = (
 
 
 def _undecided(missing: str) -> Decision:
-    return Decision(Verdict.UNDECIDED, f"not proved: {missing}")
+    return undecided(f"not proved: {missing}")
 
 
 def _missing(found: Sequence[object], lemmas: Sequence[Equal] = eq.LEMMAS) -> Decision | None:

@@ -26,7 +26,7 @@ import numpy as np
 
 from intervals import DomainError, Interval, IntervalArray, Undecided
 from intervals.jet import Jet
-from proofs.facts import show_range
+from proofs.facts import hull, show_range
 from proofs.methods.orbits import Floats, Range
 from proofs.methods.words import Symbols
 
@@ -52,7 +52,7 @@ def full_horseshoe(
         raise ValueError("a domain is an interval of positive length")
     if any(one[1] >= two[0] for one, two in pairwise(sorted(exact))):
         raise ValueError("the domains are not disjoint")
-    whole = min(low for low, _ in exact), max(high for _, high in exact)
+    whole = hull(exact)
     for branch, domain in zip(branches, exact, strict=True):
         _check_image(branch, domain, whole)
     expansions = [_expansion(b, d) for b, d in zip(branches, exact, strict=True)]

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, newton
-from proofs.facts import Range
+from proofs.facts import Range, agree, hull
 from proofs.methods.extremes import extremes
 from proofs.model.branch import Branch
 from proofs.model.equations import launch, launch_acceleration
@@ -114,12 +114,6 @@ def image(
         return _possible(system, phases, horizon, "the interval seems to contain a grazing phase")
 
 
-def _agree(bounds: Range, digits: int) -> bool:
-    """Whether two bounds are equal to `digits` significant digits."""
-    allowed = min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
-    return bounds[1] - bounds[0] <= allowed
-
-
 def _bits(digits: int, attempt: int) -> int:
     return (digits * 10 // 3 + 20) << attempt
 
@@ -136,7 +130,7 @@ def _at_point(system: System, phases: Range, digits: int, horizon: Fraction) -> 
         result = Image(
             time, phase_after(phases[0], time, bits + 30), (slope.inf, slope.sup), sticking=False
         )
-        if all(_agree(x, digits + 1) for x in (result.flight, result.phase, result.slope)):
+        if all(agree(x, digits + 1) for x in (result.flight, result.phase, result.slope)):
             return result
     raise Undecided(f"{digits} digits are not reached: the result is too close to 0 or to grazing")
 
@@ -156,7 +150,7 @@ def _after_sticking(system: System, phases: Range, digits: int, horizon: Fractio
         result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
         exact = phases[0] == phases[1]  # else the dwell times differ
         wanted = (result.flight, result.phase, *([dwell] if exact else []))
-        if all(_agree(each, digits + 1) for each in wanted):
+        if all(agree(each, digits + 1) for each in wanted):
             return result
     raise Undecided(f"{digits} digits are not reached")
 
@@ -231,11 +225,7 @@ def _merged(images: list[tuple[Range, Range]]) -> tuple[tuple[Range, Range], ...
             last_time, last_phase = merged[-1]
             near = time[0] <= last_time[1] and phase[0] <= last_phase[1]
             if near and last_phase[0] <= phase[1]:
-                merged[-1] = (_hull(last_time, time), _hull(last_phase, phase))
+                merged[-1] = (hull((last_time, time)), hull((last_phase, phase)))
                 continue
         merged.append((time, phase))
     return tuple(merged)
-
-
-def _hull(a: Range, b: Range) -> Range:
-    return min(a[0], b[0]), max(a[1], b[1])

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from intervals import DomainError, Undecided
 from intervals.cover import PartsExhausted, cover
-from proofs.facts import Range, ceil_text, floor_text
+from proofs.facts import Range, agree, ceil_text, floor_text, hull
 from proofs.model.equations import arrival
 from proofs.model.flight import Flight
 from proofs.model.image import Image, image, separation_phase
@@ -99,14 +98,9 @@ def _at_point(states: Rebounds, digits: int, horizon: Fraction) -> Rebound:
         bits = (digits * 10 // 3 + 20) << attempt
         found = next_impact(states, bits=bits, horizon=horizon)
         bounds = (found.flight, found.phase, found.velocity, *sum(found.derivative, ()))
-        if all(_agree(each, digits + 1) for each in bounds):
+        if all(agree(each, digits + 1) for each in bounds):
             return Rebound(found.flight, found.phase, found.velocity, found.derivative)
     raise Undecided(f"{digits} digits are not reached: the result is too close to 0 or to grazing")
-
-
-def _agree(bounds: Range, digits: int) -> bool:
-    """Whether two bounds are equal to `digits` significant digits."""
-    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
 
 
 def _after_sticking(system: System, plastic: Image, digits: int) -> Rebound:
@@ -136,11 +130,11 @@ def _over_box(states: Rebounds, horizon: Fraction) -> Rebound:
             "so that F jumps"
         ) from None
     rows = zip(*(one.derivative for one in found), strict=True)
-    (p, q), (r, s) = ([_hull(entry) for entry in zip(*row, strict=True)] for row in rows)
+    (p, q), (r, s) = ([hull(entry) for entry in zip(*row, strict=True)] for row in rows)
     return Rebound(
-        _hull([one.flight for one in found]),
-        _hull([_lifted(one, found[0].turns) for one in found]),
-        _hull([one.velocity for one in found]),
+        hull([one.flight for one in found]),
+        hull([_lifted(one, found[0].turns) for one in found]),
+        hull([one.velocity for one in found]),
         ((p, q), (r, s)),
     )
 
@@ -159,7 +153,3 @@ def _lifted(one: Arrival, turns: int) -> Range:
     """Return the impact phase on the line, less the whole turns given."""
     more = turn(64) * (one.turns - turns)
     return one.phase[0] + more.inf, one.phase[1] + more.sup
-
-
-def _hull(ranges: Sequence[Range]) -> Range:
-    return min(low for low, _ in ranges), max(high for _, high in ranges)

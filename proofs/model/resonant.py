@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from intervals import DomainError, Interval, Undecided, atan
-from proofs.facts import Range
+from proofs.facts import Range, agree
 from proofs.model.equations import Clock, arrival, closing, launch
 from proofs.model.phase import turn
 from proofs.model.rebound import Impossible
@@ -66,18 +66,13 @@ def motion(
             raise
         except (Undecided, DomainError):
             continue
-        if all(_agree(each, digits + 1) for each in _bounds(found)):
+        if all(agree(each, digits + 1) for each in _bounds(found)):
             return found
     raise Undecided(f"{digits} digits are not reached")
 
 
 def _bounds(found: Motion) -> Iterator[Range]:
     return (each for each in (found.phase, found.velocity, found.limit) if each is not None)
-
-
-def _agree(bounds: Range, digits: int) -> bool:
-    """Whether two bounds are equal to `digits` significant digits."""
-    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
 
 
 def _at_precision(

@@ -12,11 +12,10 @@ from mpmath import findroot, mp, mpf
 from intervals import Interval, Jet, Undecided
 from proofs import dimension, groups
 from proofs.certificate import render
-from proofs.check.rules import Avoids, MoranRoot
 from proofs.check.verify import Rejected, check
 from proofs.claims import find
 from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
-from proofs.facts import PAPER, PointFact
+from proofs.facts import PAPER, Avoids, MoranRoot, PointFact
 from proofs.model.impact import cover_by_impacts
 from proofs.model.inverse import InverseBranch, InverseSystem
 from proofs.model.system import System

@@ -10,7 +10,6 @@ from flint import arb, ctx
 
 from proofs.certificate import Malformed, Reader
 from proofs.check.arithmetic import Unproved
-from proofs.check.rules import MoranRoot
 from proofs.check.sets import RULES
 from proofs.claims.cantor import (
     Excess,
@@ -23,7 +22,7 @@ from proofs.claims.cantor import (
 )
 from proofs.claims.sets import CLAIMS
 from proofs.claims.subshift import words
-from proofs.facts import PAPER, Parameters
+from proofs.facts import PAPER, MoranRoot, Parameters
 from proofs.sets import prove
 from proofs.statements import Verdict
 
