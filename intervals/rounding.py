@@ -90,7 +90,7 @@ def bounded(rows: Rows) -> Rows:
     A bound that overflowed is inf, or MAX in the modes that round toward zero or down. With
     lower <= upper, both rows < MAX also exclude -inf.
     """
-    if not np.max(rows, initial=-MAX) < MAX:
+    if not rows.max(initial=-MAX) < MAX:
         raise OverflowError("a bound is beyond the range of binary64")
     return rows
 

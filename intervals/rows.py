@@ -37,8 +37,9 @@ def _with_axes(rows: Rows, ndim: int) -> Rows:
 
 def is_thin(rows: Rows) -> bool:
     """Return whether every interval is a point; most arrays of others show it at once."""
-    first = rows.reshape(2, -1)[:, :1]
-    return bool((-first[0] == first[1]).all() and (-rows[0] == rows[1]).all())
+    if rows.size and -rows.item(0) != rows.item(rows.size // 2):
+        return False
+    return bool((-rows[0] == rows[1]).all())
 
 
 def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
@@ -46,7 +47,7 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
 
     The temporaries of a block stay in the cache, and small beside a large result.
     """
-    shape = np.broadcast_shapes(*(x.shape for x in operands))
+    shape = np.broadcast(*operands).shape
     size = prod(shape)
     if size <= 2 * _BLOCK:
         return operation(*operands)

@@ -57,7 +57,8 @@ class Row:
 
 def printed(bounds: Range, digits: int) -> dict[str, str]:
     """Write an enclosure outward, with a little to spare for another arithmetic."""
-    spare = min((bounds[1] - bounds[0]) / 8, _SPARE)
+    width = bounds[1] - bounds[0]
+    spare = min(width / 8, max(_SPARE, width / 2**16))
     lower, upper = decimal_bounds(bounds[0] - spare, bounds[1] + spare, digits)
     return {"lower": lower, "upper": upper}
 

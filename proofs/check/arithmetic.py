@@ -101,6 +101,13 @@ class Enclosure:
         """Return the smallest enclosure of both."""
         return Enclosure(min(self.lo, other.lo), max(self.hi, other.hi), self.bits)
 
+    def meet(self, other: Enclosure) -> Enclosure:
+        """Return the part that both enclosures of one number have in common."""
+        low, high = max(self.lo, other.lo), min(self.hi, other.hi)
+        if low > high:
+            raise Unproved("two enclosures of one number are disjoint")
+        return Enclosure(low, high, self.bits)
+
     def sincos(self) -> tuple[Enclosure, Enclosure]:
         """Return (sin X, cos X): the hull of the values at the ends and the extrema between.
 

@@ -57,17 +57,26 @@ class Motion:
         """Whether gap' < 0 on an interval of times."""
         return falls(partial(self.gap, start), time)
 
+    def _fall(self, start: Launch, time: Range) -> Enclosure:
+        """Enclose gap' on an interval of times, directly and by the mean value theorem."""
+        direct = self.gap(start, time, 1)
+        return direct.meet(Enclosure.of(*fall(partial(self.gap, start), time), self.bits))
+
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
-        value: Enclosure = slope(self.start(), self.clock(time))
+        start = self.start()
+        value: Enclosure = slope(start, self.clock(time), self._fall(start, time))
         return value
 
     def curvature(self, time: Range) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
-        one = rational(Fraction(1), self.bits)
-        now = Dual(Enclosure.of(*time, self.bits), self.slope(time) - 1)
-        start = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
-        bent: Dual = slope(start, clock(self._eta(), now))
+        start, now = self.start(), self.clock(time)
+        one, down = rational(Fraction(1), self.bits), self._fall(start, time)
+        faster = slope(start, now, down) - 1
+        moved = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
+        change = gap(moved, now, 1).derivative + self.gap(start, time, 2) * faster
+        later = clock(self._eta(), Dual(Enclosure.of(*time, self.bits), faster))
+        bent: Dual = slope(moved, later, Dual(down, change))
         return bent.derivative
 
 
@@ -143,11 +152,17 @@ def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
     return windows
 
 
-def falls(gap_of: Gap, time: Range) -> bool:
-    """Whether gap' < 0 on an interval of times: mean value theorem from either end."""
+def fall(gap_of: Gap, time: Range) -> Range:
+    """Enclose gap' on an interval of times: mean value theorem from either end."""
     width, bend = time[1] - time[0], gap_of(time, 2).range
-    first, last = (gap_of((t, t), 1).range[1] for t in time)
-    return min(first + max(bend[1], _ZERO) * width, last - min(bend[0], _ZERO) * width) < 0
+    down, up = min(bend[0], _ZERO) * width, max(bend[1], _ZERO) * width
+    first, last = (gap_of((t, t), 1).range for t in time)
+    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
+
+
+def falls(gap_of: Gap, time: Range) -> bool:
+    """Whether gap' < 0 on an interval of times."""
+    return fall(gap_of, time)[1] < 0
 
 
 def earlier(known: Known, name: Reader, kind: type[_Conclusion], rule: str) -> _Conclusion:

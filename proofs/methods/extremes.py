@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from operator import itemgetter
 
 from intervals import DomainError, Interval, Undecided
-from intervals.cover import PartsExhausted, cover
 
 Range = tuple[Fraction, Fraction]
-_MOST_PIECES = 400
 
 
 @dataclass(frozen=True)
@@ -51,43 +51,46 @@ def extremes(
     dg: Callable[[Fraction, Fraction], Interval],
     points: Sequence[Fraction],
     tolerance: Fraction = Fraction(1, 10**12),
+    most: int = 400,
 ) -> Extremes:
     """Enclose min g and max g over [points[0], points[-1]].
 
     A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
     or where values of g elsewhere make it useless for both extremes; others, and those on which
-    dg raises DomainError, are halved. Raises Undecided
-    if that does not end.
+    dg raises DomainError, are halved, widest first. When there are `most` pieces, they stay as
+    wide as they are: the bounds hold all the same. Raises Undecided if dg has no answer then.
     """
     known: dict[Fraction, Interval] = {}
-    low, high = points[0], points[-1]
+    done: list[tuple[Range, Interval]] = []
+    waiting = deque(pairwise(points))
 
     def at(x: Fraction) -> Interval:
         if x not in known:
             known[x] = g(x)
         return known[x]
 
-    def decide(piece: Range) -> Interval | None:
-        low, high = piece
+    def final(values: Interval, slope: Interval) -> bool:
+        if not slope.contains_zero() or values.wid < tolerance:
+            return True
+        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
+        return least <= values.inf and values.sup <= greatest
+
+    while waiting:
+        low, high = waiting.popleft()
+        full = len(done) + len(waiting) + 1 >= most
+        middle = (low + high) / 2
         try:
             slope = dg(low, high)
-        except DomainError:
-            return None
+        except DomainError as error:
+            if full:
+                raise Undecided(f"on one of {most} pieces: {error}") from None
+            waiting += [(low, middle), (middle, high)]
+            continue
         values = piece_range(at(low), at(high), slope, high - low)
-        if not slope.contains_zero() or values.wid < tolerance:
-            return values
-        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
-        return values if least <= values.inf and values.sup <= greatest else None
-
-    def split(piece: Range) -> tuple[Range, Range]:
-        middle = (piece[0] + piece[1]) / 2
-        return (piece[0], middle), (middle, piece[1])
-
-    pieces = list(pairwise(points))
-    try:
-        done = list(cover(pieces, decide, split, limit=_MOST_PIECES))
-    except PartsExhausted:
-        where = f"[{float(low):.9g}, {float(high):.9g}]"
-        raise Undecided(f"{_MOST_PIECES} pieces of {where} do not suffice") from None
+        if full or final(values, slope):
+            done.append(((low, high), values))
+        else:
+            waiting += [(low, middle), (middle, high)]
+    done.sort(key=itemgetter(0))
     ends = (*(low for (low, _), _ in done), points[-1])
     return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))

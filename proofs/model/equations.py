@@ -123,14 +123,18 @@ def launch_acceleration(start: Launch) -> Number:
     return gap(start._replace(kick=None), AT_LAUNCH, 2)
 
 
-def slope(start: Launch, now: Clock) -> Number:
+def slope(start: Launch, now: Clock, fall: Number | None = None) -> Number:
     """Return the derivative f' of the plastic impact map at an impact `now` after `start`.
+
+    fall: gap' there, if it is known better than by `gap`.
 
     Theorem. Let g(phi, t) be the plastic gap. Then dg/dt - dg/dphi = sin(eta t) / eta times the
     launch acceleration, and where g = 0 and dg/dt < 0, the next impact phase phi + t(phi) has
     derivative 1 - (dg/dphi) / (dg/dt) = (sin(eta t) / eta) launch_acceleration / (dg/dt).
     """
-    return now.mass_sin / start.eta * launch_acceleration(start) / gap(start, now, 1)
+    if fall is None:
+        fall = gap(start, now, 1)
+    return now.mass_sin / start.eta * launch_acceleration(start) / fall
 
 
 def arrival(start: Launch, now: Clock) -> tuple[Number, Number]:

@@ -63,17 +63,37 @@ class Flight:
         bend = self.gap(low, high, order=2)
         return piece_range(self.gap(low, order=1), self.gap(high, order=1), bend, high - low)
 
+    def fall(self, time: Range) -> Interval:
+        """Enclose gap' over all launches and the times from time[0] to time[1].
+
+        Where that is wide, by the mean value theorem as well: after a short flight gap' is of the
+        order of the time squared, and evaluated on an interval it cancels.
+        """
+        direct = self.gap(*time, order=1)
+        if direct.wid * 2**40 < direct.mig:
+            return direct
+        common = direct.intersection(self.velocity(*time))
+        if common is None:
+            raise ArithmeticError("two enclosures of the same velocities are disjoint")
+        return common
+
     def slope(self, time: Range) -> Interval:
         """Enclose f' over all launches, impact times in `time`."""
-        value: Interval = slope(self.start, self.clock(*time))
+        value: Interval = slope(self.start, self.clock(*time), self.fall(time))
         return value
 
     def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
-        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ..."""
-        first = self.slope(time)
+        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ...
+
+        gap' changes by gap'' (f' - 1) with t: gap'' first, because it is small where gap' is.
+        """
+        fall, now = self.fall(time), self.clock(*time)
+        first: Interval = slope(self.start, now, fall)
         one = Interval(1, precision=self.precision)
+        start = self._launch(Jet(self.phi, one))
+        change = gap(start, now, 1).derivative() + self.gap(*time, order=2) * (first - one)
         along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
-        return first, slope(self._launch(Jet(self.phi, one)), along).derivative()
+        return first, slope(start, along, Jet(fall, change)).derivative()
 
     @property
     def leaves(self) -> bool:

@@ -117,7 +117,7 @@ class ImpactGerms:
     @cached_property
     def _speeds(self) -> IntervalArray:
         """Enclosures of gap' over boxes and windows."""
-        return self.launches.speeds(self.times.inf, self.times.sup)
+        return self.launches.speeds(self.times)
 
     @cached_property
     def _windows(self) -> list[tuple[Interval, Interval, int]]:

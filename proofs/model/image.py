@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from intervals import DomainError, Interval, Undecided
@@ -12,23 +12,27 @@ from intervals.newton import Roots, newton
 from proofs.facts import Range, agree, hull
 from proofs.methods.extremes import extremes
 from proofs.model.branch import Branch
-from proofs.model.equations import launch, launch_acceleration
+from proofs.model.equations import launch_acceleration
 from proofs.model.flight import Flight
 from proofs.model.impact import (
     HORIZON,
+    LEAST,
     FirstImpact,
     NoImpact,
+    Unsettled,
     cover_by_impacts,
     first_impact,
     halves,
     impact_time,
     locate,
+    precision_for,
     steps_for,
 )
 from proofs.model.phase import phase_after, turn
 from proofs.model.system import System
 
 _ATTEMPTS = 6
+_PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
 _COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
 
@@ -76,16 +80,17 @@ def separation_phase(system: System, precision: int) -> Range:
     raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
 
 
-def _sticks(system: System, phases: Range, precision: int = 128) -> bool | None:
+def _sticks(system: System, phases: Range) -> bool | None:
     """Whether all phases stick (True), none does (False), or neither is shown (None)."""
     if system.sticking_arc != "some":
         return system.sticking_arc == "all"
-    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    start = launch(system.side, eta, nu, Interval(*phases, precision=precision))
-    acceleration: Interval = launch_acceleration(start)
-    if acceleration.certainly_positive():
-        return False
-    return True if acceleration.certainly_negative() else None
+    for bits in (LEAST, 2 * LEAST, 4 * LEAST, 8 * LEAST):
+        acceleration: Interval = launch_acceleration(Flight(system, phases, bits).start)
+        if acceleration.certainly_positive():
+            return False
+        if acceleration.certainly_negative():
+            return True
+    return None
 
 
 def image(
@@ -95,7 +100,8 @@ def image(
 
     A point: every bound agrees with its partner to `digits` significant digits. An interval:
     the ends of the true range to that many digits where flight time, phase and slope are
-    monotone, to 12 digits otherwise; where f is not shown to be continuous, the possible images.
+    monotone, else to 12 digits if so many pieces suffice for that; where f is not shown to be
+    continuous, the possible images.
     Raises NoImpact where none is found up to the horizon, Undecided where nothing can be said.
     """
     sticks = _sticks(system, phases)
@@ -143,10 +149,10 @@ def _after_sticking(system: System, phases: Range, digits: int, horizon: Fractio
         found = locate(system, leave, horizon=horizon, separating=True)
         try:
             time = impact_time(found, leave, bits)
+            dwell = _dwell(phases, leave, bits)
         except Undecided:
             continue
         arrival = (leave[0] + time[0], leave[1] + time[1])
-        dwell = _modulo_turn(leave[0] - phases[1], leave[1] - phases[0], bits)
         result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
         exact = phases[0] == phases[1]  # else the dwell times differ
         wanted = (result.flight, result.phase, *([dwell] if exact else []))
@@ -155,8 +161,16 @@ def _after_sticking(system: System, phases: Range, digits: int, horizon: Fractio
     raise Undecided(f"{digits} digits are not reached")
 
 
+def _dwell(phases: Range, leave: Range, bits: int) -> Range:
+    """Enclose the times in [0, 2 pi) from the phases to the next one that is in `leave`."""
+    low, high = leave[0] - phases[1], leave[1] - phases[0]
+    if low < 0 <= high:
+        raise Undecided("whether the mass leaves at once, or after a turn, is lost to rounding")
+    return _modulo_turn(low, high, bits)
+
+
 def _modulo_turn(low: Fraction, high: Fraction, bits: int) -> Range:
-    """Add 2 pi to a negative range."""
+    """Add 2 pi to a range that is not >= 0: the same phases."""
     if low >= 0:
         return low, high
     whole = turn(bits + 30)
@@ -165,15 +179,16 @@ def _modulo_turn(low: Fraction, high: Fraction, bits: int) -> Range:
 
 def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
-    branch = Branch(tuple(parts), _bits(digits, 0))
+    impacts = tuple(parts)
+    branch = Branch(impacts, _bits(digits, 0) + max(part.places for part in impacts))
     precision = branch.bits + 30
 
     def time_at(x: Fraction) -> Interval:
         return Interval(*branch.time(x, x), precision=precision)
 
-    slopes = extremes(lambda x: branch.slope(x, x), branch.curvature, branch.ends)
-    flights = extremes(time_at, lambda a, b: branch.slope(a, b) - 1, branch.ends)
-    images = extremes(lambda x: time_at(x) + x, branch.slope, branch.ends)
+    slopes = extremes(lambda x: branch.slope(x, x), branch.curvature, branch.ends, most=_PIECES)
+    flights = extremes(time_at, lambda a, b: branch.slope(a, b) - 1, branch.ends, most=_PIECES)
+    images = extremes(lambda x: time_at(x) + x, branch.slope, branch.ends, most=_PIECES)
     arrival = (images.minimum[0], images.maximum[1])
     return Image(
         (flights.minimum[0], flights.maximum[1]),
@@ -198,23 +213,37 @@ def _possible(
             found.append((rest.flight, rest.phase))
             continue
         launches = part if sticks is False else _leaving(system, part)
-        flight = Flight(system, launches, separating=sticks is None)
-        impact = first_impact(flight, horizon, max(steps_for(launches), _COARSE))
+        impact = _any_impact(system, launches, horizon, separating=sticks is None)
         for low, high in impact.windows:
             arrival = phase_after(Fraction(0), (launches[0] + low, launches[1] + high), 64)
             found.append(((low, high), arrival))
     return PossibleImages(_merged(found), reason)
 
 
+def _any_impact(
+    system: System, launches: Range, horizon: Fraction, *, separating: bool
+) -> FirstImpact:
+    """Find windows of the first impacts, at the least precision that has an answer."""
+    finest = max(steps_for(launches), _COARSE)
+    flight = Flight(system, launches, LEAST, separating)
+    try:
+        return first_impact(flight, horizon, finest)
+    except (NoImpact, Unsettled):
+        raise
+    except Undecided:
+        finer = replace(flight, precision=precision_for(system, launches, horizon))
+        return first_impact(finer, horizon, finest)
+
+
 def _leaving(system: System, part: Range) -> Range:
     """Return the launch phases of a part that contains the separation phase: [phi_s, part[1]]."""
-    leave = separation_phase(system, 100)
-    if not part[0] <= leave[1] <= part[1]:
+    leave = separation_phase(system, 8 * LEAST)
+    if leave[1] < part[0] or part[1] < leave[0]:
         raise Undecided(
             "the interval contains the phase at which sticking begins: flights there are as "
             "short as one likes, and f jumps; take an interval on one side of it"
         )
-    return leave[0], part[1]
+    return leave[0], max(part[1], leave[1])
 
 
 def _merged(images: list[tuple[Range, Range]]) -> tuple[tuple[Range, Range], ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -17,6 +17,7 @@ from proofs.model.system import System
 
 HORIZON = Fraction(1000)
 _TINIEST = Fraction(1, 2**200)
+LEAST = 64  # bits: multiprecision costs no more than at fewer
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
 
 
@@ -65,11 +66,17 @@ class FirstImpact:
 
     def thin(self, phases: Range, bits: int) -> Flight:
         """Return (nearly) one of the launches, at the precision that times to 2^-bits need."""
-        return replace(self.flight, phases=phases, precision=bits + 30 + self.loss)
+        precision = max(self.flight.precision, bits + 30 + self.loss)
+        return replace(self.flight, phases=phases, precision=precision)
+
+    @cached_property
+    def places(self) -> int:
+        """Binary places before the first digit of a short flight's time, 0 if that is 1 or more."""
+        return (1 / self.windows[0][0]).__ceil__().bit_length() - 1
 
     def part(self, phases: Range) -> Flight:
-        """Return some of the launches."""
-        return replace(self.flight, phases=phases)
+        """Return some of the launches, at a precision that leaves times 18 bits and gap' 48."""
+        return self.thin(phases, self.places + 18)
 
 
 def first_impact(
@@ -80,8 +87,9 @@ def first_impact(
     On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0 (at
     the separation phase gap'' >= 0 at 0 and gap''' > 0 give the same). On [t_j, t_{j+1}] by
     the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error).
-    Steps adapt down to `finest`; what is then not excluded opens a window, in which they grow
-    again, to 16 times that.
+    Steps adapt down to `finest`, or to an eighth of the time passed if that is less; what is
+    then not excluded opens a window, in which they grow again, to 16 times that or an eighth of
+    the window.
 
     Raises NoImpact or Unsettled at the horizon, Sticks where all phases do, Undecided where the
     launch itself is not decided.
@@ -97,10 +105,11 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
     """Exclude impacts as `first_impact` does, from a time on up to which gap > 0 is known."""
     times = [Fraction(0), first]
     open_pieces: list[Range] = []
-    value = flight.gap(times[-1])
-    step, allowed, certain = times[-1], finest, False
+    value = flight.gap(first)
+    step, allowed, certain = first, min(finest, first / 8), False
     while not certain:
         now = times[-1]
+        least = min(finest, now / 8)
         if now >= horizon and open_pieces:
             raise Unsettled(open_pieces)
         if now >= horizon:
@@ -108,7 +117,7 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
         ahead = now + step
         next_value = flight.gap(ahead)
         if _positive_between(flight, now, value, ahead, next_value):
-            step, allowed = 2 * step, finest
+            step, allowed = 2 * step, least
         elif step > allowed:
             step = max(step / 2, allowed)
             continue
@@ -117,7 +126,7 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
             joined = open_pieces and open_pieces[-1][1] == now
             begin = open_pieces.pop()[0] if joined else now
             open_pieces.append((begin, ahead))
-            step = allowed = min(2 * allowed, 16 * finest)
+            step = allowed = min(2 * allowed, max(16 * least, (ahead - begin) / 8))
         times.append(ahead)
         value = next_value
     transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).certainly_negative()
@@ -153,7 +162,7 @@ def locate(
     attempts Undecided says that the launch is too close to one.
     """
     for attempt in range(8):
-        flight = Flight(system, phases, 64 * (attempt + 1), separating)
+        flight = Flight(system, phases, LEAST * (attempt + 1), separating)
         try:
             found = first_impact(flight, horizon, Fraction(1, 2 ** (3 + 5 * attempt)))
         except (NoImpact, Sticks):
@@ -185,6 +194,15 @@ def cover_by_impacts(
     )
 
 
+@dataclass(frozen=True)
+class _Part:
+    """Launch phases, how often they were cut, and the precision at which they are asked."""
+
+    phases: Range
+    cuts: int = 0
+    precision: int = LEAST
+
+
 def cover_by(
     system: System,
     phases: Range,
@@ -194,37 +212,55 @@ def cover_by(
     horizon: Fraction = HORIZON,
     limit: int = 400,
 ) -> list[FirstImpact]:
-    """Cut `phases` until `accept` takes the first impact of every part.
+    """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
 
-    Undecided names a phase near which it does not, `obstacle` being the likely reason; a part
-    without impact up to the horizon is cut four times before that is taken for an answer.
+    At first and after every four cuts, a part that is not taken is asked again at the precision
+    that its middle launch needs; else its width is to blame and it is cut. Undecided names a
+    phase near which nothing helps, `obstacle` being the likely reason; a part without impact up
+    to the horizon is cut four times before that is taken for an answer.
     """
-    width = phases[1] - phases[0]
 
-    def decide(part: Range) -> FirstImpact | None:
-        narrowed = width / (part[1] - part[0])
+    def decide(part: _Part) -> FirstImpact | None:
+        low = part.phases[0]
+        most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
         try:
-            found = first_impact(Flight(system, part), horizon, steps_for(part))
+            flight = Flight(system, part.phases, part.precision)
+            found = first_impact(flight, horizon, steps_for(part.phases))
+            if accept(found):
+                return found
         except Sticks:
             raise
-        except (NoImpact, Unsettled):
-            if narrowed >= 2**4:
-                raise
-            return None
-        except Undecided:
-            if narrowed >= 2**16:
-                raise
-            return None
-        if accept(found):
-            return found
-        if narrowed >= 2**16:
-            raise Undecided(f"{obstacle} near phase {float(part[0]):.9g}")
+        except (NoImpact, Unsettled) as error:
+            most, failure = 4, error
+        except Undecided as error:
+            failure = error
+        if part.cuts >= most:
+            raise failure
         return None
 
+    def split(part: _Part) -> Iterable[_Part]:
+        if part.cuts % 4 == 0:
+            needed = precision_for(system, part.phases, horizon)
+            if needed > part.precision:
+                return [replace(part, precision=needed)]
+        return [replace(part, phases=x, cuts=part.cuts + 1) for x in halves(part.phases)]
+
     try:
-        return [found for _, found in cover([phases], decide, halves, limit=limit)]
+        return [found for _, found in cover([_Part(phases)], decide, split, limit=limit)]
     except PartsExhausted:
         raise Undecided(f"{limit} parts of {_name(phases)} do not suffice") from None
+
+
+def precision_for(system: System, phases: Range, horizon: Fraction = HORIZON) -> int:
+    """Return the precision at which the middle one of the launches is decided, the least if none.
+
+    A choice, never evidence.
+    """
+    middle = (phases[0] + phases[1]) / 2
+    try:
+        return locate(system, (middle, middle), horizon=horizon).flight.precision
+    except Undecided:
+        return LEAST
 
 
 def steps_for(phases: Range) -> Fraction:

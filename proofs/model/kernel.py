@@ -11,14 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from fractions import Fraction
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals import IntervalArray, Jet, Undecided
 from intervals.bilinear import bilinear
+from intervals.rounding import outward, outward_sum
 from proofs.model.candidate import next_impact
 from proofs.model.equations import Clock, Launch, clock, gap, launch, slope
 from proofs.model.impact import HORIZON
@@ -27,10 +28,7 @@ from proofs.model.system import System
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-CHUNK = 32768  # boxes x times at once: the temporaries (24 bytes each) stay in the cache
-# glibc returns a freed block of this size to the system once, and from then on keeps smaller ones
-# for reuse (mallopt(3), dynamic mmap threshold), so that temporaries cost no page faults.
-_KEPT = 1 << 19
+CHUNK = 1 << 19  # forms x boxes at once, a byte each: longer rows cost less
 _TIGHT = 2.0**-48  # the first attempt at half the relative width of a time bracket
 _ATTEMPTS = 12
 
@@ -75,23 +73,40 @@ class Launches:
         along: IntervalArray = gap(self._tangent, now).derivative()
         return at_centre + along * self.offset
 
-    def speeds(self, low: Floats, high: Floats) -> IntervalArray:
-        """Enclose gap' over box i and the times from low[i] to high[i]."""
-        now = self.clock(IntervalArray.from_floats(low, high))
-        speed: IntervalArray = gap(self.start, now, 1)
-        return speed
+    def speeds(self, times: IntervalArray, now: Clock | None = None) -> IntervalArray:
+        """Enclose gap' over box i and the times in times[i], as `Flight.fall` does.
+
+        now: the clock at these times, if it is there already.
+        """
+        if now is None:
+            now = self.clock(times)
+        direct: IntervalArray = gap(self.start, now, 1)
+        if direct.certainly_negative().all():
+            return direct
+        low, high = (IntervalArray.from_floats(each) for each in (times.inf, times.sup))
+        reach = gap(self.start, now, 2) * IntervalArray.from_floats(0.0, (high - low).sup)
+        before, after = (gap(self.start, self.clock(each), 1) for each in (low, high))
+        common = (before + reach).intersection(after - reach)
+        narrower = None if common is None else direct.intersection(common)
+        if narrower is None:
+            raise ArithmeticError("two enclosures of the same velocities are disjoint")
+        return narrower
 
     def slopes(self, times: IntervalArray) -> IntervalArray:
-        """Enclose f' over box i, impact times in times[i]."""
-        first: IntervalArray = slope(self.start, self.clock(times))
+        """Enclose f' over box i, impact times in times[i], on which gap' < 0."""
+        now = self.clock(times)
+        first: IntervalArray = slope(self.start, now, self.speeds(times, now))
         return first
 
-    def curvatures(self, times: IntervalArray, slopes: IntervalArray) -> IntervalArray:
-        """Enclose f'' likewise, given f': the slope formula along phi + s, t + (f' - 1) s + ..."""
-        second: IntervalArray = slope(
-            self._tangent, self.clock(Jet(times, slopes - 1))
-        ).derivative()
-        return second
+    def slopes_and_curvatures(self, times: IntervalArray) -> tuple[IntervalArray, IntervalArray]:
+        """Enclose f' and f'' likewise, as `Flight.slope_and_curvature` does."""
+        now = self.clock(times)
+        fall = self.speeds(times, now)
+        first: IntervalArray = slope(self.start, now, fall)
+        faster = first - 1
+        change = gap(self._tangent, now, 1).derivative() + gap(self.start, now, 2) * faster
+        along = self.clock(Jet(times, faster))
+        return first, slope(self._tangent, along, Jet(fall, change)).derivative()
 
 
 # -- the grid: no impact before ------------------------------------------------------------------
@@ -101,81 +116,99 @@ def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
     """Prove that gap > 0 on (0, t_n] after every launch, where 0 < t_1 < ... < t_n are `times`.
 
     On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0. On
-    [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'').
+    [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap''), so that
+    all is proved if both gaps, and both less v gap'' for some v >= w^2/8, are > 0.
     Raises Undecided with the first box on which one of these fails.
     """
     grid = np.array([0.0, *times])
     if not (grid.size > 1 and np.isfinite(grid).all() and (np.diff(grid) > 0.0).all()):
         raise ValueError("the times must be finite, positive and increasing, and at least one")
-    pieces = grid.size - 1
     by_lift, by_rate, rest = _forms(launches.system, grid)
-    lift, rate = launches.start.lift, launches.start.rate
-    size = max(1, CHUNK // (2 * pieces))
-    np.empty(_KEPT)
+    start = launches.start
+    size = max(1, CHUNK // len(rest))
     for begin in range(0, len(launches.phases), size):
         part = slice(begin, begin + size)
-        values = bilinear((by_lift, by_rate), (lift[part], rate[part]), rest)
-        low, bend = values[:pieces].inf, values[pieces:]
-        _require(launches, bend[:1].certainly_positive(), begin, _STICKS)
-        _require(launches, low > 0.0, begin, _NOT_EXCLUDED)
-        _require(launches, np.minimum(low[:-1], low[1:]) > bend.sup[1:], begin, _NOT_EXCLUDED)
+        positive = bilinear((by_lift, by_rate), (start.lift[part], start.rate[part]), rest)
+        _require(launches, positive[:1], begin, _STICKS)
+        _require(launches, positive, begin, _NOT_EXCLUDED)
 
 
-_Form = tuple[IntervalArray, IntervalArray, IntervalArray]
+def _forms(system: System, grid: Floats) -> IntervalArray:
+    """Return what must be > 0: forms (A, B, D), shape (3, 3 n - 1), each for lift A + rate B + D.
 
-
-def _forms(system: System, grid: Floats) -> _Form:
-    """Return the gap at the n times t_1, ..., then w^2/8 gap'' on the n pieces between, as forms.
-
-    A form is A, B, D, shape (2 n,) each, that stand for lift A + rate B + D.
+    With h_j = gap(t_j), and b_j = v gap'' on piece j, from t_{j-1} to t_j, where v >= w^2/8, they
+    are b_1, then h_1, ..., h_n, then h_j - b_j for j = 2, ..., n, then h_{j-1} - b_j for these.
     """
-    n, points = grid.size - 1, IntervalArray.from_floats(grid)
-    ends_and_pieces = IntervalArray.from_floats(
+    n = grid.size - 1
+    times = IntervalArray.from_floats(  # the ends of the pieces, then the pieces
         np.concatenate((grid[1:], grid[:-1])), np.concatenate((grid[1:], grid[1:]))
     )
-    now = clock(system.eta, ends_and_pieces)
-    weights = (points[1:] - points[:-1]) ** 2 / 8
-    at_ends = _form(system, Clock(*(x[:n] for x in now)), 0)
-    bends = _form(system, Clock(*(x[n:] for x in now)), 2)
-    a, b, d = (
-        IntervalArray.concatenate([end, bend * weights])
-        for end, bend in zip(at_ends, bends, strict=True)
+    # both frequencies at once: sines and cosines of so few numbers cost as much as of twice as many
+    waves = IntervalArray.concatenate([system.eta * times, times]).sincos()
+    one = IntervalArray.from_floats(np.ones(2 * n))
+    functions = IntervalArray.concatenate([*waves, one]).reshape(5, 2, n)
+    forms = (_coefficients(system) * functions).sum(axis=1)
+    widths = outward_sum(np.diff(grid))
+    bends = forms[:, 1] * IntervalArray.from_floats(outward(0.125 * widths * widths))
+    heights, later = forms[:, 0], bends[:, 1:]
+    return IntervalArray.concatenate(
+        [bends[:, :1], heights, heights[:, 1:] - later, heights[:, :-1] - later], axis=1
     )
-    return a, b, d
 
 
-def _form(system: System, now: Clock, order: int) -> _Form:
-    """Return A, B, D such that the gap's derivative of this order is lift A + rate B + D."""
-    lift, rate = _Affine((1, None, None)), _Affine((None, 1, None))
-    form: _Affine = gap(Launch(system.side, system.eta, lift, rate), now, order)
-    by_lift, by_rate, rest = form.terms
-    return by_lift, by_rate, rest
+_LAUNCH = ("lift",), ("rate",), ()
+_FUNCTIONS = ("mass_sin",), ("table_sin",), ("mass_cos",), ("table_cos",), ()
+
+
+@lru_cache(maxsize=64)
+def _coefficients(system: System) -> IntervalArray:
+    """Return c, shape (3, 5, 2, 1), of gap and gap'', the sums over i, k of c_ik x_i f_k.
+
+    x is lift, rate, 1, and f is sin(eta t), sin(t), cos(eta t), cos(t), 1.
+    """
+    names = "lift", "rate", *Clock._fields
+    lift, rate, *functions = (_Polynomial({(name,): Fraction(1)}) for name in names)
+    start, now = Launch(system.side, system.eta, lift, rate), Clock(*functions)
+    found = [gap(start, now, order).terms for order in (0, 2)]
+    table = [[tuple(sorted((*x, *f))) for f in _FUNCTIONS] for x in _LAUNCH]
+    if not set().union(*found) <= set().union(*table):
+        raise ValueError("the gap is not a form in the launch and the functions of time")
+    return IntervalArray([[[[terms.get(x, 0)] for terms in found] for x in row] for row in table])
 
 
 @dataclass(frozen=True)
-class _Affine:
-    """a lift + b rate + d with terms (a, b, d), None for 0: the gap is of this kind."""
+class _Polynomial:
+    """The sum of coefficients times monomials, by the sorted names of a monomial's variables."""
 
-    terms: tuple[Any, Any, Any]
+    terms: dict[tuple[str, ...], Fraction]
 
-    def __mul__(self, factor: IntervalArray) -> _Affine:
-        a, b, d = (x if x is None else x * factor for x in self.terms)
-        return _Affine((a, b, d))
+    def __mul__(self, factor: _Polynomial | Fraction | int) -> _Polynomial:
+        product: dict[tuple[str, ...], Fraction] = {}
+        for x, a in self.terms.items():
+            for y, b in _polynomial(factor).terms.items():
+                name = tuple(sorted((*x, *y)))
+                product[name] = product.get(name, Fraction(0)) + a * b
+        return _Polynomial(product)
 
-    def __add__(self, other: Any) -> _Affine:
-        added = other.terms if isinstance(other, _Affine) else (None, None, other)
-        a, b, d = (
-            y if x is None else x if y is None else x + y
-            for x, y in zip(self.terms, added, strict=True)
-        )
-        return _Affine((a, b, d))
+    __rmul__ = __mul__
 
-    def __sub__(self, other: Any) -> _Affine:
-        return self.__add__(-other)
+    def __truediv__(self, divisor: Fraction) -> _Polynomial:
+        return self * (1 / divisor)
 
-    def __neg__(self) -> _Affine:
-        a, b, d = (x if x is None else -x for x in self.terms)
-        return _Affine((a, b, d))
+    def __add__(self, other: _Polynomial | int) -> _Polynomial:
+        added = _polynomial(other).terms
+        known = {**self.terms, **added}
+        return _Polynomial({x: self.terms.get(x, Fraction(0)) + added.get(x, 0) for x in known})
+
+    def __sub__(self, other: _Polynomial | int) -> _Polynomial:
+        return self + -other
+
+    def __neg__(self) -> _Polynomial:
+        return self * -1
+
+
+def _polynomial(value: _Polynomial | Fraction | int) -> _Polynomial:
+    return value if isinstance(value, _Polynomial) else _Polynomial({(): Fraction(value)})
 
 
 # -- the brackets: an impact here ----------------------------------------------------------------
@@ -189,7 +222,7 @@ def prove_brackets(launches: Launches, last: Floats, low: Floats, high: Floats) 
     """
     ordered = np.asarray((last <= low) & (low < high) & (high < np.inf))
     _require(launches, ordered, 0, "the time bracket is not one")
-    speeds = launches.speeds(last, high)
+    speeds = launches.speeds(IntervalArray.from_floats(last, high))
     _require(launches, speeds.certainly_negative(), 0, "gap' < 0 is not proved up to the impact")
     signs = _signs(launches, low, high)
     _require(launches, signs, 0, "the gap's signs at the ends of its time bracket are not proved")

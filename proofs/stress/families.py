@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from proofs.stress import functions, operations
@@ -78,9 +78,10 @@ def _short(generator: Generator, kernel: Kernel) -> Case:
 def _separation(generator: Generator, kernel: Kernel) -> Case:
     """Launches at both sides of the phase where the gap has a triple zero."""
     of = system(generator)
-    distance = tiny(generator, 2, 40) * generator.choice((-1, 1))
+    distance = tiny(generator, 2, 60) * generator.choice((-1, 1))
     point = separation_point(kernel, *of) + distance
-    return _around(generator, "separation", of, point, abs(distance) / 2)
+    case = _around(generator, "separation", of, point, abs(distance) / 2)
+    return replace(case, digits=generator.choice((10, 20, 30)))
 
 
 def _grazing(generator: Generator, kernel: Kernel) -> Case:
@@ -233,7 +234,7 @@ FAMILIES = (
     Family("functions", "elementary functions at hard arguments, 24 to 333 bits", 25, _functions),
     Family("arrays", "the same in binary64 arrays", 25, _arrays),
     Family("short flights", "launches 1e-2 to 1e-40 before sticking begins", 2, _short),
-    Family("separation", "launches 1e-2 to 1e-40 from the separation phase", 2, _separation),
+    Family("separation", "launches 1e-2 to 1e-60 from the separation phase", 2, _separation),
     Family("grazing", "launches 1e-3 to 1e-30 from a grazing one", 3, _grazing),
     Family("tangent", "intervals of launches next to grazing ones: f' is large", 2, _tangent),
     Family("long flights", "flights of 10^3 to 10^6", 1, _long),

@@ -12,9 +12,9 @@ from intervals import Undecided
 from proofs.facts import Range
 from proofs.model.flight import Flight
 from proofs.model.image import Image, PossibleImages, image
-from proofs.model.impact import NoImpact, Sticks, first_impact, locate
+from proofs.model.impact import NoImpact, Sticks, cover_by_impacts, first_impact, locate
 from proofs.model.rebound import rebound
-from proofs.model.slope_cover import slope_cover
+from proofs.model.slope_cover import BINARY64, slope_cover
 from proofs.model.system import System
 from proofs.stress.cases import Answer, Ranges, Truth, Unknown
 from proofs.stress.kernels import Kernel
@@ -22,7 +22,6 @@ from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact
 
 _SAMPLES = (Fraction(0), Fraction(1, 2), Fraction(1), Fraction(281, 1009))
-BINARY64 = 53
 
 
 @dataclass(frozen=True)
@@ -45,11 +44,12 @@ class ImageCase:
         return Answer(((_named(found),),))
 
     def bits(self) -> int | None:
-        """Return the precision at which the first impact of a point is found: 53, 64, 128, ..."""
+        """Return the precision at which the first impacts are found: 53, 64, 128, ..."""
         phases = (self.low, self.high)
-        if self.low < self.high:
-            return None
         try:
+            if self.low < self.high:
+                parts = cover_by_impacts(self._system, phases, horizon=self.horizon)
+                return max(part.flight.precision for part in parts)
             for finest in (Fraction(1, 8), Fraction(1, 256)):
                 flight = Flight(self._system, phases, BINARY64)
                 if _transversal(flight, self.horizon, finest):
@@ -163,25 +163,13 @@ class CoverCase:
 
     def answer(self) -> Answer:
         """Return bounds of flight and slope on the box around each sample."""
-        system = System(self.eta, self.nu)
-        try:
-            found = slope_cover(system, (self.low, self.high), self.boxes)
-        except Undecided:
-            return self._alone(system)
-        edges = found.boxes.inf
+        found = slope_cover(System(self.eta, self.nu), (self.low, self.high), self.boxes)
         rows = []
         for x in self._points():
-            k = int(np.searchsorted(edges, float(x), side="right")) - 1
+            k = int(np.searchsorted(found.boxes.inf, float(x), side="right")) - 1
             rows.append(({name: _bounds(part[k]) for name, part in
                           (("flight", found.times), ("slope", found.slopes))},))  # fmt: skip
-        return Answer(tuple(rows), BINARY64)
-
-    def _alone(self, system: System) -> Answer:
-        """Ask for that box with exact intervals."""
-        one = image(system, self._box(), digits=15)
-        if isinstance(one, PossibleImages):
-            return _possible(one, 64)
-        return Answer(((_named(one),),), 64)
+        return Answer(tuple(rows), int(found.bits.max()))
 
     def _box(self) -> Range:
         width = (self.high - self.low) / self.boxes

@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from intervals import Interval, Undecided
+from intervals import DomainError, Interval, Undecided
 from proofs.methods.extremes import extremes, piece_range
+from tests.effort import examples
 
 
 def polynomial(coefficients):
@@ -46,7 +47,7 @@ def test_an_interior_extremum_is_found_to_the_tolerance():
     assert found.maximum[0] <= 1 <= found.maximum[1]
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.lists(st.integers(-9, 9), min_size=2, max_size=5), st.integers(0, 40))
 def test_every_value_lies_between_the_outer_bounds(coefficients, k):
     g, dg = polynomial(coefficients)
@@ -69,10 +70,38 @@ def test_piece_range_rejects_contradictions():
         piece_range(one, Interval(5), Interval(0, 1), Fraction(1))
 
 
-def test_a_hopeless_derivative_is_undecided():
-    with pytest.raises(Undecided, match="do not suffice"):
-        extremes(
-            lambda x: Interval(x),
-            lambda a, b: Interval(-(10**9), 10**9),
-            [Fraction(0), Fraction(1)],
-        )
+@pytest.mark.parametrize("most", [1, 7, 100])
+def test_a_hopeless_derivative_gives_wide_bounds_that_hold(most):
+    found = extremes(
+        lambda x: Interval(x),
+        lambda a, b: Interval(-(10**9), 10**9),
+        [Fraction(0), Fraction(1)],
+        most=most,
+    )
+    assert len(found.pieces) == most
+    assert found.points[0] == 0 and found.points[-1] == 1
+    assert list(found.points) == sorted(set(found.points))
+    for low, high, piece in zip(found.points, found.points[1:], found.pieces, strict=False):
+        assert piece.contains(low) and piece.contains(high) and piece.wid > 1
+    assert found.minimum[0] < -1 < 0 <= found.minimum[1]
+    assert found.maximum[0] == 1
+    assert found.maximum[1] > 2
+
+
+def test_more_pieces_are_never_worse():
+    g, dg = polynomial([0, 3, -5, 0, 2])
+    ends = [Fraction(-2), Fraction(2)]
+    widths = []
+    for most in (2, 8, 32, 128):
+        found = extremes(g, dg, ends, Fraction(1, 10**30), most)
+        assert found.minimum[0] <= -6 and found.maximum[1] >= 18  # g(-1) and g(2)
+        widths.append(found.maximum[1] - found.minimum[0])
+    assert widths == sorted(widths, reverse=True) and widths[-1] < widths[0]
+
+
+def test_a_derivative_that_is_never_defined_is_undecided():
+    def nowhere(a, b):
+        raise DomainError("division by an interval that contains 0")
+
+    with pytest.raises(Undecided, match="on one of 8 pieces: division by"):
+        extremes(lambda x: Interval(x), nowhere, [Fraction(0), Fraction(1)], most=8)

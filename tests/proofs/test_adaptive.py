@@ -1,0 +1,163 @@
+"""Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from intervals import Undecided
+from proofs.model.image import Image, image
+from proofs.model.impact import LEAST, Sticks, cover_by_impacts, locate, precision_for
+from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
+from proofs.model.system import System
+from tests.proofs import reference
+
+PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
+DIGITS = 250
+
+
+def fraction(x):
+    sign, mantissa, exponent, _ = x._mpf_
+    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent
+
+
+def number(x):
+    return mpf(x.numerator) / x.denominator
+
+
+def ends(system):
+    """(onset, separation): where sticking begins and ends, to 250 digits, in [0, 2 pi)."""
+    with mp.workdps(DIGITS):
+        leave = mp.findroot(
+            lambda x: reference.launch_acceleration(number(system.eta), number(system.nu), x),
+            reference.separation_phase(number(system.eta), number(system.nu)),
+        )
+        return fraction((mp.pi - leave) % (2 * mp.pi)), fraction(leave % (2 * mp.pi))
+
+
+def short_flight(system, phase, about):
+    """(time, slope) next to the onset of sticking, the root of (10) near 3 `about`."""
+    with mp.workdps(DIGITS):
+        eta, nu, phi = number(system.eta), number(system.nu), number(phase)
+
+        def scaled(t, phi=phi):  # the double zero at 0 taken out
+            return reference.left_side_10(eta, nu, phi, t) / t**2
+
+        guess = 3 * number(about)
+        near = guess * mpf("0.99"), guess
+        time = mp.findroot(scaled, near, verify=False)
+        h = number(about) * mpf(10) ** -40
+        later = mp.findroot(lambda t: scaled(t, phi + h), near, verify=False)
+        assert abs(scaled(time)) < number(about) * mpf(10) ** -100
+        return fraction(time), fraction(1 + (later - time) / h)
+
+
+ONSET, SEPARATION = ends(PAPER)
+
+
+@pytest.mark.parametrize("share", [Fraction(1, 2), Fraction(1, 100), Fraction(1, 10**6)])
+@pytest.mark.parametrize("exponent", [2, 13, 17, 30])
+def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
+    distance = Fraction(1, 10**exponent)
+    low = ONSET - distance
+    found = image(PAPER, (low, low + share * distance), digits=12)
+    assert isinstance(found, Image) and not found.sticking
+    for part in (Fraction(0), Fraction(1, 3), Fraction(1)):
+        time, slope = short_flight(PAPER, low + part * share * distance, distance)
+        assert found.flight[0] <= time <= found.flight[1]
+        assert found.slope[0] <= slope <= found.slope[1]
+    first = short_flight(PAPER, low, distance)[0]
+    last = short_flight(PAPER, low + share * distance, distance)[0]
+    assert found.flight[1] - found.flight[0] <= (first - last) * (1 + Fraction(1, 10**5))
+    assert found.slope[1] - found.slope[0] < max(share / 4, Fraction(1, 50))
+
+
+def test_precision_grows_where_it_must():
+    needed = []
+    for exponent in (1, 6, 12, 24):
+        low = ONSET - Fraction(1, 10**exponent)
+        phases = low, low + Fraction(1, 10 ** (exponent + 3))
+        parts = cover_by_impacts(PAPER, phases)
+        assert parts[0].flight.phases[0] == phases[0]
+        assert parts[-1].flight.phases[1] == phases[1]
+        assert all(part.transversal for part in parts)
+        needed.append(max(part.flight.precision for part in parts))
+    assert needed[0] == LEAST and needed == sorted(needed) and needed[-1] > needed[1] > LEAST
+
+
+def test_usual_intervals_take_the_least_precision():
+    phases = Fraction("1.11"), Fraction("1.15")
+    assert precision_for(PAPER, phases) == LEAST
+    assert {part.flight.precision for part in cover_by_impacts(PAPER, phases)} == {LEAST}
+
+
+def test_width_is_not_answered_with_precision():
+    # a grazing phase in the interval: no precision helps
+    with pytest.raises(Undecided, match="grazing near"):
+        cover_by_impacts(PAPER, (Fraction("1.199"), Fraction("1.2")))
+
+
+@pytest.mark.parametrize("exponent", [3, 25, 40])
+def test_both_sides_of_the_separation_phase(exponent):
+    distance = Fraction(1, 10**exponent)
+    before = image(PAPER, (SEPARATION - distance,) * 2, digits=20)
+    after = image(PAPER, (SEPARATION + distance,) * 2, digits=20)
+    assert before.sticking and not after.sticking
+    rounding = Fraction(1, 10**240)  # of SEPARATION
+    assert before.dwell[0] - rounding <= distance <= before.dwell[1] + rounding
+    assert abs(after.flight[0] - before.flight[0]) < 5 * distance + Fraction(1, 10**18)
+    assert 0 < after.slope[0] < 10 * distance
+
+
+@pytest.mark.parametrize("exponent", [5, 20])
+def test_an_interval_across_the_separation_phase_is_no_onset(exponent):
+    distance = Fraction(1, 10**exponent)
+    found = image(PAPER, (SEPARATION - distance, SEPARATION + distance))
+    assert "stick" in found.reason
+    expected = image(PAPER, (SEPARATION + distance,) * 2, digits=12).flight
+    assert any(t[0] <= expected[0] and expected[1] <= t[1] for t, _ in found.images)
+    with pytest.raises(Undecided, match="the phase at which sticking begins"):
+        image(PAPER, (ONSET - distance, ONSET + distance))
+
+
+def test_sticking_is_no_reason_of_its_own():
+    # what sticks dwells: `image` never lets Sticks through, however near the ends of the arc
+    for exponent in (8, 45, 120):
+        for point in (ONSET + Fraction(1, 10**exponent), SEPARATION - Fraction(1, 10**exponent)):
+            assert image(PAPER, (point, point), digits=10).sticking
+            with pytest.raises(Sticks):
+                locate(PAPER, (point, point))
+
+
+# -- boxes ---------------------------------------------------------------------------------------
+
+
+def test_boxes_that_binary64_does_not_decide_are_asked_alone():
+    # towards the onset the gap drowns in rounding: the last boxes need more
+    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
+    cover = slope_cover(PAPER, phases, 8)
+    kinds = set(cover.bits.tolist())
+    assert kinds == {BINARY64, LEAST}
+    order = cover.bits.tolist()
+    assert order == sorted(order)
+    low, high = cover.boxes.inf, cover.boxes.sup
+    assert (low[1:] <= high[:-1]).all() and (low[1:] >= np.nextafter(high[:-1], 0)).all()
+    for k in range(len(order)):
+        for x in (low[k], (low[k] + high[k]) / 2, high[k]):
+            phase = Fraction(float(x))
+            if not phases[0] <= phase <= phases[1]:
+                continue
+            time, slope = short_flight(PAPER, phase, ONSET - phase)
+            assert cover.times.inf[k] <= time <= cover.times.sup[k]
+            assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
+            assert cover.last[k] < time
+
+
+def test_extremes_where_binary64_decides_nothing():
+    phases = ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)
+    found = slope_extremes(PAPER, phases, 4)
+    assert (found.cover.bits > BINARY64).all()
+    slopes = [short_flight(PAPER, x, Fraction(1, 10**6))[1] for x in phases]
+    assert Fraction(found.minimum[0]) <= min(slopes) and max(slopes) <= Fraction(found.maximum[1])
+    assert np.isfinite([*found.minimum, *found.maximum]).all()
