@@ -297,7 +297,12 @@ def used_steps(steps: Reader, named: set[str]) -> set[str]:
 
 
 def write_atomically(path: Path, content: str) -> None:
-    """Write a file whole or not at all: a temporary file beside it, then a rename."""
+    """Write a file whole or not at all: a temporary file beside it, then a rename.
+
+    Raises OSError where that fails, or would replace what is no regular file, such as a device.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError("not a regular file")
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:

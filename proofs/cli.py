@@ -1,4 +1,4 @@
-"""What the command lines share: exact numbers, one-line errors, colour where it is wanted."""
+"""What the command lines share: exact numbers, one-line errors, files, counts, colour."""
 
 from __future__ import annotations
 
@@ -6,14 +6,19 @@ import argparse
 import os
 import re
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from fractions import Fraction
+from pathlib import Path
 from time import monotonic
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from intervals import fraction
 from proofs.statements import Verdict
+
+if TYPE_CHECKING:
+    from proofs.counting import Counts
 
 USAGE_ERROR = 2
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
@@ -64,6 +69,84 @@ def horizon(text: str) -> Fraction:
             f"a horizon is a positive number up to {_LONGEST_FLIGHT}, not {text!r}"
         )
     return value
+
+
+def check_targets(parser: Parser, *targets: str | None) -> None:
+    """Leave with one line if files cannot be written or two are one, before any work is done.
+
+    targets: names, "-" for the screen, None for no file.
+    """
+    wanted = [target for target in targets if target is not None]
+    if len({_path(target) for target in wanted}) < len(wanted):
+        parser.error(f"two outputs to {wanted[0]} exclude each other")
+    for target in wanted:
+        try:
+            if target != "-":
+                _try(_path(target))
+        except OSError as error:
+            parser.error(_unwritten(target, error))
+
+
+def _try(path: Path) -> None:
+    """Raise OSError if a file cannot be written: make its folder, and a trial beside it."""
+    if path.exists() and not path.is_file():  # a rename would replace a device
+        raise OSError("not a regular file")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    trial = path.with_name(f".{path.name}.{os.getpid()}")
+    trial.touch(exist_ok=False)
+    trial.unlink()
+
+
+def write_target(parser: Parser, target: str | None, content: Callable[[], str]) -> None:
+    """Write what `content` returns to the file or the screen; leave with one line on failure."""
+    if target == "-":
+        print(content(), end="")
+    elif target is not None:
+        from proofs.certificate import write_atomically
+
+        try:
+            write_atomically(_path(target), content())
+        except OSError as error:
+            parser.error(_unwritten(target, error))
+
+
+def _unwritten(target: str, error: OSError) -> str:
+    return f"cannot write {target!r}: {error.strerror or error}"
+
+
+def _path(target: str) -> Path:
+    """Return the file itself: what a link leads to is replaced, not the link."""
+    return Path(os.path.realpath(target))
+
+
+def add_stats(parser: argparse.ArgumentParser) -> None:
+    """Add the option to count what is evaluated."""
+    help_text = "count what is evaluated (takes three times as long)"
+    parser.add_argument("--stats", action="store_true", help=help_text)
+
+
+def counting(wanted: bool) -> AbstractContextManager[Counts]:
+    """Return what counts evaluations inside a `with` if that is wanted, else what does nothing."""
+    if not wanted:
+        return nullcontext(Counter())
+    from proofs.counting import counted
+
+    return counted()
+
+
+@contextmanager
+def stats(wanted: bool, asked: str, quiet: bool) -> Iterator[None]:
+    """Print what was evaluated inside the `with`, if that is wanted and an answer is given.
+
+    asked: in words. quiet: standard output is for machines. An exception, SystemExit for bad
+    input as well, goes through, and nothing is printed.
+    """
+    with counting(wanted) as counts:
+        yield
+    if wanted:
+        from proofs.counting import show
+
+        show(counts, [asked], quiet)
 
 
 @contextmanager

@@ -8,7 +8,9 @@ nothing is counted. Only the present thread is watched.
 What is counted: evaluations of the equations, an array's or a jet's once for each of its boxes, by
 the numbers they are made on: floats (candidates), intervals and arrays (proofs), the checker's.
 f' evaluates gap' and gap'', which are counted as well; a jet's evaluation counts as one of a
-derivative. A number is a result of interval arithmetic, of one operation and one box.
+derivative. Other formulas: those given as text, position and velocity of the mass (15), those of
+orbits with one impact (16) to (18); one for each component. A number is a result of interval
+arithmetic, of one operation and one box.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from typing import Any, NamedTuple
 
 GAP, RATES, SLOPE, SECOND, MATRIX = "gap", "gap', gap'', along jets", "f'", "f''", "DF"
 GRID = "gap and gap'', phases x times"
+FORMULAS = "other formulas"
 PARTS, BISECTIONS, CELLS = "parts of covers", "bisections", "cells of partitions"
 ALGEBRA = "questions to sympy"
 MADE, CHECKED, WORK = "proof steps written", "proof steps checked", "work charged"
@@ -30,7 +33,7 @@ FLOATS, INTERVALS, ARRAYS, CHECKER = COLUMNS = ("floats", "intervals", "arrays",
 _PRECISIONS = (64, 128, 256, 512, 1024)
 NUMBERS = (*(f"numbers, to {bits} bits" for bits in _PRECISIONS), "numbers, more bits")
 EQUATIONS = (GAP, RATES, SLOPE, SECOND, MATRIX, GRID)
-ROWS = (*EQUATIONS, PARTS, BISECTIONS, CELLS, *NUMBERS, ALGEBRA, MADE, CHECKED, WORK)
+ROWS = (*EQUATIONS, FORMULAS, PARTS, BISECTIONS, CELLS, *NUMBERS, ALGEBRA, MADE, CHECKED, WORK)
 _JETS = ("Jet", "Dual", "Series")
 
 
@@ -140,6 +143,14 @@ def _matrix(counts: Counts, frame: FrameType, value: Any) -> None:
         counts[Kind(MATRIX, column)] += 1
 
 
+def _formula(counts: Counts, frame: FrameType, value: Any) -> None:
+    """Count each component of what a formula gives, a number where it has one."""
+    for each in value if type(value) in (list, tuple) else (value,):
+        column = _column(each)
+        if column is not None:
+            counts[Kind(FORMULAS, column)] += _size(each)
+
+
 def _number(by: str, bits: str) -> _Rule:
     """Count a number by its precision, a local variable."""
     kinds = [Kind(what, by) for what in NUMBERS]
@@ -172,6 +183,23 @@ def _examined(counts: Counts, frame: FrameType, value: Any) -> None:
     counts[Kind(PARTS if value is None else BISECTIONS)] += 1
 
 
+def _steps(name: str, each: int) -> _Rule:
+    """Count bisections: `each` for every step of a loop whose length is a local variable."""
+
+    def rule(counts: Counts, frame: FrameType, value: Any) -> None:
+        counts[Kind(BISECTIONS)] += 0 if value is None else each * frame.f_locals[name]
+
+    return rule
+
+
+def _pieces(counts: Counts, frame: FrameType, value: Any) -> None:
+    """Count the pieces of a range, and the bisections that made them of those given."""
+    if value is not None:
+        found, given = len(value.pieces), len(frame.f_locals["points"]) - 1
+        counts[Kind(PARTS)] += found
+        counts[Kind(BISECTIONS)] += found - given
+
+
 def _split(counts: Counts, frame: FrameType, value: Any) -> None:
     counts[Kind(BISECTIONS)] += 0 if value is None else int(value[1].sum())
 
@@ -195,10 +223,17 @@ _RULES = {
     "proofs.model.equations.gap": _evaluation(GAP, RATES),
     "proofs.model.equations.slope": _evaluation(SLOPE, SECOND),
     "proofs.model.equations.return_map_derivative": _matrix,
+    "proofs.model.equations.arrival": _formula,
+    "proofs.claims.single_facts.defect": _formula,
+    "proofs.claims.single_facts.multiplier": _formula,
+    "proofs.claims.single_facts.excess": _formula,
+    "proofs.claims.single_facts.distance": _formula,
+    "proofs.check.formula.Tape.evaluate": _formula,
     "intervals.bilinear.bilinear": _grid,
     "intervals.cover.cover": _one(PARTS),
     "proofs.model.impact.halves": _one(BISECTIONS),
-    "proofs.methods.extremes.extremes.<locals>.split": _one(BISECTIONS),
+    "proofs.model.impact.bisected": _steps("steps", 2),
+    "proofs.methods.extremes.extremes": _pieces,
     "proofs.methods.formulas.subdivide.<locals>.divide": _examined,
     "intervals.branch.split": _split,
     "proofs.model.landing.prove_cells": _cells,

@@ -12,7 +12,7 @@ from time import perf_counter
 from intervals import Undecided
 from proofs import groups, plastic, runner
 from proofs.certificate import render, write_atomically
-from proofs.cli import Parser, horizon, progress
+from proofs.cli import Parser, counting, horizon, progress
 from proofs.facts import Parameters
 from proofs.groups import Made, Tell
 from proofs.model.impact import HORIZON
@@ -75,7 +75,7 @@ def main(arguments: list[str] | None = None) -> int:
     of = runner.prepared(parser, options)
     began = perf_counter()
     asked = tuple(options.only or CLAIMS)
-    with runner.counting(options.stats) as counts, progress() as tell:
+    with counting(options.stats) as counts, progress() as tell:
         made = produce(of, asked, digits=options.digits, longest=options.horizon, tell=tell)
     seconds = perf_counter() - began
     try:

@@ -15,12 +15,19 @@ import json
 import sys
 from argparse import Namespace
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 from intervals import IntervalError, Undecided, decimal_bounds
-from proofs.certificate import write_atomically
-from proofs.cli import Parser, digits, horizon, number
+from proofs.cli import (
+    Parser,
+    add_stats,
+    check_targets,
+    digits,
+    horizon,
+    number,
+    stats,
+    write_target,
+)
 from proofs.facts import TURN, Range, show
 from proofs.model.image import Image, PossibleImages, image
 from proofs.model.impact import HORIZON, NoImpact
@@ -56,8 +63,17 @@ def main(arguments: list[str] | None = None) -> int:
         _check_restitution(options)
     except ValueError as error:
         parser.error(str(error))
+    check_targets(parser, options.json)
+    what = "phase velocity DF" if options.gamma else "phase slope"
+    asked = f"flight {what}, {options.digits} digits"
+    with stats(options.stats, asked, quiet=options.json == "-"):
+        return _answer(parser, system, phases, options)
+
+
+def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -> int:
+    """Print or write the image; return the exit status."""
     try:
-        found = _answer(system, phases, options)
+        found = _image(system, phases, options)
     except (NoImpact, Impossible) as failure:
         parser.error(str(failure))
     except (Undecided, IntervalError) as failure:
@@ -67,15 +83,9 @@ def main(arguments: list[str] | None = None) -> int:
     if options.gamma:
         answer |= {"epsilon": show(options.epsilon), "gamma": [show(x) for x in options.gamma]}
     answer |= machine_form(found, options.digits)
-    if options.json == "-":
-        print(json.dumps(answer, indent=1))
-    else:
+    write_target(parser, options.json, lambda: json.dumps(answer, indent=1) + "\n")
+    if options.json != "-":
         print(_text(answer))
-    if options.json not in (None, "-"):
-        try:
-            write_atomically(Path(options.json), json.dumps(answer, indent=1) + "\n")
-        except OSError as error:
-            parser.error(f"cannot write {options.json}: {error.strerror or error}")
     return int(isinstance(found, PossibleImages))
 
 
@@ -90,10 +100,11 @@ def _parser() -> Parser:
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
     add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
+    add_stats(parser)
     return parser
 
 
-def _answer(system: System, phases: Range, options: Namespace) -> Image | PossibleImages | Rebound:
+def _image(system: System, phases: Range, options: Namespace) -> Image | PossibleImages | Rebound:
     """Ask the plastic map, or F if a velocity is given."""
     if not options.gamma:
         return image(system, phases, digits=options.digits, horizon=options.horizon)

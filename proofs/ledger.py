@@ -24,7 +24,7 @@ from proofs import groups, horseshoe, runner
 from proofs.certificate import Malformed, read, render, write_atomically
 from proofs.check.verify import Rejected, Report, check
 from proofs.claims import GROUPS
-from proofs.cli import Parser, coloured, progress
+from proofs.cli import Parser, coloured, counting, progress
 from proofs.counting import Counts, show
 from proofs.facts import PAPER
 from proofs.statements import STATEMENTS, Verdict
@@ -125,7 +125,7 @@ def settle(job: Job) -> Settled:
 
 def settle_counting(job: Job) -> Settled:
     """Do `settle`, and count what it evaluates, if that is wanted."""
-    with runner.counting(job.stats) as counts:
+    with counting(job.stats) as counts:
         return replace(settle(job), counts=counts)
 
 

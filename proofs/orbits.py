@@ -16,16 +16,22 @@ import io
 import json
 import sys
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from intervals import Interval, IntervalError, Undecided, decimal_bounds
-from proofs.certificate import write_atomically
-from proofs.cli import Parser, digits, number, progress
+from proofs.cli import (
+    Parser,
+    add_stats,
+    check_targets,
+    digits,
+    number,
+    progress,
+    stats,
+    write_target,
+)
 from proofs.facts import PAPER, Parameters, show, show_range
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.words import Words
@@ -102,10 +108,17 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         of = _parameters(options)
-        if "-" in (options.csv, options.json) and options.csv == options.json:
-            raise ValueError("--csv - and --json - exclude each other")
     except ValueError as error:
         parser.error(str(error))
+    check_targets(parser, options.csv, options.json)
+    asked = f"word {options.word}" if options.word else f"period {options.period}"
+    asked += ", binary64" if options.fast else f", {options.digits} digits"
+    with stats(options.stats, asked, quiet="-" in (options.csv, options.json)):
+        return _answer(parser, of, options)
+
+
+def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
+    """Print or write the periodic points; return the exit status."""
     words = Words.rotations(options.word) if options.word else Words.of_length(options.period)
     places = None if options.fast else options.digits
     began = perf_counter()
@@ -119,8 +132,8 @@ def main(arguments: list[str] | None = None) -> int:
     seconds = perf_counter() - began
     shown = options.digits if places else min(options.digits, _FAST_DIGITS)
     rows = [_row(point, shown) for point in found]
-    _write(parser, options.csv, lambda: _csv(rows))
-    _write(parser, options.json, lambda: _json(of, rows, places))
+    write_target(parser, options.csv, lambda: _csv(rows))
+    write_target(parser, options.json, lambda: _json(of, rows, places))
     if "-" not in (options.csv, options.json):
         _print(of, rows, len(words.cycles), seconds)
     return 0
@@ -144,6 +157,7 @@ def _parser() -> Parser:
         add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
     add("--csv", metavar="FILE", help="write all rows to a file, or - for the screen")
     add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
+    add_stats(parser)
     return parser
 
 
@@ -210,16 +224,6 @@ def _csv(rows: list[dict[str, Any]]) -> str:
         bounds = (row[name][end] for name in names for end in _ENDS)
         table.writerow([row["word"], row["period"], *bounds])
     return target.getvalue()
-
-
-def _write(parser: Parser, target: str | None, content: Callable[[], str]) -> None:
-    if target == "-":
-        print(content(), end="")
-    elif target is not None:
-        try:
-            write_atomically(Path(target), content())
-        except OSError as error:
-            parser.error(f"cannot write {target}: {error.strerror or error}")
 
 
 def _print(of: Parameters, rows: list[dict[str, Any]], orbits: int, seconds: float) -> None:

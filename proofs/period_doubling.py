@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import json
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentTypeError, Namespace
 from fractions import Fraction
 from typing import Any
 
 from intervals import Interval, atan, decimal_bounds
 from proofs.claims import section5 as eq
-from proofs.cli import Parser, digits, number
+from proofs.cli import Parser, add_stats, digits, number, stats
 from proofs.derivations import SPARE_BITS, enclose
 from proofs.facts import Range, show
 
@@ -69,14 +69,22 @@ def main(arguments: list[str] | None = None) -> int:
     add("--epsilon", type=_epsilon, default=Fraction(0), help="of restitution, in [0, 1)")
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--json", choices=["-"], help="print the machine form on standard output")
+    add_stats(parser)
     options = parser.parse_args(arguments)
+    asked = f"m = {options.m}, epsilon = {show(options.epsilon)}, {options.digits} digits"
+    with stats(options.stats, asked, quiet=bool(options.json)):
+        _answer(options)
+    return 0
+
+
+def _answer(options: Namespace) -> None:
+    """Print the values asked for."""
     found = values(options.m, options.epsilon, options.digits)
     answer: dict[str, Any] = {"m": str(options.m), "epsilon": show(options.epsilon)}
     for name, ends in found.items():
         lower, upper = decimal_bounds(*ends, options.digits)
         answer[name] = {"lower": lower, "upper": upper}
     print(json.dumps(answer, indent=1) if options.json else _text(answer))
-    return 0
 
 
 def _periods(text: str) -> int:

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import json
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
 from intervals import Undecided, decimal_bounds
 from proofs.claims.resonance import DERIVATIONS
-from proofs.cli import Parser, digits, number
+from proofs.cli import Parser, add_stats, digits, number, stats
 from proofs.derivations import prove_derivations
 from proofs.facts import TURN, Parameters, Range, show
 from proofs.groups import Evidence
@@ -71,12 +72,20 @@ def next_impact(arguments: list[str]) -> int:
     add("--gamma", type=number, required=True, help="velocity of the mass before it")
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--json", choices=["-"], help="print the machine form on standard output")
+    add_stats(parser)
     options = parser.parse_args(arguments)
+    if not 0 <= options.phi <= TURN:
+        parser.error(f"phase outside the circle [0, 2 pi): {show(options.phi)}")
+    asked = f"the next impact and the limit phase, {options.digits} digits"
+    with stats(options.stats, asked, quiet=bool(options.json)):
+        return _answer(parser, options)
+
+
+def _answer(parser: Parser, options: Namespace) -> int:
+    """Print the next impact of the state given; return the exit status."""
     state: dict[str, Fraction] = {
         name: getattr(options, name) for name in ("nu", "epsilon", "phi", "gamma")
     }
-    if not 0 <= state["phi"] <= TURN:
-        parser.error(f"phase outside the circle [0, 2 pi): {show(state['phi'])}")
     try:
         found = motion(**state, digits=options.digits)
     except ValueError as error:

@@ -10,7 +10,6 @@ import sys
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -27,7 +26,7 @@ from proofs.certificate import (
     write_atomically,
 )
 from proofs.check.verify import Rejected, check
-from proofs.cli import Parser, coloured, digits, number, progress
+from proofs.cli import Parser, add_stats, coloured, counting, digits, number, progress
 from proofs.facts import PAPER, Parameters, show
 from proofs.groups import Made, Row, printed, produce
 from proofs.statements import Verdict
@@ -120,7 +119,7 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")
-    add("--stats", action="store_true", help="count what is evaluated (takes three times as long)")
+    add_stats(parser)
 
 
 def add_figure(parser: Parser, name: str) -> None:
@@ -198,15 +197,6 @@ def write(folder: Path, name: str, certificate: str, page: str, made: str) -> No
     write_atomically(folder / f"{name}.json", certificate)
     write_atomically(folder / f"{name}.md", page)
     manifest.record(folder, f"{name}.json", certificate, made)
-
-
-def counting(wanted: bool) -> AbstractContextManager[Counts]:
-    """Return what counts evaluations inside a `with` if that is wanted, else what does nothing."""
-    if not wanted:
-        return nullcontext(Counter())
-    from proofs.counting import counted
-
-    return counted()
 
 
 def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:

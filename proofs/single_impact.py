@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import json
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterable
 from typing import Any
 
 from intervals import DomainError, Undecided, decimal_bounds
-from proofs.cli import Parser, digits, number
+from proofs.cli import Parser, add_stats, digits, number, stats
 from proofs.facts import Range, show
 from proofs.model.single_orbits import SingleImpact, last_period, solutions
 from proofs.model.system import System
@@ -45,11 +45,19 @@ def main(arguments: list[str] | None = None) -> int:
     add("--most", type=_periods, default=100, help="largest N without --n (default 100)")
     add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--json", choices=["-"], help="print the machine form on standard output")
+    add_stats(parser)
     options = parser.parse_args(arguments)
     try:
         system = System(options.eta, options.nu)
     except ValueError as error:
         parser.error(str(error))
+    asked = "all n" if options.n is None else f"n = {options.n}"
+    with stats(options.stats, f"{asked}, {options.digits} digits", quiet=bool(options.json)):
+        return _answer(system, options)
+
+
+def _answer(system: System, options: Namespace) -> int:
+    """Print the solutions asked for; return the exit status."""
     last = last_period(system)
     most = options.most if last is None else min(last, options.most)
     periods = range(1, most + 1) if options.n is None else (options.n,)

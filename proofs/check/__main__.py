@@ -36,17 +36,36 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
+    parser.add_argument("--stats", action="store_true", help="count what is evaluated")
     options = parser.parse_args(arguments)
     if options.rules:
         print_rules()
     elif not options.files:
         parser.error("no file to check")
+    if options.stats:
+        return max((check_counting(path) for path in options.files), default=0)
     return max((check_file(path) for path in options.files), default=0)
+
+
+def check_counting(path: Path) -> int:
+    """Check one file, and print what that evaluates; return its exit status."""
+    from proofs.counting import counted, show
+
+    with counted() as counts:
+        status = check_file(path)
+    if status < 2:
+        show(counts, [printable(path)], quiet=False)
+    return status
+
+
+def printable(path: Path) -> str:
+    """Return the name of a file as a terminal may show it."""
+    return str(path) if str(path).isprintable() else ascii(str(path))
 
 
 def check_file(path: Path) -> int:
     """Check one file, print a line a claim; return its exit status."""
-    name = str(path) if str(path).isprintable() else ascii(str(path))
+    name = printable(path)
     try:
         source = read(path)
         schema = schema_of(source)

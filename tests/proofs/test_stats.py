@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from intervals import Interval, IntervalArray, Jet
-from proofs import counting, groups, horseshoe, ledger, runner
+from proofs import cli, counting, groups, horseshoe, ledger, runner
 from proofs.check.arithmetic import Dual, rational
 from proofs.check.verify import Rejected, check
 from proofs.claims.foundations import DERIVATIONS as BASIC
@@ -164,7 +164,7 @@ def test_counting_changes_nothing_and_ends():
 
 
 def test_nothing_is_watched_unless_that_is_wanted():
-    with runner.counting(False) as counts:
+    with cli.counting(False) as counts:
         assert sys.getprofile() is None
         gap(launch(-1, 0.2, -0.2, 1.0), clock(0.2, 1.0))
     assert not counts

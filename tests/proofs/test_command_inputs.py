@@ -1,0 +1,181 @@
+"""Bad input to the commands that answer a question: one line, status 2, nothing written."""
+
+import os
+from time import perf_counter
+
+import pytest
+
+from proofs import impact, orbits, period_doubling, resonance, single_impact
+
+AT = ["--eta", "0.2121", "--nu", "-0.2"]
+POINT = [*AT, "--phi", "1.11"]
+KICKED = {"--epsilon": "0.01", "--gamma": "-0.3"}
+BASES = {
+    impact: {"--eta": "0.2121", "--nu": "-0.2", "--phi": "1.11", **KICKED},
+    orbits: {"--word": "01", "--eta": "0.2121", "--nu": "-0.2"},
+    period_doubling: {"--m": "1", "--epsilon": "0.1"},
+    single_impact: {"--eta": "0.2121", "--nu": "-0.2", "--n": "4"},
+    resonance: {"--nu": "-0.2", "--epsilon": "0.5", "--phi": "1", "--gamma": "-0.3"},
+}
+NO_NUMBERS = ["x", "", "nan", "inf", "-inf", "1/0", "0x10", "1e400", "1e-400", "-1e400"]
+NO_NUMBERS += ["1e999999999", "1e-999999999", "9" * 250, "1/" + "9" * 250, "--bogus"]
+OUTSIDE = {
+    "--eta": ["0", "-1", "-1e-9"],
+    "--nu": ["0"],
+    "--phi": ["-1e-9", "7", "1e180"],
+    "--epsilon": ["-1e-9", "1.000001", "1e180", "-1/3"],
+    "--gamma": ["1e180"],  # from inside the table, for all of them
+    "--m": ["0", "-1", "1.5", "1e10"],
+    "--n": ["0", "-1", "1.5", "1e7"],
+    "--word": ["2", "0" * 257, "O1"],
+}
+NO_DIGITS = ["0", "-3", "1000000000", "1001", "1.5", "nan", "1e3", "x", "", "\u0663", "9" * 5000]
+FILES = [(impact, "--json"), (orbits, "--json"), (orbits, "--csv")]
+
+
+def flat(options):
+    return [part for pair in options.items() for part in pair]
+
+
+def refused(capsys, command, arguments):
+    """The one line that a command leaves with, at once."""
+    capsys.readouterr()
+    began = perf_counter()
+    with pytest.raises(SystemExit) as leave:
+        command.main(arguments)
+    said = capsys.readouterr()
+    assert leave.value.code == 2 and said.out == ""
+    assert said.err.count("\n") == 1 and said.err.endswith("\n")
+    assert said.err.startswith(f"python -m {command.__name__}: ") and "Traceback" not in said.err
+    assert perf_counter() - began < 5
+    return said.err
+
+
+def wrong_options():
+    """(command, arguments)"""
+    for command, base in BASES.items():
+        for option in base:
+            wrong = NO_NUMBERS if option != "--word" else ["", "--bogus"]
+            if (command, option) == (period_doubling, "--epsilon"):
+                wrong = [*wrong, "1"]
+            for text in [*wrong, *OUTSIDE.get(option, [])]:
+                yield pytest.param(
+                    command, flat(base | {option: text}), id=f"{command.__name__}{option}={text:.9}"
+                )
+
+
+@pytest.mark.parametrize("command, arguments", [*wrong_options()])
+def test_a_wrong_number_is_refused(command, arguments, capsys):
+    refused(capsys, command, arguments)
+
+
+@pytest.mark.parametrize("text", NO_DIGITS, ids=[text[:10] for text in NO_DIGITS])
+@pytest.mark.parametrize("command", BASES)
+def test_digits_are_a_whole_number_up_to_1000(command, text, capsys):
+    assert "digits" in refused(capsys, command, [*flat(BASES[command]), "--digits", text])
+
+
+@pytest.mark.parametrize("command", BASES)
+def test_nothing_may_be_missing_or_too_much(command, capsys):
+    base = BASES[command]
+    for option in base:
+        refused(capsys, command, [*flat({k: v for k, v in base.items() if k != option}), option])
+    for more in (["stray"], ["--bogus"], ["--digits"], ["--json"], ["--stats=3"]):
+        refused(capsys, command, [*flat(base), *more])
+    if command is not period_doubling:  # all its options have defaults
+        needed = [option for option in base if (command, option) not in OPTIONAL]
+        for option in needed:
+            refused(capsys, command, flat({k: v for k, v in base.items() if k != option}))
+
+
+OPTIONAL = {(orbits, "--eta"), (orbits, "--nu"), (single_impact, "--n")}
+
+
+@pytest.mark.parametrize("option", ["--phi", "--gamma"])
+def test_an_interval_in_the_wrong_order_or_of_three_numbers(option, capsys):
+    base = {key: value for key, value in BASES[impact].items() if key != option}
+    assert "reversed" in refused(capsys, impact, [*flat(base), option, "1.2", "1.1"])
+    assert "not 3" in refused(capsys, impact, [*flat(base), option, "1", "1.1", "1.2"])
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "1000001", "1e400", "nan", ""])
+def test_a_horizon_is_positive_and_not_too_far(text, capsys):
+    assert "--horizon" in refused(capsys, impact, [*POINT, "--horizon", text])
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ["--left", "1.15", "1.1"],
+        ["--right", "1.32", "1.27"],
+        ["--left", "1.27", "1.32", "--right", "1.1", "1.15"],
+        ["--left", "1.1", "1.3"],
+        ["--left", "-1", "1.15"],
+        ["--right", "1.27", "7"],
+        ["--left", "1.1"],
+        ["--period", "3"],
+    ],
+    ids=" ".join,
+)
+def test_sets_that_make_no_horseshoe(more, capsys):
+    refused(capsys, orbits, ["--word", "01", *more])
+
+
+# -- files -----------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def no_work(monkeypatch):
+    """Make the work itself fail: a target is refused before it."""
+
+    def refuse(*arguments, **options):
+        raise AssertionError("worked")
+
+    monkeypatch.setattr(impact, "image", refuse)
+    monkeypatch.setattr(orbits, "horseshoe", refuse)
+
+
+@pytest.mark.parametrize("command, option", FILES)
+def test_a_file_that_cannot_be_written_is_refused_before_the_work(
+    command, option, tmp_path, capsys, no_work
+):
+    base = POINT if command is impact else ["--word", "01"]
+    (tmp_path / "file").write_text("mine")
+    os.mkfifo(tmp_path / "fifo")
+    (tmp_path / "link").symlink_to(tmp_path / "fifo")
+    for name in ("", "fifo", "link", ".", "file/below", "x" * 300):
+        target = str(tmp_path / name) if name else ""
+        assert "cannot write" in refused(capsys, command, [*base, option, target])
+    assert (tmp_path / "file").read_text() == "mine" and (tmp_path / "fifo").is_fifo()
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["fifo", "file", "link"]
+    with pytest.raises(AssertionError, match="worked"):
+        command.main([*base, option, str(tmp_path / "file")])
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.parametrize("command, option", FILES)
+def test_where_writing_fails_in_the_end_nothing_is_printed(
+    command, option, tmp_path, capsys, monkeypatch
+):
+    def full(path, content):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("proofs.certificate.write_atomically", full)
+    base = POINT if command is impact else ["--word", "01", "--fast"]
+    said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
+    assert "No space left" in said and [*tmp_path.iterdir()] == []
+
+
+def test_a_link_is_followed_and_stays(tmp_path):
+    (tmp_path / "file").write_text("old")
+    (tmp_path / "link").symlink_to(tmp_path / "file")
+    assert impact.main([*POINT, "--json", str(tmp_path / "link")]) == 0
+    assert (tmp_path / "link").is_symlink() and '"flight"' in (tmp_path / "file").read_text()
+
+
+def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for csv, other in (("-", "-"), ("a", "a"), ("a", "./a"), ("a", str(tmp_path / "a"))):
+        said = refused(capsys, orbits, ["--word", "01", "--csv", csv, "--json", other])
+        assert "exclude each other" in said
+    assert [*tmp_path.iterdir()] == []
