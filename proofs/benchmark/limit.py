@@ -8,21 +8,28 @@ ones inside it is theirs. Imports are attributed to the package that asked for t
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
 
-from proofs.benchmark.horseshoe import process
+from proofs.benchmark.horseshoe import (
+    BARE,
+    JOB,
+    PLASTIC,
+    TARGET,
+    bytecode,
+    process,
+    processes,
+    ratio_row,
+)
 from proofs.benchmark.measuring import Effort, Row, spread
-from proofs.statements import STATEMENTS
+from proofs.benchmark.peers import has_flint
 
-_TARGET = 2.5  # times as long as the bare imports of numpy and mpmath
+_SCRIPT = ("-m", "proofs.benchmark.flint_job")
 _LATE = "imports, late"
 _WATCHING = "watching, no part of the job"
 _STAGES = {
@@ -52,7 +59,7 @@ _STAGES = {
 _EARLY, _REST = "imports, at the start", "arguments, screen, the rest"
 _OUTSIDE = "interpreter: start and end"
 _PACKAGES = ("proofs", "intervals", "mpmath", "gmpy2", "numpy", "sympy")
-# Arguments: where to write the seconds of each stage and what was never loaded, the stage of late
+# Arguments: where to add the seconds of each stage and what was never loaded, the stage of late
 # imports, the stages as JSON, those of the job.
 _DRIVER = """
 from time import perf_counter
@@ -122,8 +129,8 @@ seconds["watching, no part of the job"] = perf_counter() - stack[-1][1]
 stack[-1][1] = perf_counter()
 status = proofs.horseshoe.main(arguments)
 charge()
-with open(target, "w") as file:
-    json.dump([seconds, [name for _, name in pending]], file)
+with open(target, "a") as file:
+    print(json.dumps([seconds, [name for _, name in pending]]), file=file)
 sys.exit(status)
 """
 
@@ -133,67 +140,53 @@ def measure(effort: Effort) -> list[Row]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         rows = [_first_run(folder / "first")]
-        with _bytecode(folder / "cache"):
-            plastic = ["--only", *STATEMENTS, "--out", str(folder)]
-            rows += _account("plastic claims", plastic, folder, effort)
-            rows += _account("main job", ["--out", str(folder)], folder, effort)
-            rows += _imports()
+        rows += _account("plastic claims", [*PLASTIC, "--out", name], folder, effort)
+        rows += _account("main job", ["--out", name], folder, effort)
+        rows += _imports(folder)
     return rows
-
-
-@contextmanager
-def _bytecode(folder: Path) -> Iterator[None]:
-    """Have processes write and find compiled bytecode in a folder meanwhile."""
-    before = dict(os.environ)
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    os.environ["PYTHONPYCACHEPREFIX"] = str(folder)
-    try:
-        yield
-    finally:
-        os.environ.clear()
-        os.environ.update(before)
 
 
 def _first_run(folder: Path) -> Row:
     """Measure the default job once, where no bytecode is."""
-    with _bytecode(folder):
-        seconds, status, _ = process(["-m", "proofs.horseshoe", "--out", str(folder)])
+    with bytecode(folder):
+        seconds, status, _ = process([*JOB, "--out", str(folder)])
     text = f"{seconds:.3g}, exit status {status}"
     return Row("first run, everything compiled [s]", text, samples={"seconds": seconds})
 
 
 def _account(name: str, job: Sequence[str], folder: Path, effort: Effort) -> list[Row]:
-    """Measure a job as it is, the bare imports, and its stages, in turn."""
-    target, stages = folder / "stages.json", json.dumps(_STAGES)
-    whole, bare, watched, parts = [], [], [], []
-    for _ in range(effort.process_pairs + 1):
-        whole.append(process(["-m", "proofs.horseshoe", *job]))
-        bare.append(process(["-c", "import numpy, mpmath"]))
-        target.unlink(missing_ok=True)
-        watched.append(process(["-c", _DRIVER, str(target), _LATE, stages, *job]))
-        if target.exists():
-            parts.append(json.loads(target.read_text())[0])
-    failed = {status for _, status, _ in (*whole, *bare, *watched)} - {0, 1}
-    if failed or len(parts) < len(watched):
-        status = max(failed, default=1)
-        return [Row(name, f"failed: exit status {status}", "exit status 0", False)]
-    del whole[0], bare[0], watched[0], parts[0]
-    for (seconds, _, _), part in zip(watched, parts, strict=True):
+    """Measure a job as it is, the bare imports, its stages and the script in flint, in turn."""
+    target = folder / "stages.json"
+    target.unlink(missing_ok=True)
+    watched = ["-c", _DRIVER, str(target), _LATE, json.dumps(_STAGES), *job]
+    asked = name == "plastic claims"
+    commands = [[*JOB, *job], BARE, watched, *([_SCRIPT] if asked and has_flint() else [])]
+    runs = processes(commands, folder / "cache", effort.process_pairs)
+    failed = {status for column in runs for _, status, _ in column} - {0, 1}
+    if failed:
+        return [Row(name, f"failed: exit status {max(failed)}", "exit status 0", False)]
+    parts = [json.loads(line)[0] for line in target.read_text().splitlines()[1:]]
+    total, bare, stages, *script = ([one[0] for one in column] for column in runs)
+    for seconds, part in zip(stages, parts, strict=True):
         part[_OUTSIDE] = seconds - sum(part.values())
         del part[_WATCHING]
-    total = [one[0] for one in whole]
-    ratios = [own / other[0] for own, other in zip(total, bare, strict=True)]
-    asked = name == "plastic claims"
     return [
         Row(f"{name}, whole process [s]", spread(total), samples={"seconds": total}),
-        Row(
-            f"{name} / import numpy, mpmath (pairs)",
-            spread(ratios),
-            f"<= {_TARGET}" if asked else "",
-            median(ratios) <= _TARGET if asked else None,
-            {"ratios": ratios, "bare": [one[0] for one in bare]},
-        ),
+        ratio_row(f"{name} / import numpy, mpmath", total, bare, TARGET if asked else None),
+        *(_beside_script(name, total, script) if asked else []),
         *_stages(name, parts),
+    ]
+
+
+def _beside_script(name: str, ours: list[float], script: list[list[float]]) -> list[Row]:
+    """Return the rows of the script that decides the same claims, and no more, in python-flint."""
+    title = f"{name} / the same by a script in python-flint"
+    if not script:
+        return [Row(title, "python-flint is absent", "<= 1")]
+    (theirs,) = script
+    return [
+        Row("script in python-flint, whole process [s]", spread(theirs)),
+        ratio_row(title, ours, theirs, 1),
     ]
 
 
@@ -214,10 +207,13 @@ def _stages(name: str, parts: Sequence[dict[str, float]]) -> list[Row]:
 # -- imports ---------------------------------------------------------------------------------------
 
 
-def _imports() -> list[Row]:
+def _imports(folder: Path) -> list[Row]:
     """Attribute the imports of the main job: each module to the package that asked for it."""
     command = [sys.executable, "-X", "importtime", "-c", "import proofs.horseshoe"]
-    runs = [subprocess.run(command, capture_output=True, text=True, check=True) for _ in range(2)]
+    with bytecode(folder / "cache"):
+        runs = [
+            subprocess.run(command, capture_output=True, text=True, check=True) for _ in range(2)
+        ]
     found = attributed(runs[-1].stderr)
     total = sum(found.values())
     return [

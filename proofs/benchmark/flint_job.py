@@ -1,0 +1,221 @@
+"""The claims of the main job in python-flint, the plain way: a script for the job to compete with.
+
+    python -m proofs.benchmark.flint_job
+
+It decides H1-H6, H11 and H16 at the printed numbers with balls of 53 bits and the rule "subdivide
+until it is decided": phases are halved, steps in time too. Earlier impacts are excluded by a march,
+the gap's range over a ball of phases and each ball of times; a crossing with gap' < 0 is narrowed
+by interval Newton; f' is bounded over each ball of phases. The equations are transcribed here
+again, from (10) and (14), and f' is by implicit differentiation. It prints a verdict a claim.
+
+It leaves out what the main job does besides: enclosures of the extremes of f', the repair of what
+is refuted, a certificate, an independent check. It is no evidence for a claim.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from flint import arb
+
+Phases = tuple[Fraction, Fraction]
+Ball = Any  # flint.arb, which has no types
+
+ETA, NU = arb(2121) / 10000, arb(-1) / 5
+LEFT, RIGHT = (Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32"))
+WHOLE, GAP = (LEFT[0], RIGHT[1]), (LEFT[1], RIGHT[0])
+SLOPES = Fraction("4.2"), Fraction("5.25")
+RATIOS = Fraction("0.1905"), Fraction("0.2381")
+ROOT = Fraction("0.449")
+TURN = 2 * arb.pi()
+HORIZON, THIN, MOST_BALLS = 1000.0, 2.0**-10, 10_000
+
+
+def exact(x: Fraction) -> Ball:
+    """Return a ball that contains a rational."""
+    return arb(x.numerator) / x.denominator
+
+
+def ball(low: Fraction, high: Fraction) -> Ball:
+    """Return a ball that contains an interval."""
+    return exact(low).union(exact(high))
+
+
+def during(low: float, high: float) -> Ball:
+    """Return a ball that contains the times between two."""
+    return arb(low).union(arb(high))
+
+
+class Flight:
+    """The flights of all launches from a ball of phases; nu < 0: the mass is below the table."""
+
+    def __init__(self, low: Fraction, high: Fraction) -> None:
+        self.phi = ball(low, high)
+        self.lift, self.rate = NU * self.phi.sin(), NU * self.phi.cos()
+        self.finest = max(float(high - low), THIN)  # steps in time that suit the phases
+
+    def gap(self, t: Ball) -> Ball:
+        """Return table - mass."""
+        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
+        return 1 + NU * (self.phi + t).sin() - mass
+
+    def speed(self, t: Ball) -> Ball:
+        """Return the gap's derivative by time."""
+        mass = self.rate * (ETA * t).cos() - ETA * (1 + self.lift) * (ETA * t).sin()
+        return NU * (self.phi + t).cos() - mass
+
+    def acceleration(self, t: Ball) -> Ball:
+        """Return its second derivative."""
+        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
+        return ETA**2 * mass - NU * (self.phi + t).sin()
+
+    def slope(self, t: Ball) -> Ball:
+        """Return f' = 1 - (dgap/dphi) / (dgap/dt) where the impacts are at times in t."""
+        mass = self.rate * (ETA * t).cos() - self.lift * (ETA * t).sin() / ETA
+        return 1 - (NU * (self.phi + t).cos() - mass) / self.speed(t)
+
+    def windows(self) -> list[tuple[float, float]] | None:
+        """Return times that hold every first impact, the last ends with gap < 0; None: undecided.
+
+        On (0, step] gap'' > 0 gives gap > 0, since gap(0) = gap'(0) = 0.
+        """
+        step = 1.0
+        while not self.acceleration(during(0.0, step)) > 0:
+            step /= 2
+            if step < self.finest:
+                return None
+        time, found = step, list[tuple[float, float]]()
+        while time < HORIZON:
+            ahead = time + step
+            if self.gap(during(time, ahead)) > 0:
+                time, step = ahead, 2 * step
+            elif step > self.finest:
+                step /= 2
+            else:
+                begin = found.pop()[0] if found and found[-1][1] == time else time
+                found.append((begin, ahead))
+                if self.gap(arb(ahead)) < 0:
+                    return found
+                time = ahead
+        return None
+
+    def impact(self) -> Ball | None:
+        """Return a ball with the time of every first impact, if all cross with gap' < 0."""
+        windows = self.windows()
+        if windows is None or len(windows) > 1:
+            return None
+        time = during(*windows[0])
+        return self.narrowed(time) if self.speed(time) < 0 else None
+
+    def narrowed(self, time: Ball) -> Ball:
+        """Narrow a ball of times with one zero of the gap and gap' < 0, by interval Newton."""
+        while True:
+            middle = time.mid()
+            following = time.intersection(middle - self.gap(middle) / self.speed(time))
+            if not following.rad() < time.rad() / 2:
+                return following
+            time = following
+
+
+def by_halves(phases: Phases, decide: Callable[[Flight], bool]) -> bool:
+    """Halve phases until all parts are decided; False if that takes too many."""
+    parts = [phases]
+    for _ in range(MOST_BALLS):
+        if not parts:
+            return True
+        low, high = parts.pop()
+        if not decide(Flight(low, high)):
+            parts += [(low, (low + high) / 2), ((low + high) / 2, high)]
+    return False
+
+
+def steep(flight: Flight) -> bool:
+    """Whether f' exceeds the lower bound claimed on a ball of phases."""
+    time = flight.impact()
+    return time is not None and flight.slope(time) > exact(SLOPES[0])
+
+
+def escapes(flight: Flight) -> bool:
+    """Whether all first impacts from a ball of phases are outside I."""
+    windows = flight.windows()
+    return windows is not None and all(
+        misses(flight.phi + during(*window), ball(*WHOLE)) for window in windows
+    )
+
+
+def misses(arrival: Ball, target: Ball) -> bool:
+    """Whether no phase of `target` is in `arrival`, modulo 2 pi."""
+    turns = int(float(arrival.mid()) / 6.283)
+    return arrival.rad() < 1 and not any(
+        arrival.overlaps(target + k * TURN) for k in range(turns - 1, turns + 2)
+    )
+
+
+def at(phase: Fraction) -> tuple[Ball, Ball]:
+    """Return f, lifted, and f' at a phase."""
+    flight = Flight(phase, phase)
+    time = flight.impact()
+    if time is None:
+        raise ArithmeticError(f"the first impact after {phase} is not decided")
+    return flight.phi + time, flight.slope(time)
+
+
+def too_steep() -> bool:
+    """Whether f' exceeds the upper bound claimed in the middle of I0 or of I1."""
+    return any(at((low + high) / 2)[1] > exact(SLOPES[1]) for low, high in (LEFT, RIGHT))
+
+
+def shorter_than_a_turn() -> bool:
+    """Whether f(I0) and f(I1), for f increasing there, are shorter than the circle."""
+    return all(at(high)[0] - at(low)[0] < TURN for low, high in (LEFT, RIGHT))
+
+
+def left_out() -> bool:
+    """Whether f(I0), for f increasing on I0, misses [1.11, 1.12], which is in I0."""
+    (begin, _), (end, _) = (at(phase) for phase in LEFT)
+    turns = int(float(begin.mid()) / 6.283)
+    missed = ball(LEFT[0], Fraction("1.12"))
+    return bool(missed + turns * TURN < begin and end < missed + (turns + 1) * TURN)
+
+
+def moran_root(ratios: Phases) -> tuple[float, float]:
+    """Bracket the root s of r0^s + r1^s = 1 by bisection; the sum decreases if both are < 1."""
+    first, second = exact(ratios[0]), exact(ratios[1])
+    low, high = 0.0, 1.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        value = first ** arb(middle) + second ** arb(middle) - 1
+        if value > 0:
+            low = middle
+        elif value < 0:
+            high = middle
+        else:
+            break
+    return low, high
+
+
+def verdicts() -> dict[str, str]:
+    """Decide the eight claims."""
+    steeper = all(by_halves(phases, steep) for phases in (LEFT, RIGHT))
+    reciprocals = 1 / SLOPES[1], 1 / SLOPES[0]
+    near, brackets = Fraction(1, 2000), [moran_root(RATIOS), moran_root(reciprocals)]
+    rounded = all(abs(x - y) < near / 10 for x, y in zip(RATIOS, reciprocals, strict=True))
+    printed = all(ROOT - near < low and high < ROOT + near for low, high in brackets)
+    small = sum(RATIOS) < 1 and brackets[0][0] > 0 and brackets[0][1] < 1
+    return {
+        "H1": "VERIFIED" if steeper else "UNDECIDED",
+        "H2": "REFUTED" if too_steep() else "UNDECIDED",
+        "H3": "VERIFIED" if steeper else "UNDECIDED",
+        "H4": "VERIFIED" if by_halves(GAP, escapes) else "UNDECIDED",
+        "H5": "REFUTED" if steeper and left_out() else "UNDECIDED",
+        "H6": "VERIFIED" if steeper and shorter_than_a_turn() else "UNDECIDED",
+        "H11": "VERIFIED" if rounded and printed else "UNDECIDED",
+        "H16": "VERIFIED" if small else "UNDECIDED",
+    }
+
+
+if __name__ == "__main__":
+    for claim, verdict in verdicts().items():
+        print(claim, verdict)
