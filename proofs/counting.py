@@ -9,7 +9,8 @@ What is counted: evaluations of the equations, an array's or a jet's once for ea
 the numbers they are made on: floats (candidates), intervals and arrays (proofs), the checker's.
 f' evaluates gap' and gap'', which are counted as well; a jet's evaluation counts as one of a
 derivative. Other formulas: those given as text, position and velocity of the mass (15), those of
-orbits with one impact (16) to (18); one for each component. A number is a result of interval
+orbits with one impact (16) to (18); one for each component. A first impact is that of a set of
+launches, a box of an array too, at the precision that proved it. A number is a result of interval
 arithmetic, of one operation and one box.
 """
 
@@ -31,9 +32,15 @@ ALGEBRA = "questions to sympy"
 MADE, CHECKED, WORK = "proof steps written", "proof steps checked", "work charged"
 FLOATS, INTERVALS, ARRAYS, CHECKER = COLUMNS = ("floats", "intervals", "arrays", "checker")
 _PRECISIONS = (64, 128, 256, 512, 1024)
-NUMBERS = (*(f"numbers, to {bits} bits" for bits in _PRECISIONS), "numbers, more bits")
+IMPACTS, NUMBERS = (
+    (*(f"{what}, to {bits} bits" for bits in _PRECISIONS), f"{what}, more bits")
+    for what in ("first impacts", "numbers")
+)
 EQUATIONS = (GAP, RATES, SLOPE, SECOND, MATRIX, GRID)
-ROWS = (*EQUATIONS, FORMULAS, PARTS, BISECTIONS, CELLS, *NUMBERS, ALGEBRA, MADE, CHECKED, WORK)
+ROWS = (
+    *(*EQUATIONS, FORMULAS, *IMPACTS, PARTS, BISECTIONS, CELLS, *NUMBERS, ALGEBRA),
+    *(MADE, CHECKED, WORK),
+)
 _JETS = ("Jet", "Dual", "Series")
 
 
@@ -165,6 +172,17 @@ def _numbers(counts: Counts, frame: FrameType, value: Any) -> None:
     counts[Kind(NUMBERS[0], ARRAYS)] += 0 if value is None else _size(value)
 
 
+def _impact(counts: Counts, frame: FrameType, value: Any) -> None:
+    """Count a set of launches whose impact is proved to be one, by the precision it took."""
+    if value is not None and value.transversal:
+        row = IMPACTS[bisect_left(_PRECISIONS, value.flight.precision)]
+        counts[Kind(row, INTERVALS)] += 1
+
+
+def _boxes(counts: Counts, frame: FrameType, value: Any) -> None:
+    counts[Kind(IMPACTS[0], ARRAYS)] += 0 if value is None else len(value.boxes)
+
+
 def _grid(counts: Counts, frame: FrameType, value: Any) -> None:
     counts[Kind(GRID, ARRAYS)] += 0 if value is None else _size(value)
 
@@ -229,6 +247,8 @@ _RULES = {
     "proofs.claims.single_facts.excess": _formula,
     "proofs.claims.single_facts.distance": _formula,
     "proofs.check.formula.Tape.evaluate": _formula,
+    "proofs.model.impact.march": _impact,
+    "proofs.model.slope_cover._in_binary64": _boxes,
     "intervals.bilinear.bilinear": _grid,
     "intervals.cover.cover": _one(PARTS),
     "proofs.model.impact.halves": _one(BISECTIONS),

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from heapq import heappop, heappush
 from itertools import pairwise
-from operator import itemgetter
+from math import inf
+from operator import attrgetter
+from typing import NamedTuple
 
 from intervals import DomainError, Interval, Undecided
 
@@ -46,6 +48,16 @@ def piece_range(left: Interval, right: Interval, slope: Interval, width: Fractio
     return common
 
 
+class _Piece(NamedTuple):
+    """A piece, what orders it among others (the widest first), and g over it if that is known."""
+
+    order: Fraction | float
+    low: Fraction
+    high: Fraction
+    values: Interval | None
+    obstacle: str = ""
+
+
 def extremes(
     g: Callable[[Fraction], Interval],
     dg: Callable[[Fraction, Fraction], Interval],
@@ -56,41 +68,50 @@ def extremes(
     """Enclose min g and max g over [points[0], points[-1]].
 
     A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
-    or where values of g elsewhere make it useless for both extremes; others, and those on which
-    dg raises DomainError, are halved, widest first. When there are `most` pieces, they stay as
-    wide as they are: the bounds hold all the same. Raises Undecided if dg has no answer then.
+    or where values of g elsewhere make it useless for both extremes; of the others, that of the
+    widest range is halved, first those on which dg raises DomainError. When there are `most`
+    pieces, they stay as wide as they are: the bounds hold all the same. Raises Undecided if dg
+    has no answer then.
     """
     known: dict[Fraction, Interval] = {}
-    done: list[tuple[Range, Interval]] = []
-    waiting = deque(pairwise(points))
+    done: list[_Piece] = []
+    waiting: list[_Piece] = []
 
     def at(x: Fraction) -> Interval:
         if x not in known:
             known[x] = g(x)
         return known[x]
 
-    def final(values: Interval, slope: Interval) -> bool:
-        if not slope.contains_zero() or values.wid < tolerance:
-            return True
-        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
-        return least <= values.inf and values.sup <= greatest
-
-    while waiting:
-        low, high = waiting.popleft()
-        full = len(done) + len(waiting) + 1 >= most
-        middle = (low + high) / 2
+    def examine(low: Fraction, high: Fraction) -> None:
         try:
             slope = dg(low, high)
         except DomainError as error:
-            if full:
-                raise Undecided(f"on one of {most} pieces: {error}") from None
-            waiting += [(low, middle), (middle, high)]
-            continue
+            heappush(waiting, _Piece(-inf, low, high, None, str(error)))
+            return
         values = piece_range(at(low), at(high), slope, high - low)
-        if full or final(values, slope):
-            done.append(((low, high), values))
+        piece = _Piece(-values.wid, low, high, values)
+        if not slope.contains_zero() or values.wid < tolerance:
+            done.append(piece)
         else:
-            waiting += [(low, middle), (middle, high)]
-    done.sort(key=itemgetter(0))
-    ends = (*(low for (low, _), _ in done), points[-1])
-    return Extremes(ends, tuple(at(x) for x in ends), tuple(values for _, values in done))
+            heappush(waiting, piece)
+
+    def useless(values: Interval) -> bool:
+        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
+        return least <= values.inf and values.sup <= greatest
+
+    for low, high in pairwise(points):
+        examine(low, high)
+    while waiting and len(done) + len(waiting) < most:
+        piece = heappop(waiting)
+        if piece.values is not None and useless(piece.values):
+            done.append(piece)
+            continue
+        middle = (piece.low + piece.high) / 2
+        examine(piece.low, middle)
+        examine(middle, piece.high)
+    if waiting and waiting[0].values is None:
+        raise Undecided(f"on one of {most} pieces: {waiting[0].obstacle}")
+    done = sorted(done + waiting, key=attrgetter("low"))
+    ends = (*(piece.low for piece in done), points[-1])
+    ranges = tuple(piece.values for piece in done if piece.values is not None)
+    return Extremes(ends, tuple(at(x) for x in ends), ranges)

@@ -32,6 +32,9 @@ from proofs.model.phase import phase_after, turn
 from proofs.model.system import System
 
 _ATTEMPTS = 6
+_NOT_CUT = (
+    "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
+)
 _PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
 _COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
@@ -117,7 +120,7 @@ def image(
     except NoImpact:
         raise
     except (Undecided, DomainError):
-        return _possible(system, phases, horizon, "the interval seems to contain a grazing phase")
+        return _possible(system, phases, horizon, _NOT_CUT)
 
 
 def _bits(digits: int, attempt: int) -> int:

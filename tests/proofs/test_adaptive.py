@@ -7,6 +7,7 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
+from proofs.counting import ARRAYS, INTERVALS, Kind, counted
 from proofs.model.image import Image, image
 from proofs.model.impact import LEAST, Sticks, cover_by_impacts, locate, precision_for
 from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
@@ -152,6 +153,22 @@ def test_boxes_that_binary64_does_not_decide_are_asked_alone():
             assert cover.times.inf[k] <= time <= cover.times.sup[k]
             assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
             assert cover.last[k] < time
+
+
+def test_the_counts_tell_the_boxes_of_each_precision():
+    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
+    with counted() as counts:
+        cover = slope_cover(PAPER, phases, 8)
+    in_binary64 = int((cover.bits == BINARY64).sum())
+    assert 0 < in_binary64 < len(cover.bits)
+    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == in_binary64
+    parts = len(cover_by_impacts(PAPER, phases))
+    alone = len(cover.bits) - in_binary64
+    assert counts[Kind("first impacts, to 64 bits", INTERVALS)] >= parts + alone
+    with counted() as counts:
+        cover_by_impacts(PAPER, (ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)))
+    assert counts[Kind("first impacts, to 128 bits", INTERVALS)] >= 1
+    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == 0
 
 
 def test_extremes_where_binary64_decides_nothing():
