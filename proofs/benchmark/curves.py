@@ -159,8 +159,9 @@ def row(curve: Curve) -> Row:
         return Row(name, text + "; NOT AN ENCLOSURE", "contains the truth", False, samples)
     if curve.least is None:
         return Row(name, text, samples=samples)
-    asked = f"order >= {curve.least:g}"
-    return Row(name, text, asked, None if fit is None else abs(fit[0]) >= curve.least, samples)
+    if fit is None:
+        return Row(name, f"{text}; too few sizes for an order", samples=samples)
+    return Row(name, text, f"order >= {curve.least:g}", abs(fit[0]) >= curve.least, samples)
 
 
 def _shown(point: Point, unit: str) -> str:

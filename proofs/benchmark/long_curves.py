@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -12,7 +13,7 @@ from time import perf_counter
 from proofs import dimension, orbits
 from proofs.benchmark.curves import Budget, Curve, Point, Task, sweep
 from proofs.benchmark.measuring import Row, in_turn, spread, timed
-from proofs.certificate import Malformed, read
+from proofs.certificate import SCHEMA, Malformed, read
 from proofs.check.verify import Rejected, check
 from proofs.claims.dimension import Repeller
 from proofs.facts import PAPER
@@ -22,6 +23,7 @@ from proofs.model.horseshoe_map import ImpactMap
 
 _PERIOD = 4
 _DIGITS = 25
+_MAIN = "horseshoe"  # the certificate of the main job
 
 
 def dimensions(budget: Budget, digits: Sequence[float]) -> list[Curve]:
@@ -64,7 +66,9 @@ def _points(period: int, digits: int | None) -> Task:
     return task
 
 
-def periodic(budget: Budget, periods: Sequence[int], digits: Sequence[float]) -> list[Curve]:
+def periodic(
+    budget: Budget, periods: Sequence[int], digits: Sequence[float]
+) -> tuple[list[Curve], list[Curve]]:
     """Measure all periodic points against the number of words, and against digits."""
     words = [float(2**n) for n in periods]
     title = "all periodic points of a period"
@@ -73,7 +77,7 @@ def periodic(budget: Budget, periods: Sequence[int], digits: Sequence[float]) ->
         return _points(int(count).bit_length() - 1, places)
 
     ways = {"binary64": None, f"{_DIGITS} digits": _DIGITS}
-    curves = sweep(
+    found = sweep(
         {
             way: (Curve(title, way, "words", against="time"), partial(of_length, places))
             for way, places in ways.items()
@@ -82,20 +86,19 @@ def periodic(budget: Budget, periods: Sequence[int], digits: Sequence[float]) ->
         budget,
     )
     against = Curve(f"{title}, {2**_PERIOD} words", "multiprecision", "digits", against="time")
-    return curves + sweep({"": (against, lambda d: _points(_PERIOD, int(d)))}, digits, budget)
+    return found, sweep({"": (against, lambda d: _points(_PERIOD, int(d)))}, digits, budget)
 
 
 def checks(budget: Budget, folder: Path, most: float) -> tuple[list[Curve], list[Row]]:
-    """Measure the check of each certificate in a folder, the small ones first.
+    """Measure the check of each certificate in a folder: of the main job, then the small ones.
 
-    Ends when `most` seconds are spent; what is then not checked is reported so.
+    Ends when `most` seconds are spent; what is then not checked is reported so. Files of another
+    kind than certificates are passed over.
     """
-    curve = Curve("check", "certificates", "kB", against="time", proved=False)
+    curve = Curve("check", "certificates", "kB", against="", proved=False)
     rows, began = [], perf_counter()
-    files = sorted(folder.glob("*.json"), key=lambda path: path.stat().st_size)
-    for path in files:
-        if path.name == "MANIFEST.json":
-            continue
+    files = [path for path in folder.glob("*.json") if _says_certificate(path)]
+    for path in sorted(files, key=lambda path: (path.stem != _MAIN, path.stat().st_size)):
         kilobytes, name = path.stat().st_size / 1000, f"check of {path.name}"
         if perf_counter() - began > most:
             rows.append(Row(name, f"{kilobytes:.0f} kB, not measured: --full does"))
@@ -112,8 +115,17 @@ def checks(budget: Budget, folder: Path, most: float) -> tuple[list[Curve], list
         rows.append(Row(f"{name} [s]", f"{spread(seconds)}, {kilobytes:.0f} kB", samples=samples))
         curve.points.append(Point(kilobytes, None, seconds, path.stem))
     if not files:
-        rows.append(Row("check of certificates", f"no certificates in {folder}"))
+        rows.append(Row("check of certificates", "no certificates there: see --reports"))
     return [curve], rows
+
+
+def _says_certificate(path: Path) -> bool:
+    """Whether a file says that it is a certificate, or is not even JSON."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        return True
+    return isinstance(found, dict) and found.get("schema") == SCHEMA
 
 
 def _check(path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import platform
 import statistics
@@ -13,9 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
-_PACKAGES = ("mpmath", "gmpy2", "python-flint")
+_PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 
 
 @dataclass
@@ -84,13 +81,17 @@ def in_pairs(tasks: Sequence[Callable[[], Any]], pairs: int) -> list[list[float]
     return in_turn([partial(timed, task) for task in tasks], pairs)
 
 
+def word(row: Row) -> str:
+    """Say whether a row reached its target."""
+    if row.reached is None:
+        return "not measured" if row.target else "-"
+    return "yes" if row.reached else "NO"
+
+
 def table(rows: Sequence[Row]) -> str:
     """Return the rows as plain aligned text."""
-    words = {True: "yes", False: "NO", None: "-"}
     cells = [("what", "target", "measured", "reached")]
-    for row in rows:
-        reached = "not measured" if row.target and row.reached is None else words[row.reached]
-        cells.append((row.name, row.target or "-", row.measured, reached))
+    cells += [(row.name, row.target or "-", row.measured, word(row)) for row in rows]
     widths = [max(len(line[i]) for line in cells) for i in range(4)]
     lines = (
         "  ".join(cell.ljust(w) for cell, w in zip(line, widths, strict=True)) for line in cells
@@ -98,23 +99,18 @@ def table(rows: Sequence[Row]) -> str:
     return "\n".join(line.rstrip() for line in lines)
 
 
-def machine_form(rows: Sequence[Row], subject: str, mode: str) -> str:
-    """Return everything, with the raw samples, as JSON."""
-    data = {
-        "schema": "impact-proofs-benchmark-1",
-        "subject": subject,
-        "mode": mode,
+def environment() -> dict[str, str | int | None]:
+    """Return what the measurements ran on; None stands for a package that is absent."""
+    return {
         "python": platform.python_version(),
-        "numpy": np.__version__,
-        **{name: _version(name) for name in _PACKAGES},
+        **{name: version_of(name) for name in _PACKAGES},
         "machine": platform.machine(),
         "processors": os.cpu_count(),
-        "rows": [vars(row) for row in rows],
     }
-    return json.dumps(data, indent=1)
 
 
-def _version(package: str) -> str | None:
+def version_of(package: str) -> str | None:
+    """Return the version of a package; None if it is absent."""
     try:
         return version(package)
     except PackageNotFoundError:

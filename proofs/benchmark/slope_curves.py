@@ -29,7 +29,7 @@ from proofs.steps import Prover
 
 NAMES = {0: "natural", 1: "mean value", 2: "Taylor 2", 3: "Taylor 3", 4: "Taylor 4"}
 _BITS = 53
-_TRUE_DIGITS = 1100
+_TRUE_DIGITS = 400  # more than are asked of any
 _SPARE_BITS = 30
 _OPENING = 1e-11  # relative: a bracket that one library proves, another can prove too
 _MONOTONE_BOXES = 8

@@ -110,9 +110,22 @@ def test_bad_usage_exits_2(arguments):
     assert stopped.value.code == 2
 
 
-def test_a_missing_directory_is_refused_before_measuring(tmp_path, capsys):
-    assert main(["--json", str(tmp_path / "absent" / "x.json")]) == 2
-    assert "no such directory" in capsys.readouterr().err
+def test_a_file_that_cannot_be_written_is_refused_before_measuring(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(command, "measure", lambda options: pytest.fail("measured"))
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SystemExit) as stopped:
+        main(["--json", str(tmp_path / "file" / "x.json")])
+    assert stopped.value.code == 2 and "cannot write" in capsys.readouterr().err
+
+
+def test_the_samples_go_to_a_file_or_to_the_screen_alone(tmp_path, monkeypatch, capsys):
+    measured(monkeypatch, Section("A title", "About.", [MISSED]))
+    target = tmp_path / "new" / "samples.json"
+    assert main(["--json", str(target)]) == 1
+    assert "what " in capsys.readouterr().out
+    assert main(["--json", "-"]) == 1
+    for written in (target.read_text(), capsys.readouterr().out):
+        assert [row["name"] for row in json.loads(written)["rows"]] == ["ratio"]
 
 
 def test_a_missing_interpreter_is_refused_before_measuring(tmp_path, capsys):

@@ -3,6 +3,7 @@
 import importlib
 import json
 import math
+import re
 import sys
 from fractions import Fraction
 from xml.etree import ElementTree
@@ -11,10 +12,10 @@ import mpmath
 import pytest
 
 from intervals import Undecided
-from proofs.benchmark import __main__ as command
 from proofs.benchmark import (
     codac_slopes,
     curves,
+    diagrams,
     horseshoe_flint,
     limit,
     long_curves,
@@ -30,7 +31,10 @@ from proofs.benchmark.curves import Budget, Curve, Point
 from proofs.benchmark.diagrams import Diagram, svg
 from proofs.benchmark.horseshoe import DOMAINS, SYSTEM
 from proofs.benchmark.slope_curves import ARRAY, CODAC, FLINT, IV, SCALAR
+from proofs.certificate import SCHEMA
 from proofs.model.equations import clock, gap, launch
+
+PEERS = (FLINT, IV, CODAC)
 
 # -- fits ------------------------------------------------------------------------------------------
 
@@ -65,7 +69,8 @@ def test_rows_judge_orders_and_enclosures():
     good = curves.row(curve_of([1.0, 0.25, 2.0**-4], least=1.8))
     assert good.reached and "error ~ boxes^-2.00" in good.measured
     assert curves.row(curve_of([1.0, 0.5, 0.25], least=1.8)).reached is False
-    assert curves.row(curve_of([1.0, 0.5], least=1.8)).reached is None
+    few = curves.row(curve_of([1.0, 0.5], least=1.8))
+    assert (few.reached, few.target) == (None, "") and "too few sizes" in few.measured
     wrong = curve_of([1.0, -1e-9, 2.0**-4], least=1.8)
     assert curves.row(wrong).reached is False
     assert "NOT AN ENCLOSURE" in curves.row(wrong).measured
@@ -314,6 +319,9 @@ def test_enclosures_of_flights_that_exclude_the_truth_show():
     times = point_curves._true_flights()
     assert point_curves._width([(time, time + 1) for time in times]) == 1
     assert point_curves._width([(time + 1, time + 2) for time in times]) < 0
+    for side in (-1, 1):  # by less than any of the precisions shows
+        off = [time + side * Fraction(1, 10**350) for time in times]
+        assert point_curves._width([(time, time) for time in off]) < 0
     late = [*map(float, times[:-1]), float(times[-1]) + 31]
     assert abs(point_curves._deviation(late) - 31) < 1e-9
     with pytest.raises(Undecided):
@@ -347,12 +355,18 @@ def test_s_0_is_measured_beside_others():
 
 
 def test_certificates_that_the_checker_refuses_show(tmp_path):
-    (tmp_path / "false.json").write_text('{"schema": "none"}')
+    (tmp_path / "false.json").write_text(json.dumps({"schema": SCHEMA, "padding": 9 * "-"}))
+    (tmp_path / "cut.json").write_text(f'{{"schema": "{SCHEMA}"')
+    (tmp_path / "horseshoe.json").write_text(json.dumps({"schema": SCHEMA, "padding": 99 * "-"}))
     (tmp_path / "MANIFEST.json").write_text("{}")
+    (tmp_path / "stress.json").write_text('{"schema": "another", "seconds": 1.5}')
+    (tmp_path / "list.json").write_text("[]")
     (curve,), rows = long_curves.checks(Budget(1, 1.0), tmp_path, 1.0)
-    assert [row.reached for row in rows] == [False] and not curve.points
+    names = [row.name for row in rows]
+    assert names == [f"check of {name}.json" for name in ("horseshoe", "cut", "false")]
+    assert [row.reached for row in rows] == [False] * 3 and not curve.points
     (_, rows) = long_curves.checks(Budget(1, 1.0), tmp_path, -1.0)
-    assert "not measured" in rows[0].measured
+    assert all("not measured" in row.measured for row in rows)
     (_, rows) = long_curves.checks(Budget(1, 1.0), tmp_path / "absent", 1.0)
     assert "no certificates" in rows[0].measured
 
@@ -364,13 +378,57 @@ def test_a_diagram_shows_what_was_measured():
     pytest.importorskip("matplotlib")
     proved = curve_of([1.0, None, 1e-9])
     guessed = Curve("work", "simulated", "step", [Point(1, 0.1, [2.0])], proved=False)
-    both = svg(Diagram("d", "A title", [proved, guessed]))
-    assert both == svg(Diagram("d", "A title", [proved, guessed]))
+    both = svg(Diagram("d", "A title", [proved, guessed], "error [kg]"))
+    assert both == svg(Diagram("d", "A title", [proved, guessed], "error [kg]"))
     assert ElementTree.fromstring(both).tag.endswith("svg")
-    assert both.count("<!-- simulated -->") == 1 and both.count("<!-- way -->") == 1
+    for words in ("simulated", "way", "A title", "error [kg]", "time [s]"):
+        assert both.count(f"<!-- {words} -->") == 1
     certified = svg(Diagram("d", "A title", [proved, guessed], certified=True))
     assert "<!-- simulated -->" not in certified
     assert ElementTree.fromstring(svg(Diagram("d", "Nothing", [Curve("w", "v", "kB")])))
+
+
+def test_forms_have_panels_and_libraries_one_entry_each():
+    pytest.importorskip("matplotlib")
+    ways = [f"{form}, {name}" for form in ("natural", "Taylor 2") for name in (ARRAY, FLINT)]
+    found = [Curve("w", way, "boxes", [Point(1, 0.1, [2.0])]) for way in ways]
+    drawn = svg(Diagram("d", "A title", found, panels=True))
+    for words in ("natural", "Taylor 2", ARRAY, FLINT):
+        assert drawn.count(f"<!-- {words} -->") == 1
+
+
+def test_points_with_a_name_show_it_at_their_size():
+    pytest.importorskip("matplotlib")
+    curve = Curve("check", "files", "kB", [Point(9, None, [2.0], "circle")], against="")
+    assert "<!-- circle -->" in svg(Diagram("d", "A title", [curve], "kB", "size"))
+    assert "<!-- circle -->" not in svg(Diagram("d", "A title", [curve]))  # it has no error
+
+
+def test_what_is_across_is_the_error_its_digits_or_the_size():
+    point, none = Point(3.0, 1e-7, [1.0]), Point(3.0, None, [], "too wide")
+    for against, places in {"error": (1e-7, 0), "digits": (7, 0), "size": (3, 3)}.items():
+        of = Diagram("d", "A title", [], "across", against)
+        assert [diagrams._across(one, of) for one in (point, none)] == pytest.approx(places)
+    assert diagrams._across(point, Diagram("d", "A title", [], least=1e-6)) == 0
+
+
+@pytest.mark.parametrize(("against", "sign"), [("error", -1), ("digits", 1), ("size", 1)])
+def test_smaller_errors_are_to_the_right_and_a_decade_is_seen(against, sign):
+    axes = pytest.importorskip("matplotlib.figure").Figure().subplots()
+    axes.set(xscale="log", yscale="log", xlim=(3e-3, 4e-3), ylim=(2.0, 3.0))
+    diagrams._scale(axes, Diagram("d", "A title", [], "across", against))
+    left, right = axes.get_xlim()
+    assert sign * math.log10(right / left) == pytest.approx(1)
+    low, high = axes.get_ylim()
+    assert low < 2 and high > 3 and high / low == pytest.approx(10)
+
+
+def test_a_library_has_the_same_colour_everywhere():
+    known = {diagrams._style(f"{form}{name}") for form in ("", "natural, ") for name in PEERS}
+    assert len(known) == len(PEERS) and None not in known
+    assert len({colour for colour, _ in (*diagrams._OTHERS.values(), *diagrams._OURS)}) == 10
+    for own in (ARRAY, SCALAR, "images, 64 bits", "certified map (model.image)"):
+        assert diagrams._style(own) is None
 
 
 # -- the limit -------------------------------------------------------------------------------------
@@ -427,40 +485,32 @@ def test_the_stages_of_the_main_job_are_all_of_it(tmp_path):
 # -- the command -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("arguments", [["horseshoe"], ["limit"]])
-def test_figures_are_of_precision_only(arguments, tmp_path, capsys):
-    with pytest.raises(SystemExit) as stopped:
-        main([*arguments, "--figures", str(tmp_path)])
-    assert stopped.value.code == 2 and "--figures" in capsys.readouterr().err
-
-
-def test_figures_without_matplotlib_are_refused_before_measuring(monkeypatch, tmp_path):
-    monkeypatch.setattr(command, "find_spec", lambda name: None)
-    monkeypatch.setattr(command, "measure", lambda options: pytest.fail("measured"))
-    with pytest.raises(SystemExit) as stopped:
-        main(["precision", "--figures", str(tmp_path)])
-    assert stopped.value.code == 2
-
-
 @pytest.mark.slow
 def test_the_smallest_run_measures_everything(tmp_path, monkeypatch, capsys):
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(precision, "has_flint", lambda: False)
     monkeypatch.setattr(point_curves, "has_scipy", lambda: False)
-    target, figures = tmp_path / "samples.json", tmp_path / "figures"
-    outputs = ["--json", str(target), "--figures", str(figures)]
-    status = main(["precision", "--smallest", *outputs, "--reports", str(tmp_path)])
+    target, out = tmp_path / "samples.json", tmp_path / "out"
+    outputs = ["--json", str(target), "--out", str(out)]
+    status = main(["--smallest", *outputs, "--reports", str(tmp_path)])
     text = capsys.readouterr().out
     assert status in (0, 1)  # speed is never asserted
     assert "python-flint is absent" in text and "scipy is absent" in text
-    assert "codac is absent" in text or "in a process" in text
+    assert "codac is absent" in text or "binary64 intervals, in C++" in text
     assert "NOT AN ENCLOSURE" not in text
     rows = json.loads(target.read_text())["rows"]
     found = [row["samples"]["curve"] for row in rows if "curve" in row["samples"]]
     assert len(found) > 30
     assert all(curve["points"] and curve["points"][0]["seconds"] for curve in found)
-    names = {path.stem for path in figures.glob("*.svg")}
-    assert names >= {"slopes-binary64", "slopes-30-digits", "flights", "s0", "orbits", "coverings"}
+    sections = {row["section"] for row in rows}
+    assert {"The main job", "Where the time of the main job goes", "The root s_0"} <= sections
+    page = (out / "benchmark.md").read_text()
+    linked = set(re.findall(r"^!\[.*\]\((.*)\)$", page, re.M))
+    assert linked == {path.name for path in out.glob("*.svg")}
+    names = ("slopes-binary64", "slopes-30-digits", "slopes-monotone", "flights", "s0", "orbits",
+             "coverings", "dimensions", "checks")  # fmt: skip
+    assert linked >= {f"benchmark-{name}.svg" for name in names}
+    assert all(f"## {section}\n" in page for section in sections)
 
 
 def test_names_of_libraries_are_those_of_the_other_benchmarks():
