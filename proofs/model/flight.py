@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from intervals import Interval, Jet
 from proofs.facts import Range
@@ -26,10 +26,15 @@ class Flight:
     precision: int = 64
     separating: bool = False
 
+    @property
+    def etas(self) -> Range:
+        """The range of the frequency ratio."""
+        return self.system.eta, self.system.eta
+
     @cached_property
     def eta(self) -> Interval:
-        """The frequency ratio at this precision."""
-        return Interval(self.system.eta, precision=self.precision)
+        """The frequency ratios at this precision."""
+        return Interval(*self.etas, precision=self.precision)
 
     @cached_property
     def phi(self) -> Interval:
@@ -47,7 +52,7 @@ class Flight:
 
     def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
         """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
-        return clock(self.eta, Interval(low, high, precision=self.precision))
+        return _clock(self.etas, low, high, self.precision)
 
     def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
         """Enclose a time derivative of the gap over all launches and the times given."""
@@ -99,3 +104,9 @@ class Flight:
     def leaves(self) -> bool:
         """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
         return self.separating or launch_acceleration(self.start).certainly_positive()
+
+
+@lru_cache(maxsize=1024)
+def _clock(etas: Range, low: Fraction, high: Fraction | None, precision: int) -> Clock:
+    """Return the time functions: the same for all launches, whose steps meet at the same times."""
+    return clock(Interval(*etas, precision=precision), Interval(low, high, precision=precision))

@@ -214,7 +214,7 @@ def cover_by(
 ) -> list[FirstImpact]:
     """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
 
-    At first and after every four cuts, a part that is not taken is asked again at the precision
+    After two cuts, and every four more, a part that is not taken is asked again at the precision
     that its middle launch needs; else its width is to blame and it is cut. Undecided names a
     phase near which nothing helps, `obstacle` being the likely reason; a part without impact up
     to the horizon is cut four times before that is taken for an answer.
@@ -239,7 +239,7 @@ def cover_by(
         return None
 
     def split(part: _Part) -> Iterable[_Part]:
-        if part.cuts % 4 == 0:
+        if part.cuts % 4 == 2:
             needed = precision_for(system, part.phases, horizon)
             if needed > part.precision:
                 return [replace(part, precision=needed)]

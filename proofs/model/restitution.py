@@ -44,10 +44,10 @@ class Rebounds(Flight):
         if not 0 <= self.epsilon[0] <= self.epsilon[1] <= 1:
             raise ValueError("epsilon must lie in [0, 1]")
 
-    @cached_property
-    def eta(self) -> Interval:
-        """The frequency ratios."""
-        return self._around(self.system.eta, self.eta_reach)
+    @property
+    def etas(self) -> Range:
+        """The range of the frequency ratio."""
+        return self.system.eta - self.eta_reach, self.system.eta + self.eta_reach
 
     @cached_property
     def gamma(self) -> Interval:
