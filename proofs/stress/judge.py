@@ -16,7 +16,6 @@ from proofs.stress.cases import Answer, Case, Ranges, Truth, inputs
 from proofs.stress.kernels import Kernel
 from proofs.stress.limit import TookTooLong, limited
 
-_ON_THE_CIRCLE = ("phase", "dwell")
 _TURN_BITS = 800
 
 
@@ -139,7 +138,7 @@ def _wrong(said: Ranges, truth: Truth, kernel: Kernel) -> dict[str, tuple[Range,
 
 def _beside(name: str, true: Range, said: Range, kernel: Kernel) -> Range:
     """Shift a true phase by the whole turns that bring it next to what was said."""
-    if name not in _ON_THE_CIRCLE:
+    if name != "phase":
         return true
     low, high = _turn(kernel)
     count = round((sum(said) - sum(true)) / 2 / low)

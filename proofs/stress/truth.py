@@ -131,6 +131,8 @@ def first_impact(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth:
         found = motion.answers(time)
         if sticks:
             dwell = leave - kernel.number(of.phi)
+            while _sign(kernel, dwell) < 0:  # the next time that the table is there
+                dwell += 2 * kernel.pi()
             found |= dict.fromkeys(_CONSTANT, kernel.number(0)) | {"dwell": dwell}
         return Truth({name: kernel.bounds(value) for name, value in found.items()})
 

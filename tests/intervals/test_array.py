@@ -85,7 +85,13 @@ def fits(x, y, op):
 
 
 @pytest.mark.parametrize("op", BINARY)
-@pytest.mark.parametrize("thin", ["neither", "left", "right", "both"])
+@pytest.mark.parametrize(
+    "thin",
+    [
+        "neither",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("left", "right", "both")),
+    ],
+)
 def test_binary_operations_contain_every_exact_result(op, thin):
     x, y = sample(op + thin, 1500), sample(thin + op, 1500)
     if thin in ("left", "both"):

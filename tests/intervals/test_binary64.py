@@ -223,6 +223,7 @@ def sup_is_one(low, high, quarter):
     return (4 * k + quarter) * HALF_PI <= Fraction(high)
 
 
+@pytest.mark.slow
 def test_extrema_are_found_exactly_where_they_are():
     x = intervals(3, 5000)
     sin, cos = x.sincos()

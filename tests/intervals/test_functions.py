@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import intervals
 from intervals import DomainError, Interval, IntervalArray
+from tests.effort import examples
 from tests.intervals import oracle
 
 SMOOTH = {
@@ -53,7 +54,7 @@ def contains(y, low, high):
     return Fraction(float(y.inf[0])) <= high and low <= Fraction(float(y.sup[0]))
 
 
-@settings(max_examples=500)
+@settings(max_examples=examples(500))
 @given(st.sampled_from(sorted(SMOOTH)), parts, parts, parts, st.integers(2, 200))
 def test_ranges_contain_the_values_inside(name, s, t, r, precision):
     function, least, most = SMOOTH[name]
@@ -155,7 +156,7 @@ def test_hypot_and_powers_contain_the_values_inside(data):
         assert contains(three ** Interval(*y), *power)
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(st.data())
 def test_atan2_contains_the_angles_inside(data):
     y, x = (box_of(data, -4, 4) for _ in range(2))

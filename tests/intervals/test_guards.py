@@ -89,7 +89,14 @@ def test_undisturbed_results_are_results(undisturbed):
     assert undisturbed["subset"] == [False, False, False]
 
 
-@pytest.mark.parametrize("mode", ["downward", "upward", "toward zero"])
+@pytest.mark.parametrize(
+    "mode",
+    [
+        "upward",
+        pytest.param("downward", marks=pytest.mark.slow),
+        pytest.param("toward zero", marks=pytest.mark.slow),
+    ],
+)
 def test_rounding_modes(mode, undisturbed):
     found = run(mode)
     for name, value in found.items():
@@ -101,7 +108,14 @@ def test_rounding_modes(mode, undisturbed):
             assert value == "this thread does not round to nearest", name
 
 
-@pytest.mark.parametrize("state", ["flush to zero", "denormals are zero", "both flushes"])
+@pytest.mark.parametrize(
+    "state",
+    [
+        "flush to zero",
+        pytest.param("denormals are zero", marks=pytest.mark.slow),
+        pytest.param("both flushes", marks=pytest.mark.slow),
+    ],
+)
 def test_flushing_is_refused(state, undisturbed):
     found = run(state)
     for name, value in found.items():

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 import intervals
 from intervals import DomainError, Interval, IntervalError, Undecided
+from tests.effort import examples
 from tests.intervals import oracle
 from tests.intervals.boxes import MODERATE, boxes, inside, numbers, precisions
 from tests.intervals.oracle import encloses, range_of, round_down, round_up, sqrt_down, sqrt_up
@@ -50,7 +51,7 @@ def boxes_for(name, precision):
 # -- construction and the set ----------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.fractions(), st.fractions(min_value=0), precisions)
 @example(ZERO, ZERO, 2)
 @example(Fraction(1, 3), ZERO, 2)
@@ -134,7 +135,7 @@ def test_construction_errors():
             make(precision)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.floats(allow_nan=False, allow_infinity=False), precisions)
 @example(5e-324, 53)
 @example(math.nextafter(math.inf, 0), 2)
@@ -155,7 +156,7 @@ def test_from_float_takes_shorter_floats():
     assert bounds(Interval.from_float(np.float32(0.1))) == (Fraction(float(np.float32(0.1))),) * 2
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, precisions)
 def test_the_set(data, p, q):
     (a, b), (c, d) = data.draw(boxes(p)), data.draw(boxes(q))
@@ -196,7 +197,7 @@ def check_arithmetic(symbol, first, second, p, q):
 
 
 @pytest.mark.parametrize("symbol", sorted(BINARY))
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, precisions)
 def test_arithmetic_is_the_tightest_enclosure_of_the_range(symbol, data, p, q):
     check_arithmetic(symbol, data.draw(boxes(p)), data.draw(boxes(q)), p, q)
@@ -226,7 +227,7 @@ def test_arithmetic_in_every_case_of_signs(symbol):
         assert bounds(op(Interval(a, b), Interval(c, d))) == outward(min(values), max(values), 53)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_unary_operations(data, p):
     a, b = data.draw(boxes(p))
@@ -244,7 +245,7 @@ def test_unary_operations(data, p):
     assert (x**0).precision == p
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, st.integers(1, 5))
 def test_negative_powers(data, p, n):
     a, b = data.draw(boxes(p))
@@ -257,7 +258,7 @@ def test_negative_powers(data, p, n):
         assert high - max(ends) <= 4 * oracle.ulp(max(ends), p)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(
     st.data(),
     precisions,
@@ -340,7 +341,7 @@ def check_range(name, ends, precision):
     assert bounds(result) == range_of(name, *ends, precision)
 
 
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=examples(100))
 @given(st.data(), precisions, st.sampled_from(FUNCTIONS))
 def test_functions_are_the_tightest_enclosure_of_the_range(data, p, name):
     check_range(name, data.draw(boxes_for(name, p)), p)
@@ -353,7 +354,7 @@ def test_functions_are_the_tightest_enclosure_of_the_range_at_length(data, p, na
     check_range(name, data.draw(boxes_for(name, p)), p)
 
 
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=examples(8))
 @given(st.data(), st.sampled_from([1000, 3333]), st.sampled_from(FUNCTIONS))
 def test_functions_at_high_precision(data, p, name):
     check_range(name, data.draw(boxes_for(name, p)), p)
@@ -381,7 +382,7 @@ def test_sin_and_cos_at_every_pair_of_quadrants(precision):
         check_range("cos", ends, precision)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, st.sampled_from(FUNCTIONS))
 def test_functions_contain_the_value_at_every_point(data, p, name):
     ends = data.draw(boxes_for(name, p))
@@ -390,7 +391,7 @@ def test_functions_contain_the_value_at_every_point(data, p, name):
     assert encloses(*bounds(result), oracle.FUNCTIONS[name], point, bits=3 * p + 64)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), st.integers(20, 300))
 def test_a_formula_contains_the_value_at_every_point(data, p):
     small = {"kinds": ("grid", "power", "quarter turn", "near one"), "largest": 100}
@@ -409,7 +410,7 @@ def test_a_formula_contains_the_value_at_every_point(data, p):
     assert encloses(*bounds(result), formula, s, t, bits=3 * p + 64)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, st.sampled_from([*FUNCTIONS, "sqrt", "sqr", "__abs__", "__neg__"]))
 def test_inclusion_is_monotone(data, p, name):
     low, high = data.draw(boxes_for("log" if name == "sqrt" else name, p))
@@ -419,7 +420,7 @@ def test_inclusion_is_monotone(data, p, name):
     assert getattr(outer, name)().contains(getattr(part, name)())
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, st.sampled_from(sorted(BINARY)))
 def test_inclusion_is_monotone_in_both_operands(data, p, symbol):
     outer, inner = [], []
@@ -432,7 +433,7 @@ def test_inclusion_is_monotone_in_both_operands(data, p, symbol):
     assert BINARY[symbol](*outer).contains(BINARY[symbol](*inner))
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, precisions, st.sampled_from([*FUNCTIONS, "sqrt"]))
 def test_more_precision_refines(data, p, q, name):
     p, q = min(p, q), max(p, q)
@@ -441,7 +442,7 @@ def test_more_precision_refines(data, p, q, name):
     assert coarse.contains(fine)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(precisions)
 @example(1000)
 @example(3333)
@@ -557,7 +558,7 @@ def test_comparisons_of_small_integers(symbol):
                 check_comparison(COMPARISONS[symbol], value, Interval(a, b), (c,), (a, b))
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, precisions, st.sampled_from(sorted(COMPARISONS)))
 def test_comparisons(data, p, q, symbol):
     first, second = data.draw(boxes(p)), data.draw(boxes(q))
@@ -610,7 +611,7 @@ def test_equality_is_that_of_sets():
     assert len({Interval(1, 2), Interval(2, 4) / 2, Interval(-2, -1) * -1, Interval(1)}) == 2
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_round_trips(data, p):
     x = interval(data.draw(boxes(p)), p)
@@ -631,7 +632,7 @@ def test_round_trips_of_very_large_and_small_numbers(x):
     assert re.fullmatch(r"\[-?[\d.]+, -?[\d.]+\]", str(x))
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_text_encloses(data, p):
     x = interval(data.draw(boxes(p)), p)
@@ -649,7 +650,7 @@ def test_text():
     assert str(Interval("0.1", precision=10)) == "[0.0999, 0.101]"
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_operations_leave_their_operands_alone(data, p):
     a, b = data.draw(boxes(p, MODERATE, largest=600, positive=True))
@@ -658,7 +659,7 @@ def test_operations_leave_their_operands_alone(data, p):
     assert bounds(x) == bounds(y) == (a, b)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_the_ends_have_the_precision_of_the_interval(data, p):
     x = data.draw(numbers(p))

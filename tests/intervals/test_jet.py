@@ -67,6 +67,7 @@ def at(polynomial, x):
     return reduce(lambda total, c: total * x + c, polynomial)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @given(st.sampled_from(sorted(RATIONAL_FUNCTIONS)), st.fractions(-2, 2, max_denominator=50))
 def test_rational_functions_have_sympys_derivatives(name, x):

@@ -13,6 +13,7 @@ from intervals.array import IntervalArray
 from intervals.generic import meet
 from intervals.krawczyk import krawczyk, newton_system
 from intervals.newton import Roots
+from tests.effort import examples
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
 METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])
@@ -284,13 +285,13 @@ def check_many(problem, method):
 methods = st.sampled_from([krawczyk, newton_system])
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
 def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
     check_one(problem, method, precision)
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(problems(8), methods)
 def test_what_is_claimed_of_many_boxes_is_true(problem, method):
     check_many(problem, method)

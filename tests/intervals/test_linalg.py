@@ -224,6 +224,7 @@ def test_eigenvalues_contain_every_exact_one_at_length():
     check_spectra("eigenvalues at length", 300)
 
 
+@pytest.mark.slow
 def test_eigenvalues_of_small_integer_matrices():
     """Entries -1, 0, 1: many defective matrices, multiple eigenvalues and complex pairs."""
     rng = random.Random(11)

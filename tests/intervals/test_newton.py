@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from intervals import Interval
 from intervals.newton import Roots, derivative, newton
+from tests.effort import examples
 from tests.intervals import oracle
 from tests.intervals.oracle import pi_bounds, sqrt_down, sqrt_up, ulp
 
@@ -229,7 +230,7 @@ def check_newton(coefficients, roots, box):
     return result
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(problems())
 @example(([Fraction(-1), Fraction(0), Fraction(1)], {Fraction(1), Fraction(-1)}, Interval(-1, 1)))
 @example(([Fraction(1), Fraction(-2), Fraction(1)], {Fraction(1)}, Interval(1, 2)))
@@ -245,7 +246,7 @@ def test_what_is_claimed_of_a_polynomial_is_true_at_length(problem):
     check_newton(*problem)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(
     st.lists(st.integers(-20, 20), min_size=1, max_size=4, unique=True),
     st.fractions(Fraction(1, 10), 1, max_denominator=100),

@@ -16,6 +16,7 @@ from intervals.branch import clusters, evaluated, one_box, split
 from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
 from intervals.zeros import _examined, zeros
+from tests.effort import examples
 from tests.intervals import oracle
 
 rationals = st.fractions(-2, 2, max_denominator=8)
@@ -62,7 +63,7 @@ def test_parts_outside_the_domain_are_isolated():
         list(evaluated(lambda b: 1 // 0, boxes))
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 @given(st.lists(st.tuples(*[st.tuples(st.integers(0, 30), st.integers(0, 6))] * 2), max_size=12))
 def test_clusters_are_disjoint_and_hold_their_members(sides):
     lower = np.array([[x, y] for (x, _), (y, _) in sides], dtype=float).reshape(-1, 2)
@@ -238,7 +239,7 @@ def check_polynomial(problem):
         assert simple <= unique
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(polynomials())
 def test_all_zeros_of_a_polynomial(problem):
     check_polynomial(problem)
@@ -251,7 +252,7 @@ def test_all_zeros_of_a_polynomial_at_length(problem):
     check_polynomial(problem)
 
 
-@settings(deadline=None, max_examples=10)
+@settings(deadline=None, max_examples=examples(10))
 @given(
     st.lists(rationals, min_size=1, max_size=2, unique=True),
     st.lists(rationals, min_size=1, max_size=2),
@@ -379,7 +380,7 @@ def check_range(problem):
         assert not holds or sign.sign is proved
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(ranges())
 def test_ranges_and_signs_of_polynomials(problem):
     check_range(problem)

@@ -22,6 +22,7 @@ from intervals.elementary import (
     ziv,
 )
 from intervals.elementary.tightest import FUNCTIONS
+from tests.effort import examples
 from tests.intervals import oracle
 from tests.intervals.boxes import numbers, precisions
 from tests.intervals.oracle import encloses, exponent, quarter_turns, rounded
@@ -82,7 +83,7 @@ def check(name, x, precision):
 
 
 @pytest.mark.parametrize("name", EVERY)
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(st.data(), precisions, precisions, st.sampled_from([-1, 1]))
 def test_tight(name, data, width, precision, sign):
     x = into_domain(name, sign * data.draw(numbers(width)))
@@ -124,7 +125,7 @@ def test_where_arguments_become_so_small_that_they_decide(name, precision):
 
 
 @pytest.mark.parametrize("name", EVERY)
-@pytest.mark.parametrize("precision", [2, 53, 333, 3333])
+@pytest.mark.parametrize("precision", [2, 53, 333, pytest.param(3333, marks=pytest.mark.slow)])
 def test_small_integers_and_simple_fractions(name, precision):
     for numerator, denominator in itertools.product(range(-9, 10), (1, 2, 4, 8)):
         x = Fraction(numerator, denominator)
@@ -142,7 +143,7 @@ def check_two(name, function, x, y, precision):
 pairs = st.tuples(precisions, precisions, precisions, st.sampled_from([-1, 0, 1, 1]))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.data(), pairs, st.sampled_from([-1, 1]))
 def test_atan2_is_tight(data, pair, other):
     width, height, precision, sign = pair
@@ -152,7 +153,7 @@ def test_atan2_is_tight(data, pair, other):
         check_two("atan2", tightest.atan2, x, y, precision)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.data(), pairs, st.sampled_from([-1, 1]))
 def test_hypot_is_tight(data, pair, other):
     width, height, precision, sign = pair
@@ -163,7 +164,7 @@ def test_hypot_is_tight(data, pair, other):
 small_exponents = st.sampled_from([Fraction(k, 8) for k in range(-40, 41)])
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.data(), pairs)
 def test_power_is_tight(data, pair):
     width, height, precision, sign = pair
@@ -172,7 +173,7 @@ def test_power_is_tight(data, pair):
     check_two("pow", tightest.power, x, y, precision)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions, precisions, st.integers(1, 40), st.sampled_from([-1, 1]))
 def test_integer_power_is_tight(data, width, precision, n, sign):
     x = sign * data.draw(numbers(width))
@@ -382,7 +383,7 @@ def test_powers_next_to_one_end():
 # -- identities ------------------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.data(), precisions)
 def test_roots_of_powers_are_exact(data, precision):
     x = data.draw(numbers(precision))
@@ -391,7 +392,7 @@ def test_roots_of_powers_are_exact(data, precision):
     assert exact(tightest.hypot(raw(3 * x), raw(-4 * x), precision + 3)) == (5 * x, 5 * x)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=examples(50))
 @given(st.integers(1, 2**64) | st.integers(1, 2**700))
 @example(7)
 @example(8)
@@ -404,7 +405,7 @@ def test_the_integer_cube_root(n):
     assert r**3 <= n < (r + 1) ** 3
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(st.data(), precisions)
 def test_identities(data, precision):
     x = raw(data.draw(numbers(precision, largest=8)))
@@ -442,7 +443,7 @@ def test_what_is_settled_is_how_the_numbers_within_are_rounded(precision):
                 assert expected == {exact(found)}
 
 
-@settings(deadline=None, max_examples=80)
+@settings(deadline=None, max_examples=examples(80))
 @given(st.data(), precisions, precisions, st.sampled_from([-1, 1]), st.booleans())
 def test_beside_a_number(data, width, precision, sign, upward):
     x = sign * data.draw(numbers(width))

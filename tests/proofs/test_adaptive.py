@@ -111,6 +111,7 @@ def test_both_sides_of_the_separation_phase(exponent):
     assert 0 < after.slope[0] < 10 * distance
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [5, 20])
 def test_an_interval_across_the_separation_phase_is_no_onset(exponent):
     distance = Fraction(1, 10**exponent)

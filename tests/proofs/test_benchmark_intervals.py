@@ -1,6 +1,7 @@
 """The benchmark of the arithmetic: that all libraries do the same work, and that rows say so."""
 
 import json
+import subprocess
 import sys
 from fractions import Fraction
 from functools import partial
@@ -166,12 +167,19 @@ def test_memory_that_is_given_back_counts():
     assert memory.peak_bytes(lambda: np.zeros(10**5).sum()) >= 8 * 10**5
 
 
-def test_first_calls_are_made_in_a_process_that_has_made_none():
+def test_first_calls_are_made_in_a_process_that_has_made_none(monkeypatch):
+    made, run = [], subprocess.run
+
+    def watched(command, **options):
+        made.append(command)
+        return run(command, **options)
+
+    monkeypatch.setattr(first_calls.subprocess, "run", watched)
     sampler = partial(first_calls._in_new_process, "log", SCALAR)
-    once = min(sampler() for _ in range(2))
-    first_calls.seconds("log", SCALAR)
-    tables_filled = min(first_calls.seconds("log", SCALAR) for _ in range(3))
-    assert once > tables_filled > 0
+    assert sampler() > 0 and sampler() > 0
+    assert [command[0] for command in made] == [sys.executable] * 2
+    assert all(command[-2:] == ["log", SCALAR] for command in made)
+    assert first_calls.seconds("log", SCALAR) > 0 and len(made) == 2
 
 
 # -- codac -----------------------------------------------------------------------------------------

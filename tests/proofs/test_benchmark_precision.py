@@ -374,6 +374,7 @@ def test_certificates_that_the_checker_refuses_show(tmp_path):
 # -- diagrams --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_diagram_shows_what_was_measured():
     pytest.importorskip("matplotlib")
     proved = curve_of([1.0, None, 1e-9])

@@ -98,6 +98,7 @@ def refused(known, steps, name, change, reason=None):
 # -- G5 --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_printed_interval_holds_one_orbit_of_period_two(stays):
     decision = DECIDE["G5"](PAPER, list(stays.values()))
     assert decision.verdict is Verdict.REFUTED
@@ -123,6 +124,7 @@ def test_brute_force_agrees_that_few_orbits_stay():
     assert all(1.32 < x < 1.3378 or 1.452 < x < 1.4596 for x in inner)
 
 
+@pytest.mark.slow
 def test_images_of_cell_ends_are_the_true_ones(stays):
     sets = [x for x in stays.values() if isinstance(x, StayingSet)]
     ends = {
@@ -136,6 +138,7 @@ def test_images_of_cell_ends_are_the_true_ones(stays):
         assert float(low) - 1e-9 <= true_map(end)[1] <= float(high) + 1e-9
 
 
+@pytest.mark.slow
 def test_the_fixed_points_are_the_published_ones(stays):
     decision = DECIDE["G5"](PAPER, list(stays.values()))
     known = (F("1.104775829127550847838252004"), F("1.316386182666309667088102998"))
@@ -146,6 +149,7 @@ def test_the_fixed_points_are_the_published_ones(stays):
     assert all(high - low < F(1, 10**14) for low, high in bounds)
 
 
+@pytest.mark.slow
 def test_the_orbit_of_period_two_is_the_true_one(stays):
     decision = DECIDE["G5"](PAPER, list(stays.values()))
     (low, high), other = (decision.quantities[f"period_2_point_{i}"] for i in (1, 2))
@@ -154,6 +158,7 @@ def test_the_orbit_of_period_two_is_the_true_one(stays):
     assert float(other[0]) == pytest.approx(true_map(low)[1], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_brackets_of_an_orbit_need_points_on_both_sides(stays):
     points = [x for x in stays.values() if isinstance(x, PointFact)]
     others = [x for x in stays.values() if not isinstance(x, PointFact)]
@@ -179,6 +184,7 @@ def test_an_orbit_is_bracketed_by_covering():
     assert brackets([cell("1.32", "1.34", "1.3", "1.5", slope=-5)], around) == []
 
 
+@pytest.mark.slow
 def test_prover_and_checker_decide_alike(staying, stays):
     own = DECIDE["G5"](PAPER, [conclusion for _, conclusion in staying.proofs["G5"]])
     again = DECIDE["G5"](PAPER, [stays[name] for name, _ in staying.proofs["G5"]])
@@ -206,11 +212,13 @@ STAYING_LIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lie", STAYING_LIES)
 def test_a_forged_staying_set_is_refused(staying, stays, lie):
     refused(stays, staying.steps, first(staying.steps, "staying-set"), STAYING_LIES[lie])
 
 
+@pytest.mark.slow
 def test_a_gap_that_avoids_less_is_refused(staying, stays):
     name = first(staying.steps, "avoids")
     refused(
@@ -558,6 +566,7 @@ def documents(staying, small):
     return {claim: certificate(PAPER, used, [entry]) for claim, (used, entry) in entries.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("claim", "verdict"), [("G5", Verdict.REFUTED), ("G9", Verdict.VERIFIED)])
 def test_the_certificates_are_accepted(documents, claim, verdict):
     (found,) = check(render(documents[claim])).claims
@@ -579,6 +588,7 @@ ENTRY_LIES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("claim", "field", "value"), ENTRY_LIES)
 def test_a_forged_entry_is_rejected(documents, claim, field, value):
     forged = copy.deepcopy(documents[claim])

@@ -12,11 +12,12 @@ from intervals import Interval
 from proofs.check import arithmetic
 from proofs.check.arithmetic import Dual, Enclosure, Unproved, log, pi, rational
 from proofs.model.equations import sincos
+from tests.effort import examples
 
 TRUTH_BITS = 4096
 PRECISIONS = (8, 24, 53, 64, 113, 400, 2000)
 
-quick = settings(max_examples=40, deadline=None)
+quick = settings(max_examples=examples(40), deadline=None)
 bits_of = st.sampled_from(PRECISIONS)
 tame = st.fractions(-1000, 1000, max_denominator=10**12)
 tiny = st.builds(lambda m, k: Fraction(m, 2**k), st.integers(-9, 9), st.integers(40, 300))
@@ -85,6 +86,7 @@ def test_pi_is_enclosed_and_tight(bits):
     assert pi(bits).hi - pi(bits).lo <= 5
 
 
+@pytest.mark.slow
 def test_pi_at_very_many_precisions():
     """Some of them find pi next to a multiple of 2^-bits, where a lost error term shows."""
     mantissa = exactly(flint.arb.pi)[0]

@@ -278,6 +278,7 @@ def test_absorbed_phases_stick_as_soon_as_is_said(coarse):
             assert count <= steps
 
 
+@pytest.mark.slow
 def test_the_measure_against_a_sample(coarse):
     """Of 600 phases spread evenly no more are left than the bounds say, but for chance."""
     phases = (np.arange(600) + 0.5) / 600 * 2 * np.pi

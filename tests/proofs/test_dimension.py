@@ -56,7 +56,7 @@ def decide(found, of=PAPER):
 @pytest.mark.parametrize(
     ("words", "longest", "read"),
     [
-        (FULL, 6, periodic_dimension.every),
+        pytest.param(FULL, 6, periodic_dimension.every, marks=pytest.mark.slow),
         (WITHOUT_000, 8, periodic_dimension.without_000),
         (WITHOUT_000, 4, periodic_dimension.blocks),
     ],

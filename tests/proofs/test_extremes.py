@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from intervals import DomainError, Interval, Undecided
 from proofs.methods.extremes import extremes, piece_range
-from tests.effort import examples
 
 
 def polynomial(coefficients):
@@ -47,7 +46,7 @@ def test_an_interior_extremum_is_found_to_the_tolerance():
     assert found.maximum[0] <= 1 <= found.maximum[1]
 
 
-@settings(deadline=None, max_examples=examples(60))
+@settings(deadline=None, max_examples=60)
 @given(st.lists(st.integers(-9, 9), min_size=2, max_size=5), st.integers(0, 40))
 def test_every_value_lies_between_the_outer_bounds(coefficients, k):
     g, dg = polynomial(coefficients)

@@ -99,6 +99,7 @@ def check_contains(enclosure, ball):
         assert low <= enclosure.range[1]
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(expressions, points, points, widths, st.sampled_from([0, Fraction(1, 3), 1]))
 def test_enclosures_contain_the_values(expression, x, y, width, share):

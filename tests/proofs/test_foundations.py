@@ -216,6 +216,7 @@ def test_verdicts_and_an_accepted_certificate(document):
     assert {each.id: each.verdict.value for each in report.claims} == VERDICTS
 
 
+@pytest.mark.slow
 def test_without_any_one_step_a_claim_is_open():
     evidence = prove(PAPER, CLAIMS, digits=10)
     for claim in CLAIMS:

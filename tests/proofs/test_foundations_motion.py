@@ -182,6 +182,7 @@ def test_marching_is_wrong_before_the_phases_that_stick(nu):
     assert found is None or found > 0.03
 
 
+@pytest.mark.slow
 def test_the_condition_for_marching_is_sufficient():
     rng, tried = random.Random(6), 0
     for _ in range(40):

@@ -23,7 +23,7 @@ from proofs.statements import Verdict
 REPORTS = Path(__file__).parents[2] / "reports"
 REFUSED = (Malformed, Rejected)
 EXACT = {"H15", "H17"}  # decided by exact arithmetic on the paper's numbers
-SLOW = {"circle"}  # its check takes seconds
+SLOW = {"nonplastic", "dimension", "chaos", "circle", "soft"}  # their checks take longest
 # how many numbers are changed, by what a check takes
 CHANGED = {"sets": 30, "foundations": 15, "persistence": 8, "nonplastic": 4, "soft": 4}
 

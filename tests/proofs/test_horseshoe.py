@@ -156,10 +156,13 @@ def test_digits_asked_for_are_certified_and_checked(digits):
         {"slopes": (Fraction(5), Fraction(6)), "ratios": None, "printed_s0": None},
         {"slopes": (Fraction("1.5"), Fraction("1.7")), "ratios": None, "printed_s0": None},
         {"eta": Fraction("0.2125")},
-        {"eta": Fraction("0.212")},
+        pytest.param({"eta": Fraction("0.212")}, marks=pytest.mark.slow),
         {"nu": Fraction("0.2")},
-        {"left": (Fraction("1.16"), Fraction("1.2")),
-         "interval": (Fraction("1.16"), Fraction("1.32"))},
+        pytest.param(
+            {"left": (Fraction("1.16"), Fraction("1.2")),
+             "interval": (Fraction("1.16"), Fraction("1.32"))},
+            marks=pytest.mark.slow,
+        ),
         {"left": (Fraction(4), Fraction("4.5")), "right": (Fraction(5), Fraction("5.5")),
          "interval": (Fraction(4), Fraction("5.5"))},
     ],
@@ -294,6 +297,7 @@ def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.slow
 def test_a_figure_of_what_is_not_proved_is_refused(capsys, tmp_path):
     arguments = ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H16", "--figure"]
     assert horseshoe.main([*arguments, "--out", str(tmp_path)]) == 0
@@ -308,12 +312,14 @@ def test_undecided_is_status_1(tmp_path):
     assert status == 1
 
 
+@pytest.mark.slow
 def test_help_shows_examples():
     for module in ("proofs.horseshoe", "proofs.impact", "proofs.check"):
         done = run("--help", module=module)
         assert done.returncode == 0 and f"python -m {module}" in done.stdout.split("example")[-1]
 
 
+@pytest.mark.slow
 def test_the_committed_report_is_what_the_command_writes(tmp_path):
     assert horseshoe.main(["--out", str(tmp_path)]) == 0
     for name in ("horseshoe.json", "horseshoe.md"):

@@ -133,6 +133,7 @@ def test_an_interval_contains_the_images_of_its_points():
     )
 
 
+@pytest.mark.slow
 def test_a_grazing_phase_inside_gives_the_set_of_possible_images():
     found = image(PAPER, (Fraction("1.17"), Fraction("1.2")))
     assert isinstance(found, PossibleImages) and len(found.images) >= 2
@@ -176,6 +177,7 @@ def test_next_to_the_onset_of_sticking_the_flight_is_short():
     assert abs(number(found.slope[0]) + 2) < mpf(10) ** -7
 
 
+@pytest.mark.slow
 def test_forever_on_the_table_and_horizon():
     with pytest.raises(NoImpact, match="forever"):
         point(System(Fraction("0.2121"), Fraction("0.02")), "1")

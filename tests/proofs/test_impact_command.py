@@ -34,6 +34,7 @@ def test_an_interval_and_a_sticking_phase(capsys):
     assert set(stuck["dwell"]) == {"lower", "upper"}
 
 
+@pytest.mark.slow
 def test_a_jump_gives_a_set_and_status_1(capsys):
     assert impact.main([*AT, "--phi", "1.17", "1.2", "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out)

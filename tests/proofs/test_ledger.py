@@ -39,7 +39,12 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "old, new", [('"REFUTED"', '"VERIFIED"'), ("2121/10000", "2122/10000"), ("}", "")]
+    "old, new",
+    [
+        ('"REFUTED"', '"VERIFIED"'),
+        pytest.param("2121/10000", "2122/10000", marks=pytest.mark.slow),
+        pytest.param("}", "", marks=pytest.mark.slow),
+    ],
 )
 def test_a_file_that_does_not_prove_it_is_proved_again(tmp_path, old, new):
     assert run(tmp_path) == 0

@@ -16,6 +16,7 @@ from tests.proofs.lemma_falsifier import falsehoods
 from tests.proofs.lemma_mutations import GROUPS, HARMLESS, mutations
 
 QUICK = 12  # one mutation in so many, at random, in the quick run
+LONGEST = {"henon_horseshoe", "henon_fixed_points", "gap_identities"}  # to check
 SLOW = int(environ.get("ONE_MUTATION_IN", "3"))  # likewise in the slow one; 1 is all of them
 
 
@@ -52,7 +53,9 @@ def test_the_examples_are_not_falsified(name):
     assert not list(falsehoods(text(name)))
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=[pytest.mark.slow] * (x in LONGEST)) for x in EXAMPLES]
+)
 def test_a_sample_of_the_mutations(name):
     counts = run(name, lambda m: crc32(f"{m.kind}{m.where}".encode()) % QUICK == 0)
     assert counts

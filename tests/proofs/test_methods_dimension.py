@@ -58,6 +58,7 @@ def test_linear_sets_by_moran(maps):
     assert low < moran([abs(r) for r, _ in maps]) < high
 
 
+@pytest.mark.slow
 def test_a_wrong_exponent_is_seen():
     """L_s h / h is at least exp(-shift log|g'|) from 1 when s is shifted."""
     found = candidate(e2, E2_HULL, 8)

@@ -70,6 +70,7 @@ def trapping_lemma():
     return render(file.document())
 
 
+@pytest.mark.slow
 def test_the_quadrilateral_is_mapped_into_its_interior():
     claims = check_lemma(trapping_lemma()).claims
     assert [claim.rpartition(": ")[2] for claim in claims] == [f"T_{i} > 0" for i in range(1, 5)]
@@ -143,6 +144,7 @@ def newton(point, orbit):
     return point
 
 
+@pytest.mark.slow
 def test_all_cycles_up_to_period_six():
     check_cycles(range(1, 7))
 

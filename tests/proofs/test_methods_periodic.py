@@ -98,6 +98,7 @@ def test_the_linear_horseshoe(period):
         assert b.mag == 0 and c.mag == 0
 
 
+@pytest.mark.slow
 def test_three_dimensions():
     """A product of x -> 5x(1-x), y -> y/2 + x, and z -> z^2 + 1/5: 2 2^n points."""
 

@@ -79,6 +79,7 @@ def test_there_are_thousands_of_mutations_of_a_hundred_kinds(document):
     assert all(reason for reason in HARMLESS.values())
 
 
+@pytest.mark.slow
 def test_every_mutation_changes_something(document):
     whole = text_of(document)
     for mutation in sample(mutations(document), 3):
@@ -93,6 +94,7 @@ def test_every_mutation_changes_something(document):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("remembered_clock")
 def test_all_mutations(document, original):
     counts = tally(mutations(document), lambda mutation: verify(mutation, original))
     print(mutation_table(counts))
@@ -130,6 +132,7 @@ def test_a_parameter_of_a_thousand_digits(document):
         check(text_of(only))
 
 
+@pytest.mark.slow
 def test_a_bracket_of_thousands_of_digits_is_read(document):
     """More digits than the checker computes with decide nothing, and raise nothing else."""
     root = json.loads(corpus.changing(corpus.H11)(document))

@@ -278,6 +278,7 @@ def wide():
     return made(WIDE)
 
 
+@pytest.mark.slow
 def test_the_printed_rectangles_are_refuted_and_others_proved(paper):
     row, certificate = paper
     assert row.verdict is Verdict.REFUTED
@@ -381,6 +382,7 @@ def test_a_word_is_barred_for_each_oscillator_anew():
 # -- the command -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_command_takes_a_box(tmp_path, capsys):
     sets = ["--left", "1.09", "1.18", "--right", "1.25", "1.35"]
     box = ["--reach", "0.0001", "0", "1/1000"]
@@ -439,6 +441,7 @@ def test_the_box_is_what_is_stated(wide, reach):
         rejected(wide[1], renewed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("field", "old", "new"),
     [

@@ -163,11 +163,13 @@ def test_the_machine_form(capsys):
     assert [row["word"] for row in answer(capsys, "--word", "0101")["orbits"]] == ["0101", "1010"]
 
 
+@pytest.mark.slow
 def test_printed_bounds_enclose(capsys):
     """At few digits the printed bounds contain those at more."""
+    more = answer(capsys, "--period", "2")["orbits"]
     for few in (["--digits", "1"], ["--digits", "9"], ["--fast"], ["--fast", "--digits", "2"]):
         rough = answer(capsys, "--period", "2", *few)["orbits"]
-        for row, fine in zip(rough, answer(capsys, "--period", "2")["orbits"], strict=True):
+        for row, fine in zip(rough, more, strict=True):
             for key in ("phase", "multiplier"):
                 assert Fraction(row[key]["lower"]) <= Fraction(fine[key]["lower"])
                 assert Fraction(fine[key]["upper"]) <= Fraction(row[key]["upper"])
@@ -194,7 +196,11 @@ def test_tables(capsys, tmp_path):
     [
         (["--left", "1.11", "1.15"], "[1.11, 1.12] has no preimage in I0; it is one on I0 = [1.1,"),
         (["--left", "1.1", "1.12"], "no horseshoe is proved"),
-        (["--left", "1.1", "1.16", "--right", "1.161", "1.32"], "no horseshoe is proved"),
+        pytest.param(
+            ["--left", "1.1", "1.16", "--right", "1.161", "1.32"],
+            "no horseshoe is proved",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 @pytest.mark.parametrize("how", [["--period", "3"], ["--word", "01", "--json", "-"]])

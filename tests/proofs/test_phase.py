@@ -16,6 +16,7 @@ def true_turn():
 
 
 TURN = true_turn()  # to 1e-118
+TURNS = [k * TURN for k in range(-1, 170)]
 numbers = st.fractions(0, 1000, max_denominator=10**6)
 
 
@@ -46,8 +47,8 @@ def test_phase_after_encloses_the_phase(phase, time, width):
 def test_misses_is_never_claimed_of_what_meets(time, width, start, length):
     target = (start, min(start + length, Fraction(628, 100)))
     if misses((time, time + width), target):
-        for k in range(-1, 170):
-            assert not (time <= target[1] + k * TURN and target[0] + k * TURN <= time + width)
+        low, high = time - target[1], time + width - target[0]
+        assert not any(low <= turns <= high for turns in TURNS)
 
 
 def test_misses_next_to_a_multiple_of_the_turn():

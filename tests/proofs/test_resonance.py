@@ -94,6 +94,7 @@ def _agree_at_random(left, right, chance):
     return abs(left - right) < mpf(10) ** -30
 
 
+@pytest.mark.slow
 def test_bent_lemmas_are_refused():
     chance, refused = random.Random(6), 0
     for lemma in WRITTEN_OUT:

@@ -102,6 +102,7 @@ def test_help_shows_examples(capsys):
         assert "python -m proofs.resonance --nu -0.2 --epsilon 0.5" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_too_many_impacts_are_undecided(capsys):
     state = [Fraction(text) for text in ("-0.2", "0.9999999999", "1", "-3")]
     with pytest.raises(TooManyImpacts):

@@ -7,6 +7,7 @@ digits). At phase 1.2 the gap has a minimum of 1.06e-5 near time 25.874 and vani
 
 import copy
 from fractions import Fraction
+from functools import cache
 
 import pytest
 from mpmath import mp, mpf
@@ -563,26 +564,33 @@ def test_moran_brackets_that_prove_nothing(bounds):
 # -- signs that no precision decides ---------------------------------------------------------------
 
 
+@cache
+def to_1400_digits(find):
+    with mp.workdps(1420):
+        return Fraction(mp.nstr(find(), 1400))
+
+
+def root_of_moran():
+    return mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, S0_GUESS)
+
+
+def impact():
+    eta, nu, phase = mpf("0.2121"), mpf("-0.2"), mpf("1.15")
+    return mp.findroot(lambda t: reference.left_side_10(eta, nu, phase, t), IMPACT_GUESS)
+
+
 def thin(find, shift):
     """A bracket 10^-1300 wide, beside a number that `find` computes to 1400 digits."""
-    with mp.workdps(1420):
-        centre = Fraction(mp.nstr(find(), 1400))
-    low = centre + shift * Fraction(1, 10**1300)
+    low = to_1400_digits(find) + shift * Fraction(1, 10**1300)
     low = Fraction(low * 10**1310 // 1, 10**1310)
     return times(low, low + Fraction(1, 10**1300))
 
 
-@pytest.mark.parametrize("shift", [2, -2, 0])
+@pytest.mark.parametrize(
+    "shift", [2, *(pytest.param(shift, marks=pytest.mark.slow) for shift in (-2, 0))]
+)
 def test_an_undecided_sign_is_no_sign(known, shift):
     """At such brackets F and the gap are far below the checker's last place."""
-
-    def root_of_moran():
-        return mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, S0_GUESS)
-
-    def impact():
-        eta, nu, phase = mpf("0.2121"), mpf("-0.2"), mpf("1.15")
-        return mp.findroot(lambda t: reference.left_side_10(eta, nu, phase, t), IMPACT_GUESS)
-
     refused("moran-root", {"ratios": PRINTED, "root": thin(root_of_moran, shift)}, None, "signs")
     witness = {"flight": "impact", "phase": "23/20", "time": thin(impact, shift)}
     refused("point", witness, known, "signs")

@@ -168,6 +168,7 @@ def compare_tables(seed, size):
     return counts
 
 
+@pytest.mark.slow
 def test_both_tables_of_claims_give_the_same_verdicts():
     counts = compare_tables(1, 500)
     assert len(counts) == 18 and min(counts.values()) >= 3, counts

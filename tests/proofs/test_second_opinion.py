@@ -76,7 +76,9 @@ def test_at_53_bits_arb_decides_all_but_the_narrow_brackets(found):
     [
         {"eta": Fraction("0.23")},
         pytest.param({"nu": Fraction("-0.25")}, marks=pytest.mark.slow),
-        {"interval": (Fraction(1), Fraction("1.32"))},
+        pytest.param(
+            {"interval": (Fraction(1), Fraction("1.32"))}, marks=pytest.mark.slow
+        ),
         {"left": (Fraction("0.5"), Fraction("0.51")), "right": (Fraction("0.52"), Fraction("0.53")),
          "interval": (Fraction("0.5"), Fraction("0.53"))},
     ],

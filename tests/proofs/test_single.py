@@ -129,7 +129,7 @@ def test_resonance_and_double_solutions_are_not_guessed():
 # -- which of them are orbits --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sign", [-1, 1])
+@pytest.mark.parametrize("sign", [pytest.param(-1, marks=pytest.mark.slow), 1])
 def test_admissible_solutions_against_a_scan_of_the_gap(sign):
     seen = {True: 0, False: 0}
     for of, n in drawn(4 + sign, 150, sign, most=1.5 if sign < 0 else 0.3):

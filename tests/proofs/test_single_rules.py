@@ -331,6 +331,7 @@ def test_edited_certificates_are_refused(document):
             check(render(wrong))
 
 
+@pytest.mark.slow
 def test_a_claim_alone_has_its_own_certificate():
     _, alone = settle("single", PAPER, ["P6"], digits=15, tell=lambda stage: None)
     assert [one.id for one in check(render(alone)).claims] == ["P6"]

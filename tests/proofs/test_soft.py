@@ -38,6 +38,7 @@ def certificate(*claims):
     return groups.settle("soft", PAPER, claims or None, digits=20, tell=lambda stage: None)[1]
 
 
+@pytest.mark.slow
 def test_every_claim_and_its_verdict(believing):
     document = certificate()
     assert CLAIMS == GROUPS["soft"] == tuple(f"S{n}" for n in range(1, 24))
@@ -96,6 +97,7 @@ def test_bent_formulas_are_refused(believing):
     assert tried > 35
 
 
+@pytest.mark.slow
 def test_every_step_is_needed(believing):
     for claim in ("S3", "S7", "S8", "S13"):
         document = certificate(claim)

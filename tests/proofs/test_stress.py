@@ -422,6 +422,10 @@ HARD = [  # shrunk from random cases on which the library is weakest
                 Fraction("-0.88303318574285"), 20),
     ReboundCase("restitution", ETA, NU, Fraction("1.4181"), Fraction("1.4181000000001"),
                 Fraction(1), Fraction("-7.7")),
+    ImageCase("separation", ETA, NU,
+              *[Fraction("6.04542391200064212730138120793999696716995844")] * 2, 10),
+    ImageCase("short flights", ETA, NU, Fraction("3.379354048768637588086548941897511685422"),
+              Fraction("3.379354048768687588086548941897511685422"), 12),
     CoverCase("kernel", Fraction("0.9"), Fraction("-0.3"), Fraction(30, 13), Fraction("2.31"), 16),
 ]  # fmt: skip
 

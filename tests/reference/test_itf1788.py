@@ -36,7 +36,12 @@ def outcomes(path):
 
 
 def named(paths):
-    return pytest.mark.parametrize("path", paths, ids=lambda path: path.name)
+    """Each file a case; the longest ones are slow."""
+    cases = [
+        pytest.param(path, marks=[pytest.mark.slow] * (path.stat().st_size > 100_000))
+        for path in paths
+    ]
+    return pytest.mark.parametrize("path", cases, ids=lambda path: path.name)
 
 
 @named([*COMMITTED, *OTHERS])
