@@ -14,7 +14,10 @@ class TookTooLong(BaseException):
 
 @contextmanager
 def limited(seconds: float) -> Iterator[None]:
-    """Raise TookTooLong after so many seconds of work, where the system has such an alarm."""
+    """Raise TookTooLong after so many seconds of work, where the system has such an alarm.
+
+    It is raised again each second: what is raised while an object is finalised is lost.
+    """
     if not hasattr(signal, "SIGVTALRM") or threading.current_thread() != threading.main_thread():
         yield
         return
@@ -23,7 +26,7 @@ def limited(seconds: float) -> Iterator[None]:
         raise TookTooLong
 
     before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, 1.0)
     try:
         yield
     finally:

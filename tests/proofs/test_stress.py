@@ -321,6 +321,20 @@ def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
         pass
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_an_alarm_that_is_lost_in_a_finaliser_comes_again():
+    class Slow:
+        def __del__(self):
+            began = time.process_time()
+            while time.process_time() < began + 0.2:
+                pass
+
+    with pytest.raises(TookTooLong), limited(0.05):
+        Slow()
+        for _ in itertools.count():
+            pass
+
+
 # -- the cases and the command ---------------------------------------------------------------------
 
 
