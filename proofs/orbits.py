@@ -190,6 +190,9 @@ def _parameters(options: Namespace) -> Parameters:
         slopes=(Fraction(1), Fraction(1)),
         ratios=None,
         printed_s0=None,
+        epsilon=None,
+        velocities=None,
+        reach=None,
     )
 
 

@@ -22,11 +22,12 @@ def next_impact(
     if acceleration <= 0:
         return None
     bend = abs(nu) + eta * math.hypot(eta * (1 + start.lift), start.rate)
+    rounding = 1e-15 * (2 + 2 * abs(nu) + abs(start.rate) / eta)
     time = min(1.0, acceleration / (2 * (abs(nu) + eta * bend)))
     while time < horizon:
         now = clock(eta, time)
         height, speed = gap(start, now), gap(start, now, 1)
-        if height < 1e-13:
+        if height < max(1e-13, rounding):
             return time, (phase + time) % math.tau, slope(start, now)
         time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
     return None

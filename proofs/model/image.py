@@ -119,7 +119,9 @@ def image(
         return _over_interval(parts, digits)
     except NoImpact:
         raise
-    except (Undecided, DomainError):
+    except (Undecided, DomainError) as error:
+        if isinstance(error, Unsettled) and error.hopeless:
+            raise
         return _possible(system, phases, horizon, _NOT_CUT)
 
 

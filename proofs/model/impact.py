@@ -26,12 +26,15 @@ class NoImpact(Undecided):
 
 
 class Unsettled(Undecided):
-    """Up to the horizon impacts are possible, in so many windows of time, and none is certain."""
+    """Up to the horizon impacts are possible, in some windows of time, and none is certain.
+
+    hopeless: there are so many windows that mass and table seem to touch, as at resonance.
+    """
 
     def __init__(self, windows: list[Range]) -> None:
         first = float(windows[0][0])
         super().__init__(f"an impact near time {first:.9g} is neither proved nor excluded")
-        self.windows = len(windows)
+        self.hopeless = len(windows) > _TOUCHES
 
 
 class Sticks(Undecided):
@@ -91,8 +94,8 @@ def first_impact(
     then not excluded opens a window, in which they grow again, to 16 times that or an eighth of
     the window.
 
-    Raises NoImpact or Unsettled at the horizon, Sticks where all phases do, Undecided where the
-    launch itself is not decided.
+    Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
+    where all phases do, Undecided where the launch itself is not decided.
     """
     if not flight.leaves:
         if launch_acceleration(flight.start).certainly_negative():
@@ -110,7 +113,7 @@ def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) 
     while not certain:
         now = times[-1]
         least = min(finest, now / 8)
-        if now >= horizon and open_pieces:
+        if len(open_pieces) > (0 if now >= horizon else 4 * _TOUCHES):
             raise Unsettled(open_pieces)
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
@@ -168,7 +171,7 @@ def locate(
         except (NoImpact, Sticks):
             raise
         except Unsettled as failure:
-            if failure.windows > _TOUCHES:
+            if failure.hopeless:
                 raise
             continue
         except Undecided:
@@ -230,8 +233,10 @@ def cover_by(
                 return found
         except Sticks:
             raise
-        except (NoImpact, Unsettled) as error:
+        except NoImpact as error:
             most, failure = 4, error
+        except Unsettled as error:
+            most, failure = (1 if error.hopeless else 4), error
         except Undecided as error:
             failure = error
         if part.cuts >= most:

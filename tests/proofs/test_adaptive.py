@@ -7,9 +7,20 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs.counting import ARRAYS, INTERVALS, Kind, counted
+from proofs.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
+from proofs.model.candidate import next_impact
+from proofs.model.flight import Flight
 from proofs.model.image import Image, image
-from proofs.model.impact import LEAST, Sticks, cover_by_impacts, locate, precision_for
+from proofs.model.impact import (
+    LEAST,
+    Sticks,
+    Unsettled,
+    cover_by_impacts,
+    first_impact,
+    locate,
+    precision_for,
+    steps_for,
+)
 from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.model.system import System
 from tests.proofs import reference
@@ -179,3 +190,43 @@ def test_extremes_where_binary64_decides_nothing():
     slopes = [short_flight(PAPER, x, Fraction(1, 10**6))[1] for x in phases]
     assert Fraction(found.minimum[0]) <= min(slopes) and max(slopes) <= Fraction(found.maximum[1])
     assert np.isfinite([*found.minimum, *found.maximum]).all()
+
+
+# -- where nothing helps -------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("eta", ["1", "0.999999999999"])
+def test_touches_without_end_are_refused_after_one_cut(eta):
+    system, phases = System(Fraction(eta), Fraction("-0.2")), (Fraction("1.11"), Fraction("1.15"))
+    horizon = Fraction(430)  # 68 turns
+    with counted() as counts, pytest.raises(Unsettled) as refused:
+        image(system, phases, horizon=horizon)
+    assert refused.value.hopeless
+    with counted() as once, pytest.raises(Unsettled):
+        first_impact(Flight(system, phases), horizon, steps_for(phases))
+    assert evaluations(counts) < 3 * evaluations(once)
+
+
+def test_some_open_windows_are_not_hopeless():
+    system = System(Fraction(1), Fraction("-0.2"))
+    with pytest.raises(Unsettled) as refused:
+        first_impact(Flight(system, (Fraction("1.11"), Fraction("1.15"))), Fraction(50))
+    assert not refused.value.hopeless
+
+
+@pytest.mark.parametrize("nu", ["1e5", "-1e5", "1e12", "-1e300"])
+def test_the_search_ends_where_rounding_is_large(nu):
+    for phase in (0.3, 1.11, 2.5, 4.0):
+        found = next_impact(System(Fraction("0.2121"), Fraction(nu)), phase)
+        if found is None:
+            continue
+        time, _, slope = found
+        assert 0 < time < 1000 and np.isfinite(slope)
+        gaps = float_gap(float(Fraction(nu)), phase, np.array([0.999 * time, 1.001 * time]))
+        assert gaps[0] > 0 > gaps[1]
+
+
+def float_gap(nu, phase, t):
+    sign = 1 if nu > 0 else -1
+    return sign * reference.left_side_10(0.2121, nu, phase, t, np.sin, np.cos)
