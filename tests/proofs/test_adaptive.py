@@ -68,8 +68,18 @@ def short_flight(system, phase, about):
 ONSET, SEPARATION = ends(PAPER)
 
 
-@pytest.mark.parametrize("share", [Fraction(1, 2), Fraction(1, 100), Fraction(1, 10**6)])
-@pytest.mark.parametrize("exponent", [2, 13, 17, 30])
+@pytest.mark.parametrize(
+    ("exponent", "share"),
+    [
+        (13, Fraction(1, 100)),
+        (30, Fraction(1, 10**6)),
+        *(
+            pytest.param(exponent, share, marks=pytest.mark.slow)
+            for exponent in (2, 13, 17, 30)
+            for share in (Fraction(1, 2), Fraction(1, 300), Fraction(1, 10**7))
+        ),
+    ],
+)
 def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
     distance = Fraction(1, 10**exponent)
     low = ONSET - distance
@@ -104,6 +114,7 @@ def test_usual_intervals_take_the_least_precision():
     assert {part.flight.precision for part in cover_by_impacts(PAPER, phases)} == {LEAST}
 
 
+@pytest.mark.slow
 def test_width_is_not_answered_with_precision():
     # a grazing phase in the interval: no precision helps
     with pytest.raises(Undecided, match="grazing near"):
@@ -167,6 +178,7 @@ def test_boxes_that_binary64_does_not_decide_are_asked_alone():
             assert cover.last[k] < time
 
 
+@pytest.mark.slow
 def test_the_counts_tell_the_boxes_of_each_precision():
     phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
     with counted() as counts:
@@ -183,6 +195,7 @@ def test_the_counts_tell_the_boxes_of_each_precision():
     assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == 0
 
 
+@pytest.mark.slow
 def test_extremes_where_binary64_decides_nothing():
     phases = ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)
     found = slope_extremes(PAPER, phases, 4)

@@ -167,6 +167,7 @@ def test_memory_that_is_given_back_counts():
     assert memory.peak_bytes(lambda: np.zeros(10**5).sum()) >= 8 * 10**5
 
 
+@pytest.mark.slow
 def test_first_calls_are_made_in_a_process_that_has_made_none(monkeypatch):
     made, run = [], subprocess.run
 

@@ -174,6 +174,7 @@ def test_the_series_of_the_slope_is_that_of_another_transcription():
         assert abs(value - found[k].mid * step**k - beside) > bound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [slope_forms.MONOTONE, 0, 1, 2, 3, 4])
 def test_all_arithmetics_do_the_same_work(order):
     pytest.importorskip("flint")
@@ -389,6 +390,7 @@ def test_a_diagram_shows_what_was_measured():
     assert ElementTree.fromstring(svg(Diagram("d", "Nothing", [Curve("w", "v", "kB")])))
 
 
+@pytest.mark.slow
 def test_forms_have_panels_and_libraries_one_entry_each():
     pytest.importorskip("matplotlib")
     ways = [f"{form}, {name}" for form in ("natural", "Taylor 2") for name in (ARRAY, FLINT)]
@@ -398,6 +400,7 @@ def test_forms_have_panels_and_libraries_one_entry_each():
         assert drawn.count(f"<!-- {words} -->") == 1
 
 
+@pytest.mark.slow
 def test_points_with_a_name_show_it_at_their_size():
     pytest.importorskip("matplotlib")
     curve = Curve("check", "files", "kB", [Point(9, None, [2.0], "circle")], against="")

@@ -79,6 +79,7 @@ def test_the_refusal_works():
     assert "the checker must not import mpmath" in result.stderr
 
 
+@pytest.mark.slow
 def test_rejects_under_optimisation():
     """No step of the proof is an `assert`, that -O would remove."""
     names = [name for name in corpus.CORPUS if name.startswith("rejected/")]
@@ -89,6 +90,7 @@ def test_rejects_under_optimisation():
     assert len(lines) == len(names) and all("REJECTED" in line for line in lines)
 
 
+@pytest.mark.slow
 def test_the_worst_status_is_the_exit_status():
     accepted, rejected, malformed = (
         corpus.path_of(name)
@@ -173,6 +175,7 @@ def test_a_file_name_that_is_no_text(tmp_path):
     assert "accepted" in result.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", [None, ALONE], ids=["plain", "others refused"])
 def test_lemma_files_and_rules(code):
     folder = ROOT / "tests" / "certificates" / "lemmas"

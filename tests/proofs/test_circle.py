@@ -458,6 +458,7 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
         derive(steps, coarse[0]["steps"], derived)
 
 
+@pytest.mark.slow
 def test_edited_entries_are_rejected(coarse):
     for index, field, value in (
         (0, "verdict", "REFUTED"),

@@ -328,6 +328,7 @@ def test_csv_on_the_screen_is_for_machines_too(capsys):
     assert "asked: word 01, binary64\n" in out.err
 
 
+@pytest.mark.slow
 def test_undecided_is_counted_and_bad_input_is_not(capsys):
     assert impact.main([*AT, "--phi", "3.37", "3.39", "--stats"]) == 1
     out = capsys.readouterr()

@@ -53,6 +53,7 @@ def conclude(given, known=None):
     return RULES["dimension"](PAPER, flights() if known is None else known, Reader(given))
 
 
+@pytest.mark.slow
 def test_the_conclusion_is_the_prover_s():
     found, own = conclude(witness()), proved()[2]
     assert isinstance(found, Repeller)
@@ -212,6 +213,7 @@ def test_is_not_proved(name):
         conclude(given)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MALFORMED)
 def test_is_malformed(name):
     given = witness()

@@ -281,6 +281,7 @@ def test_infix(expression, text):
     assert formula(expression).texts == (text,)
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(expressions)
 def test_infix_means_the_expression(expression):
@@ -405,6 +406,7 @@ trees = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(trees, points, points)
 def test_leaves_cover_the_box(tree, x, y):

@@ -98,6 +98,7 @@ def meets(one, two):
     return bool(polygon)
 
 
+@pytest.mark.slow
 def test_disjoint_parallelograms():
     rng = random.Random(2)
     outcomes = set()
@@ -411,6 +412,7 @@ def test_entropy_counts_the_power():
 # -- cones -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_periodic_points_of_the_horseshoes_are_unique():
     """Every closed path of length <= 6 is followed once: Newton's method from many starts."""
     import mpmath as mp

@@ -201,6 +201,7 @@ def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
     assert (tmp_path / "horseshoe.json").exists() and (tmp_path / "horseshoe.md").exists()
 
 
+@pytest.mark.slow
 def test_the_machine_form(capsys, tmp_path):
     assert horseshoe.main(["--json", "-", "--out", str(tmp_path)]) == 0
     printed = json.loads(capsys.readouterr().out)

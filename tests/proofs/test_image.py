@@ -73,6 +73,7 @@ def test_a_point_agrees_with_brute_force(eta, nu, phi):
         assert (high - low) * 10**30 <= abs(low)
 
 
+@pytest.mark.slow
 def test_random_parameters_agree_with_brute_force():
     generator = random.Random(20001999)
     compared = 0

@@ -86,6 +86,7 @@ def test_digits_are_certified(capsys):
         assert 0 < (high - low) * 10**59 < abs(low)
 
 
+@pytest.mark.slow
 def test_a_box_contains_the_images_of_its_points(capsys):
     found = answer(capsys, "--phi", "1.11", "1.12", "--epsilon", "0.01", "--gamma", "-0.3", "-0.25")
     generator = random.Random(3)

@@ -87,6 +87,7 @@ def test_true_slopes_and_times_are_enclosed(system, phases, boxes):
         assert cover.last[i] < float(time)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("system", "phases"), CASES)
 def test_the_second_derivative_is_enclosed(system, phases):
     cover = slope_cover(system, phases, 16)
@@ -160,6 +161,7 @@ def test_extremes_where_the_second_derivative_changes_sign():
     assert found.minimum[0] <= found.minimum[1] <= found.maximum[1]
 
 
+@pytest.mark.slow
 def test_two_chunks_or_more_give_the_same_boxes():
     grid = grid_of(cover_by_impacts(PAPER, I0)[0])
     boxes = 2 * CHUNK // len(grid) + 5

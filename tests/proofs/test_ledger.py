@@ -38,6 +38,7 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
     assert "proved and checked" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "old, new",
     [

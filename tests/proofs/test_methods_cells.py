@@ -105,6 +105,7 @@ def brute_force(matrix, shift, depth):
         kept = stays
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(st.lists(st.integers(-24, 24), min_size=6, max_size=6))
 def test_affine_maps_against_brute_force(numbers):

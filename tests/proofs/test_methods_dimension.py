@@ -31,6 +31,7 @@ def moran(ratios, digits=40):
         return Fraction(mp.nstr(root, digits))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("digits", [3, 10, pytest.param(20, marks=pytest.mark.slow)])
 def test_continued_fractions(digits):
     found = dimension(e2, E2_HULL, digits)

@@ -133,6 +133,7 @@ def covering_maps(draw):
     return pieces, domains
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(covering_maps(), st.integers(1, 4), st.sampled_from([None, 5, 40]))
 def test_any_affine_pieces_that_cover(drawn, length, digits):

@@ -307,6 +307,7 @@ def test_edges_go_beyond_at_the_corners_of_the_box():
     assert least_overshoot(PAPER, ((1.11, 1.16), (1.27, 1.33))) < 0  # N1's: for the point alone
 
 
+@pytest.mark.slow
 def test_a_plastic_box():
     of = replace(
         reaching(PAPER, "0.00005", "0.00005", 0),

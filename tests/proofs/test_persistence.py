@@ -61,6 +61,7 @@ def exact(value):
 # -- what is concluded -----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_flight_from_the_separation_phase_is_enclosed():
     found = derive(evidence().steps)["separation-flight-1"]
     bounds = (found.separation, found.flight, found.impact, found.speed)
@@ -70,6 +71,7 @@ def test_the_flight_from_the_separation_phase_is_enclosed():
     assert found.turns == 4
 
 
+@pytest.mark.slow
 def test_prover_and_checker_conclude_the_same():
     derived, own = derive(evidence().steps), dict(evidence().proofs["G7"])
     name = "chatter-1"
@@ -114,6 +116,7 @@ def bounces(epsilon, phase, speed):
     return phases
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("epsilon", ["0.01", "0.355"])
 def test_bounces_by_the_printed_equation_stay_below_the_phase_of_rest(epsilon):
     found = derive(evidence().steps)["chatter-1"]

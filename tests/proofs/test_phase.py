@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import pytest
 from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -27,6 +28,7 @@ def test_turn_is_enclosed_tightly():
         assert found.wid < Fraction(1, 2 ** (precision - 5))
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(numbers, numbers, st.fractions(0, 3, max_denominator=1000))
 def test_phase_after_encloses_the_phase(phase, time, width):
@@ -37,6 +39,7 @@ def test_phase_after_encloses_the_phase(phase, time, width):
     assert high - low < width + slack
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=300)
 @given(
     numbers,

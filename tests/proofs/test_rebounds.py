@@ -273,6 +273,7 @@ def test_never_twice(words, expected):
 # -- cones and boxes -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_cones_against_random_vectors():
     """Where the cone condition is accepted, Q grows for all vectors, and the rates hold."""
     random.seed(7)

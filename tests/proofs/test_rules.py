@@ -586,6 +586,7 @@ def thin(find, shift):
     return times(low, low + Fraction(1, 10**1300))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "shift", [2, *(pytest.param(shift, marks=pytest.mark.slow) for shift in (-2, 0))]
 )

@@ -79,6 +79,7 @@ def test_both_refuse_a_bracket_beside_the_root(shift):
         assert found == other == ("rejected" if moved else "accepted"), reasons
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(2))
 def test_both_give_the_same_verdict_on_h11_and_h16(part):
     chance, counts = random.Random(part), Counter()

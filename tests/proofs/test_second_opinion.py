@@ -71,6 +71,7 @@ def test_at_53_bits_arb_decides_all_but_the_narrow_brackets(found):
         assert (53 in opinion.differs()) == narrow, opinion.leaf
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [
@@ -111,6 +112,7 @@ def test_the_table_has_every_leaf(found):
     assert all(f"\n{rule}: " in told for rule in rules.RULES)
 
 
+@pytest.mark.slow
 def test_the_command():
     done = subprocess.run(
         [sys.executable, "-m", "tests.proofs.second_opinion", str(ACCEPTED)],

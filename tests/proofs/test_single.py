@@ -129,6 +129,7 @@ def test_resonance_and_double_solutions_are_not_guessed():
 # -- which of them are orbits --------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [pytest.param(-1, marks=pytest.mark.slow), 1])
 def test_admissible_solutions_against_a_scan_of_the_gap(sign):
     seen = {True: 0, False: 0}
@@ -183,6 +184,7 @@ def test_records_of_fractional_parts():
     assert last_period(system("0.25", "-1")) is None
 
 
+@pytest.mark.slow
 def test_stiff_springs_have_no_stable_orbit_above_the_table():
     """Lemma 6, by scans: |nu| = 0.2 and eta > 2.2942."""
     rng, seen = random.Random(7), 0

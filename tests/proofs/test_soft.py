@@ -109,6 +109,7 @@ def test_every_step_is_needed(believing):
                 check(render(changed))
 
 
+@pytest.mark.slow
 def test_verdicts_texts_and_quantities_are_not_believed(believing):
     document = certificate("S3", "S4", "S22")
     for index, field, text in (
