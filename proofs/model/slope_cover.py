@@ -94,29 +94,32 @@ def _joined(covers: Sequence[SlopeCover]) -> SlopeCover:
 
 def _retried(system: System, part: FirstImpact, cuts: Floats) -> SlopeCover:
     """Enclose f' over the boxes between the cuts, all in one part, each as it needs."""
-    grid, easy = grid_of(part), part.flight.precision <= LEAST
+    grid, boxes = grid_of(part), cuts.size - 1
 
     def together(low: int, high: int) -> SlopeCover:
-        if not easy:
-            raise Undecided("binary64 is less than one launch in the middle needs")
         return _in_binary64(system, grid, cuts[low : high + 1])
 
-    return _joined(_by_halves(cuts.size - 1, together, lambda k: _alone(system, *cuts[k : k + 2])))
+    def alone(k: int) -> SlopeCover:
+        return _alone(system, cuts[k], cuts[k + 1])
+
+    if part.flight.precision > LEAST:
+        return _joined([alone(k) for k in range(boxes)])
+    return _joined(_by_halves(boxes, together, alone))
 
 
 def _by_halves(
     count: int, together: Callable[[int, int], _Answer], alone: Callable[[int], _Answer]
 ) -> list[_Answer]:
-    """Ask for 0, ..., count - 1 together, and for both halves where that is Undecided.
+    """Ask for 0, ..., count - 1 together, for both halves where that fails, at last for one alone.
 
-    One that is Undecided by itself is asked alone.
+    Failing is to be Undecided, or to leave the range of binary64.
     """
 
     def decide(run: tuple[int, int]) -> _Answer | None:
         low, high = run
         try:
             return together(low, high)
-        except Undecided:
+        except (Undecided, OverflowError):
             return alone(low) if high == low + 1 else None
 
     def halves(run: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -135,17 +138,18 @@ def _alone(system: System, low: float, high: float) -> SlopeCover:
     columns: tuple[list[Range], list[Range], list[Range]] = [], [], []
     for part in parts:
         of = part.flight.phases
-        time = impact_time(part, of, _POINT) if thin else time_range(part, of)
-        flight = part.thin(of, _POINT) if thin else part.part(of)
+        bits = _POINT + part.places
+        time = impact_time(part, of, bits) if thin else time_range(part, of)
+        flight = part.thin(of, bits) if thin else part.part(of)
         slope, curvature = flight.slope_and_curvature(time)
         found = time, (slope.inf, slope.sup), (curvature.inf, curvature.sup)
         for column, one in zip(columns, found, strict=True):
             column.append(one)
     times, slopes, curvatures = (IntervalArray([hull(column)]) for column in columns)
     last = float_down(min(part.window[0] for part in parts))
-    bits = max(part.flight.precision for part in parts)
+    needed = max(part.flight.precision for part in parts)
     boxes = IntervalArray.from_floats([low], [high])
-    return SlopeCover(boxes, times, slopes, curvatures, np.array([last]), np.array([bits]))
+    return SlopeCover(boxes, times, slopes, curvatures, np.array([last]), np.array([needed]))
 
 
 def grid_of(impact: FirstImpact) -> list[float]:

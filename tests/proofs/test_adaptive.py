@@ -1,5 +1,6 @@
 """Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
 
+import json
 from fractions import Fraction
 
 import numpy as np
@@ -8,6 +9,7 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
+from proofs.horseshoe import main as horseshoe
 from proofs.model.candidate import next_impact
 from proofs.model.flight import Flight
 from proofs.model.image import Image, image
@@ -152,6 +154,20 @@ def test_sticking_is_no_reason_of_its_own():
             assert image(PAPER, (point, point), digits=10).sticking
             with pytest.raises(Sticks):
                 locate(PAPER, (point, point))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
+def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
+    sets = ["--left", "3.3", "3.31", "--right", *right]
+    assert horseshoe(["--only", "H1", "H3", *sets, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("REFUTED ") == 2 and "checker: accepted" in said
+    entry = json.loads((tmp_path / "horseshoe.json").read_text())["claims"][0]
+    low, high = (Fraction(x) for x in entry["quantities"]["slope_min_I1"].values())
+    slopes = [short_flight(PAPER, x, ONSET - x)[1] for x in map(Fraction, right)]
+    assert low <= min(slopes)
+    assert -Fraction(5, 2) < low <= high < -Fraction(19, 10)
 
 
 # -- boxes ---------------------------------------------------------------------------------------

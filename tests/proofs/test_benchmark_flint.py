@@ -8,27 +8,17 @@ import pytest
 
 from proofs.benchmark import limit
 from proofs.benchmark.measuring import EFFORTS
+from tests.proofs import corpus
 
 flint = pytest.importorskip("flint")
 
 from proofs.benchmark import flint_job  # noqa: E402 (it needs flint)
 
-VERDICTS = {
-    "H1": "VERIFIED",
-    "H2": "REFUTED",
-    "H3": "VERIFIED",
-    "H4": "VERIFIED",
-    "H5": "REFUTED",
-    "H6": "VERIFIED",
-    "H11": "VERIFIED",
-    "H16": "VERIFIED",
-}
-
 
 def test_the_script_decides_all_as_it_is_known():
     command = [sys.executable, "-m", "proofs.benchmark.flint_job"]
     found = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    assert dict(line.split() for line in found.splitlines()) == VERDICTS
+    assert dict(line.split() for line in found.splitlines()) == corpus.VERDICTS
 
 
 def test_the_script_needs_nothing_but_flint():
@@ -70,7 +60,9 @@ def test_what_is_not_so_is_not_decided(monkeypatch, name, value, lost):
     monkeypatch.setattr(flint_job, name, value)
     found = flint_job.verdicts()
     assert {claim for claim, verdict in found.items() if verdict == "UNDECIDED"} == lost
-    assert all(found[claim] == VERDICTS[claim] for claim in VERDICTS if claim not in lost)
+    assert all(
+        found[claim] == corpus.VERDICTS[claim] for claim in corpus.VERDICTS if claim not in lost
+    )
 
 
 def test_a_grazing_launch_has_no_single_crossing():
