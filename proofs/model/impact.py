@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -16,6 +16,7 @@ from proofs.model.flight import Flight
 from proofs.model.system import System
 
 HORIZON = Fraction(1000)
+_NOW = Fraction(0)
 _TINIEST = Fraction(1, 2**200)
 LEAST = 64  # bits: multiprecision costs no more than at fewer
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
@@ -26,14 +27,16 @@ class NoImpact(Undecided):
 
 
 class Unsettled(Undecided):
-    """Up to the horizon impacts are possible, in some windows of time, and none is certain.
+    """In some windows of time impacts are possible, and none is certain up to where one looked.
 
-    hopeless: there are so many windows that mass and table seem to touch, as at resonance.
+    known: times up to the first window, gap > 0 between them. hopeless: there are so many windows
+    that mass and table seem to touch, as at resonance.
     """
 
-    def __init__(self, windows: list[Range]) -> None:
-        first = float(windows[0][0])
-        super().__init__(f"an impact near time {first:.9g} is neither proved nor excluded")
+    def __init__(self, windows: list[Range], times: list[Fraction]) -> None:
+        begin = windows[0][0]
+        super().__init__(f"an impact near time {float(begin):.9g} is neither proved nor excluded")
+        self.known = [time for time in times if time <= begin]
         self.hopeless = len(windows) > _TOUCHES
 
 
@@ -97,29 +100,48 @@ def first_impact(
     Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
     where all phases do, Undecided where the launch itself is not decided.
     """
-    if not flight.leaves:
-        if launch_acceleration(flight.start).certainly_negative():
-            raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
-        raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
-    return march(flight, _first_step(flight), horizon, finest)
+    _require_leaving(flight)
+    return march(flight, [_NOW, _first_step(flight)], horizon, finest)
 
 
-def march(flight: Flight, first: Fraction, horizon: Fraction, finest: Fraction) -> FirstImpact:
-    """Exclude impacts as `first_impact` does, from a time on up to which gap > 0 is known."""
-    times = [Fraction(0), first]
+def _require_leaving(flight: Flight) -> None:
+    """Raise Sticks where all launches stick, Undecided where it is not shown that none does."""
+    if flight.leaves:
+        return
+    if launch_acceleration(flight.start).certainly_negative():
+        raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
+    raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
+
+
+def march(
+    flight: Flight,
+    known: Sequence[Fraction],
+    horizon: Fraction,
+    finest: Fraction,
+    *,
+    single: bool = False,
+) -> FirstImpact:
+    """Exclude impacts as `first_impact` does, after the last of the known times.
+
+    known: 0 = t_0 < t_1 < ..., gap > 0 from time 0 to the last. single: a window that is left
+    behind raises Unsettled; nothing that comes after could make the impact transversal.
+    """
+    times = list(known)
     open_pieces: list[Range] = []
-    value = flight.gap(first)
-    step, allowed, certain = first, min(finest, first / 8), False
+    value = flight.gap(times[-1])
+    step, allowed, certain = times[-1] - times[-2], min(finest, times[-1] / 8), False
     while not certain:
         now = times[-1]
         least = min(finest, now / 8)
         if len(open_pieces) > (0 if now >= horizon else 4 * _TOUCHES):
-            raise Unsettled(open_pieces)
+            raise Unsettled(open_pieces, times)
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
         next_value = flight.gap(ahead)
         if _positive_between(flight, now, value, ahead, next_value):
+            if single and open_pieces:
+                raise Unsettled(open_pieces, times)
             step, allowed = 2 * step, least
         elif step > allowed:
             step = max(step / 2, allowed)
@@ -161,23 +183,29 @@ def locate(
 ) -> FirstImpact:
     """Return the transversal first impact of (nearly) one launch, at the least precision it needs.
 
-    Close to grazing or to the onset of sticking steps and rounding must be finer; after eight
+    Close to grazing or to the onset of sticking steps and rounding must be finer: what is
+    excluded stays so, and the first window that is left open is looked at again. After eight
     attempts Undecided says that the launch is too close to one.
     """
+    known: list[Fraction] = []
     for attempt in range(8):
         flight = Flight(system, phases, LEAST * (attempt + 1), separating)
         try:
-            found = first_impact(flight, horizon, Fraction(1, 2 ** (3 + 5 * attempt)))
+            if not known:
+                _require_leaving(flight)
+                known = [_NOW, _first_step(flight)]
+            finest = Fraction(1, 2 ** (3 + 10 * attempt))
+            found = march(flight, known, horizon, finest, single=True)
         except (NoImpact, Sticks):
             raise
         except Unsettled as failure:
-            if failure.hopeless:
-                raise
+            known = failure.known
             continue
         except Undecided:
             continue
         if found.transversal:
             return found
+        known = [time for time in found.times if time <= found.windows[0][0]]
     raise Undecided(
         f"phase {float(phases[0]):.17g} grazes, or starts to stick, to within what was tried"
     )

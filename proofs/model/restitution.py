@@ -114,7 +114,7 @@ def first_impact(
     gap'(0) >= 0, so that gap' > 0 or gap'' > 0 on [0, t_1] gives gap > 0. Raises NoImpact at the
     horizon, Undecided where a state is not proved possible, or leaves the table too slowly.
     """
-    return march(flight, _first_step(flight), horizon, finest)
+    return march(flight, [_NONE, _first_step(flight)], horizon, finest)
 
 
 def _first_step(flight: Rebounds) -> Fraction:

@@ -1,6 +1,7 @@
 """Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -8,7 +9,10 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
+from proofs.certificate import Reader
+from proofs.check.rules import RULES
 from proofs.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
+from proofs.facts import PAPER as FACTS
 from proofs.horseshoe import main as horseshoe
 from proofs.model.candidate import next_impact
 from proofs.model.flight import Flight
@@ -20,11 +24,13 @@ from proofs.model.impact import (
     cover_by_impacts,
     first_impact,
     locate,
+    march,
     precision_for,
     steps_for,
 )
 from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.model.system import System
+from proofs.stress.grazing import graze
 from tests.proofs import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -259,3 +265,72 @@ def test_the_search_ends_where_rounding_is_large(nu):
 def float_gap(nu, phase, t):
     sign = 1 if nu > 0 else -1
     return sign * reference.left_side_10(0.2121, nu, phase, t, np.sin, np.cos)
+
+
+# -- next to grazing -----------------------------------------------------------------------------
+
+
+def in_json(values):
+    return [str(value) for value in values]
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("exponent", [5, 17, 30])
+def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
+    eta, nu, phase = graze(2)
+    point = phase + side * Fraction(1, 10**exponent)
+    found = locate(System(eta, nu), (point, point))
+    assert found.transversal and len(found.windows) == 1
+    assert list(found.times) == sorted(set(found.times)) and found.times[0] == 0
+    witness = {"phases": in_json(found.flight.phases), "times": in_json(found.times[1:])}
+    of = replace(FACTS, eta=eta, nu=nu)
+    derived = RULES["first-impact"](of, {}, Reader(witness))
+    assert derived.transversal and derived.windows == found.windows
+
+
+def test_both_sides_of_grazing_are_far_apart():
+    eta, nu, phase = graze(2)
+    before, after = (
+        locate(System(eta, nu), (phase + side * Fraction(1, 10**30),) * 2).window
+        for side in (-1, 1)
+    )
+    assert before[1] < after[0] - 1 or after[1] < before[0] - 1
+
+
+def test_only_the_open_window_is_looked_at_again(monkeypatch):
+    eta, nu, phase = graze(2)
+    point = phase - Fraction(1, 10**20)
+    asked = []
+    sound = Flight.gap
+
+    def gap(self, low, high=None, order=0):
+        asked.append((self.precision, low))
+        return sound(self, low, high, order)
+
+    monkeypatch.setattr(Flight, "gap", gap)
+    found = locate(System(eta, nu), (point, point))
+    finer = [time for bits, time in asked if bits == found.flight.precision]
+    first = min(time for time in found.times if time in set(finer))
+    assert found.flight.precision > 2 * LEAST
+    assert first > found.times[3]  # what was excluded is not asked again
+    beginning = [time for bits, time in asked if time <= found.times[3]]
+    assert len(beginning) < 12
+
+
+@pytest.mark.parametrize("single", [True, False])
+def test_unsettled_knows_where_the_gap_is_positive(single):
+    # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
+    eta, nu, phase = graze(2)
+    flight = Flight(System(eta, nu), (phase, phase))
+    start = [Fraction(0), Fraction(1, 64)]
+    about = (
+        next_impact(System(eta, nu), float(phase) + 1e-3),
+        next_impact(System(eta, nu), float(phase) - 1e-3),
+    )
+    horizon = Fraction(min(one[0] for one in about)) + 1
+    with pytest.raises(Unsettled) as refused:
+        march(flight, start, horizon, Fraction(1, 8), single=single)
+    known = refused.value.known
+    assert known[:2] == start and known == sorted(set(known))
+    assert known[-1] < horizon - Fraction(1, 2)
+    assert all(flight.gap(time).certainly_positive() for time in known[1:])
