@@ -251,7 +251,7 @@ _RULES = {
     "proofs.model.slope_cover._in_binary64": _boxes,
     "intervals.bilinear.bilinear": _grid,
     "intervals.cover.cover": _one(PARTS),
-    "proofs.model.impact.halves": _one(BISECTIONS),
+    "proofs.model.covering.halves": _one(BISECTIONS),
     "proofs.model.impact.bisected": _steps("steps", 2),
     "proofs.methods.extremes.extremes": _pieces,
     "proofs.methods.formulas.subdivide.<locals>.divide": _examined,

@@ -16,7 +16,8 @@ from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
 from proofs.facts import Avoids, MoranRoot, Parameters, Range
 from proofs.groups import Evidence, Tell
 from proofs.methods.dimension import dimension, precision
-from proofs.model.impact import HORIZON, FirstImpact, cover_by_impacts
+from proofs.model.covering import cover_by_impacts
+from proofs.model.impact import HORIZON, FirstImpact
 from proofs.model.inverse import InverseBranch, InverseSystem
 from proofs.model.system import System
 from proofs.repair import nearest_sets, short_decimal

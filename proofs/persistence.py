@@ -19,8 +19,9 @@ from proofs.claims.rebounds import Rebound, size
 from proofs.facts import TURN, Parameters, Range
 from proofs.groups import Evidence
 from proofs.model.chatter import Pushing, Settled
+from proofs.model.covering import halves
 from proofs.model.image import separation_phase
-from proofs.model.impact import HORIZON, FirstImpact, halves, impact_time, locate
+from proofs.model.impact import HORIZON, FirstImpact, impact_time, locate
 from proofs.model.phase import turn
 from proofs.model.simulate import late_state
 from proofs.model.system import System

@@ -15,13 +15,8 @@ from proofs.facts import PointFact, Range, SlopeRange, show_range
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.model.branch import Branch
-from proofs.model.impact import (
-    FirstImpact,
-    cover_by,
-    cover_by_impacts,
-    impact_time,
-    locate,
-)
+from proofs.model.covering import cover_by, cover_by_impacts
+from proofs.model.impact import FirstImpact, impact_time, locate
 from proofs.model.phase import misses, phase_after
 from proofs.model.system import System
 

@@ -22,7 +22,8 @@ from intervals import IntervalArray, Undecided
 from proofs.benchmark import horseshoe_flint
 from proofs.benchmark.measuring import Effort, Row, in_pairs, spread, timed
 from proofs.benchmark.peers import has_flint
-from proofs.model.impact import HORIZON, cover_by_impacts
+from proofs.model.covering import cover_by_impacts
+from proofs.model.impact import HORIZON
 from proofs.model.kernel import Launches, exclude_impacts
 from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.model.system import System

@@ -22,7 +22,8 @@ from proofs.benchmark.operations import ARRAY, SCALAR
 from proofs.benchmark.peers import CODAC, FLINT, IV, Codac
 from proofs.benchmark.slope_forms import MONOTONE, Work, coefficients, exclude, one_by_one
 from proofs.facts import Range
-from proofs.model.impact import HORIZON, cover_by_impacts
+from proofs.model.covering import cover_by_impacts
+from proofs.model.impact import HORIZON
 from proofs.model.kernel import Launches, enclose_times, exclude_impacts, find_times, prove_brackets
 from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.steps import Prover

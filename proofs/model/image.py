@@ -12,6 +12,7 @@ from intervals.newton import Roots, newton
 from proofs.facts import Range, agree, hull
 from proofs.methods.extremes import extremes
 from proofs.model.branch import Branch
+from proofs.model.covering import cover_by_impacts, halves, precision_for, steps_for
 from proofs.model.equations import launch_acceleration
 from proofs.model.flight import Flight
 from proofs.model.impact import (
@@ -20,13 +21,9 @@ from proofs.model.impact import (
     FirstImpact,
     NoImpact,
     Unsettled,
-    cover_by_impacts,
     first_impact,
-    halves,
     impact_time,
     locate,
-    precision_for,
-    steps_for,
 )
 from proofs.model.phase import phase_after, turn
 from proofs.model.system import System

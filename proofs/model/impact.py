@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
 from intervals import Interval, Undecided
-from intervals.cover import PartsExhausted, cover
 from intervals.newton import Roots, newton
 from proofs.facts import Range
 from proofs.model.equations import launch_acceleration
@@ -109,7 +108,7 @@ def _require_leaving(flight: Flight) -> None:
     if flight.leaves:
         return
     if launch_acceleration(flight.start).certainly_negative():
-        raise Sticks(f"{_name(flight.phases)} sticks to the table after the impact")
+        raise Sticks(f"{name_of(flight.phases)} sticks to the table after the impact")
     raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
 
 
@@ -211,108 +210,10 @@ def locate(
     )
 
 
-def cover_by_impacts(
-    system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
-) -> list[FirstImpact]:
-    """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
-    return cover_by(
-        system,
-        phases,
-        lambda found: found.transversal,
-        obstacle="grazing",
-        horizon=horizon,
-        limit=limit,
-    )
-
-
-@dataclass(frozen=True)
-class _Part:
-    """Launch phases, how often they were cut, and the precision at which they are asked."""
-
-    phases: Range
-    cuts: int = 0
-    precision: int = LEAST
-
-
-def cover_by(
-    system: System,
-    phases: Range,
-    accept: Callable[[FirstImpact], bool],
-    *,
-    obstacle: str,
-    horizon: Fraction = HORIZON,
-    limit: int = 400,
-) -> list[FirstImpact]:
-    """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
-
-    After two cuts, and every four more, a part that is not taken is asked again at the precision
-    that its middle launch needs; else its width is to blame and it is cut. Undecided names a
-    phase near which nothing helps, `obstacle` being the likely reason; a part without impact up
-    to the horizon is cut four times before that is taken for an answer.
-    """
-
-    def decide(part: _Part) -> FirstImpact | None:
-        low = part.phases[0]
-        most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
-        try:
-            flight = Flight(system, part.phases, part.precision)
-            found = first_impact(flight, horizon, steps_for(part.phases))
-            if accept(found):
-                return found
-        except Sticks:
-            raise
-        except NoImpact as error:
-            most, failure = 4, error
-        except Unsettled as error:
-            most, failure = (1 if error.hopeless else 4), error
-        except Undecided as error:
-            failure = error
-        if part.cuts >= most:
-            raise failure
-        return None
-
-    def split(part: _Part) -> Iterable[_Part]:
-        if part.cuts % 4 == 2:
-            needed = precision_for(system, part.phases, horizon)
-            if needed > part.precision:
-                return [replace(part, precision=needed)]
-        return [replace(part, phases=x, cuts=part.cuts + 1) for x in halves(part.phases)]
-
-    try:
-        return [found for _, found in cover([_Part(phases)], decide, split, limit=limit)]
-    except PartsExhausted:
-        raise Undecided(f"{limit} parts of {_name(phases)} do not suffice") from None
-
-
-def precision_for(system: System, phases: Range, horizon: Fraction = HORIZON) -> int:
-    """Return the precision at which the middle one of the launches is decided, the least if none.
-
-    A choice, never evidence.
-    """
-    middle = (phases[0] + phases[1]) / 2
-    try:
-        return locate(system, (middle, middle), horizon=horizon).flight.precision
-    except Undecided:
-        return LEAST
-
-
-def steps_for(phases: Range) -> Fraction:
-    """Return a finest time step that suits the width w of the phases: about sqrt(w) / 8.
-
-    At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
-    """
-    return Fraction(1, 1 << (3 + (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2))
-
-
-def _name(phases: Range) -> str:
+def name_of(phases: Range) -> str:
+    """Write a set of phases."""
     low, high = (f"{float(x):.9g}" for x in phases)
     return f"phase {low}" if low == high else f"every phase in [{low}, {high}]"
-
-
-def halves(part: Range) -> tuple[Range, Range]:
-    """Cut an interval in the middle."""
-    middle = (part[0] + part[1]) / 2
-    return (part[0], middle), (middle, part[1])
 
 
 def time_range(impact: FirstImpact, phases: Range) -> Range:

@@ -8,10 +8,11 @@ from fractions import Fraction
 from intervals import DomainError, Undecided
 from intervals.cover import PartsExhausted, cover
 from proofs.facts import Range, agree, ceil_text, floor_text, hull
+from proofs.model.covering import halves
 from proofs.model.equations import arrival
 from proofs.model.flight import Flight
 from proofs.model.image import Image, image, separation_phase
-from proofs.model.impact import HORIZON, NoImpact, Unsettled, halves
+from proofs.model.impact import HORIZON, NoImpact, Unsettled
 from proofs.model.phase import turn
 from proofs.model.restitution import Arrival, Rebounds, next_impact
 from proofs.model.system import System

@@ -17,14 +17,8 @@ from intervals import IntervalArray, Undecided
 from intervals.cover import cover
 from intervals.rounding import float_down, float_up
 from proofs.facts import Range, hull
-from proofs.model.impact import (
-    LEAST,
-    FirstImpact,
-    cover_by_impacts,
-    impact_time,
-    locate,
-    time_range,
-)
+from proofs.model.covering import cover_by_impacts
+from proofs.model.impact import LEAST, FirstImpact, impact_time, locate, time_range
 from proofs.model.kernel import Floats, Launches, enclose_times, exclude_impacts, find_times
 from proofs.model.system import System
 

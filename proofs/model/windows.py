@@ -19,9 +19,9 @@ import numpy as np
 from intervals import Interval, Jet, Undecided
 from proofs.claims.chaos import Branch
 from proofs.facts import Range
+from proofs.model.covering import halves
 from proofs.model.equations import clock, gap, launch, launch_acceleration, slope
 from proofs.model.flight import Flight
-from proofs.model.impact import halves
 from proofs.model.phase import turn as full_turn
 from proofs.model.system import System
 

@@ -10,9 +10,10 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.facts import Range
+from proofs.model.covering import cover_by_impacts
 from proofs.model.flight import Flight
 from proofs.model.image import Image, PossibleImages, image
-from proofs.model.impact import NoImpact, Sticks, cover_by_impacts, first_impact, locate
+from proofs.model.impact import NoImpact, Sticks, first_impact, locate
 from proofs.model.rebound import rebound
 from proofs.model.slope_cover import BINARY64, slope_cover
 from proofs.model.system import System

@@ -15,19 +15,10 @@ from proofs.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.facts import PAPER as FACTS
 from proofs.horseshoe import main as horseshoe
 from proofs.model.candidate import next_impact
+from proofs.model.covering import cover_by_impacts, precision_for, steps_for
 from proofs.model.flight import Flight
 from proofs.model.image import Image, image
-from proofs.model.impact import (
-    LEAST,
-    Sticks,
-    Unsettled,
-    cover_by_impacts,
-    first_impact,
-    locate,
-    march,
-    precision_for,
-    steps_for,
-)
+from proofs.model.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
 from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.model.system import System
 from proofs.stress.grazing import graze

@@ -43,8 +43,9 @@ from proofs.counting import (
 from proofs.facts import PAPER
 from proofs.methods.extremes import extremes
 from proofs.model import equations
+from proofs.model.covering import cover_by_impacts
 from proofs.model.flight import Flight
-from proofs.model.impact import bisected, cover_by_impacts, first_impact
+from proofs.model.impact import bisected, first_impact
 from proofs.model.system import System
 from tests.proofs.corpus import path_of
 

@@ -16,7 +16,7 @@ from proofs.check.verify import Rejected, check
 from proofs.claims import find
 from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
 from proofs.facts import PAPER, Avoids, MoranRoot, PointFact
-from proofs.model.impact import cover_by_impacts
+from proofs.model.covering import cover_by_impacts
 from proofs.model.inverse import InverseBranch, InverseSystem
 from proofs.model.system import System
 from proofs.statements import Verdict

@@ -7,7 +7,8 @@ from mpmath import mp, mpf
 
 from intervals import IntervalArray, Undecided
 from proofs.model import kernel
-from proofs.model.impact import HORIZON, cover_by_impacts
+from proofs.model.covering import cover_by_impacts
+from proofs.model.impact import HORIZON
 from proofs.model.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
 from proofs.model.slope_cover import BINARY64, cut, grid_of, slope_cover, slope_extremes
 from proofs.model.system import System
