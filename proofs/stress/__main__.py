@@ -11,6 +11,7 @@ from time import perf_counter
 import proofs.stress
 from proofs.certificate import write_atomically
 from proofs.cli import USAGE_ERROR, Parser, progress
+from proofs.runner import writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
@@ -95,9 +96,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the stress test; return the exit status."""
     parser = _parser()
     options = parser.parse_args(arguments)
-    if options.out is not None and not options.out.is_dir():
-        print(f"{parser.prog}: no such directory: {options.out}", file=sys.stderr)
-        return USAGE_ERROR
+    if options.out is not None:
+        writable(parser, options.out)
     try:
         by = kernel(options.kernel)
     except ImportError:

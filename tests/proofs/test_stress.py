@@ -412,10 +412,19 @@ def test_bad_usage_exits_2(arguments, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_a_missing_directory_is_refused_before_the_work(monkeypatch, tmp_path, capsys):
+def test_what_cannot_be_written_is_refused_before_the_work(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(command, "stress", None)
-    assert main(["--out", str(tmp_path / "absent")]) == 2
-    assert "no such directory" in capsys.readouterr().err
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SystemExit) as stopped:
+        main(["--out", str(tmp_path / "file" / "absent")])
+    assert stopped.value.code == 2
+    assert "cannot write to" in capsys.readouterr().err
+
+
+def test_a_missing_directory_is_made(tmp_path):
+    folder = tmp_path / "new" / "one"
+    assert main(["--family", "operations", "--cases", "5", "--out", str(folder)]) == 0
+    assert "no case excludes the truth" in (folder / "stress.md").read_text()
 
 
 def test_help_has_examples_and_every_family(capsys):
