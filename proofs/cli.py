@@ -88,11 +88,24 @@ def check_targets(parser: Parser, *targets: str | None) -> None:
 
 
 def _try(path: Path) -> None:
-    """Raise OSError if a file cannot be written: make its folder, and a trial beside it."""
+    """Raise OSError if a file cannot be written; its folder is made."""
     if path.exists() and not path.is_file():  # a rename would replace a device
         raise OSError("not a regular file")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    trial = path.with_name(f".{path.name}.{os.getpid()}")
+    _try_folder(path.parent)
+
+
+def writable(parser: Parser, folder: Path) -> None:
+    """Leave with one line if nothing can be written to the folder, before any work is done."""
+    try:
+        _try_folder(folder)
+    except OSError as error:
+        parser.error(f"cannot write to {folder}: {error.strerror or error}")
+
+
+def _try_folder(folder: Path) -> None:
+    """Raise OSError if nothing can be written to a folder, which is made."""
+    folder.mkdir(parents=True, exist_ok=True)
+    trial = folder / f".trial.{os.getpid()}"
     trial.touch(exist_ok=False)
     trial.unlink()
 

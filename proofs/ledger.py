@@ -24,7 +24,7 @@ from proofs import groups, horseshoe, runner
 from proofs.certificate import Malformed, read, render, write_atomically
 from proofs.check.verify import Rejected, Report, check
 from proofs.claims import GROUPS
-from proofs.cli import Parser, coloured, counting, progress
+from proofs.cli import Parser, coloured, counting, progress, writable
 from proofs.counting import Counts, show
 from proofs.facts import PAPER
 from proofs.statements import STATEMENTS, Verdict
@@ -147,7 +147,7 @@ def main(arguments: list[str] | None = None) -> int:
     runner.add_outputs(parser, CLAIMS)
     parser.add_argument("--fresh", action="store_true", help="prove again what is there already")
     options = parser.parse_args(arguments)
-    runner.writable(parser, options.out)
+    writable(parser, options.out)
     asked = options.only or CLAIMS
     wanted = jobs(asked, options.out, options.digits, options.fresh, options.stats)
     began = perf_counter()

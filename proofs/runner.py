@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
-from os import getpid
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -26,7 +25,7 @@ from proofs.certificate import (
     write_atomically,
 )
 from proofs.check.verify import Rejected, check
-from proofs.cli import Parser, add_stats, coloured, counting, digits, number, progress
+from proofs.cli import Parser, add_stats, coloured, counting, digits, number, progress, writable
 from proofs.facts import PAPER, Parameters, show
 from proofs.groups import Made, Row, printed, produce
 from proofs.statements import Verdict
@@ -174,17 +173,6 @@ def _reach(options: Namespace) -> tuple[Fraction, Fraction, Fraction] | None:
         return None
     first, second, third = map(min, PAPER.reach, room)
     return first, second, third
-
-
-def writable(parser: Parser, folder: Path) -> None:
-    """Leave with one line if nothing can be written to the folder, before any work is done."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        trial = folder / f".trial.{getpid()}"
-        trial.touch(exist_ok=False)
-        trial.unlink()
-    except OSError as error:
-        parser.error(f"cannot write to {folder}: {error.strerror or error}")
 
 
 def command(module: str, arguments: list[str] | None) -> str:

@@ -42,9 +42,8 @@ def main(arguments: list[str] | None = None) -> int:
         print_rules()
     elif not options.files:
         parser.error("no file to check")
-    if options.stats:
-        return max((check_counting(path) for path in options.files), default=0)
-    return max((check_file(path) for path in options.files), default=0)
+    examine = check_counting if options.stats else check_file
+    return max((examine(path) for path in options.files), default=0)
 
 
 def check_counting(path: Path) -> int:

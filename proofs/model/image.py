@@ -18,6 +18,7 @@ from proofs.model.flight import Flight
 from proofs.model.impact import (
     HORIZON,
     LEAST,
+    MOST,
     FirstImpact,
     NoImpact,
     Unsettled,
@@ -84,7 +85,7 @@ def _sticks(system: System, phases: Range) -> bool | None:
     """Whether all phases stick (True), none does (False), or neither is shown (None)."""
     if system.sticking_arc != "some":
         return system.sticking_arc == "all"
-    for bits in (LEAST, 2 * LEAST, 4 * LEAST, 8 * LEAST):
+    for bits in (LEAST, 2 * LEAST, 4 * LEAST, MOST):
         acceleration: Interval = launch_acceleration(Flight(system, phases, bits).start)
         if acceleration.certainly_positive():
             return False
@@ -239,7 +240,7 @@ def _any_impact(
 
 def _leaving(system: System, part: Range) -> Range:
     """Return the launch phases of a part that contains the separation phase: [phi_s, part[1]]."""
-    leave = separation_phase(system, 8 * LEAST)
+    leave = separation_phase(system, MOST)
     if leave[1] < part[0] or part[1] < leave[0]:
         raise Undecided(
             "the interval contains the phase at which sticking begins: flights there are as "

@@ -18,7 +18,14 @@ HORIZON = Fraction(1000)
 _NOW = Fraction(0)
 _TINIEST = Fraction(1, 2**200)
 LEAST = 64  # bits: multiprecision costs no more than at fewer
+_ATTEMPTS = 8
+MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
+
+
+def up_to(last: Fraction, times: Sequence[Fraction]) -> list[Fraction]:
+    """Return the times that are not after the last."""
+    return [time for time in times if time <= last]
 
 
 class NoImpact(Undecided):
@@ -35,7 +42,7 @@ class Unsettled(Undecided):
     def __init__(self, windows: list[Range], times: list[Fraction]) -> None:
         begin = windows[0][0]
         super().__init__(f"an impact near time {float(begin):.9g} is neither proved nor excluded")
-        self.known = [time for time in times if time <= begin]
+        self.known = up_to(begin, times)
         self.hopeless = len(windows) > _TOUCHES
 
 
@@ -57,6 +64,11 @@ class FirstImpact:
     times: tuple[Fraction, ...]
     windows: tuple[Range, ...]
     transversal: bool
+
+    @property
+    def known(self) -> list[Fraction]:
+        """The times up to the first window: gap > 0 between them."""
+        return up_to(self.windows[0][0], self.times)
 
     @property
     def window(self) -> Range:
@@ -187,7 +199,7 @@ def locate(
     attempts Undecided says that the launch is too close to one.
     """
     known: list[Fraction] = []
-    for attempt in range(8):
+    for attempt in range(_ATTEMPTS):
         flight = Flight(system, phases, LEAST * (attempt + 1), separating)
         try:
             if not known:
@@ -204,7 +216,7 @@ def locate(
             continue
         if found.transversal:
             return found
-        known = [time for time in found.times if time <= found.windows[0][0]]
+        known = found.known
     raise Undecided(
         f"phase {float(phases[0]):.17g} grazes, or starts to stick, to within what was tried"
     )

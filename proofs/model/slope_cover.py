@@ -148,7 +148,7 @@ def _alone(system: System, low: float, high: float) -> SlopeCover:
 
 def grid_of(impact: FirstImpact) -> list[float]:
     """Return the times before the window of a transversal first impact."""
-    return [float(time) for time in impact.times[1:] if time <= impact.window[0]]
+    return [float(time) for time in impact.known[1:]]
 
 
 def _share(part: FirstImpact, phases: Range, boxes: int) -> int:

@@ -10,8 +10,7 @@ from time import perf_counter
 
 import proofs.stress
 from proofs.certificate import write_atomically
-from proofs.cli import USAGE_ERROR, Parser, progress
-from proofs.runner import writable
+from proofs.cli import USAGE_ERROR, Parser, progress, writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases

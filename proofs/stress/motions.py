@@ -41,7 +41,7 @@ class ImageCase:
         """Return bounds of flight, phase and slope, or the set of possible images."""
         found = image(self._system, (self.low, self.high), digits=self.digits, horizon=self.horizon)
         if isinstance(found, PossibleImages):
-            return _possible(found, None)
+            return _possible(found)
         return Answer(((_named(found),),))
 
     def bits(self) -> int | None:
@@ -75,9 +75,9 @@ class ImageCase:
         return System(self.eta, self.nu)
 
 
-def _possible(found: PossibleImages, bits: int | None) -> Answer:
+def _possible(found: PossibleImages) -> Answer:
     images = tuple({"flight": time, "phase": phase} for time, phase in found.images)
-    return Answer((images,), bits, possible=True)
+    return Answer((images,), possible=True)
 
 
 def _named(found: Image) -> Ranges:
