@@ -2,7 +2,7 @@
 
 import sys
 
-from proofs.ledger import main
+from proofs.shell.ledger import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -6,146 +6,15 @@ impact again, and a partition of the circle into cells whose images are followed
 
 from __future__ import annotations
 
-import math
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
-from functools import partial
-from typing import TypeVar
 
-from intervals import DomainError, Undecided
-from proofs.absorbing import Partition
-from proofs.certificate import texts
-from proofs.claims.circle import CLAIMS as STATED
-from proofs.claims.circle import LONG
-from proofs.claims.landing import Separation
-from proofs.facts import Parameters
-from proofs.groups import Evidence
-from proofs.model.candidate import next_impact
-from proofs.model.impact import HORIZON
-from proofs.model.landing import prove_never, prove_separation
-from proofs.model.system import System
-from proofs.runner import run
-from proofs.steps import Prover
-
-CLAIMS = tuple(claim.id for claim in STATED)
-
-_NEVER = {"M6", "G4", "G6"}  # what rests on phases that never impact again
-_FOLLOWED = {"G3", "G4", "G6"}  # what rests on where all others lead
-_REPELLED = {"G4", "G6"}  # what rests on a fixed point
-_NARROW = 12  # decimal places
-_Found = TypeVar("_Found")
+from proofs.shell.runner import run
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
-    """Prove what the claims asked for rest on; what fails is left out."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    found = _Run(prover, Evidence(prover.steps, {claim: [] for claim in claims}), tell)
-    if not -1 < of.nu < 0 < of.eta < 1:
-        return found.evidence
-    arc = found.attempt("where the mass sticks", set(CLAIMS), partial(prove_arc, prover))
-    found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
-    if arc is not None:
-        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc).prove)
-    for ends in fixed_points(prover.system) if _REPELLED & set(claims) else ():
-        found.attempt("a fixed point", _REPELLED, partial(prover.slopes, list(ends)))
-    return found.evidence
-
-
-@dataclass
-class _Run:
-    """The evidence of one run, by the steps of one prover."""
-
-    prover: Prover
-    evidence: Evidence
-    tell: Callable[[str], None]
-
-    def attempt(
-        self, stage: str, rests: set[str], make: Callable[[], tuple[str, _Found]]
-    ) -> tuple[str, _Found] | None:
-        """Make a step for the claims that rest on it, if any; what fails leaves no step."""
-        proofs = [proof for claim, proof in self.evidence.proofs.items() if claim in rests]
-        if not proofs:
-            return None
-        self.tell(stage)
-        before = dict(self.prover.steps)
-        try:
-            found = make()
-        except (Undecided, DomainError):
-            self.prover.steps.clear()
-            self.prover.steps.update(before)
-            return None
-        for proof in proofs:
-            proof.append(found)
-        return found
-
-
-def prove_arc(prover: Prover) -> tuple[str, Separation]:
-    """Prove where the mass sticks and where it lands after it separates (rule separation)."""
-    found = prove_separation(prover.system, prover.bits + 30)
-    witness = {"phase": texts(found.phase), "time": texts(found.time)}
-    return prover.add("separation", witness), found
-
-
-def prove_longest(prover: Prover) -> tuple[str, object]:
-    """Prove an interval around pi/2 without a next impact, to nine places the longest."""
-    low, high, centre, unit = 0, 10**9, Fraction(math.pi / 2), Fraction(1, 10**9)
-
-    def around(reach: int) -> tuple[Fraction, Fraction]:
-        return round(centre - reach * unit, 9), round(centre + reach * unit, 9)
-
-    while high - low > 1:
-        middle = (low + high) // 2
-        try:
-            prove_never(prover.system, around(middle))
-            low = middle
-        except (Undecided, DomainError):
-            high = middle
-    if low == 0:
-        raise Undecided("no interval of phases without a next impact")
-    phases = around(low)
-    return prover.add("never-impacts", {"phases": texts(phases)}), prove_never(
-        prover.system, phases
-    )
-
-
-def fixed_points(system: System) -> Iterator[tuple[Fraction, Fraction]]:
-    """Yield a wide and a narrow interval around a repelling fixed point, in floating point."""
-    unit, narrow = Fraction(1, 100), Fraction(1, 10**_NARROW)
-    for index in range(int((LONG[1] - LONG[0]) / unit)):
-        low = LONG[0] + index * unit
-        first, last = (next_impact(system, float(x)) for x in (low, low + unit))
-        if first is None or last is None or min(first[2], last[2]) <= 1:
-            continue
-        if first[1] < low and low + unit < last[1]:
-            yield low, low + unit
-            centre = round(Fraction(_fixed_point(system, float(low), float(low + unit))), _NARROW)
-            yield centre - narrow, centre + narrow
-            return
-
-
-def _fixed_point(system: System, low: float, high: float) -> float:
-    """Return about the fixed point between two phases, by bisection."""
-    for _ in range(60):
-        middle = (low + high) / 2
-        found = next_impact(system, middle)
-        low, high = (low, middle) if found and found[1] > middle else (middle, high)
-    return low
-
-
-def _figure(certificate: str) -> str:
-    """Draw figure 6 as proved."""
-    from proofs.circle_figure import svg
-
-    return svg(certificate)
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; return the exit status."""
+    return run("circle", arguments, __doc__, figure=True)
 
 
 if __name__ == "__main__":
-    sys.exit(run("circle", description=__doc__, figure=_figure))
+    sys.exit(main())

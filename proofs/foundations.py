@@ -7,68 +7,12 @@ witnesses; A1 also names phases of the parameters given that never impact again.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
-from typing import Any
 
-from intervals import DomainError, Undecided
-from proofs.certificate import Reader, texts
-from proofs.check.foundations import method_one
-from proofs.circle import prove_longest
-from proofs.claims import GROUPS
-from proofs.claims.appendix import NEGATIVE
-from proofs.claims.foundations import DERIVATIONS
-from proofs.derivations import prove_derivations
-from proofs.facts import Parameters
-from proofs.groups import Evidence
-from proofs.model.impact import HORIZON
-from proofs.model.system import System
-from proofs.runner import run
-from proofs.steps import Prover
-
-CLAIMS = GROUPS["foundations"]
-
-
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
-    """Prove what the claims asked for follow from."""
-    evidence = prove_derivations(DERIVATIONS, claims, digits, tell)
-    if "A1" in claims:
-        tell("phases without a next impact")
-        evidence.proofs["A1"] += unending(of, evidence.steps)
-    if "A2" in claims:
-        name, witness = "method-one-1", counterexample()
-        evidence.steps[name] = {"rule": "method-one", "witness": witness}
-        evidence.proofs["A2"] = [(name, method_one(of, {}, Reader(witness)))]
-    return evidence
-
-
-def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> list[tuple[str, object]]:
-    """Prove that an interval of phases never impacts again, if one is found."""
-    if not -1 < of.nu < 0 < of.eta < 1:
-        return []
-    try:
-        return [prove_longest(Prover(System(of.eta, of.nu), 0, HORIZON, steps))]
-    except (Undecided, DomainError):
-        return []
-
-
-def counterexample() -> dict[str, Any]:
-    """Return the witness of a premeasure from which Method I makes no outer measure."""
-    points, sets, values = NEGATIVE
-    return {
-        "points": str(points),
-        "sets": [[str(point) for point in sorted(each)] for each in sets],
-        "values": texts(values),
-    }
+from proofs.shell.runner import run
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command."""
+    """Run the command; return the exit status."""
     return run("foundations", arguments, __doc__)
 
 

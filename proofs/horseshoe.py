@@ -10,13 +10,15 @@ from fractions import Fraction
 from time import perf_counter
 
 from intervals import Undecided
-from proofs import groups, plastic, runner
-from proofs.certificate import render, write_atomically
-from proofs.cli import Parser, counting, horizon, progress
-from proofs.facts import Parameters
-from proofs.groups import Made, Tell
-from proofs.model.impact import HORIZON
-from proofs.report import markdown
+from proofs.motion.impact import HORIZON
+from proofs.report.page import markdown
+from proofs.search import s31_horseshoe as plastic
+from proofs.search.evidence import Tell
+from proofs.shell import groups, runner
+from proofs.shell.cli import Parser, counting, horizon, progress
+from proofs.shell.groups import Made
+from proofs.trusted.certificate import render, write_atomically
+from proofs.trusted.facts import Parameters
 
 RESTITUTION = ("N1", "N2")
 CLAIMS = (*plastic.CLAIMS, *RESTITUTION)
@@ -82,7 +84,7 @@ def main(arguments: list[str] | None = None) -> int:
         by = runner.command("proofs.horseshoe", arguments)
         runner.write(options.out, "horseshoe", made.certificate, made.page, by)
         if options.figure:
-            from proofs.figure import svg
+            from proofs.report.horseshoe_figure import svg
 
             write_atomically(options.out / "horseshoe.svg", svg(of, made.corrected))
     except OSError as error:

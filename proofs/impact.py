@@ -18,7 +18,11 @@ from fractions import Fraction
 from typing import Any
 
 from intervals import IntervalError, Undecided, decimal_bounds
-from proofs.cli import (
+from proofs.motion.image import Image, PossibleImages, image
+from proofs.motion.impact import HORIZON, NoImpact
+from proofs.motion.rebound import Impossible, Rebound, rebound
+from proofs.motion.system import System
+from proofs.shell.cli import (
     Parser,
     add_stats,
     check_targets,
@@ -28,11 +32,7 @@ from proofs.cli import (
     stats,
     write_target,
 )
-from proofs.facts import TURN, Range, show
-from proofs.model.image import Image, PossibleImages, image
-from proofs.model.impact import HORIZON, NoImpact
-from proofs.model.rebound import Impossible, Rebound, rebound
-from proofs.model.system import System
+from proofs.trusted.facts import TURN, Range, show
 
 _COARSE_DIGITS = 9  # of a set of possible images, whose ends mean little
 

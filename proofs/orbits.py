@@ -22,7 +22,14 @@ from time import perf_counter
 from typing import Any
 
 from intervals import Interval, IntervalError, Undecided, decimal_bounds
-from proofs.cli import (
+from proofs.methods.orbits import PeriodicPoint, periodic_points
+from proofs.methods.words import Words
+from proofs.motion.horseshoe_map import ImpactMap
+from proofs.motion.phase import turn
+from proofs.motion.slope_cover import slope_cover
+from proofs.motion.system import System
+from proofs.search.s31_horseshoe import prove
+from proofs.shell.cli import (
     Parser,
     add_stats,
     check_targets,
@@ -32,15 +39,8 @@ from proofs.cli import (
     stats,
     write_target,
 )
-from proofs.facts import PAPER, Parameters, show, show_range
-from proofs.methods.orbits import PeriodicPoint, periodic_points
-from proofs.methods.words import Words
-from proofs.model.horseshoe_map import ImpactMap
-from proofs.model.phase import turn
-from proofs.model.slope_cover import slope_cover
-from proofs.model.system import System
-from proofs.plastic import prove
-from proofs.statements import Verdict
+from proofs.trusted.facts import PAPER, Parameters, show, show_range
+from proofs.trusted.statements import Verdict
 
 SCHEMA = "impact-proofs.orbits/1"
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right

@@ -16,10 +16,10 @@ from fractions import Fraction
 from typing import Any
 
 from intervals import Interval, atan, decimal_bounds
-from proofs.claims import section5 as eq
-from proofs.cli import Parser, add_stats, digits, number, stats
-from proofs.derivations import SPARE_BITS, enclose
-from proofs.facts import Range, show
+from proofs.search.derivations import SPARE_BITS, enclose
+from proofs.shell.cli import Parser, add_stats, digits, number, stats
+from proofs.trusted.facts import Range, show
+from proofs.trusted.paper.s5_soft import displayed as eq
 
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified:

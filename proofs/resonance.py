@@ -13,20 +13,14 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
 from intervals import Undecided, decimal_bounds
-from proofs.claims.resonance import DERIVATIONS
-from proofs.cli import Parser, add_stats, digits, number, stats
-from proofs.derivations import prove_derivations
-from proofs.facts import TURN, Parameters, Range, show
-from proofs.groups import Evidence
-from proofs.model.resonant import Motion, motion
-from proofs.runner import run
-
-CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
+from proofs.motion.resonant import Motion, motion
+from proofs.shell.cli import Parser, add_stats, digits, number, stats
+from proofs.shell.runner import run
+from proofs.trusted.facts import TURN, Range, show
 
 _STATE = ("--phi", "--gamma")  # options that only the map takes
 EPILOG = """\
@@ -43,23 +37,12 @@ examples:
 """
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
-    """Prove what the claims asked for follow from; they are about eta = 1 and all nu, epsilon."""
-    return prove_derivations(DERIVATIONS, claims, digits, tell)
-
-
 def main(arguments: list[str] | None = None) -> int:
     """Prove the claims, or answer for the state on the command line; return the exit status."""
     given = sys.argv[1:] if arguments is None else arguments
     if any(option.partition("=")[0] in _STATE for option in given):
         return next_impact(given)
-    return run("resonance", given, __doc__, _figure)
+    return run("resonance", given, __doc__, figure=True)
 
 
 def next_impact(arguments: list[str]) -> int:
@@ -129,13 +112,6 @@ def _text(answer: dict[str, Any]) -> str:
             lines.append(f"  {'':18}  {ends['upper']}]")
     lines.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
     return "\n".join(lines)
-
-
-def _figure(certificate: str) -> str:
-    """Draw figure 10, simulated: no certificate says what it shows."""
-    from proofs.resonance_figure import svg
-
-    return svg()
 
 
 if __name__ == "__main__":

@@ -33,8 +33,9 @@ def test_packages_are_typed_and_complete():
 
 
 def test_the_readme_s_table_names_things_that_exist():
-    from proofs.facts import Parameters
-    from proofs.model import equations, image
+    from proofs.motion import image
+    from proofs.trusted import equations
+    from proofs.trusted.facts import Parameters
 
     assert {"eta", "nu", "left", "right", "interval", "slopes", "ratios"} <= set(
         Parameters.__dataclass_fields__

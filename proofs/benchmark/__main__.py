@@ -13,7 +13,7 @@ import proofs.benchmark
 from proofs.benchmark import page
 from proofs.benchmark.measuring import EFFORTS, Effort
 from proofs.benchmark.page import Run, Section
-from proofs.cli import USAGE_ERROR, Parser, check_targets, progress, writable, write_target
+from proofs.shell.cli import USAGE_ERROR, Parser, check_targets, progress, writable, write_target
 
 EXAMPLES = """
 examples:

@@ -14,8 +14,8 @@ from typing import Any, Protocol
 from intervals import Interval, Jet
 from intervals import exp as exp_of
 from intervals import log as log_of
-from proofs.facts import Range
-from proofs.model.equations import sincos
+from proofs.trusted.equations import sincos
+from proofs.trusted.facts import Range
 
 End = Fraction | float | int
 

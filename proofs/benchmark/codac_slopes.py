@@ -19,8 +19,8 @@ from proofs.benchmark.arithmetics import End, Jets
 from proofs.benchmark.horseshoe_flint import ETA, NU
 from proofs.benchmark.peers import Codac
 from proofs.benchmark.slope_forms import Work, exclude, one_by_one
-from proofs.facts import Range
-from proofs.model.system import System
+from proofs.motion.system import System
+from proofs.trusted.facts import Range
 
 
 def slopes(server: Codac, work: Work, order: int) -> Range:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from proofs.benchmark.horseshoe import process
 from proofs.benchmark.measuring import Effort, Row, spread
-from proofs.claims import GROUPS
+from proofs.trusted.paper import GROUPS
 
 Tell = Callable[[str], None]
 _PROVED_WITHIN = {"nonplastic": 3.0, "dimension": 20.0, "circle": 60.0}  # seconds

@@ -22,13 +22,13 @@ from intervals import IntervalArray, Undecided
 from proofs.benchmark import horseshoe_flint
 from proofs.benchmark.measuring import Effort, Row, in_pairs, spread, timed
 from proofs.benchmark.peers import has_flint
-from proofs.model.covering import cover_by_impacts
-from proofs.model.impact import HORIZON
-from proofs.model.kernel import Launches, exclude_impacts
-from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
-from proofs.model.system import System
-from proofs.statements import STATEMENTS
-from proofs.steps import Prover
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.impact import HORIZON
+from proofs.motion.kernel import Launches, exclude_impacts
+from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.system import System
+from proofs.search.steps import Prover
+from proofs.trusted.statements import STATEMENTS
 
 SYSTEM = System(horseshoe_flint.ETA, horseshoe_flint.NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))

@@ -10,16 +10,17 @@ from functools import cache, partial
 from pathlib import Path
 from time import perf_counter
 
-from proofs import dimension, orbits
+from proofs import orbits
 from proofs.benchmark.curves import Budget, Curve, Point, Task, sweep
 from proofs.benchmark.measuring import Row, in_turn, spread, timed
-from proofs.certificate import SCHEMA, Malformed, read
-from proofs.check.verify import Rejected, check
-from proofs.claims.dimension import Repeller
-from proofs.facts import PAPER
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words
-from proofs.model.horseshoe_map import ImpactMap
+from proofs.motion.horseshoe_map import ImpactMap
+from proofs.search import s32_dimension as dimension
+from proofs.trusted.certificate import SCHEMA, Malformed, read
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper.s32_sets.dimension import Repeller
+from proofs.trusted.verify import Rejected, check
 
 _PERIOD = 4
 _DIGITS = 25

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from proofs.benchmark.diagrams import Diagram, svg
 from proofs.benchmark.measuring import Row, environment, table, word
-from proofs.certificate import write_atomically
+from proofs.trusted.certificate import write_atomically
 
 SCHEMA = "impact-proofs-benchmark-1"
 _PREFIX = "benchmark-"

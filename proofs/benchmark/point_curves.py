@@ -20,12 +20,12 @@ from proofs.benchmark.operations import SCALAR
 from proofs.benchmark.peers import FLINT, IV
 from proofs.benchmark.slope_curves import arithmetic, at_bits, bits_for
 from proofs.benchmark.slope_forms import coefficients, exclude, thin_time
-from proofs.facts import PAPER, Range
-from proofs.model import candidate
-from proofs.model.image import Image, image
-from proofs.model.impact import FirstImpact, locate
-from proofs.model.marching import march
-from proofs.model.restitution import Rebounds, next_impact
+from proofs.motion import candidate
+from proofs.motion.image import Image, image
+from proofs.motion.impact import FirstImpact, locate
+from proofs.motion.marching import march
+from proofs.motion.restitution import Rebounds, next_impact
+from proofs.trusted.facts import PAPER, Range
 
 PHASES = tuple(map(Fraction, ("1.11", "1.13", "1.15", "1.27", "1.3", "1.32")))
 _COARSE_BITS = 53

@@ -147,7 +147,7 @@ def _monotone(plan: Plan, flint: bool, tell: Tell) -> Section:
     title = "Slope bounds by monotonicity, where f'' > 0"
     about = (
         "f'' > 0 is proved on 8 boxes of each interval to 53 bits; then f' at the two ends, to so "
-        "many digits, is all. proofs.steps is what the main job calls: it is given nothing and "
+        "many digits, is all. search.steps is what the main job calls: it is given nothing and "
         "keeps the witness."
     )
     across = "digits: -log10 of what the bounds of f' miss its extremes by"

@@ -21,12 +21,18 @@ from proofs.benchmark.horseshoe import DOMAINS, SYSTEM
 from proofs.benchmark.operations import ARRAY, SCALAR
 from proofs.benchmark.peers import CODAC, FLINT, IV, Codac
 from proofs.benchmark.slope_forms import MONOTONE, Work, coefficients, exclude, one_by_one
-from proofs.facts import Range
-from proofs.model.covering import cover_by_impacts
-from proofs.model.impact import HORIZON
-from proofs.model.kernel import Launches, enclose_times, exclude_impacts, find_times, prove_brackets
-from proofs.model.slope_cover import cut, grid_of, slope_cover, slope_extremes
-from proofs.steps import Prover
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.impact import HORIZON
+from proofs.motion.kernel import (
+    Launches,
+    enclose_times,
+    exclude_impacts,
+    find_times,
+    prove_brackets,
+)
+from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
+from proofs.search.steps import Prover
+from proofs.trusted.facts import Range
 
 NAMES = {0: "natural", 1: "mean value", 2: "Taylor 2", 3: "Taylor 3", 4: "Taylor 4"}
 _BITS = 53
@@ -227,7 +233,7 @@ def by_monotonicity(budget: Budget, digits: Sequence[float], flint: bool) -> lis
     makers: dict[str, tuple[Curve, Maker]] = {
         name: (Curve(title, name, "digits", against="time"), _monotone_by(name)) for name in names
     }
-    prover = Curve(title, "proofs.steps, grid found and witness kept", "digits", against="time")
+    prover = Curve(title, "search.steps, grid found and witness kept", "digits", against="time")
     return sweep({**makers, "": (prover, _prover)}, digits, budget)
 
 

@@ -18,9 +18,9 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.benchmark.arithmetics import Arithmetic
-from proofs.facts import Range, hull
-from proofs.model.equations import clock, gap, launch, slope
-from proofs.model.system import System
+from proofs.motion.system import System
+from proofs.trusted.equations import clock, gap, launch, slope
+from proofs.trusted.facts import Range, hull
 
 MONOTONE = -1  # in the place of an order
 _OPENINGS = 12

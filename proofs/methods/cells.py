@@ -32,8 +32,8 @@ from intervals.array import Mask
 from intervals.branch import Boxes, evaluated, one_box, select
 from intervals.generic import meet, middle
 from intervals.systems import Function, components, dot, jacobian
-from proofs.check.formula import Formula
 from proofs.methods.formulas import Intervals
+from proofs.trusted.kernel.formula import Formula
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]

@@ -1,6 +1,6 @@
 """Formulas in sympy: equalities and power series found by computer algebra.
 
-A text is read as `proofs.claims.formulas` says. What sympy finds is a candidate: the checker has a
+A text is read as `formulas` says. What sympy finds is a candidate: the checker has a
 computation of its own. sympy is imported by what needs it.
 """
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import intervals
 from intervals import Interval, IntervalError, Undecided
-from proofs.check.enclose import ARITHMETIC, Box, centre_of, point_box
-from proofs.check.formula import Formula
-from proofs.check.hset import HSet
+from proofs.trusted.kernel.enclose import ARITHMETIC, Box, centre_of, point_box
+from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.kernel.hset import HSet
 
 _MOST_BOXES = 10_000
 _DEEPEST = 40

@@ -13,12 +13,6 @@ from fractions import Fraction
 from typing import Any
 
 from intervals import Interval, Undecided
-from proofs.certificate import Reader, texts
-from proofs.check.arithmetic import Unproved
-from proofs.check.context import SCHEMA
-from proofs.check.enclose import Box
-from proofs.check.formula import Formula, read_formula
-from proofs.check.hset import inverse
 from proofs.methods.formulas import (
     Values,
     dot,
@@ -27,6 +21,12 @@ from proofs.methods.formulas import (
     subdivide,
     values,
 )
+from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import SCHEMA
+from proofs.trusted.kernel.enclose import Box
+from proofs.trusted.kernel.formula import Formula, read_formula
+from proofs.trusted.kernel.hset import inverse
 
 _PLACES = 2**40  # candidates are rounded to multiples of 1 / _PLACES
 

@@ -9,14 +9,14 @@ from pathlib import Path
 from time import perf_counter
 
 import proofs.stress
-from proofs.certificate import write_atomically
-from proofs.cli import USAGE_ERROR, Parser, progress, writable
+from proofs.shell.cli import USAGE_ERROR, Parser, progress, writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
 from proofs.stress.judge import Judgement, judge
 from proofs.stress.kernels import Kernel, kernel
 from proofs.stress.shrink import shrunk
+from proofs.trusted.certificate import write_atomically
 
 _CASES = 600
 _MOST_CASES = 10**7

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
-from proofs.facts import Range
 from proofs.stress.kernels import Kernel
+from proofs.trusted.facts import Range
 
 Ranges = dict[str, Range]
 

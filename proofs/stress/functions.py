@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from intervals import Interval, IntervalArray
-from proofs.facts import Range
 from proofs.stress.cases import Answer, Truth
 from proofs.stress.kernels import Kernel
+from proofs.trusted.facts import Range
 
 _PERIODIC = ("sin", "cos", "tan")
 _NEAR_ONE = ("log", "log2", "log10", "acosh", "sqrt", "cbrt")

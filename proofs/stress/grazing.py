@@ -8,8 +8,8 @@ from functools import cache
 from itertools import pairwise
 from typing import Any
 
-from proofs.model.candidate import next_impact
-from proofs.model.system import System
+from proofs.motion.candidate import next_impact
+from proofs.motion.system import System
 from proofs.stress.kernels import Kernel
 from proofs.stress.truth import BITS, separation
 

@@ -9,12 +9,12 @@ from fractions import Fraction
 from time import perf_counter
 
 from intervals import IntervalError
-from proofs.facts import Range
-from proofs.model.impact import NoImpact
-from proofs.model.rebound import Impossible
+from proofs.motion.impact import NoImpact
+from proofs.motion.rebound import Impossible
 from proofs.stress.cases import Answer, Case, Ranges, Truth, inputs
 from proofs.stress.kernels import Kernel
 from proofs.stress.limit import TookTooLong, limited
+from proofs.trusted.facts import Range
 
 _TURN_BITS = 800
 

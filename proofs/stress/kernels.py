@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager
 from fractions import Fraction
 from typing import Any, Protocol
 
-from proofs.facts import Range
+from proofs.trusted.facts import Range
 
 
 class Kernel(Protocol):

@@ -9,18 +9,18 @@ from fractions import Fraction
 import numpy as np
 
 from intervals import Undecided
-from proofs.facts import Range
-from proofs.model.covering import cover_by_impacts
-from proofs.model.flight import Flight
-from proofs.model.image import Image, PossibleImages, image
-from proofs.model.impact import NoImpact, Sticks, first_impact, locate
-from proofs.model.rebound import rebound
-from proofs.model.slope_cover import BINARY64, slope_cover
-from proofs.model.system import System
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.flight import Flight
+from proofs.motion.image import Image, PossibleImages, image
+from proofs.motion.impact import NoImpact, Sticks, first_impact, locate
+from proofs.motion.rebound import rebound
+from proofs.motion.slope_cover import BINARY64, slope_cover
+from proofs.motion.system import System
 from proofs.stress.cases import Answer, Ranges, Truth, Unknown
 from proofs.stress.kernels import Kernel
 from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact
+from proofs.trusted.facts import Range
 
 _SAMPLES = (Fraction(0), Fraction(1, 2), Fraction(1), Fraction(281, 1009))
 

@@ -10,10 +10,10 @@ from fractions import Fraction
 from typing import Any
 
 from intervals import Interval, IntervalArray
-from proofs.facts import Range
 from proofs.stress.cases import Answer, Truth
 from proofs.stress.functions import least_width, rounded_down
 from proofs.stress.kernels import Kernel
+from proofs.trusted.facts import Range
 
 _OPERATIONS: dict[str, Any] = {
     "+": operator.add,

@@ -2,8 +2,8 @@
 
 import pytest
 
-from proofs.check import rules
-from proofs.check.arithmetic import Enclosure
+from proofs.trusted import flights as rules
+from proofs.trusted.kernel.arithmetic import Enclosure
 
 
 @pytest.fixture

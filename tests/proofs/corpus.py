@@ -11,11 +11,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
-from proofs.certificate import SCHEMA, parameters_to_json
-from proofs.certificate import render as text_of
-from proofs.facts import PAPER, Parameters
-from proofs.plastic import prove
-from proofs.statements import HORSESHOE, STATEMENTS, theorem
+from proofs.search.s31_horseshoe import prove
+from proofs.trusted.certificate import SCHEMA, parameters_to_json
+from proofs.trusted.certificate import render as text_of
+from proofs.trusted.facts import PAPER, Parameters
+from proofs.trusted.statements import HORSESHOE, STATEMENTS, theorem
 from tests.proofs.mutations import Document, Edit, renew_texts
 
 VERDICTS = {  # of the accepted certificate, at the paper's numbers

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from proofs.certificate import render
 from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.certificate import render
 from tests.proofs.lemma_examples import henon
 
 # parallelogram: centre, unstable column, stable column, in units of 1/10000 -> those it covers

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from proofs.certificate import render
+from proofs.trusted.certificate import render
 from tests.proofs.lemma_examples import EXAMPLES, text
 
 FOLDER = Path(__file__).parent.parent / "certificates" / "lemmas"

@@ -3,10 +3,10 @@
 from functools import cache
 from typing import Any
 
-from proofs.certificate import render
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.model.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.certificate import render
+from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
 
 LOGISTIC = (["x"], [["*", "5", "x", ["-", "1", "x"]]])
 CUBIC = (["x"], [["+", ["-", ["^", "x", "3"], ["*", "3", "x"]], "1"]])
@@ -67,7 +67,7 @@ class Written:
 
 
 def impact_gap():
-    """The gap, its derivatives in time, the slope theorem of `proofs.model.equations.slope`."""
+    """The gap, its derivatives in time, the slope theorem of `proofs.trusted.equations.slope`."""
     eta, nu, phi, t = map(Written, ("eta", "nu", "phi", "t"))
     start, now = launch(1, eta, nu, phi), clock(eta, t)
     g, rate, acceleration = (gap(start, now, order) for order in range(3))

@@ -9,8 +9,8 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from proofs.certificate import render
-from proofs.check.lemma import RULES
+from proofs.trusted.certificate import render
+from proofs.trusted.kernel.lemma import RULES
 from tests.proofs.mutations import Document, Mutation, drop, edited, put, swap, walk
 
 HARMLESS = {

@@ -6,10 +6,10 @@ from typing import Any
 
 from flint import arb, arb_series, ctx
 
-from proofs.check.arithmetic import exp, log, pi, rational
-from proofs.check.rules import Motion, phase_after
-from proofs.facts import Range
-from proofs.model import equations
+from proofs.trusted import equations
+from proofs.trusted.facts import Range
+from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.kernel.arithmetic import exp, log, pi, rational
 from tests.proofs.second_map import ball, bounds
 
 

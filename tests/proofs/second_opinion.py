@@ -1,6 +1,6 @@
 """A second opinion: every inequality of a certificate in the checker's numbers and in Arb's.
 
-A leaf is a quantity that a rule of proofs.check.rules needs positive, or only encloses. Both
+A leaf is a quantity that a rule of proofs.trusted.flights needs positive, or only encloses. Both
 kernels evaluate the shared equations on the certificate's exact data: the checker at the bits that
 it chose, python-flint at several. Their enclosures must meet. From the root,
 `python -m tests.proofs.second_opinion tests/certificates/accepted/horseshoe.json` prints every
@@ -19,11 +19,11 @@ from typing import Any, NamedTuple
 
 from flint import ctx
 
-from proofs.certificate import Reader, parameters_from_json, parse
-from proofs.check import rules
-from proofs.check.arithmetic import Unproved
-from proofs.check.rules import FirstImpact, Motion
-from proofs.facts import Range
+from proofs.trusted import flights as rules
+from proofs.trusted.certificate import Reader, parameters_from_json, parse
+from proofs.trusted.facts import Range
+from proofs.trusted.flights import FirstImpact, Motion
+from proofs.trusted.kernel.arithmetic import Unproved
 from tests.proofs import second_reader
 from tests.proofs.second_kernels import Arb, Checker, Kernel
 from tests.proofs.second_map import NotAProof, thin

@@ -9,19 +9,19 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs.certificate import Reader
-from proofs.check.rules import RULES
-from proofs.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
-from proofs.facts import PAPER as FACTS
 from proofs.horseshoe import main as horseshoe
-from proofs.model.candidate import next_impact
-from proofs.model.covering import cover_by_impacts, precision_for, steps_for
-from proofs.model.flight import Flight
-from proofs.model.image import Image, image
-from proofs.model.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
-from proofs.model.slope_cover import BINARY64, slope_cover, slope_extremes
-from proofs.model.system import System
+from proofs.motion.candidate import next_impact
+from proofs.motion.covering import cover_by_impacts, precision_for, steps_for
+from proofs.motion.flight import Flight
+from proofs.motion.image import Image, image
+from proofs.motion.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
+from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
+from proofs.motion.system import System
+from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.stress.grazing import graze
+from proofs.trusted.certificate import Reader
+from proofs.trusted.facts import PAPER as FACTS
+from proofs.trusted.flights import RULES
 from tests.proofs import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

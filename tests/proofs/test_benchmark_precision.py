@@ -31,8 +31,8 @@ from proofs.benchmark.curves import Budget, Curve, Point
 from proofs.benchmark.diagrams import Diagram, svg
 from proofs.benchmark.horseshoe import DOMAINS, SYSTEM
 from proofs.benchmark.slope_curves import ARRAY, CODAC, FLINT, IV, SCALAR
-from proofs.certificate import SCHEMA
-from proofs.model.equations import clock, gap, launch
+from proofs.trusted.certificate import SCHEMA
+from proofs.trusted.equations import clock, gap, launch
 
 PEERS = (FLINT, IV, CODAC)
 

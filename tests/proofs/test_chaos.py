@@ -13,24 +13,24 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
-from proofs.certificate import Malformed, Reader, render
-from proofs.chaos import prove, prove_entropy
-from proofs.check.arithmetic import Unproved
-from proofs.check.chaos import RULES
-from proofs.check.rules import RULES as BASIC
-from proofs.check.rules import Motion
-from proofs.check.verify import Rejected, check
-from proofs.check.windows import BITS, Meetings
-from proofs.claims.chaos import CLAIMS, PRINTED, Branch, CoveringGraph, brackets
-from proofs.claims.staying import Cell, StayingSet
-from proofs.facts import PAPER, PointFact, SlopeRange
-from proofs.groups import certificate, decide, produce
-from proofs.model.flight import Flight
-from proofs.model.impact import HORIZON
-from proofs.model.system import System
-from proofs.model.windows import Candidates, Windows, prove_branch
-from proofs.statements import Verdict
-from proofs.steps import Prover
+from proofs.motion.flight import Flight
+from proofs.motion.impact import HORIZON
+from proofs.motion.system import System
+from proofs.motion.windows import Candidates, Windows, prove_branch
+from proofs.search.s34_chaos import prove, prove_entropy
+from proofs.search.steps import Prover
+from proofs.shell.groups import certificate, decide, produce
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER, PointFact, SlopeRange
+from proofs.trusted.flights import RULES as BASIC
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.s34_circle.chaos import CLAIMS, PRINTED, Branch, CoveringGraph, brackets
+from proofs.trusted.paper.s34_circle.chaos_rules import RULES
+from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
+from proofs.trusted.windows import BITS, Meetings
 from tests.proofs import reference
 
 ETA, NU = 0.2121, -0.2

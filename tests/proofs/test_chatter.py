@@ -7,8 +7,8 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs.model.chatter import Pushing
-from proofs.model.system import System
+from proofs.motion.chatter import Pushing
+from proofs.motion.system import System
 from tests.proofs import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import intervals
 from intervals import Interval
-from proofs.check import arithmetic
-from proofs.check.arithmetic import Dual, Enclosure, Unproved, log, pi, rational
-from proofs.model.equations import sincos
+from proofs.trusted.equations import sincos
+from proofs.trusted.kernel import arithmetic
+from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, log, pi, rational
 from tests.effort import examples
 
 TRUTH_BITS = 4096

@@ -6,8 +6,8 @@ from random import Random
 import pytest
 from flint import arb, arb_series, ctx, fmpq
 
-from proofs.check.arithmetic import Enclosure, Unproved, rational
-from proofs.check.series import Series, polynomial
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.series import Series, polynomial
 
 BITS, ORDER = 100, 12
 TINY = Fraction(1, 2**80)

@@ -15,23 +15,23 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs import circle
-from proofs.absorbing import Partition
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Unproved
-from proofs.check.circle import RULES
-from proofs.check.verify import Rejected, check, find_rule
-from proofs.circle_figure import proved
-from proofs.claims import find
-from proofs.claims.absorption import Cell, absorbed, links
-from proofs.claims.landing import Absorption, NeverImpacts, Separation
-from proofs.facts import PAPER
-from proofs.groups import certificate, decide
-from proofs.model.impact import HORIZON
-from proofs.model.landing import prove_never
-from proofs.model.system import System
-from proofs.statements import Verdict
-from proofs.steps import Prover
+from proofs.motion.impact import HORIZON
+from proofs.motion.landing import prove_never
+from proofs.motion.system import System
+from proofs.report.circle_figure import proved
+from proofs.search import s34_circle as circle
+from proofs.search.s34_absorbing import Partition
+from proofs.search.steps import Prover
+from proofs.shell.groups import certificate, decide
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, links
+from proofs.trusted.paper.s34_circle.circle_rules import RULES
+from proofs.trusted.paper.s34_circle.landing import Absorption, NeverImpacts, Separation
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check, find_rule
 from tests.proofs import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")

@@ -160,7 +160,7 @@ def test_where_writing_fails_in_the_end_nothing_is_printed(
     def full(path, content):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("proofs.certificate.write_atomically", full)
+    monkeypatch.setattr("proofs.trusted.certificate.write_atomically", full)
     base = POINT if command is impact else ["--word", "01", "--fast"]
     said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
     assert "No space left" in said and [*tmp_path.iterdir()] == []

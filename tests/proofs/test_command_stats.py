@@ -8,14 +8,17 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from proofs.check.__main__ import main as check_command
 
 from intervals import Interval, Jet
 from proofs import impact, orbits, period_doubling, resonance, single_impact
-from proofs.check.__main__ import main as check_command
-from proofs.check.formula import Tape
-from proofs.claims import GROUPS, single_facts
-from proofs.cli import counting
-from proofs.counting import (
+from proofs.methods.extremes import extremes
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.flight import Flight
+from proofs.motion.impact import bisected, first_impact
+from proofs.motion.system import System
+from proofs.shell.cli import counting
+from proofs.shell.counting import (
     ALGEBRA,
     ARRAYS,
     BISECTIONS,
@@ -40,13 +43,11 @@ from proofs.counting import (
     Kind,
     counted,
 )
-from proofs.facts import PAPER
-from proofs.methods.extremes import extremes
-from proofs.model import equations
-from proofs.model.covering import cover_by_impacts
-from proofs.model.flight import Flight
-from proofs.model.impact import bisected, first_impact
-from proofs.model.system import System
+from proofs.trusted import equations
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.formula import Tape
+from proofs.trusted.paper import GROUPS
+from proofs.trusted.paper.s4_single import single_facts
 from tests.proofs.corpus import path_of
 
 ROOT = Path(__file__).parents[2]
@@ -236,12 +237,12 @@ def loaded(command, arguments):
 @pytest.mark.parametrize("command, arguments", QUESTIONS)
 def test_without_stats_nothing_of_it_is_there(command, arguments):
     modules = loaded(command, [*arguments, "--json", "-"])
-    assert command.__name__ in modules and "proofs.counting" not in modules
+    assert command.__name__ in modules and "proofs.shell.counting" not in modules
     assert "sympy" not in modules
     if command is impact:
-        unwanted = {"numpy", "proofs.certificate", "proofs.check", "proofs.model.kernel"}
+        unwanted = {"numpy", "proofs.trusted.certificate", "proofs.check", "proofs.motion.kernel"}
         assert unwanted.isdisjoint(modules)
-    assert "proofs.counting" in loaded(command, [*arguments, "--stats"])
+    assert "proofs.shell.counting" in loaded(command, [*arguments, "--stats"])
 
 
 @pytest.mark.parametrize("command, arguments", QUESTIONS)

@@ -4,13 +4,13 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Unproved
-from proofs.check.derivation import RULES
-from proofs.claims.formulas import Asked, Derivation, Equal, Value, at, differ
-from proofs.facts import PAPER
 from proofs.methods import derive
-from proofs.statements import Verdict
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.derivation import RULES
+from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Value, at, differ
+from proofs.trusted.statements import Verdict
 
 
 def run(rule, **witness):

@@ -10,16 +10,17 @@ import pytest
 from mpmath import findroot, mp, mpf
 
 from intervals import Interval, Jet, Undecided
-from proofs import dimension, groups
-from proofs.certificate import render
-from proofs.check.verify import Rejected, check
-from proofs.claims import find
-from proofs.claims.dimension import FULL, WITHOUT_000, Repeller
-from proofs.facts import PAPER, Avoids, MoranRoot, PointFact
-from proofs.model.covering import cover_by_impacts
-from proofs.model.inverse import InverseBranch, InverseSystem
-from proofs.model.system import System
-from proofs.statements import Verdict
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.inverse import InverseBranch, InverseSystem
+from proofs.motion.system import System
+from proofs.search import s32_dimension as dimension
+from proofs.shell import groups
+from proofs.trusted.certificate import render
+from proofs.trusted.facts import PAPER, Avoids, MoranRoot, PointFact
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, Repeller
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import periodic_dimension, reference
 
 DIGITS = 5

@@ -8,16 +8,16 @@ from functools import cache
 import pytest
 from mpmath import findroot, mp, mpf
 
-from proofs import dimension
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Unproved
-from proofs.check.dimension import RULES, _Branch
-from proofs.check.rules import RULES as BASIC
-from proofs.claims.dimension import FULL, Repeller
-from proofs.facts import PAPER
-from proofs.model.inverse import InverseBranch, InverseSystem
-from proofs.repair import nearest_sets
-from proofs.steps import Prover
+from proofs.motion.inverse import InverseBranch, InverseSystem
+from proofs.search import s32_dimension as dimension
+from proofs.search.repair import nearest_sets
+from proofs.search.steps import Prover
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER
+from proofs.trusted.flights import RULES as BASIC
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.s32_sets.dimension import FULL, Repeller
+from proofs.trusted.paper.s32_sets.dimension_rules import RULES, _Branch
 from tests.proofs import reference
 
 DIGITS = 5

@@ -4,7 +4,7 @@ import sympy
 from mpmath import mpf
 
 from intervals import Jet
-from proofs.model.equations import (
+from proofs.trusted.equations import (
     clock,
     gap,
     launch,
@@ -109,7 +109,7 @@ def test_jets_of_the_gap_agree_with_its_time_derivatives():
 
     along = Jet(Number(t0), mpf(1), mpf(0), mpf(0))
     scaled = Jet(Number(mpf("0.2121") * t0), mpf("0.2121"), mpf(0), mpf(0))
-    from proofs.model.equations import Clock
+    from proofs.trusted.equations import Clock
 
     now = Clock(*scaled.sincos(), *along.sincos())
     jet = gap(start, now)

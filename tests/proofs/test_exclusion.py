@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from proofs.model.kernel import _forms
-from proofs.model.system import System
+from proofs.motion.kernel import _forms
+from proofs.motion.system import System
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 OTHER = System(Fraction("0.31"), Fraction("0.4"))
@@ -64,7 +64,7 @@ def test_forms_of_one_time_have_no_chord():
 
 def test_a_gap_that_is_no_form_is_refused(monkeypatch):
     monkeypatch.setattr(
-        "proofs.model.kernel.gap", lambda start, now, order: start.lift * start.lift
+        "proofs.motion.kernel.gap", lambda start, now, order: start.lift * start.lift
     )
     with pytest.raises(ValueError, match="not a form"):
         _forms(System(Fraction("0.123"), Fraction("0.4")), GRID)

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Enclosure, Unproved
-from proofs.check.enclose import (
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.enclose import (
     Components,
     Enclosures,
     Exact,
@@ -19,7 +19,7 @@ from proofs.check.enclose import (
     decide,
     leaves,
 )
-from proofs.check.formula import Exhausted, read_formula
+from proofs.trusted.kernel.formula import Exhausted, read_formula
 from tests.intervals.oracle import arb, ends
 
 VARIABLES = ["x", "y"]

@@ -14,19 +14,19 @@ from itertools import combinations
 import pytest
 from mpmath import mp, mpf
 
-from proofs.certificate import Malformed, Reader, render
-from proofs.check.foundations import RULES
-from proofs.check.verify import Rejected, check
-from proofs.claims import GROUPS, find
-from proofs.claims import section2 as eq
-from proofs.claims.appendix import MethodOne
-from proofs.claims.foundations import DERIVATIONS
-from proofs.claims.landing import NeverImpacts
-from proofs.facts import PAPER
-from proofs.foundations import prove
-from proofs.groups import settle
 from proofs.methods import derive
-from proofs.statements import Verdict
+from proofs.search.s2_foundations import prove
+from proofs.shell.groups import settle
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper import GROUPS, find
+from proofs.trusted.paper.s2_foundations import displayed as eq
+from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS
+from proofs.trusted.paper.s7_appendix.appendix import MethodOne
+from proofs.trusted.paper.s7_appendix.rules import RULES
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import reference
 
 CLAIMS = GROUPS["foundations"]

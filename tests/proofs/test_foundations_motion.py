@@ -10,8 +10,8 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.model.marching import march
-from proofs.model.system import System
+from proofs.motion.marching import march
+from proofs.motion.system import System
 from tests.proofs import reference
 
 HALF = System(Fraction(1, 2), Fraction(-1, 2))

@@ -8,11 +8,11 @@ from itertools import pairwise, product
 import flint
 import pytest
 
-from proofs.certificate import Malformed
-from proofs.check.arithmetic import Unproved
-from proofs.check.hset import HSet, disjoint, inverse
-from proofs.check.lemma import check_lemma
-from proofs.check.verify import Rejected
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.hset import HSet, disjoint, inverse
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
 from tests.proofs.lemma_examples import henon, text
 
 SCHEMA = "impact-proofs.lemma/1"

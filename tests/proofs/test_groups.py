@@ -6,19 +6,18 @@ import random
 import re
 from decimal import Decimal
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-from proofs import claims as catalogue
-from proofs.certificate import Malformed, Reader, parameters_from_json, parse, render
-from proofs.check import rules
-from proofs.check.verify import Rejected, _check_claim, _derive_steps, check, find_rule
-from proofs.claims import GROUPS
-from proofs.facts import PAPER
-from proofs.manifest import NAME
-from proofs.statements import Verdict
+from proofs.shell.manifest import NAME
+from proofs.trusted import flights as rules
+from proofs.trusted import paper as catalogue
+from proofs.trusted.certificate import Malformed, Reader, parameters_from_json, parse, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper import GROUPS, rules_of
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, _check_claim, _derive_steps, check, find_rule
 
 REPORTS = Path(__file__).parents[2] / "reports"
 REFUSED = (Malformed, Rejected)
@@ -112,7 +111,7 @@ def test_without_conclusions_nothing_is_decided_but_a_simulation(group):
 def test_a_rule_s_name_has_one_meaning():
     meaning = dict(rules.RULES)
     for group in GROUPS:
-        for name, rule in import_module(f"proofs.check.{group}").RULES.items():
+        for name, rule in rules_of(group).items():
             assert meaning.setdefault(name, rule) is rule, name
             assert find_rule(name) is rule
 

@@ -10,12 +10,13 @@ from pathlib import Path
 import pytest
 from flint import arb, ctx
 
-from proofs import horseshoe, runner
-from proofs.certificate import render
-from proofs.check.verify import check
-from proofs.facts import PAPER
-from proofs.plastic import CLAIMS, prove
-from proofs.statements import Verdict
+from proofs import horseshoe
+from proofs.search.s31_horseshoe import CLAIMS, prove
+from proofs.shell import runner
+from proofs.trusted.certificate import render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import check
 from tests.proofs import corpus, reference
 
 ETA, NU = reference.mpf("0.2121"), reference.mpf("-0.2")
@@ -263,7 +264,7 @@ def test_a_failing_write_keeps_the_old_certificate(monkeypatch, tmp_path):
 
 
 def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
-    from proofs.check.verify import Rejected
+    from proofs.trusted.verify import Rejected
 
     def refuse(_):
         raise Rejected("on purpose")

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from proofs.certificate import MAX_BYTES, MAX_WORK, Malformed, Reader
-from proofs.certificate import render as text_of
+from proofs.trusted.certificate import MAX_BYTES, MAX_WORK, Malformed, Reader
+from proofs.trusted.certificate import render as text_of
 from tests.proofs import corpus
 
 ROOT = Path(__file__).parents[2]
@@ -116,7 +116,7 @@ def test_work_is_charged_by_evaluations_and_bits():
 
 
 def test_the_main_job_is_far_from_the_limit(monkeypatch):
-    from proofs.check.verify import check
+    from proofs.trusted.verify import check
 
     charged = []
     monkeypatch.setattr(Reader, "charge", lambda self, n, bits: charged.append((n, bits)))
@@ -136,7 +136,7 @@ def test_the_main_job_is_far_from_the_limit(monkeypatch):
     ],
 )
 def test_faults_have_their_path(text, path):
-    from proofs.certificate import parse
+    from proofs.trusted.certificate import parse
 
     with pytest.raises(Malformed) as caught:
         parse(text)

@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from proofs.certificate import Malformed
-from proofs.check.lemma import check_lemma
-from proofs.check.verify import Rejected
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
 from tests.proofs.lemma_examples import text
 
 

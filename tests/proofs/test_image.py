@@ -7,9 +7,9 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
-from proofs.model.image import Image, PossibleImages, image, separation_phase
-from proofs.model.impact import NoImpact
-from proofs.model.system import System
+from proofs.motion.image import Image, PossibleImages, image, separation_phase
+from proofs.motion.impact import NoImpact
+from proofs.motion.system import System
 from tests.proofs import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

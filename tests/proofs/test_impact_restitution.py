@@ -8,8 +8,8 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs import impact
-from proofs.model.rebound import Impossible, rebound
-from proofs.model.system import System
+from proofs.motion.rebound import Impossible, rebound
+from proofs.motion.system import System
 from tests.proofs import reference
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]

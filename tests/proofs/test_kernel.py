@@ -6,13 +6,13 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import IntervalArray, Undecided
-from proofs.model import kernel
-from proofs.model.covering import cover_by_impacts
-from proofs.model.impact import HORIZON
-from proofs.model.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
-from proofs.model.slope_cover import BINARY64, cut, grid_of, slope_cover, slope_extremes
-from proofs.model.system import System
-from proofs.steps import Prover
+from proofs.motion import kernel
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.impact import HORIZON
+from proofs.motion.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
+from proofs.motion.slope_cover import BINARY64, cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.system import System
+from proofs.search.steps import Prover
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 OTHER = System(Fraction("0.31"), Fraction("0.4"))  # p < 0: the mass flies above the table

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from proofs.check.verify import check
-from proofs.ledger import CLAIMS, FILES, jobs, main, settle
+from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
+from proofs.trusted.verify import check
 
 FLAT = ["H1", "H2", "H11"]
 

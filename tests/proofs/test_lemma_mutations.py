@@ -7,9 +7,9 @@ from zlib import crc32
 
 import pytest
 
-from proofs.certificate import Malformed
-from proofs.check.lemma import RULES, check_lemma
-from proofs.check.verify import Rejected
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.lemma import RULES, check_lemma
+from proofs.trusted.verify import Rejected
 from tests.proofs import lemma_corpus
 from tests.proofs.lemma_examples import EXAMPLES, text
 from tests.proofs.lemma_falsifier import falsehoods

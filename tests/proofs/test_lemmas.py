@@ -15,9 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from proofs.certificate import Malformed
-from proofs.check.lemma import RULES, check_lemma
-from proofs.check.verify import Rejected
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.lemma import RULES, check_lemma
+from proofs.trusted.verify import Rejected
 from tests.proofs.lemma_examples import EXAMPLES, text
 
 SCHEMA = "impact-proofs.lemma/1"
@@ -590,8 +590,8 @@ class Refuse:
 
 sys.meta_path.insert(0, Refuse())
 sys.path.insert(0, "")
-from proofs.check.lemma import check_lemma
-from proofs.check.verify import Rejected
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
 for line in check_lemma(sys.stdin.read()).claims:
     print(line)
 """

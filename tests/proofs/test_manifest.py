@@ -4,14 +4,14 @@ import json
 from pathlib import Path
 
 import pytest
-
-from proofs import manifest
-from proofs.certificate import MANIFEST, Malformed, digest
 from proofs.check.__main__ import main as check
-from proofs.check.manifest import check_manifest
-from proofs.check.verify import Rejected
+
 from proofs.horseshoe import main
-from proofs.ledger import CLAIMS, FILES
+from proofs.shell import manifest
+from proofs.shell.ledger import CLAIMS, FILES
+from proofs.trusted.certificate import MANIFEST, Malformed, digest
+from proofs.trusted.manifest import check_manifest
+from proofs.trusted.verify import Rejected
 from tests.proofs import corpus
 
 ROOT = Path(__file__).parents[2]

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.model.marching import STEPS, flight, march, trials, wrong_inputs
-from proofs.model.system import System
+from proofs.motion.marching import STEPS, flight, march, trials, wrong_inputs
+from proofs.motion.system import System
 from tests.proofs import reference
 
 pytestmark = pytest.mark.slow

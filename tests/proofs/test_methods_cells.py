@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray
-from proofs.certificate import Reader
-from proofs.check.formula import read_formula
 from proofs.methods.cells import Region, function_of, invariant_cover
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.formula import read_formula
 
 LINE = Region((Interval(-1, 1),))
 PLANE = Region((Interval(-1, 1), Interval(-1, 1)))

@@ -14,14 +14,14 @@ import pytest
 from mpmath import matrix, mp, mpf
 
 from intervals import Interval
-from proofs.certificate import Malformed, Reader, render
-from proofs.check.formula import read_formula
-from proofs.check.lemma import check_lemma
-from proofs.check.verify import Rejected
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.periodic import periodic_orbits
 from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.kernel.formula import read_formula
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
 from tests.proofs.henon_sets import entropy_lemma
 from tests.proofs.lemma_examples import Written, henon
 

@@ -12,10 +12,10 @@ from functools import cache
 import pytest
 
 from intervals import Undecided
-from proofs.certificate import Malformed, render
-from proofs.check.lemma import check_lemma
-from proofs.check.verify import Rejected
 from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
 
 MODULUS = ["sqrt", ["^", "x", "2"]]
 LINEAR = (

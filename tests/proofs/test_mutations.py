@@ -4,13 +4,13 @@ import json
 from collections import Counter
 
 import pytest
-
-from proofs.certificate import MAX_BYTES, Malformed, parse
-from proofs.certificate import render as text_of
 from proofs.check.__main__ import check_file
-from proofs.check.verify import Rejected, check
-from proofs.facts import PAPER
-from proofs.plastic import prove
+
+from proofs.search.s31_horseshoe import prove
+from proofs.trusted.certificate import MAX_BYTES, Malformed, parse
+from proofs.trusted.certificate import render as text_of
+from proofs.trusted.facts import PAPER
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import corpus
 from tests.proofs.mutations import (
     GROUPS,

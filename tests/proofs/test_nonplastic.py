@@ -10,11 +10,11 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.certificate import Malformed, render
-from proofs.check.verify import Rejected, check
-from proofs.facts import PAPER
-from proofs.groups import settle
-from proofs.statements import Verdict
+from proofs.shell.groups import settle
+from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import reference
 
 

@@ -10,19 +10,25 @@ from itertools import product
 
 import pytest
 
-from proofs.certificate import Malformed, Reader, parameters_from_json, parameters_to_json, render
-from proofs.check.verify import Rejected, check
-from proofs.claims import find
-from proofs.claims.rebound_boxes import covered
-from proofs.claims.rebounds import BarredWord, Rebound, Rectangle
-from proofs.facts import PAPER
-from proofs.groups import settle
-from proofs.model.impact import HORIZON
-from proofs.model.system import System
-from proofs.rebound_steps import ReboundProver
-from proofs.runner import run
-from proofs.statements import Verdict
-from proofs.steps import Prover
+from proofs.motion.impact import HORIZON
+from proofs.motion.system import System
+from proofs.search.s33_steps import ReboundProver
+from proofs.search.steps import Prover
+from proofs.shell.groups import settle
+from proofs.shell.runner import run
+from proofs.trusted.certificate import (
+    Malformed,
+    Reader,
+    parameters_from_json,
+    parameters_to_json,
+    render,
+)
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s33_restitution.rebound_boxes import covered
+from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Rebound, Rectangle
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import reference
 from tests.proofs.corpus import accepted
 from tests.proofs.second_reader import NotACertificate, parameters

@@ -5,11 +5,11 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.claims import find
-from proofs.claims.rebound_facts import restricted
-from proofs.claims.rebounds import BarredWord, Rectangle
-from proofs.facts import PAPER
-from proofs.statements import Verdict
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s33_restitution.rebound_facts import restricted
+from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Rectangle
+from proofs.trusted.statements import Verdict
 from tests.proofs.test_rebounds import HERE, linear, pair_of
 
 # -- orbits that never repeat the right rectangle, at the paper's numbers --------------------------

@@ -15,9 +15,9 @@ from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray, Undecided
 from proofs import orbits
-from proofs.facts import PAPER
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words
+from proofs.trusted.facts import PAPER
 from tests.proofs import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")

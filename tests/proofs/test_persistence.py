@@ -12,19 +12,24 @@ from functools import cache
 import pytest
 from mpmath import mp, mpf
 
-from proofs.certificate import Malformed, Reader, render, texts
-from proofs.check.arithmetic import Unproved
-from proofs.check.nonplastic import RULES as REBOUND_RULES
-from proofs.check.persistence import RULES, _bounce
-from proofs.check.verify import Rejected, check
-from proofs.claims.persistence import CLAIMS, Chatter, SeparationFlight, stable_pair
-from proofs.claims.rebounds import Rebound
-from proofs.facts import PAPER
-from proofs.groups import certificate, decide
-from proofs.model.chatter import Pushing
-from proofs.model.system import System
-from proofs.persistence import prove
-from proofs.statements import Verdict
+from proofs.motion.chatter import Pushing
+from proofs.motion.system import System
+from proofs.search.s34_persistence import prove
+from proofs.shell.groups import certificate, decide
+from proofs.trusted.certificate import Malformed, Reader, render, texts
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound
+from proofs.trusted.paper.s33_restitution.rules import RULES as REBOUND_RULES
+from proofs.trusted.paper.s34_circle.persistence import (
+    CLAIMS,
+    Chatter,
+    SeparationFlight,
+    stable_pair,
+)
+from proofs.trusted.paper.s34_circle.persistence_rules import RULES, _bounce
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")

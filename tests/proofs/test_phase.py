@@ -7,7 +7,7 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from proofs.model.phase import misses, phase_after, turn
+from proofs.motion.phase import misses, phase_after, turn
 
 
 def true_turn():

@@ -7,9 +7,9 @@ from itertools import product
 
 import pytest
 
-from proofs.claims.rebound_facts import FULL, NO_REPEATED_ONE, never_twice
-from proofs.claims.rebound_texts import merged
-from proofs.claims.rebounds import (
+from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, NO_REPEATED_ONE, never_twice
+from proofs.trusted.paper.s33_restitution.rebound_texts import merged
+from proofs.trusted.paper.s33_restitution.rebounds import (
     Rebound,
     Unjoined,
     barred,

@@ -6,18 +6,18 @@ import random
 import pytest
 from mpmath import mp, mpf
 
-from proofs import groups
-from proofs.certificate import Malformed, Reader, render
-from proofs.check.arithmetic import Unproved
-from proofs.check.derivation import RULES
-from proofs.check.verify import Rejected, check
-from proofs.claims import GROUPS, find
-from proofs.claims import section6 as eq
-from proofs.claims.formulas import Equal
-from proofs.claims.resonance import DERIVATIONS
-from proofs.facts import PAPER
 from proofs.methods import derive
 from proofs.resonance import CLAIMS, prove
+from proofs.shell import groups
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.derivation import RULES
+from proofs.trusted.paper import GROUPS, find
+from proofs.trusted.paper.formulas import Equal
+from proofs.trusted.paper.s6_resonance import displayed as eq
+from proofs.trusted.paper.s6_resonance.resonance import DERIVATIONS
+from proofs.trusted.verify import Rejected, check
 from tests.proofs import reference
 
 VERDICTS = {

@@ -8,10 +8,11 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Interval
-from proofs import resonance, resonance_figure
-from proofs.model.rebound import Impossible, rebound
-from proofs.model.resonant import TooManyImpacts, angles, motion
-from proofs.model.system import System
+from proofs import resonance
+from proofs.motion.rebound import Impossible, rebound
+from proofs.motion.resonant import TooManyImpacts, angles, motion
+from proofs.motion.system import System
+from proofs.report import resonance_figure
 
 
 def answer(capsys, **state):

@@ -8,10 +8,10 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs.model.impact import NoImpact
-from proofs.model.restitution import Rebounds, first_impact, next_impact
-from proofs.model.system import System
-from proofs.rectangles import state_after
+from proofs.motion.impact import NoImpact
+from proofs.motion.restitution import Rebounds, first_impact, next_impact
+from proofs.motion.system import System
+from proofs.search.s33_rectangles import state_after
 from tests.proofs import reference
 
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")

@@ -12,10 +12,10 @@ from functools import cache
 import pytest
 from mpmath import mp, mpf
 
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Unproved
-from proofs.check.rules import RULES, FirstImpact, Motion, _meets, phase_after
-from proofs.facts import PAPER
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER
+from proofs.trusted.flights import RULES, FirstImpact, Motion, _meets, phase_after
+from proofs.trusted.kernel.arithmetic import Unproved
 from tests.proofs import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]

@@ -4,17 +4,16 @@ import json
 import re
 from dataclasses import fields
 from fractions import Fraction
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
 
-from proofs.certificate import _MAX_DIGITS, _MAX_DIGITS_OF_PARAMETERS, SCHEMA
-from proofs.check.rules import RULES
-from proofs.claims import GROUPS
-from proofs.facts import TURN, Facts, Parameters
-from proofs.statements import STATEMENTS, Verdict, quantities
+from proofs.trusted.certificate import _MAX_DIGITS, _MAX_DIGITS_OF_PARAMETERS, SCHEMA
+from proofs.trusted.facts import TURN, Facts, Parameters
+from proofs.trusted.flights import RULES
+from proofs.trusted.paper import GROUPS, rules_of
+from proofs.trusted.statements import STATEMENTS, Verdict, quantities
 from tests.proofs.mutations import mutations, outcome
 
 ROOT = Path(__file__).parents[2]
@@ -71,7 +70,7 @@ def test_every_name_is_the_code_s():
     assert other["id"]["enum"] == [claim for claims in GROUPS.values() for claim in claims]
     assert other["verdict"]["enum"] == [verdict.value for verdict in Verdict]
     assert set(claim["verdict"]["enum"]) < set(other["verdict"]["enum"])
-    groups = [import_module(f"proofs.check.{group}").RULES for group in GROUPS]
+    groups = [rules_of(group) for group in GROUPS]
     names = dict.fromkeys(name for rules in groups for name in rules if name not in RULES)
     assert definitions["other-step"]["properties"]["rule"]["enum"] == list(names)
     assert definitions["parameters"]["required"] == [field.name for field in fields(Parameters)]

@@ -1,4 +1,4 @@
-"""Two tables of claims agree: proofs.statements, and one typed from the specification."""
+"""Two tables of claims agree: proofs.trusted.statements, and one typed from the specification."""
 
 import json
 import random
@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.certificate import parameters_to_json
-from proofs.facts import PAPER, Facts, PointFact, SlopeRange
-from proofs.statements import STATEMENTS, decide, quantities
+from proofs.trusted.certificate import parameters_to_json
+from proofs.trusted.facts import PAPER, Facts, PointFact, SlopeRange
+from proofs.trusted.statements import STATEMENTS, decide, quantities
 from tests.proofs import second_claims
 from tests.proofs.second_both import both
 

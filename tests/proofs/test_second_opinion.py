@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from proofs.certificate import render
-from proofs.check import rules
-from proofs.facts import PAPER
-from proofs.plastic import prove
+from proofs.search.s31_horseshoe import prove
+from proofs.trusted import flights as rules
+from proofs.trusted.certificate import render
+from proofs.trusted.facts import PAPER
 from tests.proofs import second_kernels
 from tests.proofs.second_opinion import opinions, summary, table
 

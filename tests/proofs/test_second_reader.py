@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 from flint import arb, arb_series
 
-from proofs.certificate import render
-from proofs.facts import PAPER
-from proofs.plastic import prove
+from proofs.search.s31_horseshoe import prove
+from proofs.trusted.certificate import render
+from proofs.trusted.facts import PAPER
 from tests.proofs.mutations import mutations, renew_texts
 from tests.proofs.second_both import both
 from tests.proofs.second_map import Impacts, ball

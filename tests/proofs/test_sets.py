@@ -10,15 +10,15 @@ from math import cos, sin, tau
 
 import pytest
 
-from proofs.certificate import Malformed, render
-from proofs.check.verify import Rejected, check
-from proofs.claims.itinerary import Horseshoe, Itinerary, follow, invariant_set
-from proofs.claims.sets import CLAIMS
-from proofs.claims.subshift import words
-from proofs.facts import PAPER, Parameters, Range, SlopeRange
-from proofs.groups import settle
-from proofs.sets import prove
-from proofs.statements import Verdict
+from proofs.search.s32_sets import prove
+from proofs.shell.groups import settle
+from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.facts import PAPER, Parameters, Range, SlopeRange
+from proofs.trusted.paper.s32_sets.itinerary import Horseshoe, Itinerary, follow, invariant_set
+from proofs.trusted.paper.s32_sets.sets import CLAIMS
+from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
 
 ETA, NU = 0.2121, -0.2
 TURNS = {"0": 4, "1": 9}

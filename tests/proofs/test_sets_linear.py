@@ -8,10 +8,11 @@ from fractions import Fraction
 import pytest
 from flint import arb, ctx
 
-from proofs.certificate import Malformed, Reader
-from proofs.check.arithmetic import Unproved
-from proofs.check.sets import RULES
-from proofs.claims.cantor import (
+from proofs.search.s32_sets import prove
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER, MoranRoot, Parameters
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.s32_sets.cantor import (
     Excess,
     LinearSet,
     cylinder,
@@ -20,11 +21,10 @@ from proofs.claims.cantor import (
     length,
     ratio_pairs,
 )
-from proofs.claims.sets import CLAIMS
-from proofs.claims.subshift import words
-from proofs.facts import PAPER, MoranRoot, Parameters
-from proofs.sets import prove
-from proofs.statements import Verdict
+from proofs.trusted.paper.s32_sets.rules import RULES
+from proofs.trusted.paper.s32_sets.sets import CLAIMS
+from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.statements import Verdict
 
 DECIDE = {claim.id: claim.decide for claim in CLAIMS}
 EXACT = (Fraction(4, 21), Fraction(5, 21))

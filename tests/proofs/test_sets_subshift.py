@@ -5,8 +5,8 @@ from itertools import product
 
 import pytest
 
-from proofs.claims import subshift
-from proofs.claims.subshift import Subshift, words
+from proofs.trusted.paper.s32_sets import subshift
+from proofs.trusted.paper.s32_sets.subshift import Subshift, words
 
 
 def allowed(word, factors):

@@ -5,8 +5,8 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.model.simulate import Transient, next_impact, transient, transients
-from proofs.model.system import System
+from proofs.motion.simulate import Transient, next_impact, transient, transients
+from proofs.motion.system import System
 from tests.proofs import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

@@ -15,10 +15,17 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs import single_impact
-from proofs.claims.single_facts import FLIP, SADDLE, STICK, distance, excess, records
-from proofs.model.equations import Clock
-from proofs.model.single_orbits import earlier, eta_end, last_period, nu_end, solutions
-from proofs.model.system import System
+from proofs.motion.single_orbits import earlier, eta_end, last_period, nu_end, solutions
+from proofs.motion.system import System
+from proofs.trusted.equations import Clock
+from proofs.trusted.paper.s4_single.single_facts import (
+    FLIP,
+    SADDLE,
+    STICK,
+    distance,
+    excess,
+    records,
+)
 from tests.proofs import reference
 
 

@@ -13,19 +13,19 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs import claims as catalogue
-from proofs import single
-from proofs.certificate import Malformed, Reader, render
-from proofs.check.arithmetic import Unproved
-from proofs.check.single import RULES
-from proofs.check.verify import Rejected, check, find_rule
-from proofs.claims import section4 as eq
-from proofs.claims.formulas import Value
-from proofs.claims.single_facts import EtaWindows, NuWindows, Orbit, Solution
-from proofs.facts import PAPER
-from proofs.groups import certificate, decide, settle
-from proofs.single_figure import svg
-from proofs.statements import Verdict
+from proofs.report.single_figure import svg
+from proofs.search import s4_single as single
+from proofs.shell.groups import certificate, decide, settle
+from proofs.trusted import paper as catalogue
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.formulas import Value
+from proofs.trusted.paper.s4_single import displayed as eq
+from proofs.trusted.paper.s4_single.rules import RULES
+from proofs.trusted.paper.s4_single.single_facts import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check, find_rule
 from tests.proofs import reference
 from tests.proofs.test_single import slope_18
 

@@ -6,19 +6,19 @@ from fractions import Fraction
 
 import pytest
 
-from proofs import groups
-from proofs.certificate import Malformed, Reader, render
-from proofs.check.derivation import RULES, Formulas
-from proofs.check.verify import Rejected, check
-from proofs.claims import GROUPS, find
-from proofs.claims import section5 as eq
-from proofs.claims import soft_lemmas as given
-from proofs.claims.formulas import Asked, Equal, Series, differ
-from proofs.claims.soft import DERIVATIONS
-from proofs.derivations import Steps
-from proofs.facts import PAPER
 from proofs.methods import derive
-from proofs.soft import CLAIMS, prove
+from proofs.search.derivations import Steps
+from proofs.search.s5_soft import CLAIMS, prove
+from proofs.shell import groups
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.derivation import RULES, Formulas
+from proofs.trusted.paper import GROUPS, find
+from proofs.trusted.paper.formulas import Asked, Equal, Series, differ
+from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import soft_lemmas as given
+from proofs.trusted.paper.s5_soft.soft import DERIVATIONS
+from proofs.trusted.verify import Rejected, check
 
 VERDICTS = {
     "VERIFIED": "S1 S2 S4 S6 S7 S9 S11 S12 S20 S23",

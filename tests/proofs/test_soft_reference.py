@@ -6,8 +6,8 @@ from fractions import Fraction
 import mpmath as mp
 import pytest
 
-from proofs.claims import section5 as eq
-from proofs.derivations import enclose
+from proofs.search.derivations import enclose
+from proofs.trusted.paper.s5_soft import displayed as eq
 
 
 def printed_equations(p, beta, omega, wn, eps, g, m, psi, v, psi1):

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.facts import (
+from proofs.trusted.facts import (
     PAPER,
     TURN,
     Facts,
@@ -17,7 +17,7 @@ from proofs.facts import (
     show,
     show_range,
 )
-from proofs.statements import (
+from proofs.trusted.statements import (
     HORSESHOE,
     STATEMENTS,
     Verdict,

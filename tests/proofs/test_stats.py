@@ -14,12 +14,11 @@ import numpy as np
 import pytest
 
 from intervals import Interval, IntervalArray, Jet
-from proofs import cli, counting, groups, horseshoe, ledger, runner
-from proofs.check.arithmetic import Dual, rational
-from proofs.check.verify import Rejected, check
-from proofs.claims.foundations import DERIVATIONS as BASIC
-from proofs.claims.soft import DERIVATIONS as SOFT
-from proofs.counting import (
+from proofs import horseshoe
+from proofs.motion.kernel import float_clock, float_launch
+from proofs.motion.system import System
+from proofs.shell import cli, counting, groups, ledger, runner
+from proofs.shell.counting import (
     ALGEBRA,
     ARRAYS,
     BISECTIONS,
@@ -44,11 +43,13 @@ from proofs.counting import (
     evaluations,
     table,
 )
-from proofs.facts import PAPER
-from proofs.model import equations
-from proofs.model.equations import clock, gap, launch, slope
-from proofs.model.kernel import float_clock, float_launch
-from proofs.model.system import System
+from proofs.trusted import equations
+from proofs.trusted.equations import clock, gap, launch, slope
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Dual, rational
+from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS as BASIC
+from proofs.trusted.paper.s5_soft.soft import DERIVATIONS as SOFT
+from proofs.trusted.verify import Rejected, check
 
 pytestmark = pytest.mark.slow
 
@@ -172,7 +173,7 @@ def test_nothing_is_watched_unless_that_is_wanted():
 
 def test_without_stats_this_is_not_even_imported(tmp_path):
     code = "import sys; from proofs import horseshoe as h; h.main(sys.argv[1:]); "
-    code += "sys.exit('proofs.counting' in sys.modules)"
+    code += "sys.exit('proofs.shell.counting' in sys.modules)"
     ask = [sys.executable, "-c", code, "--only", "H16", "--out", str(tmp_path)]
     for more, imported in (([], 0), (["--stats"], 1)):
         done = subprocess.run(ask + more, capture_output=True, text=True, cwd=ROOT, check=False)

@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray
-from proofs.model.impact import NoImpact
+from proofs.motion.impact import NoImpact
 from proofs.stress import __main__ as command
 from proofs.stress import families, functions, motions, report
 from proofs.stress.__main__ import main

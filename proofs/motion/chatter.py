@@ -1,0 +1,150 @@
+"""Bounces on the arc of phases where the table pushes the mass, and the chatter that ends them.
+
+The lemmas, with their proofs, are those of `s34_circle.persistence_rules`: where the launch
+acceleration is negative along a flight, the gap has one zero at most, the speed changes little
+(Lemma 1), and bounces that are weak enough add up to a rest (Lemma 2).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from intervals import Interval, Undecided
+from proofs.motion.system import System
+from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
+from proofs.trusted.facts import Range
+
+_PRECISION = 53
+_WIDENINGS = 7
+_MOST_BOUNCES = 60
+_GRID = 2**24  # times and phases of a witness are multiples of 1 / _GRID
+_RATIO_GRID = 2**10
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Proof that bounces end: brackets of the first few, then Lemma 2 with `ratio` and `rest`."""
+
+    bounces: tuple[Range, ...]
+    ratio: Fraction
+    rest: Fraction
+
+
+@dataclass(frozen=True)
+class Pushing:
+    """The arc of phases up to `last` on which the launch acceleration is known to be negative."""
+
+    system: System
+    last: Fraction
+
+    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Settled:
+        """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
+
+        Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
+        arc, or the bounces become so many that it will not apply.
+        """
+        bounces: list[Range] = []
+        kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
+        while len(bounces) < _MOST_BOUNCES:
+            ending = self._ending(epsilon[1], phases, kicks[1])
+            if ending is not None:
+                return Settled(tuple(bounces), *ending)
+            time, speeds = self.bounce(phases, kicks)
+            bounces.append(time)
+            phases = phases[0] + time[0], phases[1] + time[1]
+            kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
+        raise Undecided(f"{_MOST_BOUNCES} bounces and no rest")
+
+    def accelerations(self, phases: Range) -> Interval:
+        """Enclose the launch acceleration over an interval of phases."""
+        value: Interval = launch_acceleration(self._launches(phases))
+        return value
+
+    def _launches(self, phases: Range) -> Launch:
+        eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))
+        return launch(self.system.side, eta, nu, Interval(*phases, precision=_PRECISION))
+
+    def _ending(
+        self, epsilon: Fraction, phases: Range, kick: Fraction
+    ) -> tuple[Fraction, Fraction] | None:
+        """Return (ratio, rest) that satisfy the hypotheses of Lemma 2, None if none is found.
+
+        The phase of rest is sought from below: the longer the arc, the weaker its push.
+        """
+        rest = phases[1]
+        for _ in range(_WIDENINGS):
+            acceleration = self.accelerations((phases[0], rest))
+            weakest, strongest = -acceleration.sup, -acceleration.inf
+            if weakest <= 0:
+                return None
+            least = float(epsilon) * math.sqrt(strongest / weakest) * (1 + 1e-9)
+            ratio = _up(Fraction(least), _RATIO_GRID)
+            if ratio >= 1:
+                return None
+            end = phases[1] + 2 * kick / (weakest * (1 - ratio))
+            if end <= rest < self.last:
+                return ratio, rest
+            rest = _up(end + (end - phases[1]) / 16, _GRID)
+        return None
+
+    def bounce(self, phases: Range, kicks: Range) -> tuple[Range, Range]:
+        """Bracket the next impact after all bounces given; return times and speeds.
+
+        kicks: the relative velocities after the impact, > 0. The brackets are those of Lemma 1,
+        opened around floating-point candidates until the signs of the gap are proved.
+        """
+        if kicks[0] <= 0:
+            raise Undecided("a bounce as weak as one likes is no bounce that can be bracketed")
+        kick = Interval(*kicks, precision=_PRECISION) * self.system.side
+        start = self._launches(phases)._replace(kick=kick)
+        about = [self._candidate(float(phi), float(w)) for phi in phases for w in kicks]
+        opening = Fraction(max(about) - min(about)) / 8 + Fraction(1, 2**16)
+        low, high = _down(Fraction(min(about)), _GRID), _up(Fraction(max(about)), _GRID)
+        for _ in range(_WIDENINGS):
+            below = _gap(start, (low, low)).certainly_positive()
+            above = _gap(start, (high, high)).certainly_negative()
+            if below and above:
+                break
+            low = low if below else max(_down(low - opening, _GRID), low / 2)
+            high = high if above else _up(high + opening, _GRID)
+            opening *= 2
+        else:
+            raise Undecided("the end of a bounce is not bracketed")
+        if phases[1] + high > self.last or self.system.eta * high > 3:
+            raise Undecided("a bounce may leave the arc on which the table pushes")
+        push = self.accelerations((phases[0], phases[1] + high))
+        if not push.certainly_negative():
+            raise Undecided("a bounce may leave the arc on which the table pushes")
+        speed, change = -_gap(start, (low, high), 1), (1 + push.inf / push.sup) / 2
+        speeds = max(speed.inf, kicks[0] / change), min(speed.sup, kicks[1] * change)
+        return (low, high), speeds
+
+    def _candidate(self, phase: float, kick: float) -> float:
+        """Return about the time of the next impact, by Newton's method from the parabola's."""
+        eta, nu = float(self.system.eta), float(self.system.nu)
+        start = launch(self.system.side, eta, nu, phase)._replace(kick=self.system.side * kick)
+        if (push := launch_acceleration(start)) >= 0:
+            raise Undecided("in floating point a bounce begins off the arc")
+        time = 2 * kick / -push
+        for _ in range(_WIDENINGS):
+            now = clock(eta, time)
+            if gap(start, now, 1) >= 0:
+                raise Undecided("in floating point a bounce leaves the arc")
+            time -= gap(start, now) / gap(start, now, 1)
+        return float(time)
+
+
+def _gap(start: Launch, times: Range, order: int = 0) -> Interval:
+    now = clock(start.eta, Interval(*times, precision=_PRECISION))
+    value: Interval = gap(start, now, order)
+    return value
+
+
+def _up(value: Fraction, grid: int) -> Fraction:
+    return Fraction(-(-value * grid // 1), grid)
+
+
+def _down(value: Fraction, grid: int) -> Fraction:
+    return Fraction(value * grid // 1, grid)

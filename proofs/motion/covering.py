@@ -1,0 +1,123 @@
+"""Phases cut until the first impact of every part is decided, each part at its precision."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from intervals import Undecided
+from intervals.cover import PartsExhausted, cover
+from proofs.motion.flight import Flight
+from proofs.motion.impact import (
+    HORIZON,
+    LEAST,
+    FirstImpact,
+    NoImpact,
+    Sticks,
+    Unsettled,
+    first_impact,
+    locate,
+    name_of,
+)
+from proofs.motion.system import System
+from proofs.trusted.facts import Range
+
+
+def cover_by_impacts(
+    system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
+) -> list[FirstImpact]:
+    """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
+    return cover_by(
+        system,
+        phases,
+        lambda found: found.transversal,
+        obstacle="grazing",
+        horizon=horizon,
+        limit=limit,
+    )
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Launch phases, how often they were cut, and the precision at which they are asked."""
+
+    phases: Range
+    cuts: int = 0
+    precision: int = LEAST
+
+
+def cover_by(
+    system: System,
+    phases: Range,
+    accept: Callable[[FirstImpact], bool],
+    *,
+    obstacle: str,
+    horizon: Fraction = HORIZON,
+    limit: int = 400,
+) -> list[FirstImpact]:
+    """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
+
+    After two cuts, and every four more, a part that is not taken is asked again at the precision
+    that its middle launch needs; else its width is to blame and it is cut. Undecided names a
+    phase near which nothing helps, `obstacle` being the likely reason; a part without impact up
+    to the horizon is cut four times before that is taken for an answer.
+    """
+
+    def decide(part: _Part) -> FirstImpact | None:
+        low = part.phases[0]
+        most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
+        try:
+            flight = Flight(system, part.phases, part.precision)
+            found = first_impact(flight, horizon, steps_for(part.phases))
+            if accept(found):
+                return found
+        except Sticks:
+            raise
+        except NoImpact as error:
+            most, failure = 4, error
+        except Unsettled as error:
+            most, failure = (1 if error.hopeless else 4), error
+        except Undecided as error:
+            failure = error
+        if part.cuts >= most:
+            raise failure
+        return None
+
+    def split(part: _Part) -> Iterable[_Part]:
+        if part.cuts % 4 == 2:
+            needed = precision_for(system, part.phases, horizon)
+            if needed > part.precision:
+                return [replace(part, precision=needed)]
+        return [replace(part, phases=x, cuts=part.cuts + 1) for x in halves(part.phases)]
+
+    try:
+        return [found for _, found in cover([_Part(phases)], decide, split, limit=limit)]
+    except PartsExhausted:
+        raise Undecided(f"{limit} parts of {name_of(phases)} do not suffice") from None
+
+
+def precision_for(system: System, phases: Range, horizon: Fraction = HORIZON) -> int:
+    """Return the precision at which the middle one of the launches is decided, the least if none.
+
+    A choice, never evidence.
+    """
+    middle = (phases[0] + phases[1]) / 2
+    try:
+        return locate(system, (middle, middle), horizon=horizon).flight.precision
+    except Undecided:
+        return LEAST
+
+
+def steps_for(phases: Range) -> Fraction:
+    """Return a finest time step that suits the width w of the phases: about sqrt(w) / 8.
+
+    At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
+    """
+    return Fraction(1, 1 << (3 + (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2))
+
+
+def halves(part: Range) -> tuple[Range, Range]:
+    """Cut an interval in the middle."""
+    middle = (part[0] + part[1]) / 2
+    return (part[0], middle), (middle, part[1])

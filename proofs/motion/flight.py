@@ -1,0 +1,112 @@
+"""All flights that start in a set of phases: the equations, enclosed in any precision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+
+from intervals import Interval, Jet
+from proofs.methods.extremes import piece_range
+from proofs.motion.system import System
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.facts import Range
+
+
+@dataclass(frozen=True)
+class Flight:
+    """All flights that start at a phase of `phases`, evaluated at `precision` bits.
+
+    `separating` asserts that every launch acceleration is known to be >= 0 from elsewhere, as
+    it is at the separation phase, where it vanishes.
+    """
+
+    system: System
+    phases: Range
+    precision: int = 64
+    separating: bool = False
+
+    @property
+    def etas(self) -> Range:
+        """The range of the frequency ratio."""
+        return self.system.eta, self.system.eta
+
+    @cached_property
+    def eta(self) -> Interval:
+        """The frequency ratios at this precision."""
+        return Interval(*self.etas, precision=self.precision)
+
+    @cached_property
+    def phi(self) -> Interval:
+        """The launch phases at this precision."""
+        return Interval(*self.phases, precision=self.precision)
+
+    @cached_property
+    def start(self) -> Launch:
+        """The launch states."""
+        return self._launch(self.phi)
+
+    def _launch(self, phi: Interval | Jet) -> Launch:
+        nu = Interval(self.system.nu, precision=self.precision)
+        return launch(self.system.side, self.eta, nu, phi)
+
+    def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
+        """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
+        return _clock(self.etas, low, high, self.precision)
+
+    def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
+        """Enclose a time derivative of the gap over all launches and the times given."""
+        value: Interval = gap(self.start, self.clock(low, high), order)
+        return value
+
+    def velocity(self, low: Fraction, high: Fraction) -> Interval:
+        """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
+
+        Over a short time this is much narrower than gap' evaluated on the interval, which
+        cancels where the launch is close to sticking or the impact close to grazing.
+        """
+        bend = self.gap(low, high, order=2)
+        return piece_range(self.gap(low, order=1), self.gap(high, order=1), bend, high - low)
+
+    def fall(self, time: Range) -> Interval:
+        """Enclose gap' over all launches and the times from time[0] to time[1].
+
+        Where that is wide, by the mean value theorem as well: after a short flight gap' is of the
+        order of the time squared, and evaluated on an interval it cancels.
+        """
+        direct = self.gap(*time, order=1)
+        if direct.wid * 2**40 < direct.mig:
+            return direct
+        common = direct.intersection(self.velocity(*time))
+        if common is None:
+            raise ArithmeticError("two enclosures of the same velocities are disjoint")
+        return common
+
+    def slope(self, time: Range) -> Interval:
+        """Enclose f' over all launches, impact times in `time`."""
+        value: Interval = slope(self.start, self.clock(*time), self.fall(time))
+        return value
+
+    def slope_and_curvature(self, time: Range) -> tuple[Interval, Interval]:
+        """Enclose f' and f'': the slope formula along phi + s, t + (f' - 1) s + ...
+
+        gap' changes by gap'' (f' - 1) with t: gap'' first, because it is small where gap' is.
+        """
+        fall, now = self.fall(time), self.clock(*time)
+        first: Interval = slope(self.start, now, fall)
+        one = Interval(1, precision=self.precision)
+        start = self._launch(Jet(self.phi, one))
+        change = gap(start, now, 1).derivative() + self.gap(*time, order=2) * (first - one)
+        along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
+        return first, slope(start, along, Jet(fall, change)).derivative()
+
+    @property
+    def leaves(self) -> bool:
+        """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
+        return self.separating or launch_acceleration(self.start).certainly_positive()
+
+
+@lru_cache(maxsize=1024)
+def _clock(etas: Range, low: Fraction, high: Fraction | None, precision: int) -> Clock:
+    """Return the time functions: the same for all launches, whose steps meet at the same times."""
+    return clock(Interval(*etas, precision=precision), Interval(low, high, precision=precision))

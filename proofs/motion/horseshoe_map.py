@@ -1,0 +1,179 @@
+"""The plastic impact map on the two sets of a horseshoe, as `proofs.methods.orbits` wants it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, cached_property
+
+import numpy as np
+
+from intervals import Interval, IntervalArray, Undecided
+from proofs.methods.orbits import Floats
+from proofs.methods.words import Symbols
+from proofs.motion.kernel import Launches, enclose_times, float_clock, float_launch
+from proofs.motion.phase import turn
+from proofs.motion.slope_cover import SlopeCover
+from proofs.motion.system import System
+from proofs.trusted.equations import Clock, Launch, gap, launch, slope
+from proofs.trusted.facts import Parameters, Range
+
+_STEPS = 5  # of Newton's method, from within a box of the covers
+
+
+@dataclass(frozen=True)
+class ImpactMap:
+    """f on I0 and I1 for `proofs.methods.orbits`: the horseshoe `of`, proved by `horseshoe`.
+
+    On I_j, f(phi) is phi + t - 2 pi turns[j], t the time of the first impact, and covers I.
+    """
+
+    of: Parameters
+    expansion: Fraction
+    covers: tuple[SlopeCover, SlopeCover]
+    turns: tuple[int, int]
+
+    @property
+    def domains(self) -> tuple[Range, ...]:
+        """I0 and I1."""
+        return self.of.left, self.of.right
+
+    @cached_property
+    def system(self) -> System:
+        """The oscillator."""
+        return System(self.of.eta, self.of.nu)
+
+    @cached_property
+    def _table(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """Of the boxes of both covers: both ends, last times of their grids, middle times."""
+        rows = ((c.boxes.inf, c.boxes.sup, c.last, c.times.mid) for c in self.covers)
+        lower, upper, last, times = (np.concatenate(part) for part in zip(*rows, strict=True))
+        return lower, upper, last, times
+
+    def _look_up(self, x: Floats) -> tuple[Floats, Floats]:
+        """Return a time up to which no impact follows a launch at x, and about that of the first.
+
+        x must lie in a box: it is in the last one that does not begin after it.
+        """
+        lower, upper, last, times = self._table
+        index = np.searchsorted(lower, x, side="right") - 1
+        if not ((lower[index] <= x) & (x <= upper[index])).all():
+            raise ValueError("a phase outside I0 and I1")
+        return last[index], times[index]
+
+    def _flights(self, x: Floats) -> tuple[Floats, Floats]:
+        """Return about the time of flight after x and f', by Newton's method from the covers."""
+        t = self._look_up(x)[1]
+        start = float_launch(self.system, x)
+        for _ in range(_STEPS):
+            now = float_clock(self.system, t)
+            t = t - gap(start, now) / gap(start, now, 1)
+        return t, np.asarray(slope(start, now))
+
+    def approximate(self, symbols: Symbols, x: Floats) -> tuple[Floats, Floats]:
+        """Return about f and f'."""
+        t, slopes = self._flights(x)
+        return x + t - 2.0 * np.pi * np.array(self.turns)[symbols], slopes
+
+    def defects(self, symbols: Symbols, x: Floats, y: Floats) -> IntervalArray:
+        """Enclose f(x) - y."""
+        t, phases = self._flights(x)[0], IntervalArray.from_floats(x)
+        times = enclose_times(Launches(self.system, phases), self._look_up(x)[0], (t, t))
+        whole = IntervalArray([turn(100) * count for count in self.turns])[symbols]
+        return times - whole + phases - IntervalArray.from_floats(y)
+
+    def germs(self, symbols: Symbols, boxes: IntervalArray) -> ImpactGerms:
+        """Return f near the boxes; a box over two of a cover has no impact before either's last."""
+        (t, slopes), launches = self._flights(boxes.mid), Launches(self.system, boxes)
+        last = np.minimum(self._look_up(boxes.inf)[0], self._look_up(boxes.sup)[0])
+        times = enclose_times(launches, last, (t, t), 2.0 * np.abs(slopes - 1.0) * boxes.rad)
+        return ImpactGerms(self.system, launches, times, self.turns, symbols)
+
+
+@dataclass(frozen=True)
+class ImpactGerms:
+    """f over boxes of launches: `times` holds exactly one zero of the gap, the first impact.
+
+    x and y below are phases in a box and next to its image, so that t = y - x + 2 pi turns is
+    the time from x to y. Let t* be that of the impact after x. Where t is in the window `times`,
+
+        f(x) - y = t* - t = -gap(t) / gap'(s), with s between t and t*, in the window too,
+
+    by the mean value theorem, as gap(t*) = 0. If f(x) = y, then t = t*. The table's sine and
+    cosine do not see the turns, and are taken of y - x: of a smaller number, with less rounding.
+    """
+
+    system: System
+    launches: Launches
+    times: IntervalArray
+    turns: tuple[int, int]
+    symbols: Symbols
+
+    @cached_property
+    def slopes(self) -> IntervalArray:
+        """Enclosures of f'."""
+        return self.launches.slopes(self.times)
+
+    @cached_property
+    def _speeds(self) -> IntervalArray:
+        """Enclosures of gap' over boxes and windows."""
+        return self.launches.speeds(self.times)
+
+    @cached_property
+    def _windows(self) -> list[tuple[Interval, Interval, int]]:
+        """The times, gap' over them, and the turns, one by one."""
+        turns = [self.turns[symbol] for symbol in self.symbols.tolist()]
+        return list(zip(self.times.tolist(), self._speeds.tolist(), turns, strict=True))
+
+    def _flight(self, index: int, x: Interval, y: Interval) -> tuple[Launch, Clock]:
+        """Return the launches at x, and the clock at t."""
+        eta, nu, mass_turn, _ = _constants(self.system, x.precision)
+        ahead, turns = y - x, self._windows[index][2]
+        now = Clock(*(eta * ahead + mass_turn * turns).sincos(), *ahead.sincos())
+        return launch(self.system.side, eta, nu, x), now
+
+    def defect(self, index: int, x: Interval, y: Interval) -> Interval:
+        """Enclose f(x) - y."""
+        window, speed, turns = self._windows[index]
+        if not (y - x + _constants(self.system, x.precision)[3] * turns).subset(window):
+            raise Undecided(_FAR)
+        height: Interval = gap(*self._flight(index, x, y))
+        return -height / speed
+
+    def slope(self, index: int, x: Interval, y: Interval) -> Interval:
+        """Enclose f' at the points of x with images in y."""
+        found: Interval = slope(*self._flight(index, x, y))
+        return found
+
+    def _all_turns(self, which: int) -> IntervalArray:
+        """Return the turns of each box, times a constant, as tight as binary64 can."""
+        one = _constants(self.system, 100)[which]
+        return IntervalArray([one * count for count in self.turns])[self.symbols]
+
+    def _flights(self, x: IntervalArray, y: IntervalArray) -> tuple[Launch, Clock]:
+        """Do `_flight` for all boxes at once."""
+        ahead = y - x
+        mass = ahead * self.system.eta + self._all_turns(2)
+        return Launches(self.system, x).start, Clock(*mass.sincos(), *ahead.sincos())
+
+    def defects(self, x: IntervalArray, y: IntervalArray) -> IntervalArray:
+        """Enclose f(x) - y for all boxes at once."""
+        if not (y - x + self._all_turns(3)).subset(self.times).all():
+            raise Undecided(_FAR)
+        height: IntervalArray = gap(*self._flights(x, y))
+        return -height / self._speeds
+
+    def slopes_at(self, x: IntervalArray, y: IntervalArray) -> IntervalArray:
+        """Enclose f' for all boxes at once."""
+        found: IntervalArray = slope(*self._flights(x, y))
+        return found
+
+
+@cache
+def _constants(system: System, precision: int) -> tuple[Interval, Interval, Interval, Interval]:
+    """Return eta, nu, 2 pi eta and 2 pi at a precision."""
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    return eta, nu, turn(precision) * eta, turn(precision)
+
+
+_FAR = "a candidate is too far from the orbit"

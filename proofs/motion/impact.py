@@ -1,0 +1,276 @@
+"""Rigorous enclosures of the plastic impact map: the first impact after every launch in a set."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from intervals import Interval, Undecided
+from intervals.newton import Roots, newton
+from proofs.motion.flight import Flight
+from proofs.motion.system import System
+from proofs.trusted.equations import launch_acceleration
+from proofs.trusted.facts import Range
+
+HORIZON = Fraction(1000)
+_NOW = Fraction(0)
+_TINIEST = Fraction(1, 2**200)
+LEAST = 64  # bits: multiprecision costs no more than at fewer
+_ATTEMPTS = 8
+MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
+_TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
+
+
+def up_to(last: Fraction, times: Sequence[Fraction]) -> list[Fraction]:
+    """Return the times that are not after the last."""
+    return [time for time in times if time <= last]
+
+
+class NoImpact(Undecided):
+    """No impact was found up to the horizon (or the mass never separates from the table)."""
+
+
+class Unsettled(Undecided):
+    """In some windows of time impacts are possible, and none is certain up to where one looked.
+
+    known: times up to the first window, gap > 0 between them. hopeless: there are so many windows
+    that mass and table seem to touch, as at resonance.
+    """
+
+    def __init__(self, windows: list[Range], times: list[Fraction]) -> None:
+        begin = windows[0][0]
+        super().__init__(f"an impact near time {float(begin):.9g} is neither proved nor excluded")
+        self.known = up_to(begin, times)
+        self.hopeless = len(windows) > _TOUCHES
+
+
+class Sticks(Undecided):
+    """All phases of a set stick to the table first: their flights start elsewhere."""
+
+
+@dataclass(frozen=True)
+class FirstImpact:
+    """What `first_impact` proved for all launches of one flight.
+
+    times: 0 = t_0 < ... < t_n with gap < 0 at t_n; windows: the runs of pieces on which a zero
+    of the gap was not excluded, so every first impact lies in one of them, the last ends at t_n.
+    transversal: there is one window, and gap' < 0 on it. Then the impact is unique there, is
+    the first one, and depends smoothly on the phase.
+    """
+
+    flight: Flight
+    times: tuple[Fraction, ...]
+    windows: tuple[Range, ...]
+    transversal: bool
+
+    @property
+    def known(self) -> list[Fraction]:
+        """The times up to the first window: gap > 0 between them."""
+        return up_to(self.windows[0][0], self.times)
+
+    @property
+    def window(self) -> Range:
+        """The last window, the only one if `transversal`."""
+        return self.windows[-1]
+
+    @cached_property
+    def loss(self) -> int:
+        """Bits that a slow impact costs: time is known to rounding / |gap'|."""
+        slowest = self.flight.velocity(*self.window).mig
+        return 0 if slowest == 0 else (1 / slowest).__ceil__().bit_length()
+
+    def thin(self, phases: Range, bits: int) -> Flight:
+        """Return (nearly) one of the launches, at the precision that times to 2^-bits need."""
+        precision = max(self.flight.precision, bits + 30 + self.loss)
+        return replace(self.flight, phases=phases, precision=precision)
+
+    @cached_property
+    def places(self) -> int:
+        """Binary places before the first digit of a short flight's time, 0 if that is 1 or more."""
+        return (1 / self.windows[0][0]).__ceil__().bit_length() - 1
+
+    def part(self, phases: Range) -> Flight:
+        """Return some of the launches, at a precision that leaves times 18 bits and gap' 48."""
+        return self.thin(phases, self.places + 18)
+
+
+def first_impact(
+    flight: Flight, horizon: Fraction = HORIZON, finest: Fraction = Fraction(1, 8)
+) -> FirstImpact:
+    """Exclude impacts from time zero on until one is certain, for all launches at once.
+
+    On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0 (at
+    the separation phase gap'' >= 0 at 0 and gap''' > 0 give the same). On [t_j, t_{j+1}] by
+    the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error).
+    Steps adapt down to `finest`, or to an eighth of the time passed if that is less; what is
+    then not excluded opens a window, in which they grow again, to 16 times that or an eighth of
+    the window.
+
+    Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
+    where all phases do, Undecided where the launch itself is not decided.
+    """
+    _require_leaving(flight)
+    return march(flight, [_NOW, _first_step(flight)], horizon, finest)
+
+
+def _require_leaving(flight: Flight) -> None:
+    """Raise Sticks where all launches stick, Undecided where it is not shown that none does."""
+    if flight.leaves:
+        return
+    if launch_acceleration(flight.start).certainly_negative():
+        raise Sticks(f"{name_of(flight.phases)} sticks to the table after the impact")
+    raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
+
+
+def march(
+    flight: Flight,
+    known: Sequence[Fraction],
+    horizon: Fraction,
+    finest: Fraction,
+    *,
+    single: bool = False,
+) -> FirstImpact:
+    """Exclude impacts as `first_impact` does, after the last of the known times.
+
+    known: 0 = t_0 < t_1 < ..., gap > 0 from time 0 to the last. single: a window that is left
+    behind raises Unsettled; nothing that comes after could make the impact transversal.
+    """
+    times = list(known)
+    open_pieces: list[Range] = []
+    value = flight.gap(times[-1])
+    step, allowed, certain = times[-1] - times[-2], min(finest, times[-1] / 8), False
+    while not certain:
+        now = times[-1]
+        least = min(finest, now / 8)
+        if len(open_pieces) > (0 if now >= horizon else 4 * _TOUCHES):
+            raise Unsettled(open_pieces, times)
+        if now >= horizon:
+            raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
+        ahead = now + step
+        next_value = flight.gap(ahead)
+        if _positive_between(flight, now, value, ahead, next_value):
+            if single and open_pieces:
+                raise Unsettled(open_pieces, times)
+            step, allowed = 2 * step, least
+        elif step > allowed:
+            step = max(step / 2, allowed)
+            continue
+        else:
+            certain = next_value.certainly_negative()
+            joined = open_pieces and open_pieces[-1][1] == now
+            begin = open_pieces.pop()[0] if joined else now
+            open_pieces.append((begin, ahead))
+            step = allowed = min(2 * allowed, max(16 * least, (ahead - begin) / 8))
+        times.append(ahead)
+        value = next_value
+    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).certainly_negative()
+    return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
+
+
+def _first_step(flight: Flight) -> Fraction:
+    step = Fraction(1)
+    while step > _TINIEST:
+        if flight.gap(Fraction(0), step, order=2).certainly_positive():
+            return step
+        if flight.separating and flight.gap(Fraction(0), step, order=3).certainly_positive():
+            return step
+        step /= 2
+    raise Undecided("the launch acceleration is too close to 0 at this precision")
+
+
+def _positive_between(
+    flight: Flight, low: Fraction, at_low: Interval, high: Fraction, at_high: Interval
+) -> bool:
+    if not (at_low.certainly_positive() and at_high.certainly_positive()):
+        return False
+    bend = flight.gap(low, high, order=2).sup
+    return min(at_low.inf, at_high.inf) > max(bend, Fraction(0)) * (high - low) ** 2 / 8
+
+
+def locate(
+    system: System, phases: Range, *, horizon: Fraction = HORIZON, separating: bool = False
+) -> FirstImpact:
+    """Return the transversal first impact of (nearly) one launch, at the least precision it needs.
+
+    Close to grazing or to the onset of sticking steps and rounding must be finer: what is
+    excluded stays so, and the first window that is left open is looked at again. After eight
+    attempts Undecided says that the launch is too close to one.
+    """
+    known: list[Fraction] = []
+    for attempt in range(_ATTEMPTS):
+        flight = Flight(system, phases, LEAST * (attempt + 1), separating)
+        try:
+            if not known:
+                _require_leaving(flight)
+                known = [_NOW, _first_step(flight)]
+            finest = Fraction(1, 2 ** (3 + 10 * attempt))
+            found = march(flight, known, horizon, finest, single=True)
+        except (NoImpact, Sticks):
+            raise
+        except Unsettled as failure:
+            known = failure.known
+            continue
+        except Undecided:
+            continue
+        if found.transversal:
+            return found
+        known = found.known
+    raise Undecided(
+        f"phase {float(phases[0]):.17g} grazes, or starts to stick, to within what was tried"
+    )
+
+
+def name_of(phases: Range) -> str:
+    """Write a set of phases."""
+    low, high = (f"{float(x):.9g}" for x in phases)
+    return f"phase {low}" if low == high else f"every phase in [{low}, {high}]"
+
+
+def time_range(impact: FirstImpact, phases: Range) -> Range:
+    """Enclose the impact times of all launches in `phases`, a part of a transversal impact's."""
+    low, high = impact.window
+    # until what bisection may still gain is small beside the width of the phases
+    steps = ((high - low) / (phases[1] - phases[0])).__ceil__().bit_length() + 5
+    return bisected(impact.part(phases), impact.window, steps)
+
+
+def bisected(flight: Flight, window: Range, steps: int) -> Range:
+    """Narrow the window of a transversal impact of all flights.
+
+    The gap decreases through its one zero there: where it is > 0 for all flights no zero lies
+    before, where it is < 0 none lies after. Both ends move by so many bisections.
+    """
+    low, inner = window
+    high = inner
+    for _ in range(steps):
+        middle = (low + inner) / 2
+        low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)
+    inner = low
+    for _ in range(steps):
+        middle = (inner + high) / 2
+        inner, high = (inner, middle) if flight.gap(middle).certainly_negative() else (middle, high)
+    return low, high
+
+
+def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
+    """Enclose the impact time of (nearly) one launch in an interval of width 2^(1 - bits).
+
+    `phases` is a point or much narrower than 2^-bits. The ends are multiples of 2^-bits with
+    gap > 0 at the lower and gap < 0 at the upper one for all its launches, found by interval
+    Newton in the window of a transversal impact.
+    """
+    flight = impact.thin(phases, bits)
+    window = Interval(*impact.window, precision=flight.precision)
+    result = newton(
+        lambda t: flight.gap(t.inf, t.sup), lambda t: flight.velocity(t.inf, t.sup), window
+    )
+    if result.outcome is not Roots.UNIQUE or result.box is None:
+        raise Undecided(f"the impact time is not isolated: {result.reason}")
+    unit = Fraction(1, 2**bits)
+    centre = round(result.box.mid / unit) * unit
+    low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
+    if not (flight.gap(low).certainly_positive() and flight.gap(high).certainly_negative()):
+        raise Undecided("the gap's sign is lost to rounding next to the impact")
+    return low, high

@@ -1,0 +1,31 @@
+"""Phases: times modulo 2 pi, enclosed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from intervals import Interval
+from proofs.trusted.facts import Range
+
+
+def turn(precision: int) -> Interval:
+    """Enclose 2 pi."""
+    return Interval.pi(precision=precision) * 2
+
+
+def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
+    """Enclose phase + time mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
+    whole = turn(precision)
+    turns = (phase + time[0]) // whole.sup
+    return phase + time[0] - turns * whole.sup, phase + time[1] - turns * whole.inf
+
+
+def misses(arrival: Range, target: Range) -> bool:
+    """Whether arrival times are proved to be at no phase of `target`, a part of [0, 2 pi)."""
+    low, high = phase_after(Fraction(0), arrival, 64)
+    whole = turn(64)
+    if high - low >= whole.inf:
+        return False
+    return not any(
+        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1, 2)
+    )

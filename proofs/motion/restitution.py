@@ -1,0 +1,200 @@
+"""The impact map with restitution, F of (14) and (15): flights from sets of states at impact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+from intervals import Interval, Jet, Undecided
+from proofs.motion.flight import Flight
+from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, impact_time, march
+from proofs.motion.phase import turn
+from proofs.trusted.equations import (
+    Launch,
+    arrival,
+    closing,
+    launch_with_restitution,
+    return_map_derivative,
+)
+from proofs.trusted.facts import Range
+
+Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
+_TINIEST = Fraction(1, 2**60)
+_NONE = Fraction(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rebounds(Flight):
+    """All flights after an impact at a phase of `phases` with a velocity of `velocities`.
+
+    The velocity is that before the impact, gamma = v / (omega_n p). The oscillators are all those
+    with epsilon in its range, eta and nu within `eta_reach` and `nu_reach` of the system's.
+    """
+
+    velocities: Range
+    epsilon: Range
+    eta_reach: Fraction = _NONE
+    nu_reach: Fraction = _NONE
+
+    def __post_init__(self) -> None:
+        """Raise ValueError where eta, nu or epsilon could leave the model."""
+        if not (0 <= self.eta_reach < self.system.eta and 0 <= self.nu_reach < abs(self.system.nu)):
+            raise ValueError("the ranges of eta and nu must keep away from 0")
+        if not 0 <= self.epsilon[0] <= self.epsilon[1] <= 1:
+            raise ValueError("epsilon must lie in [0, 1]")
+
+    @property
+    def etas(self) -> Range:
+        """The range of the frequency ratio."""
+        return self.system.eta - self.eta_reach, self.system.eta + self.eta_reach
+
+    @cached_property
+    def gamma(self) -> Interval:
+        """The velocities before the impact."""
+        return Interval(*self.velocities, precision=self.precision)
+
+    @cached_property
+    def restitution(self) -> Interval:
+        """The coefficients of restitution."""
+        return Interval(*self.epsilon, precision=self.precision)
+
+    def _around(self, centre: Fraction, reach: Fraction) -> Interval:
+        return Interval(centre - reach, centre + reach, precision=self.precision)
+
+    def _launch(self, phi: Interval | Jet) -> Launch:
+        nu = self._around(self.system.nu, self.nu_reach)
+        return launch_with_restitution(
+            self.system.side, self.eta, nu, phi, epsilon=self.restitution, gamma=self.gamma
+        )
+
+    @cached_property
+    def closing_speed(self) -> Interval:
+        """The speed -gap' >= 0 with which mass and table meet; < 0 is physically impossible."""
+        value: Interval = closing(self.start, self.gamma)
+        return value if self.system.side > 0 else -value
+
+    @property
+    def single(self) -> bool:
+        """Whether this is one flight."""
+        ranges = (self.phases, self.velocities, self.epsilon)
+        return self.eta_reach == self.nu_reach == 0 and all(low == high for low, high in ranges)
+
+    @property
+    def narrowest(self) -> Fraction:
+        """The width of the narrowest side of a box of flights that is no point."""
+        ranges = (self.phases, self.velocities, self.epsilon)
+        widths = [*(high - low for low, high in ranges), 2 * self.eta_reach, 2 * self.nu_reach]
+        return min(width for width in widths if width > 0)
+
+    @property
+    def leaves(self) -> bool:
+        """Whether each state is possible, and each flight begins with gap' > 0 or gap'' > 0."""
+        if self.closing_speed.inf < 0:
+            return False
+        return super().leaves or self.gap(_NONE, order=1).certainly_positive()
+
+    def arrival_velocity(self, time: Range) -> Interval:
+        """Enclose the velocity gamma of the mass at the times given: (15)."""
+        value: Interval = arrival(self.start, self.clock(*time))[1]
+        return value
+
+    def derivative(self, time: Range) -> Matrix:
+        """Enclose DF over all states, impact times in `time`: rows (phase, velocity)."""
+        value: Matrix = return_map_derivative(self.start, self.clock(*time), self.restitution)
+        return value
+
+
+def first_impact(
+    flight: Rebounds, horizon: Fraction = HORIZON, finest: Fraction = Fraction(1, 8)
+) -> FirstImpact:
+    """Exclude impacts from time zero on until one is certain, for all flights at once.
+
+    As `proofs.motion.impact.first_impact`, but for the first piece: there gap(0) = 0 and
+    gap'(0) >= 0, so that gap' > 0 or gap'' > 0 on [0, t_1] gives gap > 0. Raises NoImpact at the
+    horizon, Undecided where a state is not proved possible, or leaves the table too slowly.
+    """
+    return march(flight, [_NONE, _first_step(flight)], horizon, finest)
+
+
+def _first_step(flight: Rebounds) -> Fraction:
+    if flight.closing_speed.inf < 0:
+        raise Undecided("a state before the impact is not proved possible: gap' <= 0 there")
+    step = Fraction(1)
+    while step > _TINIEST:
+        if any(flight.gap(_NONE, step, order).certainly_positive() for order in (2, 1)):
+            return step
+        step /= 2
+    raise Undecided("a flight leaves the table too slowly for this precision, or not at all")
+
+
+def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
+    """Enclose the times of a transversal first impact: of a single flight to 2^(1 - bits).
+
+    Of a box of flights as the gap's signs allow.
+    """
+    if flight.single:
+        return impact_time(found, flight.phases, bits)
+    low, high = found.window
+    # until what bisection may still gain is small beside the narrowest side of the box
+    halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
+    return bisected(flight, found.window, halvings)
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """The next impact of all flights of a box: F and DF, the phase on the line less whole turns.
+
+    found: the proof that it is the first one; derivative: rows (phase, velocity), columns
+    (phi, gamma).
+    """
+
+    found: FirstImpact
+    flight: Range
+    turns: int
+    phase: Range
+    velocity: Range
+    derivative: tuple[tuple[Range, Range], tuple[Range, Range]]
+
+
+def next_impact(flight: Rebounds, *, bits: int = 64, horizon: Fraction = HORIZON) -> Arrival:
+    """Enclose F and DF over a box of flights; for a single one times are known to 2^(1 - bits).
+
+    Raises NoImpact, or Undecided where a state may be impossible, may graze or stick, or where
+    the first impacts of the box are not one smooth function of state and parameters.
+    """
+    found = _locate(flight, horizon)
+    time = time_bracket(flight, found, bits)
+    precise = flight
+    if flight.single:
+        precise = replace(flight, precision=bits + 30 + found.loss)
+    whole = turn(precise.precision)
+    turns = (flight.phases[0] + time[0]) // whole.sup
+    phase = (
+        flight.phases[0] + time[0] - turns * whole.sup,
+        flight.phases[1] + time[1] - turns * whole.inf,
+    )
+    velocity = precise.arrival_velocity(time)
+    (p, q), (r, s) = ([(entry.inf, entry.sup) for entry in row] for row in precise.derivative(time))
+    return Arrival(found, time, turns, phase, (velocity.inf, velocity.sup), ((p, q), (r, s)))
+
+
+def _locate(flight: Rebounds, horizon: Fraction) -> FirstImpact:
+    """Return the transversal first impact, looked for with finer and finer steps.
+
+    For a single flight the precision grows too; for a box of flights two attempts are enough.
+    """
+    attempts = 8 if flight.single else 2
+    for attempt in range(attempts):
+        finer = replace(flight, precision=flight.precision * (1 + attempt * flight.single))
+        try:
+            found = first_impact(finer, horizon, Fraction(1, 2 ** (3 + 4 * attempt)))
+        except NoImpact:
+            raise
+        except Undecided:
+            if attempt == attempts - 1:
+                raise
+            continue
+        if found.transversal:
+            return found
+    raise Undecided("the first impact may graze, or is not the same on the whole box")

@@ -1,0 +1,247 @@
+"""Orbits with one impact in n table periods: all solutions of (16), and which of them are orbits.
+
+The lemmas are those of `s4_single.single_facts`; beyond |nu| < 1 and where they say nothing,
+the first impact is found by intervals.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from intervals import DomainError, Interval, Undecided
+from intervals.newton import Roots, derivative, newton
+from proofs.motion.flight import Flight
+from proofs.motion.impact import first_impact
+from proofs.motion.phase import turn as full_turn
+from proofs.motion.system import System
+from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
+from proofs.trusted.facts import Range
+from proofs.trusted.paper.s4_single.single_facts import (
+    defect,
+    distance,
+    excess,
+    multiplier,
+    records,
+)
+
+Function = Callable[[Any], Any]
+
+_LOOKS = 64  # times looked at in a table period
+_DEEP = 1e-12  # far above rounding
+_ATTEMPTS = 6
+_LONGEST = 10**4  # time of flight that is followed
+
+
+def turn(eta: Any, n: int, pi: Any) -> tuple[Any, Any]:
+    """Return sin x, cos x, x = pi n eta."""
+    return sincos(eta * (pi * n))
+
+
+@dataclass(frozen=True)
+class SingleImpact:
+    """A phase in `phase` that solves (16), and the slope (18) there.
+
+    admissible: whether the mass leaves at once and its first impact is n table periods later, a
+    transversal one; stable: whether it is an orbit, and attracts. None: not decided.
+    """
+
+    n: int
+    phase: Range
+    multiplier: Range
+    admissible: bool | None
+    stable: bool | None
+    reason: str
+
+
+def solutions(system: System, n: int, bits: int) -> list[SingleImpact]:
+    """Return the solutions of (16), phases to 2^-bits; n eta must be no integer.
+
+    Raises Undecided where two of them are too close to a saddle-node to tell.
+    """
+    if n * system.eta % 1 == 0:
+        raise ValueError("n eta is an integer: every phase solves (16)")
+    precision = bits + 40 + 2 * n.bit_length()
+    for _ in range(_ATTEMPTS):
+        phases, around = _phases(system, n, precision)
+        if phases is not None and all(phase.wid * 2**bits <= 1 for phase in phases):
+            return [_judged(system, n, phase, around, bits) for phase in phases]
+        precision *= 2
+    raise Undecided(f"n = {n}: two solutions meet to within the precision")
+
+
+def _phases(
+    system: System, n: int, precision: int
+) -> tuple[list[Interval] | None, tuple[Interval, Interval]]:
+    """Enclose the solutions by (17), None if their number is not decided, and sin x, cos x."""
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    sin, cos = around = turn(eta, n, Interval.pi(precision=precision))
+    theta = (cos / (sin * eta)).atan()
+    sine = theta.cos() / nu
+    if sine.mig > 1:
+        return [], around
+    if sine.mag > 1:
+        return None, around
+    angle = sine.asin()
+    return [theta - angle, theta + angle + Interval.pi(precision=precision)], around
+
+
+def last_period(system: System) -> int | None:
+    """Return an n after which no solution is an orbit (lemma 2), None if none is known."""
+    if 0 < system.nu < 1:
+        return (1 / (2 * system.eta)).__ceil__() - 1
+    if -1 < system.nu < 0:
+        return system.eta.denominator
+    return None
+
+
+def _judged(
+    system: System, n: int, phase: Interval, around: tuple[Interval, Interval], bits: int
+) -> SingleImpact:
+    """Return a solution with its slope and what it is."""
+    precision = phase.precision
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    factor = multiplier(eta, nu, phase.sincos(), around)
+    reduced = _on_circle(phase)
+    admissible, reason = _admissible(system, n, reduced, bits)
+    stable: bool | None = False
+    if admissible is not False:
+        size = abs(factor)
+        inside = True if size.sup < 1 else False if size.inf > 1 else None
+        stable = inside if admissible or inside is False else None
+    return SingleImpact(n, reduced, (factor.inf, factor.sup), admissible, stable, reason)
+
+
+def _on_circle(phase: Interval) -> Range:
+    """Return the phase less the multiple of 2 pi that puts its lower end into [0, 2 pi)."""
+    whole = full_turn(phase.precision)
+    moved = phase - whole * math.floor(phase.inf / whole.sup)
+    return max(moved.inf, Fraction(0)), moved.sup
+
+
+def _admissible(system: System, n: int, phase: Range, bits: int) -> tuple[bool | None, str]:
+    """Decide whether a solution of (16) is an orbit, and say why."""
+    precision = bits + 20
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    start = launch(system.side, eta, nu, Interval(*phase, precision=precision))
+    speed = start.rate * system.side
+    acceleration = launch_acceleration(start)
+    if acceleration.certainly_negative():
+        return False, "the mass sticks after the impact"
+    if speed.certainly_negative():
+        return False, "the gap is negative just before"
+    if not (speed.certainly_positive() and acceleration.certainly_positive()):
+        return None, "too close to sticking, or to grazing"
+    if abs(system.nu) < 1:
+        if n * system.eta < 1:  # lemma 3: as cos(phi) > 0, tan x has the sign of nu
+            return True, "the first impact"
+        if system.side > 0 or n not in records(system.eta, n):
+            return False, "an earlier impact"
+    return _by_flight(system, n, phase)
+
+
+def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
+    """Decide by the first impact of the flight, in ever smaller steps of time."""
+    whole, reason = full_turn(128) * n, "the flight is too long to follow"
+    if whole.sup > _LONGEST:
+        return None, reason
+    for attempt in range(_ATTEMPTS):
+        flight = Flight(system, phase, 64 * (attempt + 1))
+        try:
+            found = first_impact(flight, whole.sup + 1, Fraction(1, 2 ** (3 + 3 * attempt)))
+        except (Undecided, DomainError) as failure:
+            reason = str(failure)
+            continue
+        begin, end = found.window
+        if end < whole.inf:
+            return False, "an earlier impact"
+        if found.transversal and begin < whole.inf and whole.sup < end:
+            return True, "the first impact"
+        reason = "the first impact is not told from one after n periods"
+    return None, reason
+
+
+# -- where windows end, and counterexamples ------------------------------------------------------
+
+
+def root(function: Function, about: float, bits: int) -> Range:
+    """Enclose a zero of an increasing or decreasing function near a float, to 2^(1 - bits).
+
+    The bracket's ends are multiples of 2^-bits at which the function has opposite signs.
+    """
+    precision, reach = 2 * bits + 60, Fraction(1, 2**36)
+    box = Interval(Fraction(about) - reach, Fraction(about) + reach, precision=precision)
+    found = newton(function, derivative(function), box)
+    if found.outcome is not Roots.UNIQUE or found.box is None:
+        raise Undecided(f"no root is isolated near {about:.9g}: {found.reason}")
+    unit = Fraction(1, 2**bits)
+    centre = round(found.box.mid / unit) * unit
+    signs = [function(Interval(x, precision=precision)) for x in (centre - unit, centre + unit)]
+    if not (signs[0] * signs[1]).certainly_negative():
+        raise Undecided(f"no change of sign is seen near {about:.9g}")
+    return centre - unit, centre + unit
+
+
+def bisected(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return about where a function of floats becomes positive."""
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if function(middle) > 0 else (middle, high)
+    return low
+
+
+def eta_end(nu: Fraction, n: int, end: int, bits: int) -> Range:
+    """Enclose the eta in (0, 1/(2 n)) at which the solution for nu in (0, 1) has slope `end`."""
+
+    def beyond(eta: float) -> float:
+        return float(excess(eta, float(nu), turn(eta, n, math.pi), end))
+
+    def formula(eta: Any) -> Any:
+        precision = 2 * bits + 60
+        pi = Interval.pi(precision=precision)
+        return excess(eta, Interval(nu, precision=precision), turn(eta, n, pi), end)
+
+    return root(formula, bisected(beyond, 0.0, 0.5 / n), bits)
+
+
+def nu_end(eta: Fraction, n: int, end: int, bits: int) -> Range | None:
+    """Enclose the |nu| at which the solution has slope `end`, None where it is not below 1."""
+    precision = 2 * bits + 60
+    own = Interval(eta, precision=precision)
+    around = turn(own, n, Interval.pi(precision=precision))
+    top, rest = excess(own, 0, around, end), excess(own, 1, around, end)
+    if rest.certainly_positive():
+        return None
+    square = top / (top - rest)
+    unit = Fraction(1, 2**bits)
+    centre = round(square.sqrt().mid / unit) * unit
+    return centre - unit, centre + unit
+
+
+def earlier(eta: Fraction, n: int) -> Fraction | None:
+    """Return a time at which all solutions for nu < 0 with slope <= 1 are inside the table."""
+    own, around = float(eta), turn(float(eta), n, math.pi)
+    share = -((own * around[0] / around[1]) ** 2)
+    times = [step * math.tau / _LOOKS for step in range(1, _LOOKS * n)]
+    best = max(times, key=lambda t: float(distance(own, around, clock(own, t), share)))
+    deepest = distance(own, around, clock(own, best), share)
+    return round(Fraction(best), 6) if deepest > _DEEP else None
+
+
+def bracket(system: System, n: int, phase: Range, bits: int) -> Range:
+    """Return a bracket of width 2^(1 - bits) of a solution of (16)."""
+    unit = Fraction(1, 2**bits)
+    centre = round(sum(phase) / 2 / unit) * unit
+    precision = bits + 60 + 2 * n.bit_length()
+    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
+    around = turn(eta, n, Interval.pi(precision=precision))
+    ends = [
+        defect(eta, nu, Interval(x, precision=precision).sincos(), around)
+        for x in (centre - unit, centre + unit)
+    ]
+    if not (ends[0] * ends[1]).certainly_negative():
+        raise Undecided("a solution of (16) is not bracketed")
+    return centre - unit, centre + unit

@@ -1,0 +1,231 @@
+"""f' over thousands of boxes of phases, and its extremes, each box at the precision it needs.
+
+Binary64 decides what it can, many boxes at once; the others are asked alone, in multiprecision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from intervals import IntervalArray, Undecided
+from intervals.cover import cover
+from intervals.rounding import float_down, float_up
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.impact import LEAST, FirstImpact, impact_time, locate, time_range
+from proofs.motion.kernel import Floats, Launches, enclose_times, exclude_impacts, find_times
+from proofs.motion.system import System
+from proofs.trusted.facts import Range, hull
+
+BINARY64 = 53
+_POINT = 80  # bits of the impact time of a single launch
+_Answer = TypeVar("_Answer")
+
+
+@dataclass(frozen=True)
+class SlopeCover:
+    """What `slope_cover` proved. All arrays have the shape (N,).
+
+    boxes: binary64 boxes that cover the phases, in order; neighbours touch, or overlap by a
+    rounding where two scalar proofs meet. On each: f is the first-impact map, C^1; the impact time
+    lies in `times`, after `last`, up to which gap > 0; f' lies in `slopes`, f'' in `curvatures`.
+    bits: the precision it took, 53 for binary64.
+    """
+
+    boxes: IntervalArray
+    times: IntervalArray
+    slopes: IntervalArray
+    curvatures: IntervalArray
+    last: Floats
+    bits: NDArray[np.int_]
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """A lower bound of min f' and an upper bound of max f'."""
+        return float(self.slopes.inf.min()), float(self.slopes.sup.max())
+
+
+def slope_cover(
+    system: System, phases: Range, boxes: int, grid: Sequence[float] | None = None
+) -> SlopeCover:
+    """Prove f C^1 on `phases` and enclose f' over each of `boxes` boxes.
+
+    grid: times 0 < t_1 < ... < t_n before every first impact, common to all boxes, for a proof in
+    binary64 alone. Without it a scalar proof finds them, where it must on several parts of
+    `phases`; each part then has its share of the boxes, at least one, and boxes that binary64
+    does not decide are asked alone. Raises Undecided with the first box that is not proved.
+    """
+    if boxes < 1 or not phases[0] < phases[1]:
+        raise ValueError("at least one box, and phases low < high")
+    if grid is not None:
+        return _in_binary64(system, grid, cut(phases, boxes))
+    return _joined(
+        [
+            _retried(system, part, cut(part.flight.phases, _share(part, phases, boxes)))
+            for part in cover_by_impacts(system, phases)
+        ]
+    )
+
+
+def _joined(covers: Sequence[SlopeCover]) -> SlopeCover:
+    """Put covers next to each other."""
+    if len(covers) == 1:
+        return covers[0]
+    return SlopeCover(
+        IntervalArray.concatenate([one.boxes for one in covers]),
+        IntervalArray.concatenate([one.times for one in covers]),
+        IntervalArray.concatenate([one.slopes for one in covers]),
+        IntervalArray.concatenate([one.curvatures for one in covers]),
+        np.concatenate([one.last for one in covers]),
+        np.concatenate([one.bits for one in covers]),
+    )
+
+
+def _retried(system: System, part: FirstImpact, cuts: Floats) -> SlopeCover:
+    """Enclose f' over the boxes between the cuts, all in one part, each as it needs."""
+    grid, boxes = grid_of(part), cuts.size - 1
+
+    def together(low: int, high: int) -> SlopeCover:
+        return _in_binary64(system, grid, cuts[low : high + 1])
+
+    def alone(k: int) -> SlopeCover:
+        return _alone(system, cuts[k], cuts[k + 1])
+
+    if part.flight.precision > LEAST:
+        return _joined([alone(k) for k in range(boxes)])
+    return _joined(_by_halves(boxes, together, alone))
+
+
+def _by_halves(
+    count: int, together: Callable[[int, int], _Answer], alone: Callable[[int], _Answer]
+) -> list[_Answer]:
+    """Ask for 0, ..., count - 1 together, for both halves where that fails, at last for one alone.
+
+    Failing is to be Undecided, or to leave the range of binary64.
+    """
+
+    def decide(run: tuple[int, int]) -> _Answer | None:
+        low, high = run
+        try:
+            return together(low, high)
+        except (Undecided, OverflowError):
+            return alone(low) if high == low + 1 else None
+
+    def halves(run: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]]:
+        low, high = run
+        middle = (low + high) // 2
+        return (low, middle), (middle, high)
+
+    return [answer for _, answer in cover([(0, count)], decide, halves, limit=2 * count)]
+
+
+def _alone(system: System, low: float, high: float) -> SlopeCover:
+    """Ask for the launches from low to high, one phase or more, in multiprecision."""
+    phases = Fraction(low), Fraction(high)
+    thin = low == high
+    parts = [locate(system, phases)] if thin else cover_by_impacts(system, phases)
+    columns: tuple[list[Range], list[Range], list[Range]] = [], [], []
+    for part in parts:
+        of = part.flight.phases
+        bits = _POINT + part.places
+        time = impact_time(part, of, bits) if thin else time_range(part, of)
+        flight = part.thin(of, bits) if thin else part.part(of)
+        slope, curvature = flight.slope_and_curvature(time)
+        found = time, (slope.inf, slope.sup), (curvature.inf, curvature.sup)
+        for column, one in zip(columns, found, strict=True):
+            column.append(one)
+    times, slopes, curvatures = (IntervalArray([hull(column)]) for column in columns)
+    last = float_down(min(part.window[0] for part in parts))
+    needed = max(part.flight.precision for part in parts)
+    boxes = IntervalArray.from_floats([low], [high])
+    return SlopeCover(boxes, times, slopes, curvatures, np.array([last]), np.array([needed]))
+
+
+def grid_of(impact: FirstImpact) -> list[float]:
+    """Return the times before the window of a transversal first impact."""
+    return [float(time) for time in impact.known[1:]]
+
+
+def _share(part: FirstImpact, phases: Range, boxes: int) -> int:
+    low, high = part.flight.phases
+    return max(1, round(boxes * (high - low) / (phases[1] - phases[0])))
+
+
+def cut(phases: Range, boxes: int) -> Floats:
+    """Return boxes + 1 increasing binary64 cuts, the first <= phases[0], the last >= phases[1]."""
+    cuts = np.linspace(float(phases[0]), float(phases[1]), boxes + 1)
+    cuts[0], cuts[-1] = float_down(phases[0]), float_up(phases[1])
+    if not (np.diff(cuts) > 0.0).all():
+        raise ValueError("more boxes than binary64 numbers in the phases")
+    return cuts
+
+
+def _in_binary64(system: System, grid: Sequence[float], cuts: Floats) -> SlopeCover:
+    """Do `slope_cover` on one grid. The mean value theorem: f'(m) + f''(box) (box - m)."""
+    boxes = cuts.size - 1
+    launches = Launches(system, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    exclude_impacts(launches, grid)
+    last = np.full(boxes, float(grid[-1]))
+    knots = np.empty(2 * boxes + 1)
+    knots[::2], knots[1::2] = cuts, launches.phases.mid
+    about = find_times(system, knots)
+    before, middle, after = about[:-1:2], about[1::2], about[2::2]
+    around = np.minimum(before, after), np.maximum(before, after)
+    bow = 2.0 * np.abs(middle - 0.5 * (before + after))
+    times = enclose_times(launches, last, around, bow)
+    at_centre = launches.centre.slopes(enclose_times(launches.centre, last, (middle, middle)))
+    slopes, curvatures = launches.slopes_and_curvatures(times)
+    narrower = slopes.intersection(at_centre + curvatures * launches.offset)
+    if narrower is None:
+        raise ArithmeticError("two enclosures of the same slopes are disjoint")
+    bits = np.full(boxes, BINARY64)
+    return SlopeCover(launches.phases, times, narrower, curvatures, last, bits)
+
+
+@dataclass(frozen=True)
+class SlopeExtremes:
+    """Bounds (lower, upper) on the minimum and on the maximum of f', and the cover behind them."""
+
+    minimum: tuple[float, float]
+    maximum: tuple[float, float]
+    cover: SlopeCover
+
+
+def slope_extremes(system: System, phases: Range, boxes: int = 8) -> SlopeExtremes:
+    """Enclose the extremes of f' over `phases` in binary64, by monotonicity where f'' has a sign.
+
+    On a box with f'' > 0 or f'' < 0, f' lies between its values at the two cuts; on others in
+    the cover's enclosure. The values at cuts, of thin phases and tight times, are attained. So
+    where f'' has one sign on all boxes, nothing is lost but the rounding of two evaluations.
+    """
+    over = slope_cover(system, phases, boxes)
+    lower = over.boxes.inf
+    ends = IntervalArray([phases[0], phases[1]])
+    cuts = IntervalArray.from_floats(
+        np.concatenate((ends.inf[:1], lower[1:], ends.inf[1:])),
+        np.concatenate((ends.sup[:1], lower[1:], ends.sup[1:])),
+    )
+    last = np.append(over.last, over.last[-1])
+
+    def together(low: int, high: int) -> IntervalArray:
+        thin = Launches(system, cuts[low:high])
+        about = find_times(system, thin.phases.mid)
+        return thin.slopes(enclose_times(thin, last[low:high], (about, about)))
+
+    def alone(k: int) -> IntervalArray:
+        return _alone(system, cuts.inf[k], cuts.sup[k]).slopes
+
+    at_cuts = IntervalArray.concatenate(_by_halves(len(cuts), together, alone))
+    one_sign = over.curvatures.certainly_positive() | over.curvatures.certainly_negative()
+    others = over.slopes[~one_sign]
+    low, high = at_cuts.inf, at_cuts.sup
+    return SlopeExtremes(
+        (float(np.concatenate((low, others.inf)).min()), float(high.min())),
+        (float(low.max()), float(np.concatenate((high, others.sup)).max())),
+        over,
+    )

@@ -1,0 +1,80 @@
+"""Figure 6 of the paper as a theorem: how many impacts phases need at most to stick.
+
+matplotlib is imported here only.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import TYPE_CHECKING
+
+from proofs.trusted.certificate import parse
+from proofs.trusted.facts import Range
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Bars = list[tuple[float, float, int]]
+
+
+def proved(source: str) -> tuple[Bars, list[tuple[float, float]]]:
+    """Return from a certificate's text the intervals that stick within n impacts, and those that
+    never impact again; phases in [0, 2 pi)."""
+    bars: Bars = []
+    never: list[tuple[float, float]] = []
+    for _, step in dict(parse(source).entries())["steps"].members():
+        rule, witness = step.fields("rule", "witness")
+        if rule.string() == "absorption":
+            entries = dict(witness.entries())["within"].items()
+            for low, high, count in (entry.numbers(3, 3) for entry in entries):
+                bars += [(a, b, int(count)) for a, b in _on_circle((low, high))]
+        if rule.string() == "never-impacts":
+            never += _on_circle(witness.fields("phases")[0].range())
+        if rule.string() == "separation":
+            phase = witness.fields("phase", "time")[0].range()
+            bars.append((3 * math.pi - float(phase[0]), float(phase[0]), 0))
+    return sorted(bars), never
+
+
+def _on_circle(phases: Range) -> list[tuple[float, float]]:
+    """Return the parts of an interval in [0, 2 pi)."""
+    low, high = map(float, phases)
+    if low >= 0:
+        return [(low, high)]
+    return (
+        [(low + math.tau, math.tau), (0.0, high)]
+        if high > 0
+        else [(low + math.tau, high + math.tau)]
+    )
+
+
+def svg(source: str) -> str:
+    """Return an SVG of what a certificate proves: the whole circle, and around [1.1, 1.76]."""
+    import matplotlib as mpl
+
+    mpl.use("svg")
+    from matplotlib import pyplot as plt
+
+    bars, never = proved(source)
+    with mpl.rc_context({"svg.hashsalt": "figure-6", "font.size": 9}):
+        figure, both = plt.subplots(2, 1, figsize=(6.4, 5.2), layout="constrained")
+        for axes, ends in zip(both, ((0.0, math.tau), (1.09, 1.77)), strict=True):
+            _draw(axes, bars, never)
+            axes.set(xlim=ends, xlabel=r"$\phi$", ylabel="impacts, at most")
+        both[0].set_title("Impacts before the mass sticks, proved for every phase of each bar")
+        both[1].legend(fontsize=7, loc="upper left")
+        file = io.StringIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+        plt.close(figure)
+    return file.getvalue()
+
+
+def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:
+    """Draw a bar for each interval, and where there is no next impact."""
+    lows, widths = [low for low, _, _ in bars], [high - low for low, high, _ in bars]
+    heights = [count for _, _, count in bars]
+    axes.bar(lows, heights, widths, align="edge", color="C0", lw=0, label="proved for each phase")
+    for low, high in never:
+        axes.axvspan(low, high, color="C3", lw=1, label="no impact ever")
+    axes.set_ylim(0, max(heights, default=0) + 2)

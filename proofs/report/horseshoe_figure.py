@@ -1,0 +1,81 @@
+"""Figure 2 of the paper as a theorem: the graph of f over I0 and I1 lies in the boxes drawn.
+
+numpy and matplotlib are imported here only; the rest of the main job needs neither.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import TYPE_CHECKING
+
+from proofs.motion.system import System
+from proofs.trusted.facts import Parameters, Range, show, show_range
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_BOXES = 150
+
+
+def svg(of: Parameters, corrected: Parameters | None) -> str:
+    """Return an SVG of proved boxes around the graph of f on I0 and I1, printed and corrected.
+
+    Each box is a piece of the phases times an enclosure of their images (`slope_cover`); widths
+    are below the line width. Raises Undecided where the images are not proved, ImportError
+    without matplotlib.
+    """
+    import matplotlib as mpl
+
+    mpl.use("svg")
+    from matplotlib import pyplot as plt
+
+    with mpl.rc_context({"svg.hashsalt": "figure-2", "font.size": 9}):
+        figure, axes = plt.subplots(figsize=(5.6, 5.2), layout="constrained")
+        sets = corrected or of
+        for domain, colour, name in ((sets.left, "C0", "I0"), (sets.right, "C3", "I1")):
+            label = f"f on {name} = {show_range(domain)}"
+            _graph(axes, System(of.eta, of.nu), domain, colour, label)
+        _square(axes, of.interval, ":", f"I printed, {show_range(of.interval)}")
+        if corrected is not None:
+            _square(axes, corrected.interval, "-", f"I corrected, {show_range(corrected.interval)}")
+        low, high = (float(x) for x in sets.interval)
+        axes.plot([low, high], [low, high], color="0.7", lw=0.8, label="the diagonal")
+        axes.set(
+            xlabel=r"$\phi$",
+            ylabel=r"$f(\phi)$",
+            title=rf"The impact map at $\eta$ = {show(of.eta)}, $\nu$ = {show(of.nu)}",
+        )
+        axes.legend(fontsize=7, loc="center", bbox_to_anchor=(0.5, 0.75))
+        file = io.StringIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+        plt.close(figure)
+    return file.getvalue()
+
+
+def _graph(axes: Axes, system: System, domain: Range, colour: str, label: str) -> None:
+    """Draw the boxes of one branch, images reduced by the multiple of 2 pi of the first one."""
+    from matplotlib.collections import PatchCollection
+    from matplotlib.patches import Rectangle
+
+    from proofs.motion.slope_cover import slope_cover
+
+    cover = slope_cover(system, domain, _BOXES)
+    arrivals = cover.boxes + cover.times
+    shift = math.tau * (arrivals.inf[0] // math.tau)
+    patches = [
+        Rectangle((x, y - shift), width, height)
+        for x, y, width, height in zip(
+            cover.boxes.inf, arrivals.inf, cover.boxes.wid, arrivals.wid, strict=True
+        )
+    ]
+    axes.add_collection(PatchCollection(patches, facecolor=colour, edgecolor=colour, lw=0.8))
+    axes.plot([], [], color=colour, label=label)
+    axes.autoscale_view()
+
+
+def _square(axes: Axes, interval: Range, style: str, label: str) -> None:
+    """Draw the boundary of I x I."""
+    low, high = (float(x) for x in interval)
+    corners = [low, high, high, low, low], [low, low, high, high, low]
+    axes.plot(*corners, style, color="0.3", lw=0.8, label=label)

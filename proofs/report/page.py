@@ -1,0 +1,148 @@
+"""The report beside a certificate: Markdown, for people, with numbers rounded outward."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from proofs.shell.groups import Row
+from proofs.trusted.facts import PAPER, Parameters, show, show_range
+from proofs.trusted.statements import Verdict
+
+_TITLES = {
+    "nonplastic": "Section 3.3: impacts with restitution, and their horseshoe",
+    "sets": "Sections 3.1 and 3.2: the invariant set, and the steps of Claim 1",
+    "dimension": "Section 3.2: the Hausdorff dimension of the invariant set",
+    "chaos": "Section 3.4: more chaos than the paper saw",
+    "circle": "Section 3.4: the global picture",
+    "persistence": "Section 3.4: what restitution changes",
+    "single": "Section 4: single-impact periodic orbits",
+    "soft": "Section 5: soft springs, equation by equation",
+    "resonance": "Sections 6 and 7: resonance",
+    "foundations": "Section 2 and the appendix",
+}
+
+_NAMES = {
+    "slope_min_I0": "min f' on I0",
+    "slope_max_I0": "max f' on I0",
+    "slope_min_I1": "min f' on I1",
+    "slope_max_I1": "max f' on I1",
+    "image_left_I0": "f(left end of I0)",
+    "image_right_I0": "f(right end of I0)",
+    "image_left_I1": "f(left end of I1)",
+    "image_right_I1": "f(right end of I1)",
+    "s0": "s_0",
+    "s0_reciprocal_slopes": "s_0 with the ratios 1 / slope",
+}
+
+
+def markdown(
+    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any], rows: Sequence[Row]
+) -> str:
+    """Return the report on one run: verdicts, the corrected theorem, the numbers, how to check."""
+    at = f"(eta, nu) = ({show(of.eta)}, {show(of.nu)})"
+    whose = "the paper's parameters" if of == PAPER else "parameters of your own"
+    sections = [
+        "# The horseshoe, claim by claim",
+        f"At {at}, {whose}: I = {show_range(of.interval)}, I0 = {show_range(of.left)}, "
+        f"I1 = {show_range(of.right)}, slopes between {show(of.slopes[0])} and "
+        f"{show(of.slopes[1])}.",
+        "The paper's f follows a mass that sticks to the table until it separates, then to its "
+        "next impact. Verdicts are proved by interval arithmetic and re-derived by the checker.",
+        "## Verdicts",
+        _verdicts(rows),
+        *_correction(of, corrected, certificate),
+        *_theorems(certificate),
+        *_ending(certificate, "horseshoe"),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Row]) -> str:
+    """Return the report on a group of claims: verdicts, theorems, the numbers, how to check."""
+    whose = "the paper's parameters" if of == PAPER else "parameters of your own"
+    sections = [
+        f"# {_TITLES[group]}",
+        f"At {whose}. Verdicts are proved by interval arithmetic and re-derived by the checker.",
+        "## Verdicts",
+        _verdicts(rows),
+        *_theorems(certificate),
+        *_ending(certificate, group),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def _verdicts(rows: Sequence[Row]) -> str:
+    lines = ["| claim | verdict | statement | because |", "|---|---|---|---|"]
+    for row in rows:
+        cells = (row.id, row.verdict.value, row.statement, row.why)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines)
+
+
+def _theorems(certificate: dict[str, Any]) -> list[str]:
+    """Return for each claim with a witness or a theorem of its own a section with these."""
+    sections = []
+    theorem = certificate["corrected"] and certificate["corrected"]["theorem"]
+    for claim in certificate["claims"]:
+        witness, corrected = claim["witness"], claim["corrected"]
+        if not isinstance(witness, str) and corrected in (None, theorem):
+            continue
+        sections.append(f"## {claim['id']}")
+        if isinstance(witness, str):
+            sections.append(f"Witness: {witness}")
+        if corrected is not None:
+            sections.append(f"Theorem (VERIFIED). {corrected}")
+    return sections
+
+
+def _ending(certificate: dict[str, Any], name: str) -> list[str]:
+    numbers = _numbers(certificate)
+    return [
+        *(
+            [
+                "## Numbers",
+                "Each true value lies between the bounds; they are rounded outward.",
+                numbers,
+            ]
+            if numbers
+            else []
+        ),
+        "## Check it yourself",
+        f"The certificate `{name}.json` beside this page holds the witnesses in exact numbers. "
+        "From the repository's root, with nothing but Python:",
+        f"    python -S -m proofs.check reports/{name}.json",
+    ]
+
+
+def _correction(
+    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any]
+) -> list[str]:
+    refuted = any(claim["verdict"] == Verdict.REFUTED.value for claim in certificate["claims"])
+    if corrected is None:
+        return ["## Correction", "No corrected sets were found nearby."] if refuted else []
+    changes = [
+        f"{name} {show_range(old)} becomes {show_range(new)}"
+        for name, old, new in (
+            ("I", of.interval, corrected.interval),
+            ("I0", of.left, corrected.left),
+            ("I1", of.right, corrected.right),
+            ("the slopes' range", of.slopes, corrected.slopes),
+        )
+        if old != new
+    ]
+    return [
+        "## Corrected theorem (VERIFIED)",
+        certificate["corrected"]["theorem"],
+        f"What changes: {'; '.join(changes)}.",
+    ]
+
+
+def _numbers(certificate: dict[str, Any]) -> str:
+    rows: dict[str, str] = {}
+    for claim in certificate["claims"]:
+        for name, bounds in claim["quantities"].items():
+            shown = _NAMES.get(name, name.replace("_", " "))
+            rows.setdefault(name, f"| {shown} | {bounds['lower']} | {bounds['upper']} |")
+    head = ["| quantity | at least | at most |", "|---|---|---|"]
+    return "\n".join([*head, *rows.values()]) if rows else ""

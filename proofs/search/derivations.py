@@ -1,0 +1,140 @@
+"""Claims about formulas: find the proof of whatever they follow from.
+
+A group of claims is a tuple of `Derivation`s. Equalities and power series are found with sympy,
+values with the package `intervals`; the checker derives each again by exact normal forms and
+enclosures of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from intervals import Interval, decimal_bounds
+from proofs.methods import derive
+from proofs.methods.formulas import (
+    Intervals,
+    Tree,
+    jacobian,
+    mean_value_form,
+    subdivide,
+    values,
+)
+from proofs.search.evidence import Evidence
+from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.facts import Range
+from proofs.trusted.kernel.derivation import Formulas
+from proofs.trusted.kernel.enclose import Box, size
+from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Lemma, Value
+
+SPARE_BITS = 40
+_COARSE_DIGITS = 3
+
+
+def enclose(formula: str, digits: int, **point: Fraction) -> Range:
+    """Enclose a formula at a point: decimal bounds of so many significant digits.
+
+    The precision has room for what digits of the point's coordinates cancel.
+    """
+    formulas = Formulas()
+    root = formulas.read(Reader(formula))
+    bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
+    inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
+    (found,) = formulas.tape.evaluate((root,), Intervals(bits), inputs)
+    lower, upper = decimal_bounds(found.inf, found.sup, digits)
+    return Fraction(lower), Fraction(upper)
+
+
+def bound(asked: Asked) -> tuple[Range, Tree]:
+    """Bound a formula that has a sign on a box; return bounds with room, and a subdivision."""
+    formulas = Formulas()
+    root = formulas.read(Reader(asked.function))
+    sides = dict(asked.box)
+    names = tuple(formulas.variables)
+    formula = Formula("F", names, formulas.tape, (root,), ("",))
+    sign = asked.signs[0]
+    found: list[Range] = []
+
+    def decided(box: Box) -> bool:
+        (part,) = mean_value_form(lambda x: values(formula, x), lambda x: jacobian(formula, x), box)
+        low, high = sorted((sign * part.inf, sign * part.sup))
+        if low > 0:
+            found.append((low, high))
+        return low > 0
+
+    tree = subdivide(tuple(sides.get(name, (Fraction(0),) * 2) for name in names), decided)
+    lower, upper = decimal_bounds(
+        min(low for low, _ in found) / 2, max(high for _, high in found) * 2, _COARSE_DIGITS
+    )
+    ends = sorted((sign * Fraction(lower), sign * Fraction(upper)))
+    return (ends[0], ends[1]), tree
+
+
+@dataclass
+class Steps:
+    """The steps of a certificate about formulas, each with what it proves, once."""
+
+    digits: int
+    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+    names: dict[Lemma | Asked, tuple[str, object]] = field(default_factory=dict)
+
+    def prove(self, wanted: Lemma | Asked) -> tuple[str, object] | None:
+        """Return the step that proves something, and its conclusion; None if none is found."""
+        if wanted not in self.names:
+            if isinstance(wanted, Asked):
+                self._value(wanted)
+            elif isinstance(wanted, Equal):
+                if derive.equal(wanted.left, wanted.right):
+                    sides = {"left": wanted.left, "right": wanted.right}
+                    self._add(wanted, wanted, "formula-equal", sides)
+            elif derive.begins(wanted.function, wanted.variable, wanted.coefficients):
+                witness = {
+                    "function": wanted.function,
+                    "variable": wanted.variable,
+                    "coefficients": list(wanted.coefficients),
+                    "nonzero": list(wanted.nonzero),
+                }
+                self._add(wanted, wanted, "formula-series", witness)
+        return self.names.get(wanted)
+
+    def _value(self, asked: Asked) -> None:
+        tree: Tree = None
+        if all(low == high for _, (low, high) in asked.box):
+            point = {name: low for name, (low, _) in asked.box}
+            bounds = enclose(asked.function, self.digits, **point)
+        else:
+            bounds, tree = bound(asked)
+        witness = {
+            "function": asked.function,
+            "box": {name: texts(side) for name, side in asked.box},
+            "tree": tree,
+            "bounds": texts(bounds),
+        }
+        self._add(asked, Value(asked.function, asked.box, bounds), "formula-value", witness)
+
+    def _add(
+        self, wanted: Lemma | Asked, found: object, rule: str, witness: dict[str, Any]
+    ) -> None:
+        name = f"{rule.removeprefix('formula-')}-{len(self.steps) + 1}"
+        self.steps[name] = {"rule": rule, "witness": witness}
+        self.names[wanted] = (name, found)
+
+
+def prove_derivations(
+    derivations: Sequence[Derivation],
+    claims: Sequence[str],
+    digits: int,
+    tell: Callable[[str], None],
+) -> Evidence:
+    """Prove what the claims asked for follow from, each lemma once."""
+    steps, evidence = Steps(digits), Evidence()
+    for derivation in derivations:
+        if derivation.id in claims:
+            tell(f"formulas of {derivation.id}")
+            proved = [steps.prove(each) for each in (*derivation.lemmas, *derivation.values)]
+            evidence.proofs[derivation.id] = [each for each in proved if each is not None]
+    evidence.steps = steps.steps
+    return evidence

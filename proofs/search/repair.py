@@ -1,0 +1,102 @@
+"""Search for the nearest sets, in the printed precision, on which a horseshoe may be proved.
+
+Candidates only: floating point finds them, `proofs.horseshoe` proves or discards them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+from proofs.motion.candidate import next_impact
+from proofs.motion.system import System
+from proofs.trusted.facts import Parameters, Range
+
+REACH = 6  # units in the last printed place, in all
+
+
+def places(values: tuple[Fraction, ...]) -> int:
+    """Return the decimal places that write all values exactly (at most 6)."""
+    for count in range(7):
+        if all((value * 10**count).denominator == 1 for value in values):
+            return count
+    return 6
+
+
+def moves(total: int) -> list[tuple[int, ...]]:
+    """Return all displacements of four ends by `total` units in sum."""
+    span = range(-total, total + 1)
+    return [move for move in product(span, repeat=4) if sum(map(abs, move)) == total]
+
+
+def nearest_sets(of: Parameters) -> Iterator[Parameters]:
+    """Yield sets on which each image seems to cover I, nearest first; the slopes are kept.
+
+    First in units of the last printed place, then in units ten times smaller. The given sets
+    themselves come first if they seem right.
+    """
+    ends = (*of.left, *of.right)
+    system = System(of.eta, of.nu)
+
+    @cache
+    def image(end: Fraction) -> tuple[float, float] | None:
+        found = next_impact(system, float(end))
+        return None if found is None else found[1:]
+
+    for count in (places(ends), places(ends) + 1):
+        unit = Fraction(1, 10**count)
+        for total in range(REACH + 1):
+            for move in moves(total):
+                moved = [end + unit * step for end, step in zip(ends, move, strict=True)]
+                if sorted(set(moved)) == moved and moved[0] >= 0 and _covers(moved, image):
+                    left, right = (moved[0], moved[1]), (moved[2], moved[3])
+                    yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
+
+
+def _covers(ends: list[Fraction], image: Callable[[Fraction], tuple[float, float] | None]) -> bool:
+    """Whether, in floating point, f is expanding and increasing at the ends and covers I."""
+    targets = (ends[0], ends[3], ends[0], ends[3])
+    for index, (end, target) in enumerate(zip(ends, targets, strict=True)):
+        found = image(end)
+        if found is None or found[1] <= 1:
+            return False
+        if (found[0] > target) if index % 2 == 0 else (found[0] < target):
+            return False
+    return True
+
+
+def rounded_slopes(bounds: Range, digits: int) -> Range:
+    """Round slope bounds outward to a number of decimal places."""
+    scale = 10**digits
+    low, high = bounds
+    return Fraction(low * scale // 1, scale), Fraction(-(-high * scale // 1), scale)
+
+
+def grid(domain: Range, finest: int = 64, stride: int = 1) -> Iterator[Fraction]:
+    """Yield interior points of an interval: halves, quarters, ..., then ever closer to its ends.
+
+    The distances to the ends fall by factors 2^stride, down to 2^-30 of the width.
+    """
+    low, high = domain
+    parts = 2
+    while parts <= finest:
+        for index in range(1, parts, 2):
+            yield low + (high - low) * index / parts
+        parts *= 2
+    for exponent in range(finest.bit_length(), 30, stride):
+        yield low + (high - low) / 2**exponent
+        yield high - (high - low) / 2**exponent
+
+
+def short_decimal(low: Fraction, high: Fraction) -> Fraction:
+    """Return the shortest decimal strictly between two numbers."""
+    count = 0
+    while True:
+        unit = Fraction(1, 10**count)
+        candidate = (low // unit + 1) * unit
+        if candidate < high:
+            return candidate
+        count += 1

@@ -1,0 +1,182 @@
+"""Rectangles on which a horseshoe with restitution may be proved: candidates, never evidence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+from proofs.search.repair import REACH, moves, places
+from proofs.trusted.equations import (
+    arrival,
+    clock,
+    closing,
+    gap,
+    launch_acceleration,
+    launch_with_restitution,
+)
+from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.paper.s33_restitution.rebounds import Box
+
+Sets = tuple[Range, Range]
+Images = Callable[[Fraction], tuple[float, float] | None]
+_MOST_UNITS = 2
+_HALVINGS = 30
+
+
+def state_after(
+    eta: float, nu: float, epsilon: float, state: tuple[float, float], horizon: float = 1000.0
+) -> tuple[float, float] | None:
+    """Return about F(phi, gamma), its phase in [0, 2 pi); None if it sticks or flies on.
+
+    Steps that cannot pass a zero: with |gap''| <= m the gap stays positive for
+    (v + sqrt(v^2 + 2 m gap)) / m, v = gap'.
+    """
+    phase, gamma = state
+    side = 1 if nu > 0 else -1
+    start = launch_with_restitution(side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
+    if side * closing(start, gamma) < 0:
+        return None
+    kick = start.kick or 0.0
+    bend = abs(nu) + eta * math.hypot(eta * (1 + start.lift), start.rate + kick)
+    acceleration = launch_acceleration(start)
+    time = 2 * side * kick / bend
+    if acceleration > 0:
+        time = max(time, min(1.0, acceleration / (2 * (abs(nu) + eta * bend))))
+    while 0 < time < horizon:
+        now = clock(eta, time)
+        height, speed = gap(start, now), gap(start, now, 1)
+        if height < 1e-13:
+            return (phase + time) % math.tau, arrival(start, now)[1]
+        time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
+    return None
+
+
+def image_phases(of: Parameters) -> Images:
+    """Return a function: about the least and the greatest next phase of the states of a phase.
+
+    From the lowest and the highest velocity, as the next phase is monotone between.
+    """
+
+    @cache
+    def images(phase: Fraction) -> tuple[float, float] | None:
+        if of.epsilon is None or of.velocities is None:
+            return None
+        ends = [
+            state_after(float(of.eta), float(of.nu), float(of.epsilon), (float(phase), float(x)))
+            for x in of.velocities
+        ]
+        phases = [end[0] for end in ends if end is not None]
+        return (min(phases), max(phases)) if len(phases) == 2 else None
+
+    return images
+
+
+def images_over(of: Parameters, box: Box) -> Images:
+    """Return such a function for all oscillators of a box, as its corners have it."""
+    corners = [
+        image_phases(replace(of, eta=eta, nu=nu, epsilon=epsilon, reach=None))
+        for eta, nu, epsilon in product(*(sorted(set(side)) for side in box))
+    ]
+
+    @cache
+    def images(phase: Fraction) -> tuple[float, float] | None:
+        found = [each for corner in corners if (each := corner(phase)) is not None]
+        if len(found) < len(corners):
+            return None
+        return min(low for low, _ in found), max(high for _, high in found)
+
+    return images
+
+
+def overshoot(ends: tuple[Fraction, ...], images: Images) -> float:
+    """Return about the least margin by which the four edges are mapped beyond the rectangles."""
+    margins = []
+    for index, end in enumerate(ends):
+        found = images(end)
+        if found is None:
+            return -math.inf
+        margins.append(ends[0] - found[1] if index % 2 == 0 else found[0] - ends[3])
+    return float(min(margins))
+
+
+def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
+    """Whether all of an edge seems to be mapped short of the outer edges.
+
+    And that of each rectangle the right edge is mapped to the right of the left one: where it is
+    not, some of its impacts graze.
+    """
+    found = [images(end) for end in ends]
+    known = [each for each in found if each is not None]
+    if len(known) < len(ends) or any(known[k][1] >= known[k + 1][0] for k in (0, 2)):
+        return False
+    return any(ends[0] < low and high < ends[3] for low, high in known)
+
+
+def stays(of: Parameters, box: Box, sets: Sets) -> bool:
+    """Whether image velocities seem to stay in the rectangles, for the middle of a box."""
+    eta, nu, epsilon = (float(low + high) / 2 for low, high in box)
+    low, high = map(float, of.velocities or (0, 0))
+    images = [
+        state_after(eta, nu, epsilon, (float(phi), gamma))
+        for ends in sets
+        for phi, gamma in product(ends, (low, high))
+    ]
+    return all(image is not None and low < image[1] < high for image in images)
+
+
+def nearest_rectangles(of: Parameters, images: Images) -> Iterator[Sets]:
+    """Yield phases of rectangles that seem to be mapped across both, nearest first.
+
+    In units of the last printed place, then in units ten times smaller.
+    """
+    ends = (*of.left, *of.right)
+    for count in (places(ends), places(ends) + 1):
+        unit = Fraction(1, 10**count)
+        for total in range(REACH + 1):
+            for move in moves(total):
+                moved = tuple(end + unit * step for end, step in zip(ends, move, strict=True))
+                ordered = sorted(set(moved)) == list(moved) and moved[0] >= 0
+                if ordered and overshoot(moved, images) > 0:
+                    yield (moved[0], moved[1]), (moved[2], moved[3])
+
+
+def widened(of: Parameters, sets: Sets, corners: Sequence[Parameters]) -> Iterator[Sets]:
+    """Yield the sets with ends moved outward, by up to two units of the last printed place.
+
+    Those first whose edges seem to be mapped beyond them by most at the parameters `corners`.
+    """
+    ends = (*sets[0], *sets[1])
+    unit = Fraction(1, 10 ** places((*of.left, *of.right)))
+    images = [image_phases(corner) for corner in corners]
+    choices = []
+    for steps in product(range(_MOST_UNITS + 1), repeat=4):
+        moves = (-steps[0], steps[1], -steps[2], steps[3])
+        moved = tuple(end + unit * move for end, move in zip(ends, moves, strict=True))
+        if sorted(set(moved)) == list(moved) and moved[0] >= 0:
+            choices.append((min(overshoot(moved, each) for each in images), moved))
+    for margin, moved in sorted(choices, reverse=True):
+        if margin > 0:
+            yield (moved[0], moved[1]), (moved[2], moved[3])
+
+
+def narrowed(of: Parameters, images: Images) -> Range | None:
+    """Return candidates x for a right end of V2: its edge goes beyond V1, and V1's beyond it.
+
+    Both ends of the range of such x, found by bisection; None if there is none.
+    """
+    beyond, outer = images(of.left[1]), images(of.right[1])
+    if beyond is None or outer is None or outer[0] <= of.left[1]:
+        return None
+    low, high = of.right
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        found = images(middle)
+        if found is None:
+            return None
+        low, high = (low, middle) if found[0] > of.left[1] else (middle, high)
+    top = min(Fraction(beyond[0]), of.right[1])
+    return (high, top) if high < top else None

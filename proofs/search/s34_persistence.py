@@ -1,0 +1,217 @@
+"""Section 3.4 with restitution: the stable orbit persists, with infinitely many impacts a period.
+
+Claims G7 and G8. The flight from the separation phase does not depend on epsilon; after it, for
+ever larger epsilon, the bounces are enclosed until they are proved to end before that phase.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+from intervals import DomainError, Undecided
+from proofs.motion.chatter import Pushing, Settled
+from proofs.motion.covering import halves
+from proofs.motion.image import separation_phase
+from proofs.motion.impact import HORIZON, FirstImpact, impact_time, locate
+from proofs.motion.phase import turn
+from proofs.motion.simulate import late_state
+from proofs.motion.system import System
+from proofs.search.evidence import Evidence
+from proofs.search.s33_steps import ReboundProver
+from proofs.search.steps import Prover
+from proofs.trusted.certificate import texts
+from proofs.trusted.facts import TURN, Parameters, Range
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
+from proofs.trusted.paper.s34_circle.persistence import Chatter, SeparationFlight, stable_pair
+
+CLAIMS = ("G7", "G8")
+_SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
+_STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
+_HALVINGS = 9  # of a step of epsilon
+_OTHER = Fraction(29, 100)  # an epsilon at which simulated motions find another stable orbit
+_TRIES, _IMPACTS = 20, 200  # simulated motions, and impacts until they are near an orbit
+_SAME = 1e-9  # the distance of states that are one
+_HALF = 1e-6  # half a side, in phase, of a box around a state
+_EDGE = 1e-3  # phases so close to 0 are left alone
+_GRID = 10**12  # states and half sides are multiples of 1 / _GRID
+State = tuple[Fraction, Fraction]
+_Cell = tuple[Fraction, Settled]  # up to which epsilon, and how the bounces end
+
+
+def prove(
+    of: Parameters,
+    claims: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Callable[[str], None] = lambda stage: None,
+) -> Evidence:
+    """Prove what the claims asked for rest on; G8 is an observation and rests on nothing."""
+    prover, found = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
+    if "G7" in claims:
+        try:
+            tell("the flight from the separation phase")
+            name, after = separation_flight(prover)
+            tell("bounces for ever larger epsilon")
+            found.proofs["G7"] = [chatter(prover, name, after)]
+            tell("another stable orbit")
+            found.proofs["G7"] += another_orbit(of, prover)
+        except (Undecided, DomainError):
+            pass  # what is not proved the claim does not say
+    found.steps = prover.steps
+    return found
+
+
+def separation_flight(prover: Prover) -> tuple[str, SeparationFlight]:
+    """Prove when and how the mass that leaves at phi_s lands (rule separation-flight)."""
+    system, bits = prover.system, prover.bits
+    if system.sticking_arc != "some":
+        raise Undecided("the mass sticks nowhere, or everywhere: there is no separation phase")
+    leave = separation_phase(system, bits + 20)
+    found = locate(system, leave, separating=True)
+    time = impact_time(found, leave, bits)
+    flight = found.thin(leave, bits)
+    arrival = leave[0] + time[0], leave[1] + time[1]
+    whole = turn(bits + 30)
+    turns = int((arrival[1] - leave[0]) // whole.inf) + 1
+    impact = arrival[0] - turns * whole.sup, arrival[1] - turns * whole.inf
+    speed = -flight.velocity(*time)
+    witness = {
+        "separation": texts(leave),
+        "times": texts(_times(found)),
+        "time": texts(time),
+    }
+    name = prover.add("separation-flight", witness)
+    return name, SeparationFlight(leave, time, turns, impact, (speed.inf, speed.sup))
+
+
+def _times(found: FirstImpact) -> list[Fraction]:
+    """Return the times of the proof, the window of the impact being the last piece."""
+    return [time for time in found.times[1:] if time <= found.window[0]] + [found.window[1]]
+
+
+def chatter(prover: Prover, name: str, after: SeparationFlight) -> tuple[str, Chatter]:
+    """Prove for epsilon from 0 up to as much as can be that bounces end (rule chatter)."""
+    (low, high), (slow, fast) = after.impact, after.speed
+    states = (low - _SPREAD, high + _SPREAD), (slow - _SPREAD, fast + _SPREAD)
+    if states[1][0] <= 0:
+        raise Undecided("the impact after the separation phase is too slow")
+    pushing = Pushing(prover.system, after.separation[0])
+    arc = states[0][0], after.separation[0] - _SPREAD  # beyond it the acceleration increases to 0
+    if not pushing.accelerations(arc).certainly_negative():
+        raise Undecided("the impact after the separation phase is not on the sticking arc")
+    cells = _cells(pushing, *states)
+    if not cells:
+        raise Undecided("no epsilon > 0 is proved to let the mass come to rest")
+    witness = {
+        "flight": name,
+        "spread": str(_SPREAD),
+        "cells": [
+            {
+                "epsilon": str(end),
+                "bounces": [texts(bounce) for bounce in settled.bounces],
+                "ratio": str(settled.ratio),
+                "rest": str(settled.rest),
+            }
+            for end, settled in cells
+        ],
+    }
+    rest = max(settled.rest for _, settled in cells)
+    found = Chatter(after, (Fraction(0), cells[-1][0]), _SPREAD, rest)
+    return prover.add("chatter", witness), found
+
+
+def _cells(pushing: Pushing, phases: Range, speeds: Range) -> list[_Cell]:
+    """Cover epsilon from 0 upward, by steps and ever smaller ones, until the proof fails."""
+    cells: list[_Cell] = []
+    done = Fraction(0)
+    for step in _STEPS:
+        while done + step < 1:
+            try:
+                pushing.settle((done + step, done + step), phases, speeds)  # hopeless otherwise
+                cells += _halved(pushing, (done, done + step), phases, speeds, _HALVINGS)
+            except (Undecided, DomainError):
+                break
+            done += step
+    return cells
+
+
+def _halved(
+    pushing: Pushing, epsilon: Range, phases: Range, speeds: Range, halvings: int
+) -> list[_Cell]:
+    """Prove that bounces end for all epsilon of a range, in as many parts as it takes."""
+    try:
+        return [(epsilon[1], pushing.settle(epsilon, phases, speeds))]
+    except (Undecided, DomainError):
+        if halvings == 0:
+            raise Undecided(f"epsilon near {float(epsilon[0]):.6g}") from None
+    return [
+        cell
+        for half in halves(epsilon)
+        for cell in _halved(pushing, half, phases, speeds, halvings - 1)
+    ]
+
+
+def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, object]]:
+    """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found.
+
+    The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
+    evenly; those of the second are |DF| r, and a third of what there is to spare.
+    """
+    box = ((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
+    states, rebounds = _candidate(prover.system), ReboundProver(of, prover)
+    if states is None:
+        return []
+
+    def around(state: State, half: State) -> tuple[str, Rebound]:
+        phases, velocities = ((x - r, x + r) for x, r in zip(state, half, strict=True))
+        return rebounds.rebound(box, phases, velocities)
+
+    centres = [around(state, (Fraction(0), Fraction(0))) for state in states]
+    (p, q, r, s), (t, u, v, w) = (
+        [float(size(entry)) for row in step.derivative for entry in row] for _, step in centres
+    )
+    a, b, c, d = t * p + u * r, t * q + u * s, v * p + w * r, v * q + w * s
+    root = (a + d + math.hypot(a - d, 2 * math.sqrt(b * c))) / 2
+    if root >= 1 or b == 0:
+        return []
+    x, y = _HALF, _HALF * (root - a) / b
+    more = (2 + 1 / root) / 3
+    halves_of = (x, y), (more * (p * x + q * y), more * (r * x + s * y))
+    boxes = [
+        around(state, (_rounded(half[0]), _rounded(half[1])))
+        for state, half in zip(states, halves_of, strict=True)
+    ]
+    proof: list[tuple[str, object]] = [boxes[0], centres[0], boxes[1], centres[1]]
+    return proof if stable_pair(of, [step for _, step in proof]) else []
+
+
+def _candidate(system: System) -> tuple[State, State] | None:
+    """Return about the two states of a 2-periodic orbit that simulated motions tend to."""
+    generator = random.Random(1)
+    for _ in range(_TRIES):
+        start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
+        states = [late_state(system, float(_OTHER), *start, _IMPACTS)]
+        for _ in range(2):
+            if states[-1] is not None:
+                states.append(late_state(system, float(_OTHER), *states[-1], 1))
+        first, second, third = (*states, None, None)[:3]
+        if first is None or second is None or third is None:
+            continue
+        inside = all(_EDGE < phase < float(TURN) - _EDGE for phase, _ in (first, second))
+        if inside and math.dist(first, third) < _SAME < math.dist(first, second):
+            return _state(system, *first), _state(system, *second)
+    return None
+
+
+def _state(system: System, phase: float, speed: float) -> State:
+    """Return the phase and the velocity gamma before an impact with this relative speed."""
+    rate = float(system.nu) * math.cos(phase)
+    gamma = (system.side * speed - rate) / float(system.eta)
+    return _rounded(phase), _rounded(gamma)
+
+
+def _rounded(value: float) -> Fraction:
+    return Fraction(round(value * _GRID), _GRID)

@@ -1,0 +1,222 @@
+"""Which orbits stay in an interval: witnesses for the rule `staying-set`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from intervals import DomainError, Undecided
+from proofs.motion.candidate import next_impact
+from proofs.motion.impact import impact_time, locate
+from proofs.motion.phase import phase_after
+from proofs.search.steps import Prover
+from proofs.trusted.certificate import texts
+from proofs.trusted.facts import PointFact, Range, SlopeRange
+from proofs.trusted.paper.s34_circle.chaos import brackets
+from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
+
+_FINE = Fraction(1, 1000)
+_COARSE = Fraction(1, 100)
+_FINEST = Fraction(1, 10**4)
+_WIDEST = 5  # how many hundredths an interval is widened to each side
+_CUTS = 4
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A staying set in floating point: the cuts of its pieces, and the gaps between."""
+
+    interval: Range
+    pieces: tuple[tuple[Fraction, ...], ...]
+    gaps: tuple[Range, ...]
+
+
+@dataclass
+class Sketcher:
+    """Finds pieces by the map in floating point: candidates, never evidence."""
+
+    prover: Prover
+    _known: dict[Fraction, tuple[float, float, float] | None] = field(default_factory=dict)
+
+    def image(self, phase: Fraction) -> float | None:
+        """Return about f(phase)."""
+        if phase not in self._known:
+            self._known[phase] = next_impact(self.prover.system, float(phase))
+        found = self._known[phase]
+        return None if found is None else found[1]
+
+    def sketch(self, interval: Range, unit: Fraction) -> Sketch:
+        """Return the runs of multiples of `unit` that f leaves in the interval, one wider."""
+        low, high = interval
+        grid = [low + unit * i for i in range(int((high - low) / unit) + 1)]
+        inside = [(y := self.image(x)) is not None and low <= y <= high for x in grid]
+        pieces: list[tuple[Fraction, ...]] = []
+        begin: int | None = None
+        for i, stays in enumerate([*inside, False]):
+            if begin is not None and (not stays or self._jumps(grid, i)):
+                pieces.append((self._wider(grid, begin, -1), self._wider(grid, i - 1, 1)))
+                begin = None
+            if stays and begin is None:
+                begin = i
+        marks = [low, *(end for piece in pieces for end in piece), high]
+        gaps = [(a, b) for a, b in zip(marks[::2], marks[1::2], strict=True) if a < b]
+        return Sketch(interval, tuple(pieces), tuple(gaps))
+
+    def _jumps(self, grid: Sequence[Fraction], i: int) -> bool:
+        """Whether f jumps between two neighbouring phases: its flight times are far apart."""
+        if not 0 < i < len(grid):
+            return True
+        one, two = (self._known.get(x) for x in (grid[i - 1], grid[i]))
+        return one is None or two is None or abs(one[0] - two[0]) > 1
+
+    def _wider(self, grid: Sequence[Fraction], i: int, way: int) -> Fraction:
+        """Return the next phase on, if it is on the same branch."""
+        if self._jumps(grid, i + (way > 0)):
+            return grid[i]
+        return grid[i + way]
+
+    def refined(self, sketch: Sketch) -> Sketch:
+        """Cut the pieces at the images of their ends, rounded away from the rest of the image."""
+        cuts = {piece[0]: -1 for piece in sketch.pieces} | {piece[-1]: 1 for piece in sketch.pieces}
+        fresh = dict(cuts)
+        for _ in range(_CUTS):
+            following: dict[Fraction, int] = {}
+            for phase, way in fresh.items():
+                image = self.image(phase)
+                if image is None:
+                    continue
+                units = Fraction(image) / _FINEST
+                place = (units.__floor__() if way < 0 else units.__ceil__()) * _FINEST
+                if place not in cuts and any(a < place < b for a, *_, b in sketch.pieces):
+                    following[place] = way
+            cuts |= following
+            fresh = following
+        pieces = tuple(
+            tuple(sorted(x for x in cuts if piece[0] <= x <= piece[-1])) for piece in sketch.pieces
+        )
+        return Sketch(sketch.interval, pieces, sketch.gaps)
+
+    def full_shift(self, interval: Range, symbols: int) -> Sketch | None:
+        """Return the least widening of an interval that looks like a full shift."""
+        for extra in range(2 * _WIDEST + 1):
+            for below in range(max(0, extra - _WIDEST), min(extra, _WIDEST) + 1):
+                low = interval[0] - below * _COARSE
+                high = interval[1] + (extra - below) * _COARSE
+                found = self.sketch((low, high), _COARSE)
+                if len(found.pieces) == symbols and all(map(self._over(low, high), found.pieces)):
+                    return found
+        return None
+
+    def _over(self, low: Fraction, high: Fraction) -> Callable[[Sequence[Fraction]], bool]:
+        def covers(piece: Sequence[Fraction]) -> bool:
+            images = [self.image(piece[0]), self.image(piece[-1])]
+            ends = sorted(x for x in images if x is not None)
+            return len(ends) == 2 and ends[0] <= low and high <= ends[1]
+
+        return covers
+
+
+def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[str, object]]:
+    """Prove which orbits stay in `printed`, and full shifts on two and three symbols around it.
+
+    The second one in an interval that contains `around` too. What is not proved is left out.
+    """
+    sketcher = Sketcher(prover)
+    whole = min(printed[0], around[0]), max(printed[1], around[1])
+    sketches = [sketcher.refined(sketcher.sketch(printed, _FINE))]
+    shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
+    sketches += [one for one in shifts if one is not None]
+    proofs = Pieces(prover, sketches)
+    found: list[tuple[str, object]] = []
+    for sketch in sketches:
+        with suppress(Undecided, DomainError, ValueError):
+            found.append(proofs.prove(sketch))
+    for _, staying in list(found):
+        if isinstance(staying, StayingSet):
+            for cells in staying.orbits:
+                points = [x for _, x in found if isinstance(x, PointFact)]
+                if not brackets(cells, points):
+                    found += periodic_orbit(prover, cells)
+    return found
+
+
+@dataclass
+class Pieces:
+    """f' on the pieces of several sketches: pieces that overlap are proved as one."""
+
+    prover: Prover
+    sketches: Sequence[Sketch]
+    _known: list[tuple[str, SlopeRange]] = field(default_factory=list)
+
+    def prove(self, sketch: Sketch) -> tuple[str, StayingSet]:
+        """Record the step `staying-set` and those that it needs."""
+        slopes = [self._slopes(piece) for piece in sketch.pieces]
+        gaps = [self.prover.avoids(gap, sketch.interval) for gap in sketch.gaps]
+        pieces = list(zip(slopes, sketch.pieces, strict=True))
+        found = StayingSet.of(
+            sketch.interval,
+            [(known, cuts) for (_, known), cuts in pieces],
+            [(gap, sketch.interval) for gap in sketch.gaps],
+        )
+        witness = {
+            "interval": texts(sketch.interval),
+            "pieces": [{"slopes": name, "cuts": texts(cuts)} for (name, _), cuts in pieces],
+            "gaps": gaps,
+        }
+        return self.prover.add("staying-set", witness), found
+
+    def _slopes(self, piece: Sequence[Fraction]) -> tuple[str, SlopeRange]:
+        for name, known in self._known:
+            if set(piece) <= set(known.points):
+                return name, known
+        points = set(piece)
+        for sketch in self.sketches:
+            for other in sketch.pieces:
+                if other[0] <= piece[-1] and piece[0] <= other[-1]:
+                    points |= set(other)
+        self._known.append(self.prover.slopes(sorted(points)))
+        return self._known[-1]
+
+
+def periodic_orbit(prover: Prover, cells: Sequence[Cell]) -> list[tuple[str, PointFact]]:
+    """Bracket a periodic orbit with one point in each cell by phases on both sides of its points.
+
+    f expands, so it maps the interval between two of them over the one between the next two.
+    """
+    accuracy = Fraction(1, 10 ** max(6, prover.digits // 2))
+    try:
+        phase = _newton(prover, cells, accuracy)
+        found = []
+        for _ in cells:
+            ends = [(phase // accuracy + shift) * accuracy for shift in (-2, 3)]
+            found += [prover.point(end) for end in ends]
+            phase = _value(prover, phase)[0]
+        return found
+    except (Undecided, DomainError):
+        return []
+
+
+def _newton(prover: Prover, cells: Sequence[Cell], accuracy: Fraction) -> Fraction:
+    """Return about the point in the first cell of the orbit through cells, by Newton's method."""
+    phase = (cells[0].phases[0] + cells[0].phases[1]) / 2
+    for _ in range(40):
+        image, slope = phase, Fraction(1)
+        for _ in cells:
+            image, factor = _value(prover, image)
+            slope *= factor
+        step = (image - phase) / (1 - slope)
+        low, high = cells[0].phases
+        phase = min(high, max(low, round((phase + step) / accuracy * 10**6) * accuracy / 10**6))
+        if abs(step) < accuracy:
+            return phase
+    raise Undecided("no periodic orbit found")
+
+
+def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
+    """Return about (f(phase), f'(phase))."""
+    impact = locate(prover.system, (phase, phase), horizon=prover.horizon)
+    time = impact_time(impact, (phase, phase), prover.bits)
+    slope = impact.thin((phase, phase), prover.bits).slope(time).mid
+    return phase_after(phase, time, prover.bits)[0], slope

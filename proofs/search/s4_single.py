@@ -1,0 +1,242 @@
+"""Section 4: single-impact orbits. (16)-(18) derived; which solutions are orbits, and stable.
+
+Identities are found with sympy; solutions, first impacts and the ends of the windows of stable
+orbits in figures 7a and 7b are enclosed with the package `intervals`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from intervals import Interval, Undecided
+from proofs.motion.flight import Flight
+from proofs.motion.impact import HORIZON, locate
+from proofs.motion.phase import turn as full_turn
+from proofs.motion.single_orbits import (
+    SingleImpact,
+    bracket,
+    earlier,
+    eta_end,
+    nu_end,
+    solutions,
+)
+from proofs.motion.system import System
+from proofs.search.derivations import Steps
+from proofs.search.evidence import Evidence
+from proofs.search.steps import Prover
+from proofs.trusted.certificate import texts
+from proofs.trusted.equations import clock, launch_acceleration, slope
+from proofs.trusted.facts import PAPER, TURN, Parameters, Range
+from proofs.trusted.paper.formulas import Asked, Lemma
+from proofs.trusted.paper.s4_single import displayed as eq
+from proofs.trusted.paper.s4_single import single as claims
+from proofs.trusted.paper.s4_single.single_facts import (
+    FLIP,
+    SADDLE,
+    STICK,
+    EtaWindows,
+    NuWindows,
+    Orbit,
+    Solution,
+    Window,
+    records,
+)
+
+CLAIMS = ("P1", "P2", "P3", "P4", "P5", "P6")
+
+_MOST = 40  # table periods in the search for examples
+_ORBITS = 12  # and for orbits to show
+_STIFF = Fraction("13.999")  # almost a resonance, 14
+_SOFT = Fraction("-0.03")  # an amplitude at which n = 21 has an earlier impact
+_TIMES = 64  # a table period, looked at for an earlier impact
+_HALF = Fraction(1, 2)
+
+
+@dataclass
+class Single:
+    """Collects the steps of this group, each with its conclusion."""
+
+    prover: Prover
+    found: dict[str, object] = field(default_factory=dict)
+
+    def solution(self, system: System, of: SingleImpact, early: bool) -> str:
+        """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for."""
+        phase = bracket(system, of.n, of.phase, self.prover.bits)
+        flight = Flight(system, phase, self.prover.bits + 60)
+        time = _inside(flight, of.n) if early else None
+        whole = full_turn(flight.precision) * of.n
+        factor: Interval = slope(flight.start, clock(flight.eta, whole))
+        push: Interval = launch_acceleration(flight.start)
+        name = self.prover.add(
+            "single-solution",
+            {
+                "eta": str(system.eta),
+                "nu": str(system.nu),
+                "n": str(of.n),
+                "phase": texts(phase),
+                "early": None if time is None else str(time),
+            },
+        )
+        bounds = (factor.inf, factor.sup), (push.inf, push.sup)
+        self.found[name] = Solution(system.eta, system.nu, of.n, phase, *bounds, time)
+        return name
+
+    def orbit(self, of: SingleImpact) -> str:
+        """Record an orbit at the parameters of the certificate."""
+        solution = self.solution(self.prover.system, of, early=False)
+        conclusion = self.found[solution]
+        if not isinstance(conclusion, Solution):
+            raise TypeError("a solution was recorded")
+        flight = self.prover.add_impact(locate(self.prover.system, conclusion.phase))
+        name = self.prover.add("single-orbit", {"solution": solution, "flight": flight})
+        self.found[name] = Orbit(conclusion)
+        return name
+
+    def eta_windows(self, nu: Fraction, low: Fraction) -> str:
+        """Record all windows in eta >= low at which stable orbits exist, for nu in (0, 1)."""
+        ends: list[tuple[Range, Range]] = []
+        while True:
+            n = len(ends) + 1
+            if n * low >= _HALF:
+                break
+            stick = eta_end(nu, n, STICK, self.prover.bits)
+            if stick[0] <= low:
+                break
+            ends.append((eta_end(nu, n, FLIP, self.prover.bits), stick))
+        name = self.prover.add(
+            "single-eta-windows",
+            {
+                "nu": str(nu),
+                "low": str(low),
+                "ends": [texts([*flip, *stick]) for flip, stick in ends],
+            },
+        )
+        self.found[name] = EtaWindows(nu, low, tuple(ends))
+        return name
+
+    def nu_windows(self, eta: Fraction) -> str:
+        """Record all windows in nu at which stable orbits exist."""
+        kept = list(records(eta, eta.denominator))
+        short = [n for n in kept if n * eta < 1]
+        later = tuple(n for n in kept if n * eta > 1)
+        least = range(1, (_HALF / eta).__ceil__())
+        above, above_steps = self._windows(eta, least, (STICK, FLIP))
+        below, below_steps = self._windows(eta, short, (SADDLE, STICK))
+        times = [earlier(eta, n) for n in later]
+        if None in times:
+            raise Undecided("no earlier impact is seen after a long flight")
+        name = self.prover.add(
+            "single-nu-windows",
+            {
+                "eta": str(eta),
+                "above": above_steps,
+                "below": below_steps,
+                "early": [str(time) for time in times],
+            },
+        )
+        self.found[name] = NuWindows(eta, above, below, later)
+        return name
+
+    def _windows(
+        self, eta: Fraction, periods: Sequence[int], ends: tuple[int, int]
+    ) -> tuple[tuple[Window, ...], list[list[list[str] | None]]]:
+        one = (Fraction(1), Fraction(1))
+        windows, steps = [], []
+        for n in periods:
+            first, last = (nu_end(eta, n, end, self.prover.bits) for end in ends)
+            steps.append([None if pair is None else texts(pair) for pair in (first, last)])
+            if first is not None:
+                windows.append((n, first, last or one))
+        return tuple(windows), steps
+
+
+def _inside(flight: Flight, n: int) -> Fraction:
+    """Return a time before n table periods at which the mass would be inside the table."""
+    times = [round(TURN * step / _TIMES, 6) for step in range(1, _TIMES * n)]
+    best = min(times, key=lambda time: flight.gap(time).sup)
+    if not flight.gap(best).certainly_negative():
+        raise Undecided("no earlier impact is seen")
+    return best
+
+
+def examples(system: System, most: int) -> Iterator[SingleImpact]:
+    """Yield the solutions of (16) with up to so many table periods."""
+    for n in range(1, most + 1):
+        if n * system.eta % 1 != 0:
+            yield from solutions(system, n, 80)
+
+
+def _contracts(one: SingleImpact) -> bool:
+    return one.multiplier[0] > -1 and one.multiplier[1] < 1
+
+
+def _first(system: System, most: int, reason: str) -> SingleImpact:
+    """Return the first solution with |slope| < 1 that is not an orbit for this reason."""
+    for one in examples(system, most):
+        if one.reason == reason and _contracts(one):
+            return one
+    raise Undecided(f"no solution of (16) with |slope| < 1 is found: {reason}")
+
+
+def _stability(steps: Single) -> list[str]:
+    paper = System(PAPER.eta, PAPER.nu)
+    names = [
+        steps.solution(paper, _first(paper, _MOST, "an earlier impact"), early=True),
+        steps.solution(paper, _first(paper, _MOST, "the mass sticks after the impact"), False),
+    ]
+    orbits = [one for one in examples(steps.prover.system, _ORBITS) if one.admissible]
+    return names + [steps.orbit(one) for one in orbits]
+
+
+def _figure_a(steps: Single) -> list[str]:
+    nu = claims.FIGURE_NU
+    below, above = System(_STIFF, nu), System(_STIFF, -nu)
+    return [
+        steps.eta_windows(nu, claims.FIGURE_ETAS[0]),
+        steps.solution(below, _first(below, 1, "the mass sticks after the impact"), False),
+        steps.solution(above, _first(above, 1, "an earlier impact"), early=True),
+    ]
+
+
+def _figure_b(steps: Single) -> list[str]:
+    system = System(claims.FIGURE_ETA, _SOFT)
+    late = _first(system, _MOST, "an earlier impact")
+    return [
+        steps.nu_windows(claims.FIGURE_ETA),
+        steps.solution(system, late, early=True),
+    ]
+
+
+def prove(
+    of: Parameters,
+    asked: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Callable[[str], None] = lambda stage: None,
+) -> Evidence:
+    """Prove what the claims asked for rest on."""
+    formulas = Steps(digits)
+    prover = Prover(System(of.eta, of.nu), digits, HORIZON, formulas.steps)
+    single, evidence = Single(prover), Evidence(formulas.steps)
+
+    def lemmas(wanted: Sequence[Lemma | Asked]) -> list[tuple[str, object]]:
+        proved = [formulas.prove(each) for each in wanted]
+        return [each for each in proved if each is not None]
+
+    for formula in claims.FORMULAS:
+        if formula.id in asked:
+            tell(f"formulas of {formula.id}")
+            evidence.proofs[formula.id] = lemmas(formula.lemmas)
+    for claim, find, values in (
+        ("P4", _stability, ()),
+        ("P5", _figure_a, claims.VALUES),
+        ("P6", _figure_b, ()),
+    ):
+        if claim in asked:
+            tell(f"orbits of {claim}")
+            names = find(single)
+            rest = lemmas((*eq.LEMMAS, *values))
+            evidence.proofs[claim] = [*rest, *((name, single.found[name]) for name in names)]
+    return evidence

@@ -1,0 +1,23 @@
+"""Section 5: every equation of the soft springs derived, and its bifurcations decided."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from proofs.search.derivations import prove_derivations
+from proofs.search.evidence import Evidence
+from proofs.trusted.facts import Parameters
+from proofs.trusted.paper.s5_soft.soft import DERIVATIONS
+
+CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
+
+
+def prove(
+    of: Parameters,
+    claims: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Callable[[str], None] = lambda stage: None,
+) -> Evidence:
+    """Prove what the claims asked for follow from; they are about all values of the parameters."""
+    return prove_derivations(DERIVATIONS, claims, digits, tell)

@@ -1,0 +1,102 @@
+"""Proof steps of the plastic map: each proves something and records its witness.
+
+The steps are those of `proofs.trusted.flights`, by the same names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from proofs.methods.extremes import extremes
+from proofs.methods.moran import moran_root
+from proofs.motion.branch import Branch
+from proofs.motion.covering import cover_by, cover_by_impacts
+from proofs.motion.impact import FirstImpact, impact_time, locate
+from proofs.motion.phase import misses, phase_after
+from proofs.motion.system import System
+from proofs.trusted.certificate import texts
+from proofs.trusted.facts import PointFact, Range, SlopeRange, show_range
+
+
+@dataclass
+class Prover:
+    """Collects proof steps; each is made once and named after its rule."""
+
+    system: System
+    digits: int
+    horizon: Fraction
+    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    @property
+    def bits(self) -> int:
+        """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
+        return self.digits * 10 // 3 + 16
+
+    def add(self, rule: str, witness: dict[str, Any]) -> str:
+        """Record a step and return its name."""
+        number = 1 + sum(step["rule"] == rule for step in self.steps.values())
+        name = f"{rule}-{number}"
+        self.steps[name] = {"rule": rule, "witness": witness}
+        return name
+
+    def add_impact(self, found: FirstImpact) -> str:
+        """Record a first impact."""
+        phases, times = texts(found.flight.phases), texts(found.times[1:])
+        return self.add("first-impact", {"phases": phases, "times": times})
+
+    def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
+        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
+        parts = cover_by_impacts(self.system, (points[0], points[-1]), horizon=self.horizon)
+        names = {part: self.add_impact(part) for part in parts}
+        branch = Branch(tuple(parts), self.bits)
+        cuts = sorted({*points, *branch.ends})
+        found = extremes(lambda x: branch.slope(x, x), branch.curvature, cuts)
+
+        def bracket(low: Fraction, high: Fraction, **more: str) -> dict[str, Any]:
+            flight, time = names[branch.part(low, high)], branch.time(low, high)
+            return {"flight": flight, **more, "time": texts(time)}
+
+        witness = {
+            "points": [bracket(x, x, phase=str(x)) for x in found.points],
+            "pieces": [bracket(*piece) for piece in pairwise(found.points)],
+        }
+        images = (phase_after(x, branch.time(x, x), self.bits + 30) for x in found.points)
+        return self.add("slope-range", witness), SlopeRange(
+            found.points,
+            tuple((value.inf, value.sup) for value in found.values),
+            tuple(images),
+            tuple((piece.inf, piece.sup) for piece in found.pieces),
+        )
+
+    def avoids(self, phases: Range, target: Range) -> str:
+        """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
+
+        def accept(found: FirstImpact) -> bool:
+            low, high = found.flight.phases
+            return all(misses((low + w[0], high + w[1]), target) for w in found.windows)
+
+        why = f"an impact in {show_range(target)} is possible"
+        parts = cover_by(self.system, phases, accept, obstacle=why, horizon=self.horizon)
+        flights = [self.add_impact(part) for part in parts]
+        return self.add("avoids", {"flights": flights, "target": texts(target)})
+
+    def point(self, phase: Fraction) -> tuple[str, PointFact]:
+        """Enclose f and f' at one phase (rule point)."""
+        impact = locate(self.system, (phase, phase), horizon=self.horizon)
+        time = impact_time(impact, (phase, phase), self.bits)
+        slope = impact.thin((phase, phase), self.bits).slope(time)
+        witness = {
+            "flight": self.add_impact(impact),
+            "phase": str(phase),
+            "time": texts(time),
+        }
+        fact = PointFact(phase, (slope.inf, slope.sup), phase_after(phase, time, self.bits + 30))
+        return self.add("point", witness), fact
+
+    def root(self, ratios: Range) -> tuple[str, Range]:
+        """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
+        bracket = moran_root(ratios, self.bits)
+        return self.add("moran-root", {"ratios": texts(ratios), "root": texts(bracket)}), bracket

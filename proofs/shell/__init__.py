@@ -1,0 +1,1 @@
+"""Arguments, progress, signals, files, counts: what commands share."""

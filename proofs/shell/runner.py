@@ -1,0 +1,254 @@
+"""What every command that proves claims shares: options, files, the screen, the check.
+
+`run` is the command of a group of claims.
+"""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from argparse import Namespace
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from proofs.shell import manifest
+from proofs.shell.cli import (
+    Parser,
+    add_stats,
+    coloured,
+    counting,
+    digits,
+    number,
+    progress,
+    writable,
+)
+from proofs.shell.groups import Made, Row, printed, produce
+from proofs.trusted import paper as catalogue
+from proofs.trusted.certificate import (
+    Malformed,
+    read,
+    write_atomically,
+)
+from proofs.trusted.facts import PAPER, Parameters, show
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
+
+if TYPE_CHECKING:
+    from proofs.shell.counting import Counts
+
+EPILOG = """\
+Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json
+(the certificate, which is also the machine form) and DIR/{group}.md; DIR/MANIFEST.json says which
+file settles which claim, its digest, and how it was made.
+
+exit status: 0 every claim asked for is decided, 1 something is undecided,
+             2 bad input (nothing is written), 3 the checker disagrees (a bug)
+
+examples:
+  python -m proofs.{group}
+  python -m proofs.{group} --only {first} --digits 40
+  python -m proofs.{group} --json - > {group}.json
+"""
+
+
+def run(
+    group: str,
+    arguments: list[str] | None = None,
+    description: str | None = None,
+    *,
+    figure: bool = False,
+) -> int:
+    """Run the command of a group; return the exit status.
+
+    figure: whether the group has a picture, drawn by `proofs.report.<group>_figure.svg`.
+    """
+    claims = catalogue.GROUPS[group]
+    parser = Parser(f"proofs.{group}", description, EPILOG.format(group=group, first=claims[0]))
+    add_parameters(parser)
+    add_outputs(parser, claims)
+    if figure:
+        add_figure(parser, group)
+    options = parser.parse_args(arguments)
+    check_figure(parser, options)
+    of = prepared(parser, options)
+    began = perf_counter()
+    with counting(options.stats) as counts, progress() as tell:
+        made = produce(group, of, options.only, digits=options.digits, tell=tell)
+    seconds = perf_counter() - began
+    made_by = command(f"proofs.{group}", arguments)
+    try:
+        write(options.out, group, made.certificate, made.page, made_by)
+        if figure and options.figure:
+            draw = import_module(f"proofs.report.{group}_figure").svg
+            write_atomically(options.out / f"{group}.svg", draw(made.certificate))
+    except OSError as error:
+        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    return finish(made, seconds, options, f"{group}.json", counts)
+
+
+def add_parameters(parser: Parser) -> None:
+    """Add the options for the numbers of a statement, the paper's by default."""
+    add = parser.add_argument
+    add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
+    add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
+    for name, default in (("left", PAPER.left), ("right", PAPER.right), ("slopes", PAPER.slopes)):
+        help_text = f"default {show(default[0])} {show(default[1])}"
+        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
+    interval = "I (default: from the left end of I0 to the right end of I1)"
+    add("--interval", type=number, nargs=2, metavar=("A", "B"), help=interval)
+    add("--epsilon", type=number, default=PAPER.epsilon, help="of restitution (default 0.01)")
+    gamma = "range of velocities gamma (default -0.45 0)"
+    add(
+        "--velocities",
+        type=number,
+        nargs=2,
+        default=PAPER.velocities,
+        metavar=("A", "B"),
+        help=gamma,
+    )
+    add(
+        "--reach",
+        type=number,
+        nargs=3,
+        metavar=("DETA", "DNU", "DEPSILON"),
+        help="box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)",
+    )
+
+
+def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
+    """Add the options for what is asked and where results go."""
+    add = parser.add_argument
+    add("--only", nargs="+", choices=claims, metavar="ID", help=f"claims, of {' '.join(claims)}")
+    add("--digits", type=digits, default=30, help="significant digits of the numbers (default 30)")
+    add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
+    add("--json", choices=["-"], help="print the machine form on standard output")
+    add("--no-check", action="store_true", help="do not run the checker on what was written")
+    add_stats(parser)
+
+
+def add_figure(parser: Parser, name: str) -> None:
+    """Add the option for a picture."""
+    help_text = f"draw DIR/{name}.svg too (needs matplotlib)"
+    parser.add_argument("--figure", action="store_true", help=help_text)
+
+
+def check_figure(parser: Parser, options: Namespace) -> None:
+    """Leave with one line if a picture is asked for and cannot be drawn."""
+    if getattr(options, "figure", False) and find_spec("matplotlib") is None:
+        parser.error("--figure needs matplotlib: pip install matplotlib")
+
+
+def prepared(parser: Parser, options: Namespace) -> Parameters:
+    """Return the statement's numbers, the output folder tried; leave with one line if bad."""
+    try:
+        of = parameters(options)
+    except ValueError as error:
+        parser.error(str(error))
+    writable(parser, options.out)
+    return of
+
+
+def parameters(options: Namespace) -> Parameters:
+    """Return the statement's numbers; those printed for s_0 go with the printed slopes only."""
+    left, right, slopes = tuple(options.left), tuple(options.right), tuple(options.slopes)
+    of = replace(
+        PAPER,
+        eta=options.eta,
+        nu=options.nu,
+        left=left,
+        right=right,
+        interval=tuple(options.interval) if options.interval else (left[0], right[1]),
+        slopes=slopes,
+        epsilon=options.epsilon,
+        velocities=tuple(options.velocities),
+        reach=_reach(options),
+    )
+    return of if slopes == PAPER.slopes else replace(of, ratios=None, printed_s0=None)
+
+
+def _reach(options: Namespace) -> tuple[Fraction, Fraction, Fraction] | None:
+    """Return the box asked for, else the paper's, narrowed where the numbers leave less room."""
+    eta, nu, epsilon = options.eta, abs(options.nu), options.epsilon
+    if options.reach:
+        if options.reach[2] > epsilon:
+            raise ValueError("reach: epsilon must stay in [0, 1)")
+        return tuple(options.reach)
+    room = (eta / 2, nu / 2, min(epsilon, (1 - epsilon) / 2))
+    if PAPER.reach is None or min(room) < 0:
+        return None
+    first, second, third = map(min, PAPER.reach, room)
+    return first, second, third
+
+
+def command(module: str, arguments: list[str] | None) -> str:
+    """Return the command that is running, as the manifest records it."""
+    return shlex.join(["python", "-m", module, *(sys.argv[1:] if arguments is None else arguments)])
+
+
+def write(folder: Path, name: str, certificate: str, page: str, made: str) -> None:
+    """Write a certificate and its page, and enter it in the manifest."""
+    write_atomically(folder / f"{name}.json", certificate)
+    write_atomically(folder / f"{name}.md", page)
+    manifest.record(folder, f"{name}.json", certificate, made)
+
+
+def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:
+    """Print what was decided, have it checked, and return the exit status.
+
+    counts: of what was evaluated up to here; with what the check evaluates they are printed, if
+    that is asked for.
+    """
+    if options.json:
+        print(made.certificate, end="")
+    else:
+        print_rows(made.rows, seconds, made.theorem)
+    with counting(options.stats) as checking:
+        accepted = options.no_check or _checked(options.out / name, quiet=bool(options.json))
+    if options.stats:
+        from proofs.shell.counting import show
+
+        show(counts + checking, [row.id for row in made.rows], quiet=bool(options.json))
+    if not accepted:
+        return 3
+    return int(any(row.verdict is Verdict.UNDECIDED for row in made.rows))
+
+
+def print_rows(rows: Sequence[Row], seconds: float, theorem: str | None = None) -> None:
+    """Print a paragraph a claim, the corrected theorem and a summary line."""
+    for row in rows:
+        print(f"{row.id:4} {coloured(row.verdict)} {row.statement}")
+        spent = "" if row.seconds is None else f"  ({row.seconds * 1000:.1f} ms)"
+        print(f"     {row.why}{spent}")
+        for name, bounds in row.quantities.items():
+            lower, upper = printed(bounds, 17).values()
+            print(f"     {name} in [{lower}, {upper}]")
+    if theorem is not None:
+        print(f"\nCorrected theorem, VERIFIED: {theorem}")
+    for text in dict.fromkeys(row.corrected for row in rows if row.corrected is not None):
+        beside = ", ".join(row.id for row in rows if row.corrected == text)
+        print(f"\nTheorem beside {beside}, VERIFIED: {text}")
+    counts = Counter(row.verdict.value for row in rows)
+    summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
+
+
+def _checked(path: Path, quiet: bool) -> bool:
+    """Run the independent checker on what was written; say loudly if it disagrees."""
+    began = perf_counter()
+    try:
+        report = check(read(path))
+    except (Malformed, Rejected) as error:
+        print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
+        return False
+    if not quiet:
+        spent = (perf_counter() - began) * 1000
+        count = f"{len(report.claims)} claim{'s' if len(report.claims) > 1 else ''}"
+        print(f"checker: accepted {path}, {count}, in {spent:.0f} ms")
+    return True

@@ -1,0 +1,1 @@
+"""All that a sceptic reads: on the standard library alone."""

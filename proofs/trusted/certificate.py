@@ -1,0 +1,316 @@
+"""The certificate: its numbers, its JSON, and a reader that takes nothing on faith.
+
+A certificate is a JSON object of strings, lists and objects; every number is a string, in
+lowest terms ("111/100", "-7"), bounds of quantities are decimals. This file knows the form, not
+what it means: `proofs.check` does.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from proofs.trusted.facts import Parameters, Range
+
+SCHEMA = "impact-proofs.certificate/2"
+MANIFEST = "impact-proofs.manifest/1"
+LEMMA = "impact-proofs.lemma/1"
+MAX_BYTES = 4_000_000
+MAX_WORK = 100_000  # some seconds: see Reader.charge
+_MAX_DIGITS = 3000
+_MAX_DIGITS_OF_PARAMETERS = 400
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
+_RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
+_DECIMAL = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
+
+
+class Malformed(ValueError):
+    """The file is not a certificate of this schema; the message starts with the JSON path."""
+
+
+def text(value: Fraction) -> str:
+    """Write an exact rational in the canonical form."""
+    return str(value)
+
+
+def texts(values: tuple[Fraction, ...] | list[Fraction]) -> list[str]:
+    """Write several exact rationals."""
+    return [str(value) for value in values]
+
+
+class _Broken(str):
+    """Stands in the parsed JSON for what is not allowed there, until its path is known."""
+
+
+class Reader:
+    """A value in the JSON with its path; every access states what it expects."""
+
+    def __init__(self, value: Any, path: str = "$", spent: list[int] | None = None) -> None:
+        self._value = value
+        self.path = path
+        self._spent = [0] if spent is None else spent  # one count for the whole file
+
+    def _inner(self, value: Any, path: str) -> Reader:
+        return Reader(value, self.path + path, self._spent)
+
+    def charge(self, evaluations: int, bits: int) -> None:
+        """Count the evaluations that this place asks for; refuse a file that asks for too many.
+
+        The unit is an evaluation of the gap at up to 255 bits, about 50 microseconds; at 4000
+        bits it takes some 250 times as long.
+        """
+        self._spent[0] += evaluations * (1 + (bits // 256) ** 2)
+        if self._spent[0] > MAX_WORK:
+            raise self.fail("more work than the checker takes on for one file")
+
+    def fail(self, message: str) -> Malformed:
+        """Return the error to raise for this place."""
+        return Malformed(f"{self.path}: {message}")
+
+    def fields(self, *names: str) -> list[Reader]:
+        """Return the members of an object that has exactly these, in the order asked for."""
+        if not isinstance(self._value, dict):
+            raise self.fail("an object is expected")
+        for name in self._value:
+            if name not in names:
+                raise self.fail(f"unknown field {name[:40]!r}")
+        for name in names:
+            if name not in self._value:
+                raise self.fail(f"missing field {name!r}")
+        return [self._inner(self._value[name], f".{name}") for name in names]
+
+    def entries(self) -> Iterator[tuple[str, Reader]]:
+        """Iterate over the members of an object, whatever their names."""
+        if not isinstance(self._value, dict):
+            raise self.fail("an object is expected")
+        for name, value in self._value.items():
+            yield name, self._inner(value, f".{_shown(name)}")
+
+    def members(self) -> Iterator[tuple[str, Reader]]:
+        """Iterate over the members of an object with free names."""
+        for name, inner in self.entries():
+            if not _NAME.fullmatch(name):
+                raise self.fail(f"not a name: {name[:40]!r}")
+            yield name, inner
+
+    def items(self, least: int = 0, most: int = 10_000) -> list[Reader]:
+        """Return the members of a list."""
+        if not isinstance(self._value, list):
+            raise self.fail("a list is expected")
+        if not least <= len(self._value) <= most:
+            raise self.fail(f"{len(self._value)} entries, expected {least} to {most}")
+        return [self._inner(value, f"[{i}]") for i, value in enumerate(self._value)]
+
+    def mentioned(self) -> Iterator[str]:
+        """Iterate over all strings inside, however deep."""
+        if isinstance(self._value, str):
+            yield self._value
+        elif isinstance(self._value, list | dict):
+            inner = self._value.values() if isinstance(self._value, dict) else self._value
+            for value in inner:
+                yield from Reader(value).mentioned()
+
+    def is_null(self) -> bool:
+        """Whether the value is null."""
+        return self._value is None
+
+    def string(self) -> str:
+        """Return a string."""
+        if not isinstance(self._value, str):
+            raise self.fail("a string is expected")
+        return self._value
+
+    def _matching(self, pattern: re.Pattern[str]) -> str:
+        value = self.string()
+        if len(value) > _MAX_DIGITS or not pattern.fullmatch(value):
+            raise self.fail(f"not a number in canonical form: {value[:40]!r}")
+        return value
+
+    def number(self) -> Fraction:
+        """Return an exact rational, written in lowest terms."""
+        value = Fraction(text_value := self._matching(_RATIONAL))
+        if str(value) != text_value:
+            raise self.fail(f"not in lowest terms: {text_value[:40]!r}")
+        return value
+
+    def numbers(self, least: int = 1, most: int = 10_000) -> tuple[Fraction, ...]:
+        """Return a list of exact rationals."""
+        return tuple(item.number() for item in self.items(least, most))
+
+    def range(self) -> Range:
+        """Return two exact rationals in increasing order (equal ones allowed)."""
+        low, high = self.numbers(2, 2)
+        if low > high:
+            raise self.fail("reversed interval")
+        return low, high
+
+    def decimals(self) -> Range:
+        """Return the bounds {"lower", "upper"} of a quantity, plain decimals."""
+        low, high = (Fraction(side._matching(_DECIMAL)) for side in self.fields("lower", "upper"))
+        if low > high:
+            raise self.fail("reversed bounds")
+        return low, high
+
+
+def _shown(name: str) -> str:
+    return name if _NAME.fullmatch(name) else ascii(name[:40])
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> Any:
+    result = dict(pairs)
+    return result if len(result) == len(pairs) else _Broken("a field is there twice")
+
+
+def _no_number(value: str) -> Any:
+    return _Broken(f"a bare JSON number, {value[:40]}: numbers are strings here")
+
+
+def _refuse_broken(value: Any, path: str) -> None:
+    """Raise Malformed at the first place that is not in the accepted form."""
+    if isinstance(value, _Broken):
+        raise Malformed(f"{path}: {value}")
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            _refuse_broken(inner, f"{path}.{_shown(name)}")
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            _refuse_broken(inner, f"{path}[{index}]")
+
+
+def parse(source: str) -> Reader:
+    """Parse a certificate's text; Malformed if it is not JSON in the accepted form."""
+    if len(source) > MAX_BYTES:
+        raise Malformed(f"$: {len(source)} characters; at most {MAX_BYTES} are read")
+    try:
+        value = json.loads(
+            source,
+            object_pairs_hook=_unique,
+            parse_float=_no_number,
+            parse_int=_no_number,
+            parse_constant=_no_number,
+        )
+        _refuse_broken(value, "$")
+    except RecursionError:
+        raise Malformed("$: nested too deeply") from None
+    except json.JSONDecodeError as error:
+        raise Malformed(f"$: not JSON (truncated?): {error}") from None
+    return Reader(value)
+
+
+def read(path: Path) -> str:
+    """Return a file's text; Malformed if it is too large or no UTF-8."""
+    with path.open("rb") as file:
+        content = file.read(MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
+        raise Malformed(f"$: larger than {MAX_BYTES} bytes")
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise Malformed("$: not a text file") from None
+
+
+def schema_of(source: str) -> str:
+    """Return the schema that a text names, whatever else it holds; "" if it names none."""
+    fields = dict(parse(source).entries())
+    return fields["schema"].string() if "schema" in fields else ""
+
+
+def digest(source: str) -> str:
+    """Return the SHA-256 of a certificate's canonical form: sorted, without white space, ASCII.
+
+    Two files with the same digest prove the same by the same steps, however they are laid out.
+    """
+    canonical = json.dumps(json.loads(source), sort_keys=True, separators=(",", ":"))
+    return "sha256:" + sha256(canonical.encode("ascii")).hexdigest()
+
+
+def render(document: dict[str, Any]) -> str:
+    """Write a certificate's text: the same document gives the same bytes."""
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+
+
+def parameters_to_json(of: Parameters) -> dict[str, Any]:
+    """Write one statement's numbers."""
+    return {
+        "eta": text(of.eta),
+        "nu": text(of.nu),
+        "left": texts(of.left),
+        "right": texts(of.right),
+        "interval": texts(of.interval),
+        "slopes": texts(of.slopes),
+        "ratios": None if of.ratios is None else texts(of.ratios),
+        "printed_s0": of.printed_s0,
+        "epsilon": None if of.epsilon is None else text(of.epsilon),
+        "velocities": None if of.velocities is None else texts(of.velocities),
+        "reach": None if of.reach is None else texts(of.reach),
+    }
+
+
+def parameters_from_json(reader: Reader) -> Parameters:
+    """Read and validate one statement's numbers."""
+    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(
+        *(field.name for field in dataclasses.fields(Parameters))
+    )
+    velocities, reach = more
+    try:
+        parameters = Parameters(
+            eta.number(),
+            nu.number(),
+            left.range(),
+            right.range(),
+            interval.range(),
+            slopes.range(),
+            None if ratios.is_null() else ratios.range(),
+            None if printed.is_null() else printed._matching(_DECIMAL),
+            None if epsilon.is_null() else epsilon.number(),
+            None if velocities.is_null() else velocities.range(),
+            None if reach.is_null() else _three(reach),
+        )
+    except Malformed:
+        raise
+    except ValueError as error:
+        raise reader.fail(str(error)) from None
+    if any(len(number) > _MAX_DIGITS_OF_PARAMETERS for number in reader.mentioned()):
+        raise reader.fail(f"a number of more than {_MAX_DIGITS_OF_PARAMETERS} digits")
+    return parameters
+
+
+def _three(reader: Reader) -> tuple[Fraction, Fraction, Fraction]:
+    first, second, third = reader.numbers(3, 3)
+    return first, second, third
+
+
+def used_steps(steps: Reader, named: set[str]) -> set[str]:
+    """Return the names given and those of all steps that these need; steps name earlier ones."""
+    reached = set(named)
+    for name, step in reversed(list(steps.members())):
+        if name in reached:
+            reached.update(step.mentioned())
+    return reached
+
+
+def write_atomically(path: Path, content: str) -> None:
+    """Write a file whole or not at all: a temporary file beside it, then a rename.
+
+    Raises OSError where that fails, or would replace what is no regular file, such as a device.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError("not a regular file")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        with beside.open("x", encoding="utf-8") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.replace(path)
+    except OSError:
+        beside.unlink(missing_ok=True)
+        raise

@@ -1,0 +1,1 @@
+"""Arithmetic, formulas, and the rules that hold for any map."""

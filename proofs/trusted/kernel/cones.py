@@ -1,0 +1,165 @@
+"""Rule: cone conditions, and from them uniqueness: symbolic dynamics as a conjugacy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.context import Context, read_box, read_point
+from proofs.trusted.kernel.enclose import PRECISIONS, Box, Matrix, decide, enclosed, leaves, shown
+from proofs.trusted.kernel.graph import Graph, beyond, cube
+from proofs.trusted.kernel.hset import LocalMap
+
+Form = tuple[Fraction, ...]
+
+
+@dataclass(frozen=True)
+class Conjugacy:
+    """Each path of a graph is followed once: forward if all forms are positive."""
+
+    graph: Graph
+    forward: bool
+
+    def says(self) -> str:
+        """Return the statement."""
+        if self.forward:
+            return (
+                f"{self.graph.described}; each infinite path of these arrows is followed by "
+                "exactly one point, and the map on the compact set of these points is conjugate "
+                "to the one-sided shift on paths"
+            )
+        return (
+            f"{self.graph.described}; each bi-infinite path of these arrows is followed by "
+            "exactly one full orbit, and the shift on these orbits is conjugate to the two-sided "
+            "shift on paths (so is the map on the compact set of their points, if it is "
+            "one-to-one there)"
+        )
+
+
+def cone(context: Context, reader: Reader) -> Conjugacy:
+    """Rule `cone`: {graph, forms, relations: [{box, outside, jacobian, tree, matrices}, ...]}.
+
+    forms: for each h-set of the graph numbers d_1, ..., d_n, the form Q(q) = sum d_i q_i^2 in its
+    coordinates. Hypotheses, for each relation N => M in the graph's order, with f in coordinates,
+    a box R in [-1, 1]^n and bounds J on n^2 derivatives, row by row: on each leaf of `outside`, a
+    subdivision of [-1, 1]^n, that is not in R, some |f_j| > 1; on each leaf of `tree`, which
+    divides R, an enclosure of f' lies in J; on each leaf of `matrices`, which divides J,
+    D^T Q_M D - Q_N is positive definite for all matrices D.
+
+    Conclusion: each bi-infinite path is followed by exactly one full orbit x_(m+1) = G(x_m) of
+    G = F^k. If all d_i > 0, each infinite path is followed by exactly one point.
+
+    Proof. Existence: the graph step, and compactness. Let x_m, y_m be orbits along one path, in
+    coordinates, D_m the mean of f' between them. Both lie in R, a convex set, since f maps them
+    into [-1, 1]^n; so D_m is in J, z_m = x_m - y_m obeys z_(m+1) = D_m z_m, and Q(z_(m+1)) >=
+    Q(z_m) + c |z_m|^2 with one c > 0, as J is compact. So Q(z_m) increases in m and is bounded, the
+    sum of all |z_m|^2 is finite. Two-sided: z_m -> 0 at both ends, so Q(z_m) increases from 0 to
+    0, and all z_m = 0. One-sided, Q > 0: |z_m| does not tend to 0 unless z_0 = 0. The itinerary is
+    then a continuous bijection of compact sets. Source: Kokubu, Wilczak and Zgliczynski,
+    Rigorous verification of cocoon bifurcations, Nonlinearity 20 (2007); Zgliczynski, Covering
+    relations, cone conditions and the stable manifold theorem, J. Differential Equations 246
+    (2009).
+    """
+    graph_of, forms_of, relations_of = reader.fields("graph", "forms", "relations")
+    of = context.step(graph_of, Graph)
+    n, count = len(of.nodes[0].centre), len(of.nodes)
+    forms = [read_point(form, n) for form in forms_of.items(count, count)]
+    relations = relations_of.items(len(of.covers), len(of.covers))
+    for step, (i, j), relation in zip(of.covers, of.edges, relations, strict=True):
+        jacobian = _derivatives(step.local, relation, n)
+        _, _, _, _, matrices = relation.fields("box", "outside", "jacobian", "tree", "matrices")
+        for leaf in leaves(matrices, jacobian):
+            context.work.spend(20 * n**3 * PRECISIONS[0])
+            _check_cone(leaf, forms[i], forms[j])
+    return Conjugacy(of, all(entry > 0 for form in forms for entry in form))
+
+
+def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:
+    """Return bounds on f', proved on a box that contains all of [-1, 1]^n mapped into it."""
+    box_of, outside, jacobian_of, tree, _ = relation.fields(
+        "box", "outside", "jacobian", "tree", "matrices"
+    )
+    box, jacobian = read_box(box_of, n), read_box(jacobian_of, n * n)
+    if not _inside(box, cube(n)):
+        raise box_of.fail("the box leaves [-1, 1]^n")
+    for leaf in leaves(outside, cube(n)):
+        if not _inside(leaf, box):
+            decide(local, leaf, _misses)
+    for leaf in leaves(tree, box):
+        if not any(_inside(entries, jacobian) for entries in _jacobians(local, leaf)):
+            raise Unproved(f"the derivatives are not proved within bounds on {shown(leaf)}")
+    return jacobian
+
+
+def _jacobians(local: LocalMap, box: Box) -> Iterator[Box]:
+    """Enclose f' on a box in better and better ways."""
+    for bits in PRECISIONS:
+        try:
+            rows = local.jacobian(enclosed(box, bits))
+        except Unproved:
+            continue
+        yield tuple(entry.range for row in rows for entry in row)
+
+
+def _inside(one: Box, two: Box) -> bool:
+    return all(b[0] <= a[0] and a[1] <= b[1] for a, b in zip(one, two, strict=True))
+
+
+def _misses(values: list[Enclosure]) -> bool:
+    return any(beyond(value, way) for value in values for way in (1, -1))
+
+
+def _check_cone(matrices: Box, before: Form, after: Form) -> None:
+    """Prove D^T Q_M D - Q_N positive definite for all D within bounds."""
+    n = len(before)
+    for bits in PRECISIONS:
+        entries = enclosed(matrices, bits)
+        rows = [entries[i * n : (i + 1) * n] for i in range(n)]
+        if positive_definite(_difference(rows, before, after)):
+            return
+    raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")
+
+
+def _difference(d: Matrix, before: Form, after: Form) -> Matrix:
+    """Enclose D^T Q_M D - Q_N, on and below the diagonal; squares are those of one number."""
+    n, bits = len(d), d[0][0].bits
+    result = []
+    for i in range(n):
+        row = []
+        for j in range(i + 1):
+            entry = rational(-before[i] if i == j else Fraction(0), bits)
+            for k in range(n):
+                product = _square(d[k][i]) if i == j else d[k][i] * d[k][j]
+                entry = entry + product * rational(after[k], bits)
+            row.append(entry)
+        result.append(row)
+    return result
+
+
+def _square(x: Enclosure) -> Enclosure:
+    """Enclose x^2 for x in X."""
+    if x.lo <= 0 <= x.hi:
+        return Enclosure(0, max((x * x).hi, 0), x.bits)
+    return x * x
+
+
+def positive_definite(lower: Matrix) -> bool:
+    """Whether all symmetric matrices in an interval matrix, given by its lower rows, are.
+
+    Elimination: a symmetric matrix is positive definite exactly if its first entry a is positive
+    and the matrix a_ij - a_i1 a_j1 / a, i, j > 1, is (Schur complement). Each step encloses the
+    complements of all matrices.
+    """
+    while lower:
+        pivot = lower[0][0]
+        if pivot.lo <= 0:
+            return False
+        column = [row[0] for row in lower[1:]]
+        lower = [
+            [entry - column[i] * column[j] / pivot for j, entry in enumerate(row[1:])]
+            for i, row in enumerate(lower[1:])
+        ]
+    return True

@@ -1,0 +1,291 @@
+"""What the rules about formulas compute with: enclosures on boxes, and exact rationals.
+
+Precision adapts: 64 bits first, then twice as many while a question is undecided. The work is
+counted, so that no file can make a check endless.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+from typing import Any, Protocol
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.facts import Range, show, show_range
+from proofs.trusted.kernel import arithmetic
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.formula import Exhausted, Formula, Tape
+
+PRECISIONS = (64, 128, 256, 512, 1024)
+_LIMIT = 150_000_000  # multiplications times bits
+_LARGEST = 256  # results beyond 2^256 are not followed
+_MOST_DIGITS = 20_000  # bits of an exact rational
+_MAX_DEPTH = 60
+_LONGEST = 300  # characters of a box in a message
+
+Box = tuple[Range, ...]
+
+
+@dataclass
+class Work:
+    """A budget for a whole file."""
+
+    left: int = _LIMIT
+
+    def spend(self, amount: int) -> None:
+        """Count work; Exhausted where there has been too much."""
+        self.left -= amount
+        if self.left < 0:
+            raise Exhausted("the file asks for more work than a check does")
+
+
+ARITHMETIC: dict[str, Callable[..., Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "negative": operator.neg,
+}
+
+
+class Enclosures:
+    """The operations on enclosures of one precision; a result beyond 2^256 raises Unproved."""
+
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
+
+    def apply(self, op: str, arguments: list[Enclosure], datum: Fraction | None) -> Enclosure:
+        """Enclose op(arguments)."""
+        result = self._apply(op, arguments, datum or Fraction(0))
+        if max(-result.lo, result.hi) >> (self.bits + _LARGEST):
+            raise Unproved("a value beyond 2^256")
+        return result
+
+    def _apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
+        if op in ARITHMETIC:
+            result: Enclosure = ARITHMETIC[op](*arguments)
+            return result
+        if op == "number":
+            return rational(datum, self.bits)
+        if op == "pi":
+            return arithmetic.pi(self.bits)
+        return self._power(arguments[0], int(datum)) if op == "^" else _FUNCTIONS[op](arguments[0])
+
+    def _power(self, x: Enclosure, n: int) -> Enclosure:
+        """Enclose X^n: even powers grow with |x|, odd ones with x, negative ones are 1 / x^-n."""
+        if n < 0:
+            return rational(Fraction(1), self.bits) / self._power(x, -n)
+        if n % 2 == 0 and x.lo < 0:
+            least = 0 if x.hi >= 0 else -x.hi
+            x = Enclosure(least, max(-x.lo, x.hi), self.bits)
+        low = self._power_of_point(Enclosure(x.lo, x.lo, self.bits), n)
+        return low.hull(self._power_of_point(Enclosure(x.hi, x.hi, self.bits), n))
+
+    def _power_of_point(self, x: Enclosure, n: int) -> Enclosure:
+        result = x
+        for bit in bin(n)[3:]:
+            result = self.apply("*", [result, result], None)
+            if bit == "1":
+                result = self.apply("*", [result, x], None)
+        return result
+
+
+def _sqrt(x: Enclosure) -> Enclosure:
+    """Enclose the square root: sqrt(n 2^-b) = sqrt(n 2^b) 2^-b, isqrt rounds down."""
+    if x.lo < 0:
+        raise Unproved("the square root of a number that may be negative")
+    above = isqrt(x.hi << x.bits)
+    return Enclosure(isqrt(x.lo << x.bits), above + (above**2 < x.hi << x.bits), x.bits)
+
+
+def _exp(x: Enclosure) -> Enclosure:
+    """Enclose exp, which increases: from the two ends."""
+    low = arithmetic.exp(Enclosure(x.lo, x.lo, x.bits))
+    return low.hull(arithmetic.exp(Enclosure(x.hi, x.hi, x.bits)))
+
+
+def _log(x: Enclosure) -> Enclosure:
+    """Enclose log, which increases: from the two ends."""
+    if x.lo <= 0:
+        raise Unproved("the logarithm of a number that may not be positive")
+    low, high = (arithmetic.log(end, x.bits) for end in x.range)
+    return low.hull(high)
+
+
+_FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
+    "sqrt": _sqrt,
+    "exp": _exp,
+    "log": _log,
+    "sin": lambda x: x.sincos()[0],
+    "cos": lambda x: x.sincos()[1],
+}
+
+
+class Exact:
+    """The operations on rationals; Unproved where a result is no rational, or a huge one."""
+
+    def apply(self, op: str, arguments: list[Fraction], datum: Fraction | None) -> Fraction:
+        """Return op(arguments)."""
+        if any(size(value) > _MOST_DIGITS for value in arguments):
+            raise Unproved("a rational with too many digits")
+        n = datum or Fraction(0)
+        base = arguments[0] if arguments else n
+        if op == "number":
+            result = n
+        elif op == "^" and size(base) * abs(n) <= _MOST_DIGITS and (base or n > 0):
+            result = Fraction(base ** int(n))
+        elif op in ARITHMETIC and (op != "/" or arguments[1]):
+            result = ARITHMETIC[op](*arguments)
+        else:
+            raise Unproved(f"no exact value of {op!r}")
+        return result
+
+
+def size(value: Fraction) -> int:
+    """Return the bits of a rational's longer part."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
+Matrix = list[list[Enclosure]]
+
+
+class Map(Protocol):
+    """A differentiable map on boxes: enclosures of its values and of its partial derivatives."""
+
+    def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose the values; Unproved where the map is not proved defined on the whole box."""
+
+    def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the partial derivatives, a row a component."""
+
+
+@dataclass(frozen=True)
+class Components:
+    """The map given by some roots on a formula's tape."""
+
+    tape: Tape
+    variables: int
+    roots: tuple[int, ...]
+    work: Work
+
+    @classmethod
+    def of(cls, formula: Formula, work: Work) -> Components:
+        """Return the whole function."""
+        return cls(formula.tape, len(formula.variables), formula.roots, work)
+
+    def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose the values."""
+        return self._enclose(self.roots, x)
+
+    def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the partial derivatives, and prove the map defined on the box."""
+        n = self.variables
+        partials = [self.tape.derivative(root, v) for root in self.roots for v in range(n)]
+        entries = self._enclose((*partials, *self.roots), x)
+        return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
+
+    def _enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
+        bits = x[0].bits
+        self.work.spend(self.tape.cost(roots) * bits)
+        return self.tape.evaluate(roots, Enclosures(bits), x)
+
+
+def enclosed(box: Box, bits: int) -> list[Enclosure]:
+    """Enclose each side of a box."""
+    return [Enclosure.of(low, high, bits) for low, high in box]
+
+
+def centre_of(box: Box) -> tuple[Fraction, ...]:
+    """Return the midpoint."""
+    return tuple((low + high) / 2 for low, high in box)
+
+
+def point_box(point: Sequence[Fraction]) -> Box:
+    """Return the box of one point."""
+    return tuple((value, value) for value in point)
+
+
+def attempts(map_: Map, box: Box) -> Iterator[list[Enclosure]]:
+    """Enclose the map on a box in better and better ways, as long as the caller asks.
+
+    At each precision the natural form, then its intersection with the mean value form: on a box
+    X that contains m, f(x) lies in f(m) + f'(X) (X - m). Both contain the values, so they meet.
+    """
+    for bits in PRECISIONS:
+        x = enclosed(box, bits)
+        try:
+            values = map_.values(x)
+            yield values
+            yield [
+                Enclosure(max(a.lo, b.lo), min(a.hi, b.hi), bits)
+                for a, b in zip(values, _mean_value_form(map_, box, x), strict=True)
+            ]
+        except Unproved:
+            continue
+
+
+def _mean_value_form(map_: Map, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
+    centre = centre_of(box)
+    values = map_.values(enclosed(point_box(centre), x[0].bits))
+    steps = [a - rational(m, a.bits) for a, m in zip(x, centre, strict=True)]
+    return [add(value, row, steps) for value, row in zip(values, map_.jacobian(x), strict=True)]
+
+
+def add(value: Enclosure, row: Sequence[Enclosure], column: Sequence[Enclosure]) -> Enclosure:
+    """Enclose value + row . column."""
+    return sum((a * b for a, b in zip(row, column, strict=True)), value)
+
+
+def decide(map_: Map, box: Box, holds: Callable[[list[Enclosure]], bool]) -> None:
+    """Prove that some enclosures of the map on the box have a property, or raise Unproved."""
+    if not any(holds(values) for values in attempts(map_, box)):
+        raise Unproved(f"not proved on {shown(box)}")
+
+
+def leaves(tree: Reader, box: Box) -> Iterator[Box]:
+    """Iterate over the leaves of a subdivision tree, which cover the box.
+
+    A tree is null, the box itself, or [axis, cut, left, right]: the parts where the coordinate of
+    that number (from 1) is <= cut and >= cut, each divided by a tree of its own.
+    """
+    waiting = [(tree, box, 0)]
+    while waiting:
+        node, part, depth = waiting.pop()
+        if node.is_null():
+            yield part
+            continue
+        if depth == _MAX_DEPTH:
+            raise node.fail(f"a tree more than {_MAX_DEPTH} deep")
+        axis_of, cut_of, left, right = node.items(4, 4)
+        axis, cut = integer(axis_of, 1, len(box)) - 1, cut_of.number()
+        low, high = part[axis]
+        if not low < cut < high:
+            raise cut_of.fail("the cut is not inside")
+        for side, ends in ((right, (cut, high)), (left, (low, cut))):
+            waiting.append((side, (*part[:axis], ends, *part[axis + 1 :]), depth + 1))
+
+
+def integer(reader: Reader, least: int, most: int) -> int:
+    """Read an integer."""
+    value = reader.number()
+    if value.denominator != 1 or not least <= value <= most:
+        raise reader.fail(f"an integer from {least} to {most} is expected")
+    return int(value)
+
+
+def shown(box: Sequence[Range]) -> str:
+    """Write a box for a message, in a line of bounded length."""
+    return box_text(box)[:_LONGEST]
+
+
+def box_text(box: Sequence[Range], variables: Sequence[str] = ()) -> str:
+    """Write a box: x = 1/2, y in [0, 1]; without names [1/2, 1/2] x [0, 1]."""
+    if not variables:
+        return " x ".join(map(show_range, box))
+    return ", ".join(
+        f"{name} = {show(ends[0])}" if ends[0] == ends[1] else f"{name} in {show_range(ends)}"
+        for name, ends in zip(variables, box, strict=True)
+    )

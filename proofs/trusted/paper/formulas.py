@@ -1,0 +1,124 @@
+"""What is proved about formulas, and claims that follow from it. Trusted, and shared.
+
+A formula is a text in Python's notation: + - * / and ** with integers, pi, sin, cos, sqrt, exp,
+log; D(F, x, y) is the derivative of F by x and then by y, at(F, x=G, y=H) is F with G and H put
+in the places of x and y at once. Every other name is a real variable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from proofs.trusted.facts import Parameters, Range, ceil_text, floor_text
+from proofs.trusted.paper import Claim, Decision, undecided
+
+
+@dataclass(frozen=True)
+class Equal:
+    """left = right, at all real values of the variables at which all parts of both are defined."""
+
+    left: str
+    right: str
+
+
+@dataclass(frozen=True)
+class Series:
+    """function = coefficients[0] + coefficients[1] x + ... + O(x^len(coefficients)) as x -> 0.
+
+    x is the variable, from both sides; at fixed real values of the other variables at which the
+    formulas `nonzero` are not 0 and the parts of the coefficients are defined.
+    """
+
+    function: str
+    variable: str
+    coefficients: tuple[str, ...]
+    nonzero: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Value:
+    """The function and all its parts are defined on a box; its values there are in these bounds."""
+
+    function: str
+    box: tuple[tuple[str, Range], ...]
+    bounds: Range
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a claim asks about a formula on a box: bounds; with a sign, which is to be proved."""
+
+    function: str
+    box: tuple[tuple[str, Range], ...]
+    signs: tuple[int, ...] = (-1, 0, 1)
+
+    def met_by(self, found: object) -> bool:
+        """Whether a conclusion bounds the values, with one of the signs asked for."""
+        if not isinstance(found, Value) or (found.function, found.box) != (self.function, self.box):
+            return False
+        low, high = found.bounds
+        return 0 in self.signs or (1 in self.signs and low > 0) or (-1 in self.signs and high < 0)
+
+
+def _point(places: dict[str, str]) -> tuple[tuple[str, Range], ...]:
+    return tuple((name, (Fraction(value), Fraction(value))) for name, value in places.items())
+
+
+def at(function: str, sign: int = 0, /, **point: str) -> Asked:
+    """Ask for the value at an exact point, of a sign if that is not 0."""
+    return Asked(function, _point(point), (sign,) if sign else (-1, 0, 1))
+
+
+def over(function: str, sign: int, variable: str, ends: tuple[str, str], /, **point: str) -> Asked:
+    """Ask for a sign while one variable goes over an interval, the others being fixed."""
+    side = (variable, (Fraction(ends[0]), Fraction(ends[1])))
+    return Asked(function, (side, *_point(point)), (sign,))
+
+
+def differ(printed: str, derived: str, /, **point: str) -> Asked:
+    """Ask for a point at which two formulas have different values."""
+    return Asked(f"({printed}) - ({derived})", _point(point), (-1, 1))
+
+
+def between(bounds: Range, places: int = 6) -> str:
+    """Write bounds, rounded outward."""
+    low, high = floor_text(bounds[0], places), ceil_text(bounds[1], places)
+    return low if low == high else f"[{low}, {high}]"
+
+
+Lemma = Equal | Series
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """A claim that follows from lemmas and from values.
+
+    decision: what follows, given bounds on the values in their order.
+    """
+
+    id: str
+    text: str
+    lemmas: tuple[Lemma, ...]
+    decision: Callable[..., Decision]
+    values: tuple[Asked, ...] = ()
+
+    def decide(self, of: Parameters, found: Sequence[object]) -> Decision:
+        """Decide the claim: UNDECIDED if something that it follows from is not proved."""
+        missing: list[Lemma | Asked] = [lemma for lemma in self.lemmas if lemma not in found]
+        bounds = []
+        for value in self.values:
+            proved = [one.bounds for one in found if isinstance(one, Value) and value.met_by(one)]
+            bounds.append(min(proved, key=lambda ends: ends[1] - ends[0]) if proved else None)
+            if not proved:
+                missing.append(value)
+        if missing:
+            count = f"{len(missing)} of {len(self.lemmas) + len(self.values)}"
+            return undecided(f"not proved: {count} of what it follows from")
+        return self.decision(*bounds)
+
+    @property
+    def claim(self) -> Claim:
+        """The claim, as the catalogue has it."""
+        return Claim(self.id, self.text, self.decide)

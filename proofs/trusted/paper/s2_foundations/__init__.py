@@ -1,0 +1,1 @@
+"""Section 2: free flight, launch, impact relations, sticking."""

@@ -1,0 +1,168 @@
+"""Single-impact orbits of section 4: their equations, and what is proved about them.
+
+Plastic impacts, 0 < |nu| < 1. T = 2 pi n, x = pi n eta, n eta no integer; s, c = sin x, cos x;
+side = sign(nu); h = 1 + nu sin(phi) > 0. Numbers are of any type, as in `proofs.trusted.equations`.
+Trusted, and shared.
+
+Lemma 1 (solutions). (16) is (2/eta) s K = 0 with K = nu cos(phi) c - eta h s. Where K = 0, let
+p = nu sin(phi)/h and e = (eta tan x)^2: then h = 1/(1 - p), nu cos(phi) = eta h tan x and nu^2 =
+A(p), A(p) = (p^2 + e)/(1 - p)^2; gap' at T is -2 |nu| cos(phi), and the slope (18) is the
+multiplier M = c^2 (1 - p/eta^2). A falls on (-oo, -e] and grows on [-e, 1) from e/(1 + e) to oo,
+since A' = 2 (p + e)/(1 - p)^3. M = 1 at p = -e (saddle-node); M = 0 at p = eta^2, where the launch
+acceleration side h (p - eta^2) is 0 (sticking); M = -1 at p = eta^2 (1 + 1/c^2) (flip). Solutions
+with p > -e, M < 1, are those of (17) with cos(phi - theta) > 0: (p + e) h sin(theta) = nu cos(phi -
+theta), and sin(theta) has the sign of tan x, which is that of nu if cos(phi) > 0.
+
+Lemma 2 (orbits). Let gap > 0 on (0, T) and gap = 0 > gap' at T. Then cos(phi) > 0, so tan x has
+the sign of nu; for nu > 0, n eta < 1/2; for nu < 0, {n eta} > 1/2 and n is a record: 0 < {l eta} <
+{n eta} for 0 < l < n, {} being fractional parts. Proof. The mass is at h cos(eta t - x)/c. If nu >
+0, it is above the table, so above 0, for a time T, which is less than half its period. If nu < 0,
+the table is at 2 pi l where it was at launch, and the mass below: cos(2 pi l eta - x)/c < 1; with
+d = 1 - {n eta} this is cos(pi d + 2 pi l eta) < cos(pi d), that is 0 < {l eta} < 1 - d.
+
+Lemma 3 (converse). Let K = 0 and side (p - eta^2) > 0: the launch leaves at once. If nu > 0 and
+n eta < 1/2, or nu < 0 and 1/2 < n eta < 1, then gap > 0 on (0, T) and gap = 0 > gap' at T.
+Proof. eta < 1: else, for nu > 0, side (p - eta^2) h = nu (1 - eta^2) sin(phi) - eta^2 < 0. With
+y = t/2 we have gap = 2 side h (E - B + (p - eta^2) sin(y)^2), E = sin(eta y) sin(x - eta y)/c,
+B = eta sin y (tan x cos y - eta sin y). side E > 0 is symmetric about y = pi n/2 and grows up to
+there, so at y = pi k + r, 0 <= r < pi, it is at least its value at min(r, pi - r), or r = 0, B =
+0, gap > 0. B has the period pi. At y = r, t = 2 r, 2 (E - B) = tan(x) U(t) - eta int_0^t U, where
+U(t) = sin(eta t) - eta sin t grows on [0, pi]. nu > 0: if r >= pi/2, B <= 0. If r < pi/2,
+2 (E - B) >= (tan x - eta t) U > 0, since int U <= t U and tan x > x >= pi eta >= eta t.
+nu < 0: if r <= pi/2, -2 (E - B) = |tan x| U + eta int U > 0. If w = pi - r < pi/2, it is at least
+2 (sin(eta w)^2 - eta^2 sin(w)^2 + |tan x| (sin(eta w) cos(eta w) + eta sin w cos w)) > 0.
+
+Lemma 4 (earlier impacts). At fixed eta, n, t and nu < 0, gap/h falls as p grows: if gap < 0 at a
+t in (0, T) for p = -e, then no solution with p >= -e, M <= 1, is an orbit.
+
+Lemma 5 (windows in eta). On (0, 1/(2 n)) e, A(eta^2) and p_1 = eta^2 (1 + 1/c^2) grow with eta, and
+A(p_1) does while p_1 < 1. So at fixed nu > 0 the condition eta^2 < p < p_1 on the p > -e with
+A(p) = nu^2, that is A(eta^2) < nu^2 and (p_1 >= 1 or A(p_1) > nu^2), holds between two values of
+eta; and if A(eta^2) >= nu^2 at some eta in (0, 1) and n, likewise at greater eta, n < 1/(2 eta).
+
+Lemma 6 (stiff springs). If -1 < nu < 0 and eta acos |nu| >= pi, no solution with p >= -e, that is
+M <= 1, is an orbit. Proof. By lemma 4 let p = -e. If there is a solution, e/(1 + e) <= nu^2, so
+tau = eta |tan x| = sqrt(e) <= cot(acos |nu|). At t = (2 - d) pi/eta < T, d = 1 - {n eta}, the mass
+is at its highest, h/|c| > h, and (mass - table)/h > tau sin t - tau^2 (1 - cos t) =
+2 tau sin(t/2) (cos(t/2) - tau sin(t/2)) > 0, since t/2 < pi/eta <= acos |nu|.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from proofs.trusted.equations import Clock
+from proofs.trusted.facts import Range
+
+Number = Any
+Pair = tuple[Number, Number]
+
+SADDLE, STICK, FLIP = 1, 0, -1  # the multiplier at the ends of windows
+MOST_PERIODS = 10**6
+
+
+def defect(eta: Number, nu: Number, phase: Pair, turn: Pair) -> Number:
+    """Return K from the sines and cosines of phi and of x."""
+    return nu * phase[1] * turn[1] - eta * (nu * phase[0] + 1) * turn[0]
+
+
+def multiplier(eta: Number, nu: Number, phase: Pair, turn: Pair) -> Number:
+    """Return M, the slope (18) where K = 0."""
+    lift = nu * phase[0]
+    return turn[1] * turn[1] * (1 - lift / ((lift + 1) * eta * eta))
+
+
+def excess(eta: Number, nu: Number, turn: Pair, end: int) -> Number:
+    """Return c^4 (p^2 + e - nu^2 (1 - p)^2) at the p with M = end.
+
+    For |nu| <= 1 it is > 0 exactly if p >= 1 or nu^2 < A(p), since p^2 > (1 - p)^2 if p >= 1.
+    """
+    squares = turn[0] * turn[0], turn[1] * turn[1]
+    share = squares[1] - end  # c^2 p/eta^2
+    beyond = nu * (squares[1] - eta * eta * share)
+    return eta * eta * (squares[0] * squares[1] + eta * eta * share * share) - beyond * beyond
+
+
+def distance(eta: Number, turn: Pair, now: Clock, p: Number) -> Number:
+    """Return side gap/h at a time of the flight of a solution: the mass minus the table."""
+    tangent = turn[0] / turn[1]
+    mass = now.mass_cos + tangent * now.mass_sin - 1
+    return mass + p * (1 - now.table_cos) - eta * tangent * now.table_sin
+
+
+def records(eta: Fraction, most: int) -> Iterator[int]:
+    """Yield the n up to `most` that are records with {n eta} > 1/2.
+
+    None is greater than the denominator of eta: the fractional parts repeat, from 0.
+    """
+    highest = Fraction(0)
+    for n in range(1, most + 1):
+        part = n * eta % 1
+        if part > highest:
+            highest = part
+            if part > Fraction(1, 2):
+                yield n
+
+
+@dataclass(frozen=True)
+class Solution:
+    """(16) has exactly one solution phi in `phase` for these eta, nu, n, n eta being no integer.
+
+    multiplier encloses the slope (18) there, acceleration the relative one at launch, < 0 where
+    the mass sticks. If `early` is not None, it is a time in (0, 2 pi n) at which gap < 0.
+    """
+
+    eta: Fraction
+    nu: Fraction
+    n: int
+    phase: Range
+    multiplier: Range
+    acceleration: Range
+    early: Fraction | None
+
+    @property
+    def contracts(self) -> bool:
+        """Whether |slope| < 1."""
+        return self.multiplier[0] > -1 and self.multiplier[1] < 1
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """After a launch at the solution's phase the first impact is at 2 pi n, and transversal."""
+
+    solution: Solution
+
+
+@dataclass(frozen=True)
+class EtaWindows:
+    """Where stable orbits are at fixed nu in (0, 1), for all eta >= low.
+
+    An orbit over n table periods that leaves at once, launch acceleration > 0, with its first
+    impact, transversal, after them and |slope| < 1, exists exactly for n = 1, ..., len(ends) and
+    eta between the two values that ends[n - 1] = (flip, stick) enclose: there the slope is -1, 0.
+    """
+
+    nu: Fraction
+    low: Fraction
+    ends: tuple[tuple[Range, Range], ...]
+
+
+Window = tuple[int, Range, Range]
+
+
+@dataclass(frozen=True)
+class NuWindows:
+    """Where such stable orbits are at fixed eta, for 0 < |nu| < 1: n and enclosures of the ends.
+
+    above: for nu > 0, from the nu where the slope is 0 to that where it is -1 (or 1 if that is
+    larger). below: for nu < 0, from the |nu| where it is 1 to that where it is 0 (or 1). There
+    are no others; early are those n > 1/eta that need an earlier impact to be excluded.
+    """
+
+    eta: Fraction
+    above: tuple[Window, ...]
+    below: tuple[Window, ...]
+    early: tuple[int, ...]

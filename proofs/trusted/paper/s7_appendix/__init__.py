@@ -1,0 +1,1 @@
+"""The appendix: the marching algorithm, and measures."""
