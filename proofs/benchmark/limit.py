@@ -45,14 +45,14 @@ _STAGES = {
     "proof: witnesses": ("proofs.search.steps:Prover.point",),
     "proof: s_0": ("proofs.search.steps:Prover.root",),
     "proof: impacts with restitution": ("proofs.search.s33_steps:ReboundProver.rebound",),
-    "decisions": ("proofs.search.s31_horseshoe:prove", "proofs.groups:settle"),
+    "decisions": ("proofs.search.s31_horseshoe:prove", "proofs.shell.groups:settle"),
     "certificate": (
         "proofs.trusted.certificate:render",
-        "proofs.groups:certificate",
+        "proofs.shell.groups:certificate",
         "proofs.shell.runner:write",
     ),
-    "manifest": ("proofs.manifest:record",),
-    "report": ("proofs.report:markdown",),
+    "manifest": ("proofs.shell.manifest:record",),
+    "report": ("proofs.report.page:markdown",),
     "check": ("proofs.trusted.verify:check", "proofs.trusted.certificate:read"),
     _LATE: ("builtins:__import__", "importlib:import_module"),
 }

@@ -1,0 +1,335 @@
+"""Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from intervals import Undecided
+from proofs.horseshoe import main as horseshoe
+from proofs.motion.candidate import next_impact
+from proofs.motion.covering import cover_by_impacts, precision_for, steps_for
+from proofs.motion.flight import Flight
+from proofs.motion.image import Image, image
+from proofs.motion.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
+from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
+from proofs.motion.system import System
+from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
+from proofs.stress.grazing import graze
+from proofs.trusted.certificate import Reader
+from proofs.trusted.facts import PAPER as FACTS
+from proofs.trusted.flights import RULES
+from tests.proofs.trusted.paper import reference
+
+PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
+DIGITS = 250
+
+
+def fraction(x):
+    sign, mantissa, exponent, _ = x._mpf_
+    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent
+
+
+def number(x):
+    return mpf(x.numerator) / x.denominator
+
+
+def ends(system):
+    """(onset, separation): where sticking begins and ends, to 250 digits, in [0, 2 pi)."""
+    with mp.workdps(DIGITS):
+        leave = mp.findroot(
+            lambda x: reference.launch_acceleration(number(system.eta), number(system.nu), x),
+            reference.separation_phase(number(system.eta), number(system.nu)),
+        )
+        return fraction((mp.pi - leave) % (2 * mp.pi)), fraction(leave % (2 * mp.pi))
+
+
+def short_flight(system, phase, about):
+    """(time, slope) next to the onset of sticking, the root of (10) near 3 `about`."""
+    with mp.workdps(DIGITS):
+        eta, nu, phi = number(system.eta), number(system.nu), number(phase)
+
+        def scaled(t, phi=phi):  # the double zero at 0 taken out
+            return reference.left_side_10(eta, nu, phi, t) / t**2
+
+        guess = 3 * number(about)
+        near = guess * mpf("0.99"), guess
+        time = mp.findroot(scaled, near, verify=False)
+        h = number(about) * mpf(10) ** -40
+        later = mp.findroot(lambda t: scaled(t, phi + h), near, verify=False)
+        assert abs(scaled(time)) < number(about) * mpf(10) ** -100
+        return fraction(time), fraction(1 + (later - time) / h)
+
+
+ONSET, SEPARATION = ends(PAPER)
+
+
+@pytest.mark.parametrize(
+    ("exponent", "share"),
+    [
+        (13, Fraction(1, 100)),
+        (30, Fraction(1, 10**6)),
+        *(
+            pytest.param(exponent, share, marks=pytest.mark.slow)
+            for exponent in (2, 13, 17, 30)
+            for share in (Fraction(1, 2), Fraction(1, 300), Fraction(1, 10**7))
+        ),
+    ],
+)
+def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
+    distance = Fraction(1, 10**exponent)
+    low = ONSET - distance
+    found = image(PAPER, (low, low + share * distance), digits=12)
+    assert isinstance(found, Image) and not found.sticking
+    for part in (Fraction(0), Fraction(1, 3), Fraction(1)):
+        time, slope = short_flight(PAPER, low + part * share * distance, distance)
+        assert found.flight[0] <= time <= found.flight[1]
+        assert found.slope[0] <= slope <= found.slope[1]
+    first = short_flight(PAPER, low, distance)[0]
+    last = short_flight(PAPER, low + share * distance, distance)[0]
+    assert found.flight[1] - found.flight[0] <= (first - last) * (1 + Fraction(1, 10**5))
+    assert found.slope[1] - found.slope[0] < max(share / 4, Fraction(1, 50))
+
+
+def test_precision_grows_where_it_must():
+    needed = []
+    for exponent in (1, 6, 12, 24):
+        low = ONSET - Fraction(1, 10**exponent)
+        phases = low, low + Fraction(1, 10 ** (exponent + 3))
+        parts = cover_by_impacts(PAPER, phases)
+        assert parts[0].flight.phases[0] == phases[0]
+        assert parts[-1].flight.phases[1] == phases[1]
+        assert all(part.transversal for part in parts)
+        needed.append(max(part.flight.precision for part in parts))
+    assert needed[0] == LEAST and needed == sorted(needed) and needed[-1] > needed[1] > LEAST
+
+
+def test_usual_intervals_take_the_least_precision():
+    phases = Fraction("1.11"), Fraction("1.15")
+    assert precision_for(PAPER, phases) == LEAST
+    assert {part.flight.precision for part in cover_by_impacts(PAPER, phases)} == {LEAST}
+
+
+@pytest.mark.slow
+def test_width_is_not_answered_with_precision():
+    # a grazing phase in the interval: no precision helps
+    with pytest.raises(Undecided, match="grazing near"):
+        cover_by_impacts(PAPER, (Fraction("1.199"), Fraction("1.2")))
+
+
+@pytest.mark.parametrize("exponent", [3, 25, 40])
+def test_both_sides_of_the_separation_phase(exponent):
+    distance = Fraction(1, 10**exponent)
+    before = image(PAPER, (SEPARATION - distance,) * 2, digits=20)
+    after = image(PAPER, (SEPARATION + distance,) * 2, digits=20)
+    assert before.sticking and not after.sticking
+    rounding = Fraction(1, 10**240)  # of SEPARATION
+    assert before.dwell[0] - rounding <= distance <= before.dwell[1] + rounding
+    assert abs(after.flight[0] - before.flight[0]) < 5 * distance + Fraction(1, 10**18)
+    assert 0 < after.slope[0] < 10 * distance
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("exponent", [5, 20])
+def test_an_interval_across_the_separation_phase_is_no_onset(exponent):
+    distance = Fraction(1, 10**exponent)
+    found = image(PAPER, (SEPARATION - distance, SEPARATION + distance))
+    assert "stick" in found.reason
+    expected = image(PAPER, (SEPARATION + distance,) * 2, digits=12).flight
+    assert any(t[0] <= expected[0] and expected[1] <= t[1] for t, _ in found.images)
+    with pytest.raises(Undecided, match="the phase at which sticking begins"):
+        image(PAPER, (ONSET - distance, ONSET + distance))
+
+
+def test_sticking_is_no_reason_of_its_own():
+    # what sticks dwells: `image` never lets Sticks through, however near the ends of the arc
+    for exponent in (8, 45, 120):
+        for point in (ONSET + Fraction(1, 10**exponent), SEPARATION - Fraction(1, 10**exponent)):
+            assert image(PAPER, (point, point), digits=10).sticking
+            with pytest.raises(Sticks):
+                locate(PAPER, (point, point))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
+def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
+    sets = ["--left", "3.3", "3.31", "--right", *right]
+    assert horseshoe(["--only", "H1", "H3", *sets, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("REFUTED ") == 2 and "checker: accepted" in said
+    entry = json.loads((tmp_path / "horseshoe.json").read_text())["claims"][0]
+    low, high = (Fraction(x) for x in entry["quantities"]["slope_min_I1"].values())
+    slopes = [short_flight(PAPER, x, ONSET - x)[1] for x in map(Fraction, right)]
+    assert low <= min(slopes)
+    assert -Fraction(5, 2) < low <= high < -Fraction(19, 10)
+
+
+# -- boxes ---------------------------------------------------------------------------------------
+
+
+def test_boxes_that_binary64_does_not_decide_are_asked_alone():
+    # towards the onset the gap drowns in rounding: the last boxes need more
+    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
+    cover = slope_cover(PAPER, phases, 8)
+    kinds = set(cover.bits.tolist())
+    assert kinds == {BINARY64, LEAST}
+    order = cover.bits.tolist()
+    assert order == sorted(order)
+    low, high = cover.boxes.inf, cover.boxes.sup
+    assert (low[1:] <= high[:-1]).all() and (low[1:] >= np.nextafter(high[:-1], 0)).all()
+    for k in range(len(order)):
+        for x in (low[k], (low[k] + high[k]) / 2, high[k]):
+            phase = Fraction(float(x))
+            if not phases[0] <= phase <= phases[1]:
+                continue
+            time, slope = short_flight(PAPER, phase, ONSET - phase)
+            assert cover.times.inf[k] <= time <= cover.times.sup[k]
+            assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
+            assert cover.last[k] < time
+
+
+@pytest.mark.slow
+def test_the_counts_tell_the_boxes_of_each_precision():
+    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
+    with counted() as counts:
+        cover = slope_cover(PAPER, phases, 8)
+    in_binary64 = int((cover.bits == BINARY64).sum())
+    assert 0 < in_binary64 < len(cover.bits)
+    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == in_binary64
+    parts = len(cover_by_impacts(PAPER, phases))
+    alone = len(cover.bits) - in_binary64
+    assert counts[Kind("first impacts, to 64 bits", INTERVALS)] >= parts + alone
+    with counted() as counts:
+        cover_by_impacts(PAPER, (ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)))
+    assert counts[Kind("first impacts, to 128 bits", INTERVALS)] >= 1
+    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == 0
+
+
+@pytest.mark.slow
+def test_extremes_where_binary64_decides_nothing():
+    phases = ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)
+    found = slope_extremes(PAPER, phases, 4)
+    assert (found.cover.bits > BINARY64).all()
+    slopes = [short_flight(PAPER, x, Fraction(1, 10**6))[1] for x in phases]
+    assert Fraction(found.minimum[0]) <= min(slopes) and max(slopes) <= Fraction(found.maximum[1])
+    assert np.isfinite([*found.minimum, *found.maximum]).all()
+
+
+# -- where nothing helps -------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("eta", ["1", "0.999999999999"])
+def test_touches_without_end_are_refused_after_one_cut(eta):
+    system, phases = System(Fraction(eta), Fraction("-0.2")), (Fraction("1.11"), Fraction("1.15"))
+    horizon = Fraction(430)  # 68 turns
+    with counted() as counts, pytest.raises(Unsettled) as refused:
+        image(system, phases, horizon=horizon)
+    assert refused.value.hopeless
+    with counted() as once, pytest.raises(Unsettled):
+        first_impact(Flight(system, phases), horizon, steps_for(phases))
+    assert evaluations(counts) < 3 * evaluations(once)
+
+
+def test_some_open_windows_are_not_hopeless():
+    system = System(Fraction(1), Fraction("-0.2"))
+    with pytest.raises(Unsettled) as refused:
+        first_impact(Flight(system, (Fraction("1.11"), Fraction("1.15"))), Fraction(50))
+    assert not refused.value.hopeless
+
+
+@pytest.mark.parametrize("nu", ["1e5", "-1e5", "1e12", "-1e300"])
+def test_the_search_ends_where_rounding_is_large(nu):
+    for phase in (0.3, 1.11, 2.5, 4.0):
+        found = next_impact(System(Fraction("0.2121"), Fraction(nu)), phase)
+        if found is None:
+            continue
+        time, _, slope = found
+        assert 0 < time < 1000 and np.isfinite(slope)
+        gaps = float_gap(float(Fraction(nu)), phase, np.array([0.999 * time, 1.001 * time]))
+        assert gaps[0] > 0 > gaps[1]
+
+
+def float_gap(nu, phase, t):
+    sign = 1 if nu > 0 else -1
+    return sign * reference.left_side_10(0.2121, nu, phase, t, np.sin, np.cos)
+
+
+# -- next to grazing -----------------------------------------------------------------------------
+
+
+def in_json(values):
+    return [str(value) for value in values]
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("exponent", [5, 17, 30])
+def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
+    eta, nu, phase = graze(2)
+    point = phase + side * Fraction(1, 10**exponent)
+    found = locate(System(eta, nu), (point, point))
+    assert found.transversal and len(found.windows) == 1
+    assert list(found.times) == sorted(set(found.times)) and found.times[0] == 0
+    witness = {"phases": in_json(found.flight.phases), "times": in_json(found.times[1:])}
+    of = replace(FACTS, eta=eta, nu=nu)
+    derived = RULES["first-impact"](of, {}, Reader(witness))
+    assert derived.transversal and derived.windows == found.windows
+
+
+def test_both_sides_of_grazing_are_far_apart():
+    eta, nu, phase = graze(2)
+    before, after = (
+        locate(System(eta, nu), (phase + side * Fraction(1, 10**30),) * 2).window
+        for side in (-1, 1)
+    )
+    assert before[1] < after[0] - 1 or after[1] < before[0] - 1
+
+
+def test_only_the_open_window_is_looked_at_again(monkeypatch):
+    eta, nu, phase = graze(2)
+    point = phase - Fraction(1, 10**20)
+    asked = []
+    sound = Flight.gap
+
+    def gap(self, low, high=None, order=0):
+        asked.append((self.precision, low))
+        return sound(self, low, high, order)
+
+    monkeypatch.setattr(Flight, "gap", gap)
+    found = locate(System(eta, nu), (point, point))
+    finer = [time for bits, time in asked if bits == found.flight.precision]
+    first = min(time for time in found.times if time in set(finer))
+    assert found.flight.precision > 2 * LEAST
+    assert first > found.times[3]  # what was excluded is not asked again
+    beginning = [time for bits, time in asked if time <= found.times[3]]
+    assert len(beginning) < 12
+
+
+@pytest.mark.parametrize("single", [True, False])
+def test_unsettled_knows_where_the_gap_is_positive(single, monkeypatch):
+    # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
+    eta, nu, phase = graze(2)
+    flight = Flight(System(eta, nu), (phase, phase))
+    start = [Fraction(0), Fraction(1, 64)]
+    about = (
+        next_impact(System(eta, nu), float(phase) + 1e-3),
+        next_impact(System(eta, nu), float(phase) - 1e-3),
+    )
+    horizon = Fraction(min(one[0] for one in about)) + 5
+    asked, sound = [], Flight.gap
+
+    def gap(self, low, high=None, order=0):
+        asked.append(low)
+        return sound(self, low, high, order)
+
+    with monkeypatch.context() as patched, pytest.raises(Unsettled) as refused:
+        patched.setattr(Flight, "gap", gap)
+        march(flight, start, horizon, Fraction(1, 8), single=single)
+    known = refused.value.known
+    assert (max(asked) >= horizon - 1) != single  # a window left behind ends a single search
+    assert known[:2] == start and known == sorted(set(known))
+    assert known[-1] < horizon - 4
+    assert all(flight.gap(time).certainly_positive() for time in known[1:])

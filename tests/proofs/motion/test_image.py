@@ -1,0 +1,209 @@
+"""The certified impact map against a brute-force scan of the paper's equation (10)."""
+
+import random
+from fractions import Fraction
+
+import pytest
+from mpmath import mpf
+
+from intervals import Undecided
+from proofs.motion.image import Image, PossibleImages, image, separation_phase
+from proofs.motion.impact import NoImpact
+from proofs.motion.system import System
+from tests.proofs.trusted.paper import reference
+
+PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
+
+
+def number(value):
+    return mpf(value.numerator) / value.denominator
+
+
+def holds(bounds, value, slack=mpf(0)):
+    return number(bounds[0]) - slack <= value <= number(bounds[1]) + slack
+
+
+def point(system, phi, **options):
+    return image(system, (Fraction(phi), Fraction(phi)), **options)
+
+
+CASES = [
+    ("0.2121", "-0.2", phi)
+    for phi in (
+        "0",
+        "0.5",
+        "1.11",
+        "1.15",
+        "1.2",
+        "1.27",
+        "1.32",
+        "1.45",
+        "2",
+        "3",
+        "3.37",
+        "6.05",
+        "6.2",
+    )
+] + [
+    ("0.2121", "0.2", "0.7"),
+    ("0.2121", "0.2", "1.5"),
+    ("0.9", "-0.3", "1"),
+    ("1.7", "-0.9", "4"),
+    ("1.7", "2.5", "4.5"),
+    ("3.3", "-1.2", "3"),
+    ("0.05", "-0.9", "2.5"),
+    ("7/5", "3", "5"),
+]
+
+
+@pytest.mark.parametrize(("eta", "nu", "phi"), CASES)
+def test_a_point_agrees_with_brute_force(eta, nu, phi):
+    system = System(Fraction(eta), Fraction(nu))
+    e, n, p = (number(Fraction(x)) for x in (eta, nu, phi))
+    assert reference.launch_acceleration(e, n, p) > 0, "a case that does not stick is wanted"
+    expected = reference.first_impact(e, n, p)
+    assert expected is not None
+    found = point(system, phi)
+    assert isinstance(found, Image) and not found.sticking
+    slack = mpf(10) ** -40
+    assert holds(found.flight, expected[0], slack)
+    assert holds(found.phase, expected[1], slack)
+    assert holds(found.slope, reference.slope(e, n, p, expected[0]), mpf(10) ** -15)
+    for low, high in (found.flight, found.phase, found.slope):
+        assert (high - low) * 10**30 <= abs(low)
+
+
+@pytest.mark.slow
+def test_random_parameters_agree_with_brute_force():
+    generator = random.Random(20001999)
+    compared = 0
+    for _ in range(60):
+        eta = Fraction(generator.randint(5, 300), 100)
+        nu = Fraction(generator.choice([-1, 1]) * generator.randint(5, 300), 100)
+        phi = Fraction(generator.randint(0, 628), 100)
+        e, n, p = number(eta), number(nu), number(phi)
+        if reference.launch_acceleration(e, n, p) < mpf("1e-6"):
+            continue
+        expected = reference.first_impact(e, n, p, horizon=60, step=0.004)
+        if expected is None:
+            continue
+        found = image(System(eta, nu), (phi, phi), digits=12, horizon=Fraction(100))
+        assert holds(found.flight, expected[0], mpf(10) ** -30), (eta, nu, phi)
+        compared += 1
+    assert compared >= 20
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "phi"),
+    [("0.2121", "-0.2", "4.64"), ("0.2121", "-0.2", "3.4"), ("0.2121", "0.2", "0.1"),
+     ("1.5", "2.2", "0.5"), ("1.5", "-4", "1"), ("0.6", "1.1", "5")],
+)  # fmt: skip
+def test_a_sticking_phase_leaves_at_the_separation_phase(eta, nu, phi):
+    system = System(Fraction(eta), Fraction(nu))
+    e, n, p = (number(Fraction(x)) for x in (eta, nu, phi))
+    assert reference.launch_acceleration(e, n, p) < 0
+    leave = reference.separation_phase(e, n)
+    assert holds(separation_phase(system, 100), leave, mpf(10) ** -45)
+    expected = reference.first_impact(e, n, leave)
+    found = point(system, phi)
+    assert found.sticking and found.slope == (0, 0)
+    assert holds(found.flight, expected[0], mpf(10) ** -30)
+    assert holds(found.phase, expected[1], mpf(10) ** -30)
+    assert holds(found.dwell, (leave - p) % (2 * reference.mp.pi), mpf(10) ** -40)
+
+
+def test_sticking_arc_is_a_set_with_one_image():
+    whole = image(PAPER, (Fraction("3.38"), Fraction("6.04")))
+    one = point(PAPER, "5")
+    assert whole.sticking and one.sticking
+    assert whole.phase == one.phase
+
+
+def test_an_interval_contains_the_images_of_its_points():
+    low, high = Fraction("1.27"), Fraction("1.32")
+    found = image(PAPER, (low, high))
+    for k in range(6):
+        phi = low + (high - low) * k / 5
+        flight, phase = reference.first_impact(mpf("0.2121"), mpf("-0.2"), number(phi))
+        slack = mpf(10) ** -28
+        assert holds(found.flight, flight, slack) and holds(found.phase, phase, slack)
+    ends = [point(PAPER, x) for x in (low, high)]
+    assert found.phase[0] <= ends[0].phase[1] and ends[1].phase[0] <= found.phase[1]
+    assert found.phase[1] - found.phase[0] < ends[1].phase[1] - ends[0].phase[0] + Fraction(
+        1, 10**29
+    )
+
+
+@pytest.mark.slow
+def test_a_grazing_phase_inside_gives_the_set_of_possible_images():
+    found = image(PAPER, (Fraction("1.17"), Fraction("1.2")))
+    assert isinstance(found, PossibleImages) and len(found.images) >= 2
+    for k in range(31):
+        phi = Fraction("1.17") + Fraction(k, 1000)
+        expected = reference.first_impact(mpf("0.2121"), mpf("-0.2"), number(phi))
+        if expected is not None:
+            assert any(holds(t, expected[0]) and holds(f, expected[1]) for t, f in found.images)
+
+
+def test_an_interval_across_the_separation_phase():
+    found = image(PAPER, (Fraction(6), Fraction("6.1")))
+    assert isinstance(found, PossibleImages)
+    for phi in (Fraction(6), Fraction("6.05"), Fraction("6.1")):
+        one = point(PAPER, phi)
+        assert any(
+            t[0] <= one.flight[0] and one.flight[1] <= t[1]
+            and f[0] <= one.phase[0] and one.phase[1] <= f[1]
+            for t, f in found.images
+        )  # fmt: skip
+
+
+def test_the_onset_of_sticking_is_refused():
+    with pytest.raises(Undecided, match="sticking begins"):
+        image(PAPER, (Fraction("3.37"), Fraction("3.39")))
+
+
+def test_next_to_the_onset_of_sticking_the_flight_is_short():
+    """There f(phi) = phi + t with t about 3 (phi_e - phi), so f' tends to -2."""
+    onset = reference.mp.pi + (
+        2 * reference.mp.pi - reference.separation_phase(mpf("0.2121"), mpf("-0.2"))
+    )
+    phi = Fraction(str(onset - mpf(10) ** -9)).limit_denominator(10**15)
+    found = point(PAPER, phi, digits=10)
+    distance = onset - number(phi)
+    assert holds(
+        (found.flight[0] - Fraction(1, 10**16), found.flight[1] + Fraction(1, 10**16)),
+        3 * distance,
+        mpf(10) ** -16,
+    )
+    assert abs(number(found.slope[0]) + 2) < mpf(10) ** -7
+
+
+@pytest.mark.slow
+def test_forever_on_the_table_and_horizon():
+    with pytest.raises(NoImpact, match="forever"):
+        point(System(Fraction("0.2121"), Fraction("0.02")), "1")
+    with pytest.raises(NoImpact, match="forever"):
+        point(System(Fraction(1), Fraction(5)), "1")
+    with pytest.raises(NoImpact, match="horizon"):
+        point(PAPER, "1.57")
+    with pytest.raises(Undecided, match="grazes"):  # at resonance it only touches, at 2 pi k
+        point(System(Fraction(1), Fraction("-0.4")), "2", horizon=Fraction(50))
+    with pytest.raises(NoImpact, match="horizon"):
+        point(PAPER, "1.11", horizon=Fraction(10))
+
+
+@pytest.mark.parametrize("digits", [1, 15, 30, 100, 300])
+def test_digits_asked_for_are_digits_certified(digits):
+    found = point(PAPER, "1.31", digits=digits)
+    more = point(PAPER, "1.31", digits=2 * digits + 20)
+    for low, high in zip(
+        (found.flight, found.phase, found.slope), (more.flight, more.phase, more.slope), strict=True
+    ):
+        assert low[0] <= high[0] and high[1] <= low[1]
+        assert (low[1] - low[0]) * 10**digits < abs(low[0])
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("0", "1"), ("-1", "1"), ("1", "0")])
+def test_parameters_out_of_range(eta, nu):
+    with pytest.raises(ValueError, match="must"):
+        System(Fraction(eta), Fraction(nu))

@@ -1,0 +1,205 @@
+"""The map with restitution against equations (14), (15) typed by hand, at 50 digits."""
+
+import math
+import random
+from fractions import Fraction
+
+import pytest
+from mpmath import mp, mpf
+
+from intervals import Undecided
+from proofs.motion.impact import NoImpact
+from proofs.motion.restitution import Rebounds, first_impact, next_impact
+from proofs.motion.system import System
+from proofs.search.s33_rectangles import state_after
+from tests.proofs.trusted.paper import reference
+
+ETA, NU = Fraction("0.2121"), Fraction("-0.2")
+RIGHT = (Fraction("-0.45"), Fraction(0))
+
+
+def true_time(eta, nu, epsilon, phi, gamma, step=0.01):
+    """The first sign change of (14) on a grid, refined at 50 digits."""
+    numbers = [mpf(str(x)) for x in (eta, nu, epsilon, phi, gamma)]
+    side = 1 if nu > 0 else -1
+    floats = [float(x) for x in numbers]
+
+    def gap(t):
+        return side * reference.left_side_14(*floats, t, math.sin, math.cos)
+
+    t = step
+    assert gap(t) > 0
+    while gap(t + step) > 0:
+        t += step
+    low, high = mpf(t), mpf(t + step)
+    for _ in range(170):
+        middle = (low + high) / 2
+        if side * reference.left_side_14(*numbers, middle) > 0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def true_image(eta, nu, epsilon, phi, gamma, near):
+    """(phase on the line, velocity) of the next impact, the root of (14) close to `near`."""
+    eta, nu, epsilon = (mpf(str(x)) for x in (eta, nu, epsilon))
+    t = mp.findroot(lambda s: reference.left_side_14(eta, nu, epsilon, phi, gamma, s), near)
+    return phi + t, reference.right_side_15(eta, nu, epsilon, phi, gamma, t)
+
+
+def single(phi, gamma, epsilon="0.01", eta="0.2121", nu="-0.2", **more):
+    values = [Fraction(x) for x in (phi, gamma, epsilon)]
+    system = System(Fraction(eta), Fraction(nu))
+    point = [(x, x) for x in values]
+    return Rebounds(system, point[0], velocities=point[1], epsilon=point[2], **more)
+
+
+def contains(bounds, value, slack=mpf(10) ** -45):
+    low, high = (mpf(x.numerator) / x.denominator for x in bounds)
+    return low - slack <= value <= high + slack
+
+
+STATES = [
+    ("0.2121", "-0.2", "0.01", "1.11", "-0.45"),
+    ("0.2121", "-0.2", "0.01", "1.15", "0"),
+    ("0.2121", "-0.2", "0.01", "1.32", "-0.237"),
+    ("0.2121", "-0.2", "0.5", "1.0", "-0.3"),
+    ("0.2121", "-0.2", "0.8", "4.0", "-2"),  # leaves against the acceleration
+    ("0.2121", "-0.2", "1", "2.5", "-1.1"),
+    ("0.5", "0.7", "0.3", "1.2", "0.9"),  # the table on the other side
+    ("1", "0.4", "0.2", "0.9", "0.3"),
+]
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_image_and_derivative_at_a_state(state):
+    eta, nu, epsilon, phi, gamma = state
+    found = next_impact(single(phi, gamma, epsilon, eta, nu), bits=110)
+    time = true_time(*map(float, state))
+    image = true_image(eta, nu, epsilon, mpf(phi), mpf(gamma), time)
+    assert contains(found.flight, image[0] - mpf(phi))
+    assert contains(found.phase, image[0] - 2 * mp.pi * found.turns)
+    assert contains(found.velocity, image[1])
+    h = mpf(10) ** -15
+    for column, (a, b) in enumerate(((h, 0), (0, h))):
+        plus = true_image(eta, nu, epsilon, mpf(phi) + a, mpf(gamma) + b, time)
+        minus = true_image(eta, nu, epsilon, mpf(phi) - a, mpf(gamma) - b, time)
+        for row in (0, 1):
+            entry = found.derivative[row][column]
+            assert contains(entry, (plus[row] - minus[row]) / (2 * h), mpf(10) ** -25)
+            assert entry[1] - entry[0] < Fraction(1, 10**20)
+
+
+@pytest.mark.parametrize("state", STATES[:4])
+def test_determinant_is_epsilon_squared_times_the_ratio_of_closing_speeds(state):
+    """Areas (relative velocity) dv dt are preserved by a flight: det DF = epsilon^2 w / w'."""
+    eta, nu, epsilon, phi, gamma = (mpf(x) for x in state)
+    found = next_impact(single(*state[3:], state[2], *state[:2]), bits=110)
+    (p, q), (r, s) = ([mpf(str(float(x[0]))) for x in row] for row in found.derivative)
+    phase, velocity = (mpf(str(float(x[0]))) for x in (found.phase, found.velocity))
+    closing = eta * gamma + nu * mp.cos(phi)
+    arriving = eta * velocity + nu * mp.cos(phase)
+    assert abs(p * s - q * r - epsilon**2 * closing / arriving) < 1e-12
+
+
+def test_without_restitution_it_is_the_plastic_map():
+    found = next_impact(single("1.15", "-0.3", "0"), bits=110)
+    time, phase = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf("1.15"))
+    assert contains(found.phase, phase, mpf(10) ** -25)
+    slope = reference.slope("0.2121", "-0.2", "1.15", time)
+    assert contains(found.derivative[0][0], slope, mpf(10) ** -20)
+    assert found.derivative[0][1] == (0, 0) == found.derivative[1][1]
+
+
+def test_box_contains_the_images_of_its_states_and_oscillators():
+    phases = (Fraction("1.12"), Fraction("1.14"))
+    reach = Fraction(1, 20000)
+    box = Rebounds(
+        System(ETA, NU),
+        phases,
+        velocities=RIGHT,
+        epsilon=(Fraction("0.005"), Fraction("0.015")),
+        eta_reach=reach,
+        nu_reach=reach,
+    )
+    found = next_impact(box)
+    random.seed(5)
+    for _ in range(20):
+        phi, gamma = random.uniform(1.12, 1.14), random.uniform(-0.45, 0)
+        eta, nu = random.uniform(0.21205, 0.21215), random.uniform(-0.20005, -0.19995)
+        epsilon = random.uniform(0.005, 0.015)
+        time = true_time(eta, nu, epsilon, phi, gamma)
+        phase, velocity = true_image(eta, nu, epsilon, mpf(phi), mpf(gamma), time)
+        assert contains(found.phase, phase - 2 * mp.pi * found.turns)
+        assert contains(found.velocity, velocity)
+
+
+@pytest.mark.parametrize(
+    ("phi", "gamma", "possible"),
+    [
+        ("1.11", "0.4192", True),  # -nu cos(phi) / eta = 0.41929...
+        ("1.11", "0.4193", False),
+        ("4.0", "-0.6164", True),  # -0.61635...
+        ("4.0", "-0.6163", False),
+    ],
+)
+def test_a_mass_does_not_come_from_inside_the_table(phi, gamma, possible):
+    flight = single(phi, gamma, "0.5")
+    assert (flight.closing_speed.inf >= 0) is possible
+    if not possible:
+        with pytest.raises(Undecided, match="possible"):
+            first_impact(flight)
+
+
+def test_other_side_of_the_table():
+    assert single("1.11", "-0.42", nu="0.2").closing_speed.inf < 0
+    assert single("1.11", "0.42", nu="0.2").closing_speed.inf > 0
+
+
+def test_a_box_that_contains_a_grazing_flight_has_no_smooth_image():
+    flight = Rebounds(
+        System(ETA, NU),
+        (Fraction("1.19"), Fraction("1.23")),
+        velocities=RIGHT,
+        epsilon=(Fraction("0.01"),) * 2,
+    )
+    with pytest.raises(Undecided):
+        next_impact(flight)
+
+
+def test_horizon():
+    with pytest.raises(NoImpact):
+        next_impact(single("1.11", "-0.45"), horizon=Fraction(20))
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"eta_reach": ETA},
+        {"nu_reach": -NU},
+        {"eta_reach": Fraction(-1, 100)},
+    ],
+)
+def test_boxes_that_leave_the_model_are_refused(more):
+    with pytest.raises(ValueError, match="keep away from 0"):
+        single("1.11", "-0.45", **more)
+
+
+@pytest.mark.parametrize("epsilon", ["-0.1", "1.01"])
+def test_epsilon_that_is_none_is_refused(epsilon):
+    with pytest.raises(ValueError, match="epsilon"):
+        single("1.11", "-0.45", epsilon)
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_candidate(state):
+    eta, nu, epsilon, phi, gamma = map(float, state)
+    phase, velocity = state_after(eta, nu, epsilon, (phi, gamma))
+    found = next_impact(single(*state[3:], state[2], *state[:2]))
+    assert abs(float(found.phase[0]) - phase) < 1e-7
+    assert abs(float(found.velocity[0]) - velocity) < 1e-7
+
+
+def test_candidate_of_an_impossible_state():
+    assert state_after(0.2121, -0.2, 0.01, (1.11, 0.42)) is None

@@ -1,0 +1,81 @@
+"""The simulator against the printed equations at 50 digits; what its tables say."""
+
+from fractions import Fraction
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.motion.simulate import Transient, next_impact, transient, transients
+from proofs.motion.system import System
+from tests.proofs.trusted.paper import reference
+
+PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+REST_TURNS = 4  # the period of the stable motion
+
+
+def flight(phase, kick):
+    """(time, speed) of the first impact by (14), side -1, by scanning and bisection."""
+    gamma = (-mpf(kick) - NU * mp.cos(phase)) / ETA
+
+    def gap(t):
+        return -reference.left_side_14(ETA, NU, 1, mpf(phase), gamma, t)
+
+    time = mpf("0.02")
+    while gap(time + mpf("0.02")) > 0:
+        time += mpf("0.02")
+    low, high = time, time + mpf("0.02")
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if gap(middle) > 0 else (low, middle)
+    return low, -mp.diff(gap, low)
+
+
+@pytest.mark.parametrize(
+    ("phase", "kick"),
+    [("1.11", "0.004"), ("4.64", "0.04"), ("0.3", "0.1"), ("2.5", "0"), ("6.02214", "0.0881")],
+)
+def test_impacts_are_located_to_rounding_error(phase, kick):
+    time, speed = flight(mpf(phase), mpf(kick))
+    found = next_impact(PAPER, float(phase), float(kick), 100.0)
+    assert abs(found[0] - time) < 1e-11 * time
+    assert abs(found[1] - speed) < 1e-11
+
+
+def test_there_is_a_horizon():
+    assert next_impact(PAPER, 1.57, 0.0, 300.0) is None
+    assert transient(PAPER, 0.0, 1.57, 0.0, turns=40.0) == Transient(False, 40.0, 0, 0)
+
+
+@pytest.mark.parametrize("epsilon", [0.0, 0.01, 0.2, 0.35])
+def test_the_flight_from_the_separation_phase_comes_to_rest_in_its_four_turns(epsilon):
+    leave = float(reference.separation_phase(ETA, NU))
+    found = transient(PAPER, epsilon, leave + 1e-9, 0.0)
+    assert found.rests and found.long_flights == 1
+    assert REST_TURNS - 1 < found.turns < REST_TURNS
+    assert (found.impacts == 1) == (epsilon == 0.0)
+
+
+def test_beyond_the_certified_bound_it_does_not():
+    leave = float(reference.separation_phase(ETA, NU))
+    found = transient(PAPER, 0.4, leave + 1e-9, 0.0)
+    assert not found.rests or found.turns > REST_TURNS
+
+
+def test_a_table_has_a_row_for_each_epsilon_and_is_repeatable():
+    epsilons = [Fraction(0), Fraction("0.1"), Fraction("0.3")]
+    rows = transients(PAPER, epsilons, 40, turns=50)
+    assert [row.epsilon for row in rows] == ["0.0", "0.1", "0.3"]
+    assert rows == transients(PAPER, epsilons, 40, turns=50)
+    assert rows[0].mean_impacts < rows[1].mean_impacts < rows[2].mean_impacts
+
+
+def test_at_029_another_stable_orbit_takes_its_share():
+    """A true 2-periodic orbit of F, far from rest: see the phases that (14) gives by itself."""
+    phase, speed = mpf("6.02214"), mpf("0.303792")
+    found = transient(PAPER, 0.29, float(phase), float(speed), turns=300.0)
+    assert not found.rests
+    for _ in range(2):
+        time, speed = flight(phase, mpf("0.29") * speed)
+        phase = (phase + time) % (2 * mp.pi)
+    assert abs(phase - mpf("6.02214")) < 1e-4 and abs(speed - mpf("0.303792")) < 1e-4

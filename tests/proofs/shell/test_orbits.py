@@ -1,0 +1,302 @@
+"""`python -m proofs.orbits`: the periodic phases against equations typed by hand, at 50 digits."""
+
+import csv
+import io
+import json
+import re
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from intervals import Interval, IntervalArray, Undecided
+from proofs import orbits
+from proofs.methods.orbits import periodic_points
+from proofs.methods.words import Words
+from proofs.trusted.facts import PAPER
+from tests.proofs.trusted.paper import reference
+
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+EXACT = replace(
+    PAPER,
+    left=orbits.LEFT,
+    right=orbits.RIGHT,
+    interval=(orbits.LEFT[0], orbits.RIGHT[1]),
+    slopes=(Fraction(1), Fraction(1)),
+    ratios=None,
+    printed_s0=None,
+)
+
+
+@cache
+def horseshoe():
+    return orbits.horseshoe(EXACT)
+
+
+@cache
+def points(length, digits):
+    return periodic_points(horseshoe(), Words.of_length(length), digits)
+
+
+def answer(capsys, *arguments):
+    assert orbits.main([*arguments, "--json", "-"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def as_mpf(x):
+    return mpf(x.numerator) / x.denominator
+
+
+def contains(bounds, value, margin=mpf(10) ** -45):
+    low, high = map(as_mpf, bounds)
+    return low - margin <= value <= high + margin
+
+
+def flight(here, ahead):
+    """The time from a phase in I0 or I1 to the next."""
+    return ahead - here + 2 * mp.pi * (4 if here < 1.2 else 9)
+
+
+def true_orbit(rows):
+    """Solve (10) along a cycle of n phases, by Newton's method in n unknowns at 50 digits."""
+
+    def equations(*phases):
+        ahead = [*phases[1:], phases[0]]
+        return [
+            reference.left_side_10(ETA, NU, a, flight(a, b))
+            for a, b in zip(phases, ahead, strict=True)
+        ]
+
+    start = [as_mpf(sum(row.point) / 2) for row in rows]
+    if len(start) == 1:
+        return [mp.findroot(lambda x: equations(x)[0], start[0])]
+    return list(mp.findroot(equations, start))
+
+
+def test_every_flight_is_the_first_impact():
+    """By a scan for the first sign change of (10)."""
+    for row in points(3, None):
+        phase = sum(row.point) / 2
+        found = reference.first_impact(ETA, NU, as_mpf(phase), horizon=60, step=0.01)
+        (ahead,) = (x for x in points(3, None) if x.word == row.word[1:] + row.word[0])
+        assert found is not None
+        assert abs(found[0] - flight(as_mpf(phase), found[1])) < mpf(10) ** -30
+        assert abs(found[1] - as_mpf(sum(ahead.point) / 2)) < 1e-12
+
+
+@pytest.mark.parametrize("digits", [None, 25, 40])
+@pytest.mark.parametrize("word", ["0", "1", "01", "001", "0111", "00101"])
+def test_phases_and_multipliers_solve_the_equations(word, digits):
+    rows = periodic_points(horseshoe(), Words.rotations(word), digits)
+    truth = true_orbit(rows)
+    multiplier = mpf(1)
+    for here, ahead in zip(truth, [*truth[1:], truth[0]], strict=True):
+        multiplier *= reference.slope(ETA, NU, here, flight(here, ahead))
+    for row, phase in zip(rows, truth, strict=True):
+        assert contains(row.point, phase)
+        assert contains(row.multiplier, multiplier, mpf(10) ** -20)
+        width = Fraction(1, 10 ** (13 if digits is None else digits))
+        assert row.point[1] - row.point[0] <= width
+        assert row.multiplier[1] - row.multiplier[0] <= 100 * width * row.multiplier[0]
+
+
+@pytest.mark.parametrize("length", [1, 2, 5, 8])
+def test_all_words_in_order(length):
+    """f increases on I0 and I1: phases lie as their words do, and are pairwise disjoint."""
+    rows = points(length, None)
+    assert len(rows) == 2**length
+    for row in rows:
+        low, high = (orbits.LEFT, orbits.RIGHT)[int(row.word[0])]
+        assert low <= row.point[0] <= row.point[1] <= high
+        assert Fraction("4.30") ** length <= row.multiplier[0]
+        assert row.multiplier[1] <= Fraction("6.19") ** length
+        periods = [d for d in range(1, length + 1) if row.word[d:] + row.word[:d] == row.word]
+        assert row.period == periods[0]
+    for before, after in pairwise(rows):
+        assert before.word < after.word and before.point[1] < after.point[0]
+
+
+def test_shorter_words_are_among_the_longer_ones():
+    fine = {row.word: row for row in points(6, 25)}
+    assert len(fine) == 64
+    for row in points(3, 25):
+        twice = fine[row.word * 2]
+        assert max(row.point[0], twice.point[0]) <= min(row.point[1], twice.point[1])
+        square = (row.multiplier[0] ** 2, row.multiplier[1] ** 2)
+        assert square[0] <= twice.multiplier[1] and twice.multiplier[0] <= square[1]
+        assert row.period == twice.period
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("length", "digits"), [(12, 25), (7, 60)])
+def test_all_orbits_solve_the_equations(length, digits):
+    """With |g_t| > 1/40 and f' < 6.2, an error of e in the phases leaves about e in (10)."""
+    rows = {row.word: row for row in points(length, digits)}
+    assert len(rows) == 2**length
+    with mp.workdps(digits + 25):
+        eta, nu = mpf(2121) / 10000, mpf(-1) / 5
+        for word, row in rows.items():
+            here, ahead = (as_mpf(sum(x.point) / 2) for x in (row, rows[word[1:] + word[0]]))
+            assert abs(reference.left_side_10(eta, nu, here, flight(here, ahead))) < mpf(10) ** (
+                1 - digits
+            )
+            assert row.point[1] - row.point[0] <= Fraction(2, 10**digits)
+
+
+def test_the_machine_form(capsys):
+    found = answer(capsys, "--word", "0010", "--digits", "30")
+    assert found["schema"] == "impact-proofs.orbits/1"
+    assert found["parameters"]["left"] == ["1.1", "1.15"]
+    assert [row["word"] for row in found["orbits"]] == ["0010", "0100", "1000", "0001"]
+    for row in found["orbits"]:
+        assert row["period"] == 4
+        for key in ("phase", "multiplier"):
+            low, high = (Fraction(row[key][end]) for end in ("lower", "upper"))
+            assert 0 < (high - low) * 10**29 < low
+    fixed = answer(capsys, "--period", "1")["orbits"]
+    assert fixed[0]["phase"]["lower"].startswith("1.1047758291275")
+    assert fixed[1]["phase"]["lower"].startswith("1.3163861826663")
+    assert [row["word"] for row in answer(capsys, "--word", "0101")["orbits"]] == ["0101", "1010"]
+
+
+@pytest.mark.slow
+def test_printed_bounds_enclose(capsys):
+    """At few digits the printed bounds contain those at more."""
+    more = answer(capsys, "--period", "2")["orbits"]
+    for few in (["--digits", "1"], ["--digits", "9"], ["--fast"], ["--fast", "--digits", "2"]):
+        rough = answer(capsys, "--period", "2", *few)["orbits"]
+        for row, fine in zip(rough, more, strict=True):
+            for key in ("phase", "multiplier"):
+                assert Fraction(row[key]["lower"]) <= Fraction(fine[key]["lower"])
+                assert Fraction(fine[key]["upper"]) <= Fraction(row[key]["upper"])
+
+
+def test_tables(capsys, tmp_path):
+    target = tmp_path / "orbits.csv"
+    assert orbits.main(["--period", "5", "--csv", str(target), "--json", str(tmp_path / "o")]) == 0
+    said = capsys.readouterr().out
+    assert "and 16 more" in said and "32 words of length 5" in said and "orbits: 8" in said
+    rows = list(csv.DictReader(io.StringIO(target.read_text())))
+    machine = json.loads((tmp_path / "o").read_text())["orbits"]
+    for row, entry in zip(rows, machine, strict=True):
+        assert row["word"] == entry["word"] and int(row["period"]) == entry["period"]
+        assert row["phase_lower"] == entry["phase"]["lower"]
+        assert row["multiplier_upper"] == entry["multiplier"]["upper"]
+    assert orbits.main(["--word", "1", "--fast", "--csv", "-"]) == 0
+    said = capsys.readouterr().out
+    assert re.fullmatch(r"word,period,.*\n1,1,1\.316386182666.*\n", said)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["--left", "1.11", "1.15"], "[1.11, 1.12] has no preimage in I0; it is one on I0 = [1.1,"),
+        (["--left", "1.1", "1.12"], "no horseshoe is proved"),
+        pytest.param(
+            ["--left", "1.1", "1.16", "--right", "1.161", "1.32"],
+            "no horseshoe is proved",
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+@pytest.mark.parametrize("how", [["--period", "3"], ["--word", "01", "--json", "-"]])
+def test_without_a_horseshoe_nothing_is_claimed(arguments, reason, how, capsys):
+    assert orbits.main([*how, *arguments]) == 1
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    assert "UNDECIDED" in said.err and reason in said.err
+
+
+def test_other_parameters():
+    """At eta = 0.212 the same sets make a horseshoe; its fixed points solve (10)."""
+    other = orbits.horseshoe(replace(EXACT, eta=Fraction("0.212")))
+    for row in periodic_points(other, Words.of_length(1), 25):
+        mean = as_mpf(sum(row.point) / 2)
+        assert (
+            abs(reference.left_side_10(mpf("0.212"), NU, mean, flight(mean, mean))) < mpf(10) ** -25
+        )
+
+
+def true_image(x, in_right):
+    """f(x) and f'(x): the zero of (10) near the time that the scan finds, at 50 digits."""
+    turns = 2 * mp.pi * (9 if in_right else 4)
+    time = mp.findroot(lambda t: reference.left_side_10(ETA, NU, as_mpf(x), t), turns)
+    return as_mpf(x) + time - turns, reference.slope(ETA, NU, as_mpf(x), time)
+
+
+@pytest.mark.parametrize("shift", [-1e-6, 1e-6])
+@pytest.mark.parametrize("where", [-1e-5, 0.0, 1e-5])
+def test_germs_enclose_f_and_its_slope_all_over_their_boxes(where, shift):
+    centres = np.array([1.1001, 1.13, 1.1499, 1.2701, 1.3, 1.3199])
+    symbols = np.array([0, 0, 0, 1, 1, 1])
+    germs = horseshoe().germs(
+        symbols, IntervalArray.from_floats(centres - 1.1e-5, centres + 1.1e-5)
+    )
+    x = centres + where
+    truths = [true_image(Fraction(u), j) for u, j in zip(x.tolist(), symbols, strict=True)]
+    y = np.array([float(image) for image, _ in truths]) + shift
+    defects = germs.defects(IntervalArray.from_floats(x), IntervalArray.from_floats(y))
+    for i, (image, slope) in enumerate(truths):
+        at, to = (Interval.from_float(z, precision=100) for z in (x[i], y[i]))
+        assert contains(ends(germs.slopes[i].item()), slope, mpf(10) ** -25)
+        for found in (defects[i].item(), germs.defect(i, at, to)):
+            assert contains(ends(found), image - as_mpf(to.inf))
+            assert found.wid < Fraction(1, 10**9)
+        around = Interval(to.inf - Fraction(1, 10**5), to.sup + Fraction(1, 10**5), precision=100)
+        assert contains(ends(germs.slope(i, at, around)), slope, mpf(10) ** -25)
+
+
+def ends(x):
+    return x.inf, x.sup
+
+
+def test_a_candidate_far_from_its_orbit_is_refused():
+    of = horseshoe()
+    words = Words.rotations("01")
+    found = periodic_points(of, words)
+    boxes = IntervalArray([row.point for row in found])
+    germs = of.germs(words.symbols, boxes)
+    with pytest.raises(Undecided, match="too far"):
+        germs.defects(boxes, boxes)
+    x, y = (boxes[i].item().with_precision(100) for i in (0, 1))
+    with pytest.raises(Undecided, match="too far"):
+        germs.defect(0, x, x)
+    assert germs.defect(0, x, y).contains_zero()
+
+
+@pytest.mark.parametrize("phase", [1.0999, 1.2, 1.3201])
+def test_phases_outside_the_sets_are_refused(phase):
+    with pytest.raises(ValueError, match="outside"):
+        horseshoe().defects(np.array([0]), np.array([phase]), np.array([1.1]))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "--period"),
+        (["--period", "0"], "from 1 to 16"),
+        (["--period", "17"], "from 1 to 16"),
+        (["--period", "x"], "from 1 to 16"),
+        (["--word", "012"], "letters 0 and 1"),
+        (["--word", ""], "letters 0 and 1"),
+        (["--word", "0" * 300], "letters 0 and 1"),
+        (["--word", "01", "--period", "2"], "not allowed with"),
+        (["--word", "01", "--digits", "0"], "whole number"),
+        (["--word", "01", "--left", "1.2", "1.1"], "reversed"),
+        (["--word", "01", "--left", "1.1", "1.3"], "overlap"),
+        (["--word", "01", "--nu", "0"], "nu must not be 0"),
+        (["--word", "01", "--eta", "abc"], "not a number"),
+        (["--word", "01", "--csv", "-", "--json", "-"], "exclude each other"),
+        (["--word", "01", "--json", "/dev/null/below"], "cannot write"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, message, capsys):
+    with pytest.raises(SystemExit) as leave:
+        orbits.main(arguments)
+    said = capsys.readouterr()
+    assert leave.value.code == 2 and said.out == ""
+    assert said.err.count("\n") == 1 and message in said.err

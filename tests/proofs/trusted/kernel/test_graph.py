@@ -1,0 +1,522 @@
+"""Covering relations, graphs, entropy, cones: true ones against Arb, false ones refused."""
+
+import json
+import random
+from fractions import Fraction
+from itertools import pairwise, product
+
+import flint
+import pytest
+
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.hset import HSet, disjoint, inverse
+from proofs.trusted.kernel.lemma import check_lemma
+from proofs.trusted.verify import Rejected
+from tests.proofs.trusted.kernel.lemma_examples import henon, text
+
+SCHEMA = "impact-proofs.lemma/1"
+
+
+def file(name):
+    return json.loads(text(name))
+
+
+def refused(document, reason, error=Rejected):
+    with pytest.raises(error, match=reason):
+        check_lemma(json.dumps(document))
+
+
+def witness_of(document, rule, index=0):
+    return [s["witness"] for s in document["steps"].values() if s["rule"] == rule][index]
+
+
+def only(document, *claims):
+    """Keep the claims named, and the steps that they need."""
+    reached = set(claims)
+    for name, step in reversed(document["steps"].items()):
+        if name in reached:
+            reached |= set(json.dumps(step["witness"]).split('"'))
+    document["claims"] = list(claims)
+    document["steps"] = {n: s for n, s in document["steps"].items() if n in reached}
+    return document
+
+
+# -- h-sets ----------------------------------------------------------------------------------------
+
+
+def h(centre, matrix):
+    rows = tuple(tuple(map(Fraction, row)) for row in matrix)
+    return HSet(tuple(map(Fraction, centre)), rows, inverse(rows))
+
+
+def test_inverse():
+    rng = random.Random(1)
+    for n in (1, 2, 3, 4):
+        for _ in range(20):
+            a = tuple(tuple(Fraction(rng.randint(-3, 3)) for _ in range(n)) for _ in range(n))
+            true = flint.fmpq_mat(n, n, [flint.fmpq(int(x)) for row in a for x in row])
+            if true.det() == 0:
+                with pytest.raises(Unproved, match="singular"):
+                    inverse(a)
+                continue
+            found = [x for row in inverse(a) for x in row]
+            assert [Fraction(int(x.p), int(x.q)) for x in true.inv().entries()] == found
+
+
+def corners(one):
+    n = len(one.centre)
+    for q in product((-1, 1), repeat=n):
+        yield [
+            c + sum(a * x for a, x in zip(row, q, strict=True))
+            for c, row in zip(one.centre, one.matrix, strict=True)
+        ]
+
+
+def clip(polygon, normal, bound):
+    """The part of a convex polygon with normal . x <= bound."""
+    result = []
+    for p, q in pairwise([*polygon, polygon[0]]):
+        a, b = (sum(n * x for n, x in zip(normal, v, strict=True)) - bound for v in (p, q))
+        if a <= 0:
+            result.append(p)
+        if a * b < 0:
+            result.append([x + (y - x) * a / (a - b) for x, y in zip(p, q, strict=True)])
+    return result
+
+
+def meets(one, two):
+    """Whether two parallelograms meet: exact clipping of the first by the sides of the second."""
+    (a, b, c, d) = corners(one)
+    polygon = [a, b, d, c]
+    for row in two.inverse:
+        middle = sum(x * y for x, y in zip(row, two.centre, strict=True))
+        for sign in (1, -1):
+            if not polygon:
+                return False
+            polygon = clip(polygon, [sign * x for x in row], sign * middle + 1)
+    return bool(polygon)
+
+
+@pytest.mark.slow
+def test_disjoint_parallelograms():
+    rng = random.Random(2)
+    outcomes = set()
+    for _ in range(400):
+        pair = []
+        while len(pair) < 2:
+            matrix = [[Fraction(rng.randint(-4, 4), 3) for _ in range(2)] for _ in range(2)]
+            centre = [Fraction(rng.randint(-6, 6), 2) for _ in range(2)]
+            if matrix[0][0] * matrix[1][1] != matrix[0][1] * matrix[1][0]:
+                pair.append(h(centre, matrix))
+        assert disjoint(*pair) is not meets(*pair)
+        assert disjoint(*pair) is disjoint(*pair[::-1])
+        outcomes.add(disjoint(*pair))
+    assert outcomes == {True, False}
+
+
+def test_touching_sets_are_not_disjoint():
+    one, two = h([0, 0], [[1, 0], [0, 1]]), h([2, 0], [[1, 0], [0, 1]])
+    assert not disjoint(one, two)
+    assert disjoint(one, h([Fraction(2000001, 1000000), 0], [[1, 0], [0, 1]]))
+
+
+# -- covers ----------------------------------------------------------------------------------------
+
+
+def test_covers_of_the_henon_map_by_samples():
+    """At points of the faces and of the set, Arb finds the images where the relation has them."""
+    document = file("henon_horseshoe")
+    sets = {
+        name: h(step["witness"]["centre"], step["witness"]["matrix"])
+        for name, step in document["steps"].items()
+        if step["rule"] == "h-set"
+    }
+    rng = random.Random(3)
+    for step in document["steps"].values():
+        if step["rule"] != "covers":
+            continue
+        witness = step["witness"]
+        source, target = sets[witness["source"]], sets[witness["target"]]
+        s = 1 if witness["sign"] == "+" else -1
+        for _ in range(50):
+            face = rng.choice([-1, 1, None])
+            q = [Fraction(rng.randint(-99, 99), 99) for _ in range(2)]
+            q[0] = q[0] if face is None else Fraction(face)
+            x, y = (
+                c + sum(a * b for a, b in zip(row, q, strict=True))
+                for c, row in zip(source.centre, source.matrix, strict=True)
+            )
+            image = (1 - 5 * x**2 + y, Fraction(3, 10) * x)
+            local = [
+                sum(a * (p - d) for a, p, d in zip(row, image, target.centre, strict=True))
+                for row in target.inverse
+            ]
+            assert abs(local[0]) > 1 or abs(local[1]) < 1
+            if face is not None:
+                assert s * face * local[0] > 1
+
+
+def interval_file(expression, source, target, sign="+", power="1", trees=None):
+    """One covering relation of intervals (centre, radius)."""
+    trees = trees or {}
+    steps = {
+        name: {"rule": "h-set", "witness": {"centre": [centre], "matrix": [[radius]]}}
+        for name, (centre, radius) in {"one": source, "two": target}.items()
+    }
+    witness = {
+        "function": "F",
+        "power": power,
+        "source": "one",
+        "target": "two",
+        "sign": sign,
+        "left": None,
+        "right": None,
+        "support": None,
+        **trees,
+    }
+    return {
+        "schema": SCHEMA,
+        "functions": {"F": {"variables": ["x"], "values": [expression]}},
+        "steps": {**steps, "step": {"rule": "covers", "witness": witness}},
+        "claims": ["step"],
+    }
+
+
+TRIPLE = ["*", "3", "x"]
+UNIT = ("0", "1")
+
+
+def test_covers_of_intervals():
+    assert check_lemma(json.dumps(interval_file(TRIPLE, UNIT, UNIT)))
+    assert check_lemma(json.dumps(interval_file(TRIPLE, UNIT, ("1", "19/10"))))
+    assert check_lemma(json.dumps(interval_file(["-", TRIPLE], UNIT, UNIT, "-")))
+    assert check_lemma(json.dumps(interval_file(TRIPLE, UNIT, ("0", "26"), power="3")))
+    assert check_lemma(json.dumps(interval_file(TRIPLE, UNIT, ("0", "-1"), "-")))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        interval_file(TRIPLE, UNIT, UNIT, "-"),
+        interval_file(["-", TRIPLE], UNIT, UNIT),
+        interval_file("x", UNIT, UNIT),
+        interval_file(TRIPLE, UNIT, ("0", "3")),
+        interval_file(TRIPLE, UNIT, ("1", "2")),
+        interval_file(TRIPLE, UNIT, ("0", "27"), power="3"),
+        interval_file(TRIPLE, UNIT, ("0", "26"), power="2"),
+        interval_file(["^", "x", "2"], ("0", "2"), UNIT),
+        interval_file(["^", "x", "2"], ("0", "2"), UNIT, "-"),
+        interval_file(["/", "-1", "x"], ("0", "1/4"), UNIT, "-"),
+        interval_file(["/", "1", "x"], ("0", "1/4"), UNIT, "+"),
+        interval_file(TRIPLE, UNIT, ("0", "-1")),
+    ],
+)
+def test_false_covers(changed):
+    """Wrong orientation, too short, exactly on the end, folded, or broken by a pole."""
+    refused(changed, "not proved")
+
+
+def test_a_pole_inside_is_no_covering():
+    """1/x covers nothing over 0: the faces are right, the support is not defined."""
+    changed = interval_file(
+        ["/", "1", "x"], ("0", "1/4"), UNIT, trees={"support": ["1", "1/3", None, None]}
+    )
+    refused(changed, "not proved on")
+
+
+@pytest.mark.parametrize(
+    ("changed", "reason"),
+    [
+        (interval_file(TRIPLE, UNIT, UNIT, power="0"), "integer"),
+        (interval_file(TRIPLE, UNIT, UNIT, power="101"), "integer"),
+        (interval_file(TRIPLE, UNIT, UNIT, sign="0"), "expected"),
+        (interval_file(TRIPLE, UNIT, UNIT, trees={"left": ["1", "0", None, None]}), "cut"),
+        (interval_file(TRIPLE, UNIT, UNIT, trees={"support": ["2", "0", None, None]}), "integer"),
+    ],
+)
+def test_malformed_covers(changed, reason):
+    refused(changed, reason, Malformed)
+
+
+def test_singular_and_misshapen_h_sets():
+    refused(interval_file(TRIPLE, ("0", "0"), UNIT), "singular")
+    changed = interval_file(TRIPLE, UNIT, UNIT)
+    witness_of(changed, "h-set")["matrix"] = [["1", "0"], ["0", "1"]]
+    refused(changed, "entries", Malformed)
+    changed = interval_file(TRIPLE, UNIT, UNIT)
+    witness_of(changed, "h-set").update(centre=["0", "0"], matrix=[["1", "0"], ["0", "1"]])
+    refused(changed, "one dimension", Malformed)
+    refused(interval_file(TRIPLE, ("0", f"1/{7**400}"), UNIT), "bits", Malformed)
+
+
+def plane_file(expressions, support=None):
+    document = interval_file("x", UNIT, UNIT, trees={"support": support})
+    document["functions"]["F"] = {"variables": ["x", "y"], "values": expressions}
+    for index in (0, 1):
+        witness_of(document, "h-set", index).update(
+            centre=["0", "0"], matrix=[["1", "0"], ["0", "1"]]
+        )
+    return json.dumps(document)
+
+
+def test_the_stable_direction_must_stay_inside():
+    assert check_lemma(plane_file([["*", "2", "x"], ["*", "1/2", "y"]]))
+    with pytest.raises(Rejected, match="not proved"):
+        check_lemma(plane_file([["*", "2", "x"], "y"]))
+    with pytest.raises(Rejected, match="not proved"):
+        check_lemma(plane_file(["x", ["*", "1/2", "y"]]))
+    with pytest.raises(Rejected, match="not proved"):
+        check_lemma(plane_file([["*", "1/2", "y"], ["*", "2", "x"]]))
+    for shift in ("3/5", "-3/5"):
+        with pytest.raises(Rejected, match="not proved"):
+            check_lemma(plane_file([["*", "2", "x"], ["+", ["*", "1/2", "y"], shift]]))
+
+
+def test_the_stable_direction_is_free_beyond_the_exits():
+    """y -> x^4: leaves the strip only where |2 x| > 1."""
+    cuts = ["1", "-3/5", None, ["1", "3/5", None, None]]
+    expressions = [["*", "2", "x"], ["^", ["*", "11/10", "x"], "4"]]
+    assert check_lemma(plane_file(expressions, cuts))
+    with pytest.raises(Rejected, match="not proved"):
+        check_lemma(plane_file(expressions))
+    higher = [["*", "2", "x"], ["^", ["*", "21/10", "x"], "4"]]
+    with pytest.raises(Rejected, match="not proved"):
+        check_lemma(plane_file(higher, cuts))
+
+
+# -- graphs and entropy ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shift", ["0", "1/50", "1/25"])
+def test_overlapping_sets_make_no_graph(shift):
+    """x -> 9 x: all relations of two intervals that meet hold, and prove no shift."""
+    steps = {
+        name: {"rule": "h-set", "witness": {"centre": [centre], "matrix": [["1/20"]]}}
+        for name, centre in (("one", "0"), ("two", shift))
+    }
+    for index, (a, b) in enumerate(product(("one", "two"), repeat=2)):
+        witness = witness_of(interval_file(TRIPLE, UNIT, UNIT), "covers")
+        steps[f"arrow{index}"] = {
+            "rule": "covers",
+            "witness": {**witness, "source": a, "target": b},
+        }
+    names = [f"arrow{index}" for index in range(4)]
+    steps["arrows"] = {"rule": "graph", "witness": {"covers": names}}
+    document = {
+        "schema": SCHEMA,
+        "functions": {"F": {"variables": ["x"], "values": [["*", "9", "x"]]}},
+        "steps": steps,
+        "claims": ["arrows"],
+    }
+    refused(document, "disjoint")
+
+
+def test_relations_of_another_power_make_no_graph():
+    """x -> 9 x: each relation holds, under F and under F^2."""
+    document = interval_file(["*", "9", "x"], ("0", "1/20"), ("1/5", "1/100"))
+    first = witness_of(document, "covers")
+    for name, power, target in (("again", "2", "two"), ("back", "1", "one")):
+        witness = {**first, "power": power, "target": target}
+        document["steps"][name] = {"rule": "covers", "witness": witness}
+    document["steps"]["arrows"] = {"rule": "graph", "witness": {"covers": ["back", "again"]}}
+    document["claims"] = ["arrows", "step"]
+    refused(document, "another map", Malformed)
+    witness_of(document, "graph")["covers"] = ["back", "step"]
+    document["claims"] = ["arrows", "again"]
+    assert check_lemma(json.dumps(document))
+
+
+def test_relations_of_another_function_make_no_graph():
+    document = only(file("logistic"), "graph-1")
+    document["functions"]["G"] = document["functions"]["F"]
+    witness_of(document, "covers", 3)["function"] = "G"
+    refused(document, "another map", Malformed)
+
+
+def test_a_relation_twice():
+    document = only(file("logistic"), "graph-1")
+    witness_of(document, "graph")["covers"][3] = "covers-1"
+    del document["steps"]["covers-4"]
+    refused(document, "twice", Malformed)
+
+
+@pytest.mark.parametrize(
+    ("length", "vector", "growth", "true"),
+    [
+        ("1", ["1", "1"], "1", True),
+        ("2", ["1", "1"], "2", True),
+        ("19", ["1", "1"], "9349", False),
+        ("2", ["1", "2"], "3", False),
+        ("1", ["1", "1"], "2", False),
+        ("3", ["1", "1"], "4", False),
+        ("3", ["1", "1"], "3", True),
+        ("10", ["55", "89"], "122", True),
+        ("10", ["55", "89"], "123", False),
+        ("1", ["0", "1"], "1", True),
+        ("1", ["1", "0"], "1", False),
+    ],
+)
+def test_entropy_of_the_golden_mean_graph(length, vector, growth, true):
+    """A = ((0, 1), (1, 1)); A^n has the Fibonacci numbers, A^10 (55, 89) = (6765, 10946)."""
+    document = only(file("golden_mean"), "entropy-1")
+    witness_of(document, "entropy").update(length=length, vector=vector, growth=growth)
+    if true:
+        assert f"log({growth})/{length}" in check_lemma(json.dumps(document)).claims[0]
+    else:
+        refused(document, "does not multiply")
+
+
+def test_entropy_follows_the_arrows():
+    """N1 => N1, N1 => N2 alone: A (1, 1) = (2, 0), the transposed matrix would give (1, 1)."""
+    document = only(file("logistic"), "entropy-1")
+    witness_of(document, "graph")["covers"] = ["covers-1", "covers-2"]
+    document = only(document, "entropy-1")
+    witness_of(document, "entropy").update(vector=["1", "1"], growth="1")
+    refused(document, "does not multiply")
+    witness_of(document, "entropy").update(vector=["1", "0"])
+    assert check_lemma(json.dumps(document))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"vector": ["0", "0"]},
+        {"vector": ["1"]},
+        {"vector": ["-1", "-1"]},
+        {"vector": ["1/2", "1"]},
+        {"growth": "0"},
+        {"length": "0"},
+        {"length": "101"},
+    ],
+)
+def test_malformed_entropy(change):
+    document = only(file("golden_mean"), "entropy-1")
+    witness_of(document, "entropy").update(change)
+    refused(document, "expected", Malformed)
+
+
+def test_entropy_counts_the_power():
+    """Under F^2 the bound is halved."""
+    document = file("second_iterate")
+    document["steps"]["entropy"] = None
+    del document["steps"]["entropy"]
+    document["steps"]["growth"] = {
+        "rule": "entropy",
+        "witness": {"graph": "graph-1", "length": "3", "vector": ["5"], "growth": "1"},
+    }
+    document["claims"] = ["growth"]
+    assert "at least log(1)/6" in check_lemma(json.dumps(only(document, "growth"))).claims[0]
+
+
+# -- cones -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_periodic_points_of_the_horseshoes_are_unique():
+    """Every closed path of length <= 6 is followed once: Newton's method from many starts."""
+    import mpmath as mp
+
+    sides = {0: (-0.62, -0.15), 1: (0.15, 0.62)}
+    for length in (1, 2, 3, 4):
+        for path in product((0, 1), repeat=length):
+            found = set()
+            for start in (0.2, 0.5):
+                guess = [sides[s][0] + start * (sides[s][1] - sides[s][0]) for s in path]
+
+                def orbit(*x, path=path, length=length):
+                    return [
+                        1 - 5 * x[i] ** 2 + mp.mpf(3) / 10 * x[i - 1] - x[(i + 1) % length]
+                        for i in range(length)
+                    ]
+
+                root = mp.findroot(orbit if length > 1 else lambda x: orbit(x)[0], guess)
+                values = list(root) if length > 1 else [root]
+                if all(sides[s][0] < v < sides[s][1] for s, v in zip(path, values, strict=True)):
+                    found.add(tuple(mp.nstr(v, 10) for v in values))
+            assert len(found) == 1
+
+
+@pytest.mark.parametrize(
+    "forms",
+    [
+        [["1", "-2"], ["1", "-200"]],
+        [["1", "-200"], ["1", "-2"]],
+        [["-1", "2"], ["-1", "2"]],
+        [["1", "2"], ["1", "2"]],
+        [["0", "0"], ["0", "0"]],
+        [["1", "-1/100"], ["1", "-1/100"]],
+        [["1", "-100"], ["1", "-100"]],
+    ],
+)
+def test_other_forms_are_refused(forms):
+    document = only(file("henon_horseshoe"), "cone-1")
+    witness_of(document, "cone")["forms"] = forms
+    refused(document, "cone condition")
+
+
+def test_forms_belong_to_their_sets():
+    """|F'| <= 6.4 on the logistic horseshoe: a form 100 times larger is not exceeded."""
+    document = only(file("logistic"), "cone-1")
+    for forms in ([["1"], ["100"]], [["100"], ["1"]]):
+        witness_of(document, "cone")["forms"] = forms
+        refused(document, "cone condition")
+    witness_of(document, "cone")["forms"] = [["3"], ["4"]]
+    assert "one-sided" in check_lemma(json.dumps(document)).claims[0]
+
+
+def test_cone_steps_need_every_relation():
+    document = only(file("henon_horseshoe"), "cone-1")
+    witness_of(document, "cone")["relations"].pop()
+    refused(document, "entries", Malformed)
+
+
+def test_cone_bounds_must_hold():
+    document = only(file("henon_horseshoe"), "cone-1")
+    relation = witness_of(document, "cone")["relations"][0]
+    low, high = map(Fraction, relation["jacobian"][0])
+    relation["jacobian"][0] = [str(low + Fraction(1, 1000)), str(high)]
+    refused(document, "not proved within")
+
+
+def test_cone_box_must_hold_all_that_stays():
+    document = only(file("henon_horseshoe"), "cone-1")
+    relation = witness_of(document, "cone")["relations"][1]
+    relation["box"] = [["-1", "0"], ["-1", "1"]]
+    refused(document, "not proved on")
+    relation["outside"] = ["1", "0", None, None]
+    refused(document, "not proved on")
+    relation["box"] = [["-1", "2"], ["-1", "1"]]
+    refused(document, "leaves", Malformed)
+
+
+def test_a_smaller_cone_box():
+    """x -> 3 x maps only |q| <= 1/3 back: a bound on f' is needed there alone."""
+    document = interval_file(["+", TRIPLE, ["^", "x", "3"]], UNIT, UNIT)
+    witness_of(document, "covers")["target"] = "one"
+    del document["steps"]["two"]
+    document["steps"]["arrows"] = {"rule": "graph", "witness": {"covers": ["step"]}}
+    relation = {
+        "box": [["-1/2", "1/2"]],
+        "outside": ["1", "-1/2", None, ["1", "1/2", None, None]],
+        "jacobian": [["3", "4"]],
+        "tree": None,
+        "matrices": None,
+    }
+    witness = {"graph": "arrows", "forms": [["1"]], "relations": [relation]}
+    document["steps"]["cones"] = {"rule": "cone", "witness": witness}
+    document["claims"] = ["cones"]
+    assert "one-sided shift" in check_lemma(json.dumps(document)).claims[0]
+    relation["jacobian"] = [["1/2", "4"]]
+    refused(document, "cone condition")
+    relation["jacobian"] = [["3", "4"]]
+    relation["box"] = [["-1/4", "1/4"]]
+    refused(document, "not proved on")
+
+
+def test_the_henon_map_without_a_horseshoe():
+    """At a = 1.4 the same sets have no such relations."""
+    document = file("henon_horseshoe")
+    variables, values = henon("7/5", "3/10")
+    document["functions"]["F"] = {"variables": variables, "values": values}
+    refused(document, "not proved")

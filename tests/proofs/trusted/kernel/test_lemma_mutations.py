@@ -1,0 +1,124 @@
+"""No changed lemma file proves what is not so; the corpus of the interesting ones."""
+
+import json
+from collections import Counter
+from os import environ
+from zlib import crc32
+
+import pytest
+
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.lemma import RULES, check_lemma
+from proofs.trusted.verify import Rejected
+from tests.proofs.trusted.kernel import lemma_corpus
+from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
+from tests.proofs.trusted.kernel.lemma_falsifier import falsehoods
+from tests.proofs.trusted.kernel.lemma_mutations import GROUPS, HARMLESS, mutations
+
+QUICK = 12  # one mutation in so many, at random, in the quick run
+LONGEST = {"henon_horseshoe", "henon_fixed_points", "gap_identities"}  # to check
+SLOW = int(environ.get("ONE_MUTATION_IN", "3"))  # likewise in the slow one; 1 is all of them
+
+
+def judge(mutation, original):
+    """Return accepted, rejected or malformed; an accepted file is of a harmless kind and true."""
+    source = mutation.make()
+    told = f"{mutation.kind} at {mutation.where}"
+    try:
+        report = check_lemma(source)
+    except Malformed as error:
+        assert str(error).startswith("$"), told
+        return "malformed"
+    except Rejected as error:
+        assert str(error).startswith("$"), told
+        return "rejected"
+    assert mutation.kind in HARMLESS, f"accepted: {told}"
+    if set(report.claims) - set(original.claims):
+        assert not list(falsehoods(source)), f"accepted and false: {told}"
+    return "accepted"
+
+
+def run(name, chosen):
+    made = json.loads(text(name))
+    original = check_lemma(text(name))
+    counts = {}
+    for mutation in mutations(made):
+        if chosen(mutation):
+            counts.setdefault(mutation.kind, Counter())[judge(mutation, original)] += 1
+    return counts
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_the_examples_are_not_falsified(name):
+    assert not list(falsehoods(text(name)))
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=[pytest.mark.slow] * (x in LONGEST)) for x in EXAMPLES]
+)
+def test_a_sample_of_the_mutations(name):
+    counts = run(name, lambda m: crc32(f"{m.kind}{m.where}".encode()) % QUICK == 0)
+    assert counts
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_many_mutations(name):
+    counts = run(name, lambda m: crc32(f"{m.where}{m.kind}".encode()) % SLOW == 0)
+    total = sum(counts.values(), Counter())
+    print(name, dict(total))
+    for kind, count in sorted(counts.items()):
+        print(f"  {kind}: {dict(count)}")
+    assert total["rejected"] + total["malformed"] > total["accepted"]
+
+
+def test_every_rule_is_mutated():
+    rules = Counter()
+    for name in EXAMPLES:
+        for step in json.loads(text(name))["steps"].values():
+            rules[step["rule"]] += 1
+    assert set(rules) == set(RULES)
+
+
+def test_there_are_thousands_of_mutations_of_many_kinds():
+    kinds = Counter(m.kind for name in EXAMPLES for m in mutations(json.loads(text(name))))
+    assert len(kinds) > 40
+    assert sum(kinds.values()) > 5000
+    assert set(HARMLESS) <= set(kinds)
+
+
+@pytest.mark.parametrize("group", GROUPS, ids=lambda group: group.__name__)
+def test_every_group_yields(group):
+    assert any(True for name in EXAMPLES for _ in group(json.loads(text(name))))
+
+
+# -- the corpus ------------------------------------------------------------------------------------
+
+ERRORS = {"rejected": Rejected, "malformed": Malformed}
+
+
+@pytest.mark.parametrize("name", lemma_corpus.CORPUS)
+def test_corpus(name):
+    source = lemma_corpus.path_of(name).read_text(encoding="utf-8")
+    kind = name.partition("/")[0]
+    if kind == "accepted":
+        assert check_lemma(source).claims
+        return
+    with pytest.raises(ERRORS[kind], match=lemma_corpus.CORPUS[name].message) as caught:
+        check_lemma(source)
+    assert type(caught.value) is ERRORS[kind]
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", lemma_corpus.CORPUS)
+def test_corpus_is_made_from_the_examples(name):
+    made = lemma_corpus.CORPUS[name].make()
+    assert lemma_corpus.path_of(name).read_text(encoding="utf-8") == made
+
+
+def test_corpus_has_no_other_files():
+    folder = lemma_corpus.FOLDER
+    files = {path for path in folder.rglob("*") if path.is_file()}
+    named = {lemma_corpus.path_of(name) for name in lemma_corpus.CORPUS}
+    assert files - named == {folder / "README.md"}
+    assert (folder / "README.md").read_text(encoding="utf-8") == lemma_corpus.readme()

@@ -1,0 +1,111 @@
+"""Bounces on the sticking arc: enclosures against the printed equation, and the two lemmas."""
+
+import random
+from fractions import Fraction
+
+import pytest
+from mpmath import mp, mpf
+
+from intervals import Undecided
+from proofs.motion.chatter import Pushing
+from proofs.motion.system import System
+from tests.proofs.trusted.paper import reference
+
+PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
+OTHER = System(Fraction("0.6"), Fraction("1.1"))
+
+
+def point(value):
+    return Fraction(value), Fraction(value)
+
+
+def separation(system):
+    return Fraction(mp.nstr(reference.separation_phase(number(system.eta), number(system.nu)), 30))
+
+
+def number(value):
+    return mpf(value.numerator) / value.denominator
+
+
+def gap(system, phase, kick, t):
+    """The gap by (14), the rebound with relative velocity `kick`; epsilon = 1 serves for any."""
+    eta, nu = number(system.eta), number(system.nu)
+    side = system.side
+    gamma = (side * kick - nu * mp.cos(phase)) / eta
+    return side * reference.left_side_14(eta, nu, 1, phase, gamma, t)
+
+
+def landing(system, phase, kick):
+    """(time, speed) of the next impact, by scanning and bisection."""
+    step = kick / 10
+    low = step
+    while gap(system, phase, kick, low + step) > 0:
+        low += step
+    high = low + step
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if gap(system, phase, kick, middle) > 0 else (low, middle)
+    return low, -mp.diff(lambda t: gap(system, phase, kick, t), low)
+
+
+@pytest.mark.parametrize(
+    ("system", "phase", "kick"),
+    [(PAPER, "4.64", "0.04"), (PAPER, "5.3", "0.015"), (PAPER, "3.5", "0.01"),
+     (PAPER, "5.7", "0.002"), (OTHER, "4", "0.2"), (OTHER, "2.9", "0.01")],
+)  # fmt: skip
+def test_a_bounce_is_where_the_printed_equation_puts_it(system, phase, kick):
+    last = separation(system)
+    last += 0 if last > Fraction(phase) else Fraction("6.283185307")
+    (low, high), (slow, fast) = Pushing(system, last).bounce(point(phase), point(kick))
+    time, speed = landing(system, mpf(phase), mpf(kick))
+    assert number(low) <= time <= number(high) and high - low < Fraction(1, 1000)
+    assert number(slow) <= speed <= number(fast) and fast - slow < Fraction(1, 100)
+
+
+def test_a_bounce_of_a_box_contains_those_of_its_points():
+    phases, kicks = (Fraction("4.63"), Fraction("4.65")), (Fraction("0.039"), Fraction("0.041"))
+    (low, high), (slow, fast) = Pushing(PAPER, separation(PAPER)).bounce(phases, kicks)
+    generator = random.Random(7)
+    for _ in range(6):
+        time, speed = landing(
+            PAPER, mpf(generator.uniform(4.63, 4.65)), mpf(generator.uniform(0.039, 0.041))
+        )
+        assert number(low) <= time <= number(high)
+        assert number(slow) <= speed <= number(fast)
+
+
+def test_lemma_1_bounds_the_speed_by_the_range_of_the_push():
+    for phase, kick in (("4.64", "0.06"), ("5.2", "0.03"), ("3.6", "0.02")):
+        time, speed = landing(PAPER, mpf(phase), mpf(kick))
+        along = [mpf(phase) + time * k / 200 for k in range(201)]
+        push = [-reference.launch_acceleration(mpf("0.2121"), mpf("-0.2"), psi) for psi in along]
+        ratio = (speed / mpf(kick)) ** 2
+        assert min(push) / max(push) < ratio < max(push) / min(push)
+
+
+def test_bounces_settle_without_a_bracket_where_they_are_weak():
+    pushing = Pushing(PAPER, separation(PAPER))
+    settled = pushing.settle(point("0.01"), point("4.64"), point("0.135"))
+    assert settled.bounces == () and Fraction("4.64") < settled.rest < Fraction("4.67")
+    settled = pushing.settle((Fraction(0), Fraction("0.2")), point("4.64"), point("0.135"))
+    assert settled.ratio < 1 and settled.rest < pushing.last
+
+
+@pytest.mark.parametrize(
+    ("epsilon", "phase", "speed"),
+    [
+        ("0.4", "4.64", "0.1352"),  # the third bounce passes the separation phase
+        ("0.9", "4.64", "0.1352"),
+        ("0.3", "6", "0.1352"),
+        ("0.3", "6.2", "0.01"),  # beyond the arc
+        ("0.3", "3.3", "0.01"),  # before it
+    ],
+)
+def test_what_does_not_come_to_rest_is_undecided(epsilon, phase, speed):
+    with pytest.raises(Undecided):
+        Pushing(PAPER, separation(PAPER)).settle(point(epsilon), point(phase), point(speed))
+
+
+def test_a_rebound_as_weak_as_one_likes_has_no_bracket():
+    with pytest.raises(Undecided, match="weak"):
+        Pushing(PAPER, separation(PAPER)).bounce(point("4.64"), (Fraction(0), Fraction(1, 10)))

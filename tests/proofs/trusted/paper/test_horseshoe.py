@@ -1,0 +1,320 @@
+"""The main job: verdicts and numbers against independent computations, and its command line."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from flint import arb, ctx
+
+from proofs import horseshoe
+from proofs.search.s31_horseshoe import CLAIMS, prove
+from proofs.shell import runner
+from proofs.trusted.certificate import render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import check
+from tests.proofs.trusted import corpus
+from tests.proofs.trusted.paper import reference
+
+ETA, NU = reference.mpf("0.2121"), reference.mpf("-0.2")
+ROOT = Path(__file__).parents[4]
+
+
+@pytest.fixture(scope="module")
+def outcome():
+    return prove(PAPER)
+
+
+def verdicts(outcome):
+    return {row.id: row.verdict.value for row in outcome.rows}
+
+
+def test_verdicts_at_the_paper_s_parameters(outcome):
+    assert verdicts(outcome) == corpus.VERDICTS
+
+
+def brute(phi):
+    flight, phase = reference.first_impact(ETA, NU, reference.mpf(phi))
+    return phase, reference.slope(ETA, NU, reference.mpf(phi), flight)
+
+
+def test_numbers_against_brute_force_at_the_ends(outcome):
+    """f' increases on I0 and I1 (certified separately), so its extremes are at the ends."""
+    found = {name: pair for row in outcome.rows for name, pair in row.quantities.items()}
+    for name, phi in (
+        ("left_I0", "1.11"),
+        ("right_I0", "1.15"),
+        ("left_I1", "1.27"),
+        ("right_I1", "1.32"),
+    ):
+        side, which = name.split("_")
+        image, slope = brute(phi)
+        low, high = found[f"image_{name}"]
+        assert (
+            abs(image - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -30
+        )
+        assert high - low < Fraction(1, 10**30)
+        low, high = found[f"slope_{'min' if side == 'left' else 'max'}_{which}"]
+        assert (
+            abs(slope - reference.mpf(low.numerator) / low.denominator) < reference.mpf(10) ** -13
+        )
+        assert high - low < Fraction(1, 10**30)
+
+
+def test_slopes_inside_stay_between_the_extremes(outcome):
+    found = {name: pair for row in outcome.rows for name, pair in row.quantities.items()}
+    for which, ends in (("I0", (1110, 1150)), ("I1", (1270, 1320))):
+        for k in range(1, 6):
+            phi = str(Fraction(ends[0] + (ends[1] - ends[0]) * k // 6, 1000))
+            _, slope = brute(reference.mpf(Fraction(phi).numerator) / Fraction(phi).denominator)
+            assert (
+                float(found[f"slope_min_{which}"][0])
+                < slope
+                < float(found[f"slope_max_{which}"][1])
+            )
+
+
+def test_moran_root_against_flint(outcome):
+    ctx.prec = 300
+    found = {name: pair for row in outcome.rows for name, pair in row.quantities.items()}
+    for name, ratios in (("s0", ("0.1905", "0.2381")), ("s0_reciprocal_slopes", (None, None))):
+        r0, r1 = (arb(x) for x in ratios) if ratios[0] else (arb(4) / 21, arb(5) / 21)
+
+        def excess(s, r0=r0, r1=r1):
+            s = arb(s.numerator) / s.denominator
+            return r0**s + r1**s - 1
+
+        low, high = found[name]
+        assert excess(low) > 0 and excess(high) < 0
+        assert high - low < Fraction(1, 10**30)
+
+
+def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):
+    found = outcome.corrected
+    assert found.left == (Fraction("1.1"), Fraction("1.15"))
+    assert found.right == PAPER.right and found.interval == (Fraction("1.1"), Fraction("1.32"))
+    assert found.slopes == (Fraction("4.30"), Fraction("6.19"))
+    entries = {e["id"]: e for e in outcome.certificate["claims"]}
+    for claim in ("H2", "H5"):
+        assert entries[claim]["corrected"] == outcome.certificate["corrected"]["theorem"]
+    assert entries["H1"]["corrected"] is None
+
+
+def test_the_corrected_sets_are_right_by_brute_force():
+    for phi, holds in (("1.1", lambda f: f < 1.1), ("1.15", lambda f: f > 1.32),
+                       ("1.27", lambda f: f < 1.1), ("1.32", lambda f: f > 1.32)):  # fmt: skip
+        assert holds(brute(phi)[0])
+    for k in range(1, 24):
+        phi = reference.mpf(1150 + 5 * k) / 1000
+        impact = reference.first_impact(ETA, NU, reference.mpf(phi))
+        assert impact is None or not 1.1 <= impact[1] <= 1.32
+
+
+def test_the_corrected_sets_verify_as_they_are(outcome):
+    again = prove(
+        replace(outcome.corrected, ratios=None), [c for c in CLAIMS if c < "H11" or c == "H6"]
+    )
+    assert all(
+        row.verdict is Verdict.VERIFIED for row in again.rows if row.id not in ("H11", "H16")
+    )
+    assert again.corrected is None
+
+
+def test_only_what_is_asked_for_is_proved():
+    assert prove(PAPER, ["H16"]).certificate["steps"] == {}
+    root = prove(PAPER, ["H11"]).certificate["steps"]
+    assert {step["rule"] for step in root.values()} == {"moran-root"}
+    gap = prove(PAPER, ["H4"]).certificate["steps"]
+    assert {step["rule"] for step in gap.values()} == {"first-impact", "avoids"}
+    slopes = prove(PAPER, ["H1"]).certificate["steps"]
+    assert {step["rule"] for step in slopes.values()} == {"first-impact", "slope-range"}
+
+
+@pytest.mark.parametrize("digits", [1, 10, 60])
+def test_digits_asked_for_are_certified_and_checked(digits):
+    outcome = prove(PAPER, ["H1", "H2", "H5", "H11"], digits=digits)
+    for row in outcome.rows:
+        for low, high in row.quantities.values():
+            assert (high - low) * 10**digits < abs(low)
+    assert len(check(render(outcome.certificate)).claims) == 4
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"slopes": (Fraction(5), Fraction(6)), "ratios": None, "printed_s0": None},
+        {"slopes": (Fraction("1.5"), Fraction("1.7")), "ratios": None, "printed_s0": None},
+        {"eta": Fraction("0.2125")},
+        pytest.param({"eta": Fraction("0.212")}, marks=pytest.mark.slow),
+        {"nu": Fraction("0.2")},
+        pytest.param(
+            {"left": (Fraction("1.16"), Fraction("1.2")),
+             "interval": (Fraction("1.16"), Fraction("1.32"))},
+            marks=pytest.mark.slow,
+        ),
+        {"left": (Fraction(4), Fraction("4.5")), "right": (Fraction(5), Fraction("5.5")),
+         "interval": (Fraction(4), Fraction("5.5"))},
+    ],
+)  # fmt: skip
+def test_at_other_parameters_prover_and_checker_agree(changes):
+    outcome = prove(replace(PAPER, **changes))
+    report = check(render(outcome.certificate))
+    assert {c.id: c.verdict for c in report.claims} == {r.id: r.verdict for r in outcome.rows}
+    assert not report.is_paper
+
+
+# -- the command line --------------------------------------------------------------------------
+
+
+def run(*arguments, module="proofs.horseshoe"):
+    return subprocess.run(
+        [sys.executable, "-m", module, *arguments],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+
+
+def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
+    script = (
+        "import sys; from proofs.horseshoe import main; status = main(sys.argv[1:]);"
+        "print(sorted({'numpy', 'sympy', 'matplotlib', 'scipy'} & set(sys.modules)), status)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script, "--out", str(tmp_path)],
+        capture_output=True, text=True, cwd=ROOT, check=True,
+    )  # fmt: skip
+    assert done.stdout.splitlines()[-1] == "[] 0"
+    assert "checker: accepted" in done.stdout
+    assert (tmp_path / "horseshoe.json").exists() and (tmp_path / "horseshoe.md").exists()
+
+
+@pytest.mark.slow
+def test_the_machine_form(capsys, tmp_path):
+    assert horseshoe.main(["--json", "-", "--out", str(tmp_path)]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert [claim["id"] for claim in printed["claims"]] == list(horseshoe.CLAIMS)
+    names = {name for claim in printed["claims"] for name in claim["quantities"]}
+    assert names >= {
+        f"slope_{kind}_{which}" for kind in ("min", "max") for which in ("I0", "I1")
+    } | {f"image_{side}_{which}" for side in ("left", "right") for which in ("I0", "I1")} | {"s0"}
+    for claim in printed["claims"]:
+        for bounds in claim["quantities"].values():
+            assert Fraction(bounds["lower"]) < Fraction(bounds["upper"])
+    assert (tmp_path / "horseshoe.json").read_text() == json.dumps(printed, indent=1) + "\n"
+
+
+BAD = [
+    (["--eta", "x"], "not a number: 'x'"),
+    (["--eta", "nan"], "not a number"),
+    (["--eta", "1e999999999"], "unreasonable size"),
+    (["--eta", "0"], "eta must be positive"),
+    (["--eta", "-1/5"], "eta must be positive"),
+    (["--nu", "0"], "nu must not be 0"),
+    (["--left", "1.15", "1.11"], "reversed"),
+    (["--left", "1.1", "1.3"], "overlap"),
+    (["--left", "-1", "1.15"], "leaves [0, 2 pi)"),
+    (["--right", "1.27", "6.3"], "leaves [0, 2 pi)"),
+    (["--interval", "1.2", "1.3"], "must lie in"),
+    (["--slopes", "5", "4"], "increasing"),
+    (["--only", "H99"], "H99"),
+    (["--digits", "many"], "whole number"),
+    (["--digits", "0"], "whole number"),
+    (["--horizon", "-3"], "positive"),
+    (["--horizon", "1e7"], "up to 1000000"),
+    (["--eta", "0." + "1" * 200], "more than 190 digits"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD)
+def test_bad_input_is_one_line_and_writes_nothing(arguments, message, capsys, tmp_path):
+    with pytest.raises(SystemExit) as leave:
+        horseshoe.main([*arguments, "--out", str(tmp_path / "new")])
+    said = capsys.readouterr()
+    assert leave.value.code == 2 and said.out == ""
+    assert said.err.count("\n") == 1 and message in said.err
+    assert not (tmp_path / "new").exists()
+
+
+def test_an_unwritable_folder(capsys, tmp_path):
+    blocker = tmp_path / "file"
+    blocker.write_text("keep me")
+    with pytest.raises(SystemExit) as leave:
+        horseshoe.main(["--out", str(blocker)])
+    assert leave.value.code == 2 and capsys.readouterr().err.count("\n") == 1
+    assert blocker.read_text() == "keep me"
+
+
+def test_a_failing_write_keeps_the_old_certificate(monkeypatch, tmp_path):
+    (tmp_path / "horseshoe.json").write_text("old")
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(SystemExit) as leave:
+        horseshoe.main(["--only", "H16", "--out", str(tmp_path)])
+    assert leave.value.code == 2
+    assert (tmp_path / "horseshoe.json").read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["horseshoe.json"]
+
+
+def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
+    from proofs.trusted.verify import Rejected
+
+    def refuse(_):
+        raise Rejected("on purpose")
+
+    monkeypatch.setattr(runner, "check", refuse)
+    assert horseshoe.main(["--only", "H16", "--out", str(tmp_path)]) == 3
+    assert "DISAGREES" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_the_figure_is_drawn_and_does_not_change(tmp_path):
+    assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "a")]) == 0
+    assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "b")]) == 0
+    first, second = ((tmp_path / x / "horseshoe.svg").read_text() for x in "ab")
+    assert first == second and first.rstrip().endswith("</svg>")
+
+
+def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(runner, "find_spec", lambda name: None)
+    with pytest.raises(SystemExit) as leave:
+        horseshoe.main(["--figure", "--out", str(tmp_path / "new")])
+    assert leave.value.code == 2 and "needs matplotlib" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.slow
+def test_a_figure_of_what_is_not_proved_is_refused(capsys, tmp_path):
+    arguments = ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H16", "--figure"]
+    assert horseshoe.main([*arguments, "--out", str(tmp_path)]) == 0
+    assert "no figure" in capsys.readouterr().err
+    assert not (tmp_path / "horseshoe.svg").exists()
+
+
+def test_undecided_is_status_1(tmp_path):
+    status = horseshoe.main(
+        ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H2", "--out", str(tmp_path)]
+    )
+    assert status == 1
+
+
+@pytest.mark.slow
+def test_help_shows_examples():
+    for module in ("proofs.horseshoe", "proofs.impact", "proofs.check"):
+        done = run("--help", module=module)
+        assert done.returncode == 0 and f"python -m {module}" in done.stdout.split("example")[-1]
+
+
+@pytest.mark.slow
+def test_the_committed_report_is_what_the_command_writes(tmp_path):
+    assert horseshoe.main(["--out", str(tmp_path)]) == 0
+    for name in ("horseshoe.json", "horseshoe.md"):
+        assert (tmp_path / name).read_text() == (ROOT / "reports" / name).read_text()

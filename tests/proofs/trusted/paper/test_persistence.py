@@ -1,0 +1,499 @@
+"""G7 and G8: what the rules accept, what they refuse, and what their conclusions decide.
+
+True values come from `reference` (equations (10) and (14) typed by hand, mpmath, 50 digits).
+"""
+
+import copy
+import json
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.motion.chatter import Pushing
+from proofs.motion.system import System
+from proofs.search.s34_persistence import prove
+from proofs.shell.groups import certificate, decide
+from proofs.trusted.certificate import Malformed, Reader, render, texts
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound
+from proofs.trusted.paper.s33_restitution.rules import RULES as REBOUND_RULES
+from proofs.trusted.paper.s34_circle.persistence import (
+    CLAIMS,
+    Chatter,
+    SeparationFlight,
+    stable_pair,
+)
+from proofs.trusted.paper.s34_circle.persistence_rules import RULES, _bounce
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check
+from tests.proofs.trusted.paper import reference
+
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+CLAIM = {claim.id: claim for claim in CLAIMS}
+
+
+@cache
+def evidence():
+    return prove(PAPER, ("G7", "G8"))
+
+
+def derive(steps, of=PAPER):
+    known = {}
+    for name, step in steps.items():
+        known[name] = (RULES | REBOUND_RULES)[step["rule"]](
+            of, known, Reader(copy.deepcopy(step["witness"]))
+        )
+    return known
+
+
+@cache
+def truth():
+    """(phi_s, time, phase and relative speed of the impact) of the flight from phi_s."""
+    leave = reference.separation_phase(ETA, NU)
+    time, phase = reference.first_impact(ETA, NU, leave)
+    speed = mp.diff(lambda t: reference.left_side_10(ETA, NU, leave, t), time)  # side -1: -gap'
+    return leave, time, phase, speed
+
+
+def exact(value):
+    return Fraction(mp.nstr(value, 45))
+
+
+# -- what is concluded -----------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_the_flight_from_the_separation_phase_is_enclosed():
+    found = derive(evidence().steps)["separation-flight-1"]
+    bounds = (found.separation, found.flight, found.impact, found.speed)
+    for (low, high), value in zip(bounds, truth(), strict=True):
+        assert low - Fraction(1, 10**40) <= exact(value) <= high + Fraction(1, 10**40)
+        assert high - low < Fraction(1, 10**30)
+    assert found.turns == 4
+
+
+@pytest.mark.slow
+def test_prover_and_checker_conclude_the_same():
+    derived, own = derive(evidence().steps), dict(evidence().proofs["G7"])
+    name = "chatter-1"
+    chatter = own[name]
+    assert (chatter.epsilon, chatter.spread, chatter.rest) == (
+        derived[name].epsilon,
+        derived[name].spread,
+        derived[name].rest,
+    )
+    decisions = [CLAIM["G7"].decide(PAPER, [each[step] for step in own]) for each in (own, derived)]
+    assert "does not attract everything" in decisions[0].corrected
+    assert decisions[0].witness == decisions[1].witness
+    assert decisions[0].corrected == decisions[1].corrected
+
+
+def bounces(epsilon, phase, speed):
+    """Follow the impacts by (14) until rebounds are below 1e-6; return their phases.
+
+    The last one is infinite if the mass leaves the arc.
+
+    Before an impact with gap' = -speed, side -1, the velocity is gamma = (-speed - nu cos) / eta.
+    """
+    phases = []
+    while epsilon * speed > mpf("1e-6"):
+        gamma = (-speed - NU * mp.cos(phase)) / ETA
+
+        def gap(t, phase=phase, gamma=gamma):
+            return -reference.left_side_14(ETA, NU, epsilon, phase, gamma, t)
+
+        step = epsilon * speed / 2
+        low = step
+        while gap(low + step) > 0:
+            low += step
+            if low > 3:
+                return [*phases, mp.inf]
+        high = low + step
+        for _ in range(70):
+            middle = (low + high) / 2
+            low, high = (middle, high) if gap(middle) > 0 else (low, middle)
+        speed, phase = -mp.diff(gap, low), phase + low
+        phases.append(phase)
+    return phases
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("epsilon", ["0.01", "0.355"])
+def test_bounces_by_the_printed_equation_stay_below_the_phase_of_rest(epsilon):
+    found = derive(evidence().steps)["chatter-1"]
+    assert 0 < Fraction(epsilon) <= found.epsilon[1] < Fraction("0.37")
+    leave, _, phase, speed = truth()
+    phases = bounces(mpf(epsilon), phase, speed)
+    assert len(phases) >= 2
+    assert exact(phases[-1]) < found.rest < exact(leave)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("epsilon", ["0.1", "0.25", "0.3", "0.345", "0.355"])
+def test_so_do_bounces_at_the_corners_of_the_states(epsilon):
+    found = derive(evidence().steps)["chatter-1"]
+    _, _, phase, speed = truth()
+    spread = mpf(found.spread.numerator) / found.spread.denominator
+    for signs in ((1, 1), (1, -1), (-1, 1)):
+        moved = bounces(mpf(epsilon), phase + spread * signs[0], speed + spread * signs[1])
+        assert exact(moved[-1]) < found.rest
+
+
+def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
+    leave, _, phase, speed = truth()
+    *before, last = bounces(mpf("0.4"), phase, speed)
+    assert len(before) == 2 and before[1] < leave < last
+
+
+def decided(steps, of=PAPER):
+    """Decide G7 by the steps that its proof names, re-derived."""
+    known = derive(steps, of)
+    return CLAIM["G7"].decide(of, [known[name] for name, _ in evidence().proofs["G7"]])
+
+
+# -- the other orbit -------------------------------------------------------------------------------
+
+
+def next_state(epsilon, phi, gamma):
+    """F by a scan of (14) and by (15)."""
+
+    def gap(t):
+        return -reference.left_side_14(ETA, NU, epsilon, phi, gamma, t)
+
+    step = mpf("0.05")
+    time = step
+    while gap(time + step) > 0:
+        time += step
+    low, high = time, time + step
+    for _ in range(90):
+        middle = (low + high) / 2
+        low, high = (middle, high) if gap(middle) > 0 else (low, middle)
+    velocity = reference.right_side_15(ETA, NU, epsilon, phi, gamma, low)
+    return (phi + low) % (2 * mp.pi), velocity
+
+
+def test_the_boxes_of_the_other_orbit_are_mapped_into_each_other_by_the_printed_equations():
+    steps = [step for _, step in evidence().proofs["G7"]]
+    pair = stable_pair(PAPER, steps)
+    assert pair.epsilon == Fraction("0.29")
+    for source, target in ((pair.first, pair.second), (pair.second, pair.first)):
+        for corner in ((0, 0), (0, 1), (1, 1)):
+            phi, gamma = (ends[k] for ends, k in zip(source, corner, strict=True))
+            image = next_state(mpf("0.29"), exact_number(phi), exact_number(gamma))
+            for value, (low, high) in zip(image, target, strict=True):
+                assert low < exact(value) < high
+
+
+def exact_number(value):
+    return mpf(value.numerator) / value.denominator
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 3, 2), (0, 1, 3, 2), (0, 3, 2, 1)])
+def test_other_orders_of_its_steps_prove_no_pair(order):
+    rebounds = [step for _, step in evidence().proofs["G7"]][1:]
+    assert stable_pair(PAPER, [rebounds[k] for k in order]) is None
+    assert stable_pair(replace(PAPER, eta=Fraction("0.2122")), rebounds) is None
+
+
+def widened(step, factor):
+    (a, b), (c, d) = (
+        [tuple(factor * x for x in entry) for entry in row] for row in step.derivative
+    )
+    return replace(step, derivative=((a, b), (c, d)))
+
+
+def box_of(phases, slope, image):
+    """An invented conclusion: F on phases x [-1, 0], linear, from its centre to the image."""
+    point, zero = ((image, image), (Fraction(-1, 2),) * 2), (Fraction(0), Fraction(0))
+    slopes = (((slope, slope), zero), (zero, (slope, slope)))
+    box = tuple((x, x) for x in (PAPER.eta, PAPER.nu, Fraction("0.1")))
+    centre = (sum(phases) / 2,) * 2
+    return (
+        Rebound(box, phases, (Fraction(-1), Fraction(0)), 1, *point, slopes),
+        Rebound(box, centre, point[1], 1, *point, slopes),
+    )
+
+
+def test_a_pair_of_invented_boxes():
+    low, high = (Fraction(1), Fraction(2)), (Fraction(3), Fraction(4))
+    half, one = Fraction(1, 2), Fraction(1)
+
+    def pair(slope, second=high):
+        to, back = sum(second) / 2, sum(low) / 2
+        return stable_pair(PAPER, [*box_of(low, slope, to), *box_of(second, slope, back)])
+
+    assert pair(half).second == (high, (-1, 0))
+    assert pair(one) is None, "an isometry contracts nothing"
+    assert pair(half, low) is None, "a fixed point is no 2-periodic orbit"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda step: widened(step, 2),
+        lambda step: replace(step, turns=step.turns + 1),
+        lambda step: replace(step, phases=(step.phases[1], step.phases[1] + Fraction(1, 10**9))),
+        lambda step: replace(step, box=(*step.box[:2], (Fraction("0.28"), Fraction("0.28")))),
+    ],
+)
+@pytest.mark.parametrize("index", [0, 2])
+def test_conclusions_that_do_not_contract_prove_no_pair(change, index):
+    rebounds = [step for _, step in evidence().proofs["G7"]][1:]
+    rebounds[index] = change(rebounds[index])
+    assert stable_pair(PAPER, rebounds) is None
+
+
+def test_the_pair_needs_the_chatter_and_an_epsilon_of_its_range():
+    found = [step for _, step in evidence().proofs["G7"]]
+    assert CLAIM["G7"].decide(PAPER, found[1:]).verdict is Verdict.UNDECIDED
+    short = replace(found[0], epsilon=(Fraction(0), Fraction("0.28")))
+    assert "attract everything" not in CLAIM["G7"].decide(PAPER, [short, *found[1:]]).corrected
+
+
+# -- the verdicts ----------------------------------------------------------------------------------
+
+
+def test_g7_is_refuted_and_corrected():
+    found = decided(evidence().steps)
+    assert found.verdict is Verdict.REFUTED
+    assert "epsilon = 0.01" in found.witness and "infinitely many" in found.witness
+    assert "0 <= epsilon <= 0.35" in found.corrected and "4 turns" in found.corrected
+    low, high = found.quantities["impact_phase"]
+    assert low < exact(truth()[2]) < high
+
+
+def test_g8_is_simulated_and_rests_on_no_step():
+    found = CLAIM["G8"].decide(PAPER, list(derive(evidence().steps).values()))
+    assert found.verdict is Verdict.SIMULATED and found.corrected is None
+    assert not found.quantities and "G8" not in evidence().proofs
+    assert prove(PAPER, ("G8",)).steps == {}
+
+
+def chatter(**changes):
+    flight = SeparationFlight((6, 6), (23, 23), 4, (4, 4), (1, 1))
+    return replace(
+        Chatter(flight, (Fraction(0), Fraction(1, 4)), Fraction(1, 100), Fraction(5)), **changes
+    )
+
+
+@pytest.mark.parametrize(
+    ("of", "found"),
+    [
+        (PAPER, []),
+        (PAPER, [chatter().after]),
+        (PAPER, [chatter(epsilon=(Fraction(0), Fraction(1, 200)))]),
+        (PAPER, [chatter(epsilon=(Fraction(1, 10), Fraction(1, 4)))]),
+        (replace(PAPER, epsilon=Fraction(0)), [chatter()]),
+        (replace(PAPER, epsilon=None), [chatter()]),
+        (replace(PAPER, epsilon=Fraction("0.3")), [chatter()]),
+    ],
+)
+def test_g7_is_undecided_without_what_it_rests_on(of, found):
+    assert CLAIM["G7"].decide(of, found).verdict is Verdict.UNDECIDED
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("0.2121", "0.02"), ("0.9", "-0.3"), ("3", "-2")])
+def test_other_oscillators_are_undecided_or_proved(eta, nu):
+    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
+    found = prove(of, ("G7",))
+    known = derive(found.steps, of)
+    own = CLAIM["G7"].decide(of, [known[name] for name, _ in found.proofs.get("G7", [])])
+    assert own.verdict is (Verdict.REFUTED if found.proofs else Verdict.UNDECIDED)
+
+
+# -- certificates edited on purpose ----------------------------------------------------------------
+
+
+def document(proof, steps):
+    entries = [decide("G7", PAPER, proof, 30)[1], decide("G8", PAPER, [], 30)[1]]
+    return render(certificate(PAPER, steps, entries))
+
+
+@cache
+def short():
+    """The flight and some cells of the chatter only, which a check takes little time for."""
+    steps = {name: evidence().steps[name] for name in ("separation-flight-1", "chatter-1")}
+    steps = copy.deepcopy(steps)
+    cells = steps["chatter-1"]["witness"]["cells"]
+    del cells[1 + next(i for i, cell in enumerate(cells) if len(cell["bounces"]) > 2) :]
+    return steps
+
+
+def test_the_certificate_is_accepted_and_small():
+    content = document(evidence().proofs["G7"], evidence().steps)
+    report = check(content)
+    assert [(one.id, one.verdict) for one in report.claims] == [
+        ("G7", Verdict.REFUTED),
+        ("G8", Verdict.SIMULATED),
+    ]
+    assert len(content) < 100_000
+
+
+def edited(path, change):
+    """The certificate's steps with the value at a path changed."""
+    steps = copy.deepcopy(short())
+    *inner, last = path
+    place = steps
+    for key in inner:
+        place = place[key]
+    place[last] = change(place[last])
+    return steps
+
+
+def add(amount):
+    return lambda text: str(Fraction(text) + Fraction(amount))
+
+
+def test_the_short_proof_is_one():
+    cells = short()["chatter-1"]["witness"]["cells"]
+    assert derive(short())["chatter-1"].epsilon[1] == Fraction(cells[-1]["epsilon"])
+    assert 3 <= len(cells) < 30
+
+
+FLIGHT, CHATTER = ("separation-flight-1", "witness"), ("chatter-1", "witness")
+CELL = (*CHATTER, "cells", -1)
+
+
+@pytest.mark.parametrize(
+    ("path", "change"),
+    [
+        ((*FLIGHT, "separation", 0), add("1e-20")),
+        ((*FLIGHT, "separation", 1), add("-1e-20")),
+        ((*FLIGHT, "separation"), lambda ends: [ends[1], ends[0]]),
+        ((*FLIGHT, "separation"), lambda ends: [add("1e-42")(end) for end in ends]),
+        ((*FLIGHT, "separation"), lambda ends: [add("-1e-42")(end) for end in ends]),
+        ((*FLIGHT, "separation"), lambda ends: ["3379354048/1000000000", "3379354049/1000000000"]),
+        ((*FLIGHT, "time", 0), add("1e-20")),
+        ((*FLIGHT, "time", 1), add("-1e-20")),
+        ((*FLIGHT, "time"), lambda ends: ["48", "49"]),
+        ((*FLIGHT, "times", 0), add("6")),
+        ((*FLIGHT, "times", -1), add("7")),
+        ((*FLIGHT, "times"), lambda times: times[:-1]),
+        ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
+        ((*FLIGHT, "times"), lambda times: times[-2:]),
+        ((*FLIGHT, "times"), lambda times: [times[-1]]),
+        ((*FLIGHT, "times"), lambda times: list(reversed(times))),
+        ((*CHATTER, "flight"), lambda name: "chatter-1"),
+        ((*CHATTER, "spread"), lambda text: "0"),
+        ((*CHATTER, "spread"), lambda text: "-1/100000"),
+        ((*CHATTER, "spread"), lambda text: "1/1000"),
+        ((*CHATTER, "spread"), lambda text: "1/2"),
+        ((*CHATTER, "cells"), lambda cells: []),
+        ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
+        ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
+        ((*CHATTER, "cells"), lambda cells: [cells[1], cells[0], *cells[2:]]),
+        ((*CELL, "epsilon"), lambda text: "1"),
+        ((*CELL, "epsilon"), lambda text: "2/5"),
+        ((*CELL, "ratio"), lambda text: "1/4"),
+        ((*CELL, "ratio"), lambda text: "1"),
+        ((*CELL, "ratio"), lambda text: "0"),
+        ((*CELL, "rest"), add("-1/100")),
+        ((*CELL, "rest"), add("1/20")),
+        ((*CELL, "rest"), lambda text: "7"),
+        ((*CELL, "bounces"), lambda bounces: bounces[:-1]),
+        ((*CELL, "bounces"), lambda bounces: []),
+        ((*CELL, "bounces"), lambda bounces: bounces[1:]),
+        ((*CELL, "bounces", 0), lambda ends: [add("-1e-9")(ends[1]), ends[1]]),
+        ((*CELL, "bounces", 0), lambda ends: [ends[0], add("1e-9")(ends[0])]),
+        ((*CELL, "bounces", -1), lambda ends: [add("-1e-9")(ends[1]), ends[1]]),
+        ((*CELL, "bounces", -1), lambda ends: [ends[0], add("1e-9")(ends[0])]),
+        ((*CELL, "bounces", 0), lambda ends: ["0", ends[1]]),
+        ((*CELL, "bounces", 0, 1), add("2")),
+    ],
+)
+def test_an_edited_witness_is_refused(path, change):
+    with pytest.raises((Unproved, Malformed)):
+        derive(edited(path, change))
+
+
+def alone(**cell):
+    """The rule on one cell and these words beside it, after the true flight."""
+    spread = cell.pop("spread", "1/100000")
+    steps = copy.deepcopy(short())
+    cells = [{"epsilon": "1/100", "bounces": [], "ratio": "1/50", "rest": "5"} | cell]
+    steps["chatter-1"]["witness"] = {
+        "flight": "separation-flight-1",
+        "spread": spread,
+        "cells": cells,
+    }
+    return derive(steps)["chatter-1"]
+
+
+def test_one_cell_alone():
+    assert alone().epsilon == (0, Fraction(1, 100)) and alone().rest == 5
+    with pytest.raises(Unproved, match="speed > 0"):
+        alone(spread="3/20")
+    with pytest.raises(Malformed, match="increase"):
+        alone(epsilon="0")
+    with pytest.raises(Unproved, match="end by the phase of rest"):
+        alone(rest="93/20")
+
+
+def test_the_kick_of_the_largest_epsilon_counts():
+    """At 1/5 the first bounce, from the speed 0.1352, takes 0.37; the lemma grants 0.6 in all."""
+    assert alone(epsilon="1/5", ratio="23/100", rest="21/4").epsilon[1] == Fraction(1, 5)
+    with pytest.raises(Unproved, match="end by the phase of rest"):
+        alone(epsilon="1/5", ratio="23/100", rest="5")
+
+
+def test_a_bounce_that_leaves_the_arc_is_refused():
+    with pytest.raises(Unproved, match="push all through a bounce"):
+        derive(edited((*CELL, "bounces", 0, 1), add("1")))
+
+
+def test_a_flight_with_a_first_piece_too_long_is_refused():
+    with pytest.raises(Unproved, match="leave the table"):
+        derive(edited((*FLIGHT, "times"), lambda times: times[-2:]))
+
+
+@pytest.mark.parametrize("width", ["0.001", "0.01", "0.03", "0.05"])
+def test_the_checker_takes_the_prover_s_bracket_of_a_wide_box_of_bounces(width):
+    reach = Fraction(width)
+    phases = Fraction("4.7") - reach, Fraction("4.7") + reach
+    kicks = Fraction("0.04") - reach / 5, Fraction("0.04") + reach / 5
+    pushing = Pushing(System(PAPER.eta, PAPER.nu), Fraction("6.0454"))
+    time, speeds = pushing.bounce(phases, kicks)
+    _, own = _bounce(PAPER, phases, kicks, Reader(texts(time)))
+    for one, other in zip(speeds, own, strict=True):
+        assert abs(one - other) < Fraction(1, 10**6)
+
+
+@pytest.mark.parametrize(
+    ("of", "changes"),
+    [
+        ("eta", {"eta": Fraction("0.2122")}),
+        ("nu", {"nu": Fraction("-0.2001")}),
+        ("side", {"nu": Fraction("0.2")}),
+    ],
+)
+def test_a_witness_for_another_oscillator_is_refused(of, changes):
+    with pytest.raises((Unproved, Malformed)):
+        derive(short(), replace(PAPER, **changes))
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        (("claims", 0, "verdict"), "VERIFIED"),
+        (("claims", 0, "witness"), None),
+        (("claims", 0, "corrected"), "F has a stable 2-periodic orbit."),
+        (("claims", 0, "proof"), []),
+        (("claims", 0, "quantities", "epsilon_max", "lower"), "0.4"),
+        (("claims", 0, "quantities", "impact_phase", "upper"), "4.6404"),
+        (("claims", 1, "verdict"), "VERIFIED"),
+        (("claims", 1, "quantities"), {"turns": {"lower": "1", "upper": "2"}}),
+    ],
+)
+def test_an_edited_entry_is_rejected(path, value):
+    found = json.loads(document([("chatter-1", derive(short())["chatter-1"])], short()))
+    *inner, last = path
+    place = found
+    for key in inner:
+        place = place[key]
+    place[last] = value
+    with pytest.raises((Rejected, Malformed)):
+        check(render(found))

@@ -1,0 +1,350 @@
+"""The rules and the claims of section 4: nothing may be talked into.
+
+Certificates are made by the prover; what is edited in them is refused. The identities are compared
+with (10) and (18) typed by hand.
+"""
+
+import copy
+import json
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.report.single_figure import svg
+from proofs.search import s4_single as single
+from proofs.shell.groups import certificate, decide, settle
+from proofs.trusted import paper as catalogue
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper.formulas import Value
+from proofs.trusted.paper.s4_single import displayed as eq
+from proofs.trusted.paper.s4_single.rules import RULES
+from proofs.trusted.paper.s4_single.single_facts import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, check, find_rule
+from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.test_single import slope_18
+
+REFUSED = (Malformed, Rejected, Unproved)
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    return single.prove(PAPER, single.CLAIMS, digits=20)
+
+
+@pytest.fixture(scope="module")
+def document(evidence):
+    entries = [decide(claim, PAPER, evidence.proofs[claim], 20)[1] for claim in single.CLAIMS]
+    return certificate(PAPER, evidence.steps, entries)
+
+
+def steps_of(document, rule):
+    return [step["witness"] for step in document["steps"].values() if step["rule"] == rule]
+
+
+def derived(rule, witness, known=None):
+    return RULES[rule](PAPER, known or {}, Reader(witness))
+
+
+def refused(rule, witness, known=None):
+    with pytest.raises(REFUSED):
+        found = derived(rule, witness, known)
+        pytest.fail(f"accepted: {found}")
+
+
+# -- the equations -------------------------------------------------------------------------------
+
+
+def value(formula, **point):
+    """Evaluate a formula of the transcription with mpmath."""
+    names = {"sin": mp.sin, "cos": mp.cos, "pi": mp.pi}
+    return eval(formula, {"__builtins__": {}}, {**names, **point})
+
+
+def test_the_transcription_agrees_with_the_one_typed_by_hand():
+    rng = random.Random(1)
+    for _ in range(20):
+        eta, nu, phi = (mpf(rng.uniform(0.1, 2)) for _ in range(3))
+        n = rng.randint(1, 5)
+        delta = 2 * mp.pi * n
+        point = {"eta": eta, "nu": nu, "phi": phi, "n": n}
+        expected = reference.left_side_10(eta, nu, phi, delta)
+        assert mp.almosteq(value(eq.E16, **point), expected, 1e-40, 1e-40)
+        found = value(eq.E10, eta=eta, nu=nu, a=phi, b=phi + mpf("0.3"), delta=mpf("0.3"))
+        assert mp.almosteq(found, reference.left_side_10(eta, nu, phi, mpf("0.3")), 1e-40, 1e-40)
+        slope = value(eq.TOP18, **point) / value(eq.BOTTOM18, **point)
+        assert mp.almosteq(slope, slope_18(eta, nu, n, phi), 1e-35, 1e-35)
+        alpha, beta = eta * (1 - mp.cos(delta * eta)), mp.sin(delta * eta)
+        assert mp.almosteq(value(eq.ALPHA, **point), alpha)
+        assert mp.almosteq(value(eq.BETA, **point), beta)
+        theta = mp.atan(beta / alpha)
+        left = value(eq.E17, phi=phi, theta=theta, nu=nu)
+        assert mp.almosteq(-nu / eta * mp.hypot(alpha, beta) * left, expected, 1e-35, 1e-35)
+
+
+@pytest.mark.parametrize("index", range(len(eq.LEMMAS)))
+def test_identities_are_proved_and_misprints_are_not(index):
+    rule, lemma = find_rule("formula-equal"), eq.LEMMAS[index]
+    witness = {"left": lemma.left, "right": lemma.right}
+    assert rule(PAPER, {}, Reader(witness)) == lemma
+    for before, after in (("sin(", "cos("), ("eta*", "eta**2*"), (" + ", " - "), ("2*", "3*")):
+        wrong = lemma.right.replace(before, after, 1)
+        if wrong != lemma.right:
+            with pytest.raises(REFUSED):
+                rule(PAPER, {}, Reader({**witness, "right": wrong}))
+
+
+# -- the rules -----------------------------------------------------------------------------------
+
+
+def test_the_checker_derives_what_the_prover_did(evidence):
+    for proof in evidence.proofs.values():
+        for name, conclusion in proof:
+            step = evidence.steps[name]
+            if not isinstance(conclusion, EtaWindows | NuWindows):
+                continue
+            assert derived(step["rule"], step["witness"]) == conclusion
+
+
+def test_solutions_are_not_talked_into(document):
+    for witness in steps_of(document, "single-solution"):
+        found = derived("single-solution", witness)
+        assert isinstance(found, Solution) and found.contracts == (abs(found.multiplier[0]) < 1)
+        low, high = map(Fraction, witness["phase"])
+        for changed in (
+            {"phase": [str(high), str(high + (high - low))]},
+            {"phase": [str(low - 3), str(high + 3)]},
+            {"phase": [str(low), str(low)]},
+            {"phase": [str(low + 7), str(high + 7)]},
+            {"nu": "-" + witness["nu"] if witness["nu"][0] != "-" else witness["nu"][1:]},
+            {"nu": "0"},
+            {"eta": "1"},
+            {"eta": "-1/3"},
+            {"n": str(int(witness["n"]) + 1)},
+            {"n": "0"},
+            {"n": "3/2"},
+            {"early": "0"},
+            {"early": "-1"},
+            {"early": "1/100" if found.acceleration[0] > 0 else "10000"},
+            {"early": str(7 * int(witness["n"]))},
+        ):
+            refused("single-solution", {**witness, **changed})
+
+
+def test_a_bracket_of_three_solutions_is_refused():
+    """And one at resonance, where K changes its sign once while all phases solve (16)."""
+    one = {"eta": "237/1000", "nu": "3/10", "n": "1", "phase": ["14/25", "57/100"], "early": None}
+    assert derived("single-solution", one).contracts
+    refused("single-solution", {**one, "phase": ["-29/5", "57/100"]})
+    resonant = {"eta": "1", "phase": ["3/2", "8/5"]}
+    refused("single-solution", {**one, **resonant})
+
+
+def test_orbits_are_not_talked_into(document):
+    known, flights = {}, {}
+    for name, step in document["steps"].items():
+        known[name] = find_rule(step["rule"])(PAPER, known, Reader(step["witness"]))
+        if step["rule"] == "single-orbit":
+            flights[name] = step["witness"]
+    assert len(flights) == 2  # n = 4 and n = 9
+    (first, one), (_, other) = flights.items()
+    assert isinstance(known[first], Orbit)
+    assert abs(known[first].solution.phase[0] - Fraction("1.1047758291275508478")) < 1e-18
+    for witness in (
+        {**one, "flight": other["flight"]},
+        {**one, "solution": other["solution"]},
+        {**one, "solution": one["flight"]},
+        {**one, "flight": one["solution"]},
+        {**one, "flight": "nothing"},
+    ):
+        refused("single-orbit", witness, known)
+    flight = known[one["flight"]]
+    begin, end = flight.windows[0]
+    for changed in (
+        replace(flight, transversal=False),
+        replace(flight, windows=((begin, Fraction("25.13")),)),
+        replace(flight, windows=((Fraction("25.14"), end),)),
+        replace(flight, motion=replace(flight.motion, eta=Fraction("0.2122"))),
+        replace(flight, motion=replace(flight.motion, nu=Fraction("0.2"))),
+        replace(flight, motion=replace(flight.motion, phases=(Fraction(1), Fraction("1.1")))),
+        replace(flight, motion=replace(flight.motion, phases=(Fraction("1.2"), Fraction(2)))),
+    ):
+        refused("single-orbit", one, {**known, one["flight"]: changed})
+
+
+def test_windows_in_eta_are_not_talked_into(document):
+    (witness,) = steps_of(document, "single-eta-windows")
+    ends = witness["ends"]
+    assert len(ends) == 48
+    first = ends[0]
+    wrong = [
+        {"ends": ends[:-1]},  # n = 48 is missing
+        {"ends": [*ends, ends[-1]]},
+        {"ends": ends[1:]},
+        {"ends": [[*first[2:], *first[:2]], *ends[1:]]},
+        {"ends": [[first[0], first[0], *first[2:]], *ends[1:]]},
+        {"ends": [[*first[1::-1], *first[2:]], *ends[1:]]},
+        {"ends": [["1/10", "1/9", *first[2:]], *ends[1:]]},
+        {"ends": [[*first[:2], "1/3", "2/5"], *ends[1:]]},
+        {"ends": [[*first[:2], first[2], "3/4"], *ends[1:]]},
+        {"ends": [*ends[:2], [*ends[2][:2], "17/50", "9/20"], *ends[3:]]},  # beyond 1/(2 n)
+        {"low": "1/200"},
+        {"low": "1/50"},
+        {"low": "0"},
+        {"nu": "1"},
+        {"nu": "-1/5"},
+        {"nu": "1/4"},
+    ]
+    for changed in wrong:
+        refused("single-eta-windows", {**witness, **changed})
+    wide = [["1/5", "41/200", *first[2:]], *ends[1:]]
+    found = derived("single-eta-windows", {**witness, "ends": wide})
+    assert found.ends[0][0] == (Fraction(1, 5), Fraction(41, 200))
+
+
+def test_windows_in_nu_are_not_talked_into(document):
+    (witness,) = steps_of(document, "single-nu-windows")
+    above, below, early = witness["above"], witness["below"], witness["early"]
+    found = derived("single-nu-windows", witness)
+    assert [n for n, _, _ in found.above] == [1] and [n for n, _, _ in found.below] == [3, 4]
+    assert found.early == (21, 59, 97, 135, 308, 481, 654, 827)
+    for changed in (
+        {"above": above[:1]},
+        {"above": [[None, above[0][1]], above[1]]},
+        {"above": [[above[0][0], None], above[1]]},
+        {"above": [above[0][::-1], above[1]]},
+        {"above": [above[0], above[0]]},
+        {"below": below[::-1]},
+        {"below": [[None, None], below[1]]},
+        {"below": [[below[0][0], ["1", "2"]], below[1]]},
+        {"below": [[below[0][0], ["3/10", "3/2"]], below[1]]},
+        {"early": early[1:]},
+        {"early": [*early, early[-1]]},
+        {"early": ["1", *early[1:]]},
+        {"early": ["0", *early[1:]]},
+        {"early": ["1000", *early[1:]]},
+        {"early": ["661/5", *early[1:]]},  # just after 42 pi
+        {"early": early[::-1]},
+        {"eta": "119/500"},
+        {"eta": "3/2", "above": [], "below": [], "early": []},
+    ):
+        refused("single-nu-windows", {**witness, **changed})
+    with pytest.raises(Malformed, match="denominator"):
+        derived("single-nu-windows", {**witness, "eta": f"{237 * 10**6 + 1}/{10**9}"})
+
+
+# -- the claims ----------------------------------------------------------------------------------
+
+
+def test_verdicts(document):
+    verdicts = {entry["id"]: entry["verdict"] for entry in document["claims"]}
+    assert verdicts == {
+        "P1": "VERIFIED",
+        "P2": "CONDITIONAL",
+        "P3": "VERIFIED",
+        "P4": "CONDITIONAL",
+        "P5": "REFUTED",
+        "P6": "CONDITIONAL",
+    }
+    assert {claim.id for claim in check(render(document)).claims} == set(single.CLAIMS)
+
+
+def needed(claim, conclusion):
+    """Whether a claim cannot do without: an orbit is an example, solutions are one of two kinds."""
+    return not isinstance(conclusion, Orbit)
+
+
+@pytest.mark.parametrize("claim", single.CLAIMS)
+def test_a_claim_without_one_of_its_conclusions_is_undecided(claim, evidence):
+    proof = evidence.proofs[claim]
+    assert decide(claim, PAPER, proof, 20)[0].verdict is not Verdict.UNDECIDED
+    for index, (_, conclusion) in enumerate(proof):
+        if needed(claim, conclusion):
+            rest = proof[:index] + proof[index + 1 :]
+            row, _ = decide(claim, PAPER, rest, 20)
+            assert row.verdict is Verdict.UNDECIDED, conclusion
+
+
+def test_conclusions_about_something_else_do_not_decide(evidence):
+    one, off = Fraction(1), Fraction(1, 1000)
+
+    def changed(claim, change):
+        """Decide with some conclusions changed; those that are not are left as they are."""
+        proof = [(name, change(found)) for name, found in evidence.proofs[claim]]
+        assert [found for _, found in proof] != [found for _, found in evidence.proofs[claim]]
+        return decide(claim, PAPER, proof, 20)[0].verdict
+
+    def solutions(**fields):
+        return lambda found: replace(found, **fields) if isinstance(found, Solution) else found
+
+    for claim in ("P4", "P5", "P6"):
+        for fields in (
+            {"early": None},
+            {"multiplier": (-one, one / 2)},
+            {"multiplier": (one / 2, one)},
+            {"acceleration": (-one, one)},
+        ):
+            assert changed(claim, solutions(**fields)) is Verdict.UNDECIDED, (claim, fields)
+
+    def sticking(found):
+        """Pretend that the launch which has an earlier impact sticks."""
+        early = isinstance(found, Solution) and found.early is not None
+        return replace(found, acceleration=(-one, -one)) if early else found
+
+    for claim in ("P4", "P5", "P6"):
+        assert changed(claim, sticking) is Verdict.UNDECIDED
+    assert changed("P5", solutions(eta=Fraction(15))) is Verdict.UNDECIDED
+    assert changed("P5", solutions(eta=Fraction(2))) is Verdict.UNDECIDED
+    assert changed("P6", solutions(eta=Fraction("0.238"))) is Verdict.UNDECIDED
+    assert changed("P6", solutions(nu=Fraction("0.95"))) is Verdict.UNDECIDED
+
+    def windows(kind, **fields):
+        return lambda found: replace(found, **fields) if isinstance(found, kind) else found
+
+    (kept,) = [x for _, x in evidence.proofs["P5"] if isinstance(x, EtaWindows)]
+    (flip, stick), *others = kept.ends
+    for fields in (
+        {"nu": Fraction("0.21")},
+        {"low": Fraction("0.02")},
+        {"ends": (((flip[0] - off, flip[1]), stick), *others)},
+        {"ends": (*others, (flip, stick))},
+    ):
+        assert changed("P5", windows(EtaWindows, **fields)) is Verdict.UNDECIDED
+    assert changed("P6", windows(NuWindows, eta=Fraction("0.238"))) is Verdict.UNDECIDED
+    beyond = ((1, (off, off), (one, one)),)
+    assert changed("P6", windows(NuWindows, above=beyond)) is Verdict.UNDECIDED
+    low = (Fraction(-1), Fraction(1))
+    assert changed("P5", windows(Value, bounds=low)) is Verdict.UNDECIDED
+
+
+def test_edited_certificates_are_refused(document):
+    """Texts and bounds one by one are edited in the tests of all groups."""
+    for entry in range(len(single.CLAIMS)):
+        wrong = copy.deepcopy(document)
+        wrong["claims"][entry]["corrected"] += " "
+        with pytest.raises(Rejected):
+            check(render(wrong))
+
+
+@pytest.mark.slow
+def test_a_claim_alone_has_its_own_certificate():
+    _, alone = settle("single", PAPER, ["P6"], digits=15, tell=lambda stage: None)
+    assert [one.id for one in check(render(alone)).claims] == ["P6"]
+
+
+def test_the_catalogue_has_the_claims():
+    for claim in single.CLAIMS:
+        stated = catalogue.find(claim)
+        assert stated is not None and "{" not in stated.says(PAPER)
+
+
+@pytest.mark.slow
+def test_the_figure_is_drawn_from_the_certificate(document):
+    pytest.importorskip("matplotlib")
+    drawn = svg(json.dumps(document))
+    assert drawn.startswith("<?xml") and drawn.count("<path") > 50

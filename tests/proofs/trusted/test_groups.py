@@ -1,0 +1,151 @@
+"""The committed certificates of every group: accepted, listed, and not to be talked into more."""
+
+import copy
+import json
+import random
+import re
+from decimal import Decimal
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from proofs.shell.manifest import NAME
+from proofs.trusted import flights as rules
+from proofs.trusted import paper as catalogue
+from proofs.trusted.certificate import Malformed, Reader, parameters_from_json, parse, render
+from proofs.trusted.facts import PAPER
+from proofs.trusted.paper import GROUPS, rules_of
+from proofs.trusted.statements import Verdict
+from proofs.trusted.verify import Rejected, _check_claim, _derive_steps, check, find_rule
+
+REPORTS = Path(__file__).parents[3] / "reports"
+REFUSED = (Malformed, Rejected)
+EXACT = {"H15", "H17"}  # decided by exact arithmetic on the paper's numbers
+SLOW = {"nonplastic", "dimension", "chaos", "circle", "soft"}  # their checks take longest
+# how many numbers are changed, by what a check takes
+CHANGED = {"sets": 30, "foundations": 15, "persistence": 8, "nonplastic": 4, "soft": 4}
+
+
+def document(group):
+    return json.loads((REPORTS / f"{group}.json").read_text())
+
+
+@cache
+def proved(group):
+    """The parameters and the conclusions of all steps of a group's certificate."""
+    root = parse((REPORTS / f"{group}.json").read_text())
+    _, parameters, steps, _, _ = root.fields("schema", "parameters", "steps", "claims", "corrected")
+    of = parameters_from_json(parameters)
+    return of, _derive_steps(of, steps)
+
+
+def judged(group, entry):
+    """What the checker makes of an entry, the steps being those of the certificate."""
+    return _check_claim(*proved(group), Reader(entry), set(), None)
+
+
+def refused(group, entry, **changes):
+    with pytest.raises(REFUSED):
+        pytest.fail(f"accepted: {judged(group, {**entry, **changes})}: {changes}")
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_every_claim_of_a_group_is_in_its_file_and_in_the_manifest(group):
+    given = document(group)
+    entries = given["claims"]
+    assert tuple(entry["id"] for entry in entries) == GROUPS[group]
+    listed = json.loads((REPORTS / NAME).read_text())["claims"]
+    for entry in entries:
+        assert listed[entry["id"]]["verdict"] == entry["verdict"]
+        assert entry["statement"] and not re.search(r"\{[a-z0-9]+\}", entry["statement"])
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_what_is_refuted_has_a_witness_and_what_is_proved_a_proof(group):
+    for entry in document(group)["claims"]:
+        if entry["verdict"] in ("REFUTED", "CONDITIONAL"):
+            assert entry["witness"], entry["id"]
+        if entry["verdict"] in ("REFUTED", "CONDITIONAL", "VERIFIED"):
+            assert entry["proof"] or entry["id"] in EXACT, entry["id"]
+
+
+@pytest.mark.parametrize(
+    "group", [pytest.param(g, marks=[pytest.mark.slow] * (g in SLOW)) for g in GROUPS]
+)
+def test_nothing_in_an_entry_is_believed(group):
+    """Every text is recomputed, every bound must contain what is proved."""
+    for entry in document(group)["claims"]:
+        assert judged(group, entry).verdict.value == entry["verdict"]
+        for name in ("statement", "verdict", "witness", "corrected"):
+            text = entry[name]
+            refused(group, entry, **{name: "VERIFIED " if text is None else text + " "})
+            if text is not None:
+                refused(group, entry, **{name: None})
+        for verdict in Verdict:
+            if verdict.value != entry["verdict"]:
+                refused(group, entry, verdict=verdict.value)
+        for name, bounds in entry["quantities"].items():
+            beyond = Decimal(bounds["upper"]) + 1
+            moved = {"lower": f"{beyond:f}", "upper": f"{beyond + 1:f}"}
+            refused(group, entry, quantities={name: moved})
+            refused(group, entry, quantities={"other": bounds})
+        for name in entry["proof"]:
+            fewer = {**entry, "proof": [step for step in entry["proof"] if step != name]}
+            try:
+                left = judged(group, fewer)
+            except REFUSED:
+                continue
+            assert left.verdict.value == entry["verdict"], f"{entry['id']} without {name}"
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_without_conclusions_nothing_is_decided_but_a_simulation(group):
+    for claim in GROUPS[group]:
+        decided = catalogue.find(claim).decide(PAPER, [])
+        open_ones = (Verdict.UNDECIDED, Verdict.SIMULATED)
+        assert decided.verdict in open_ones or claim in EXACT, claim
+        assert decided.why
+
+
+def test_a_rule_s_name_has_one_meaning():
+    meaning = dict(rules.RULES)
+    for group in GROUPS:
+        for name, rule in rules_of(group).items():
+            assert meaning.setdefault(name, rule) is rule, name
+            assert find_rule(name) is rule
+
+
+def numbers(value, path=()):
+    """Yield the paths of all numbers inside."""
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            yield from numbers(inner, (*path, name))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from numbers(inner, (*path, index))
+    elif isinstance(value, str) and value.lstrip("-").replace("/", "").isdigit():
+        yield path
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", GROUPS)
+def test_changed_numbers_prove_nothing_else(group):
+    """A step with another number is refused, or the file proves what it proved before."""
+    given, chance = document(group), random.Random(7)
+    original = {entry["id"]: entry for entry in given["claims"]}
+    places = list(numbers(given["steps"]))
+    for path in chance.sample(places, min(len(places), CHANGED.get(group, 2))):
+        changed = copy.deepcopy(given)
+        inner = changed["steps"]
+        for name in path[:-1]:
+            inner = inner[name]
+        top, slash, bottom = inner[path[-1]].partition("/")
+        inner[path[-1]] = f"{int(top) + chance.choice((-1, 1, 10**6))}{slash}{bottom}"
+        try:
+            report = check(render(changed))
+        except REFUSED:
+            continue
+        for claim in report.claims:
+            same = original[claim.id]
+            assert (claim.verdict.value, claim.statement) == (same["verdict"], same["statement"])

@@ -1,0 +1,143 @@
+"""Files made to eat the checker's time or memory: each is refused in seconds, in a line."""
+
+import copy
+import json
+import os
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from proofs.trusted.certificate import MAX_BYTES, MAX_WORK, Malformed, Reader
+from proofs.trusted.certificate import render as text_of
+from tests.proofs.trusted import corpus
+
+ROOT = Path(__file__).parents[3]
+ALONE = """
+import sys
+from proofs.check import main
+status = main(sys.argv[1:])
+peak = [line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")]
+print("peak", *peak)
+sys.exit(status)
+"""
+LONG = 10**2900
+
+
+def horseshoe():
+    return json.loads(corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8"))
+
+
+def first(document, rule):
+    return next(name for name, step in document["steps"].items() if step["rule"] == rule)
+
+
+def with_times(times):
+    document = horseshoe()
+    step = document["steps"][first(document, "first-impact")]
+    step["witness"]["times"] = [str(t) for t in times]
+    return text_of(document)
+
+
+def with_copies(rule, count, change=lambda witness, i: None):
+    document = horseshoe()
+    step = document["steps"][first(document, rule)]
+    for i in range(count):
+        document["steps"][f"copy{i}"] = copy.deepcopy(step)
+        change(document["steps"][f"copy{i}"]["witness"], i)
+    return text_of(document)
+
+
+def thin_roots(witness, i):
+    root = Fraction(44, 100)
+    witness["root"] = [str(root), str(root + Fraction(1, 10**1100 + i))]
+
+
+def with_points(count):
+    document = horseshoe()
+    witness = document["steps"][first(document, "slope-range")]["witness"]
+    point = witness["points"][0]
+    step = Fraction(1, 10**9)
+    witness["points"] = [
+        {**point, "phase": str(Fraction(point["phase"]) + i * step)} for i in range(count)
+    ]
+    witness["pieces"] = witness["pieces"][:1] * (count - 1)
+    return text_of(document)
+
+
+HOSTILE = {
+    "ten thousand times": lambda: with_times([Fraction(k, 10007) for k in range(1, 10001)]),
+    "times of 2900 digits": lambda: with_times([Fraction(k, LONG) for k in range(1, 600)]),
+    "three thousand steps": lambda: with_copies("first-impact", 3000),
+    "thin brackets": lambda: with_copies("moran-root", 500, thin_roots),
+    "nine thousand points": lambda: with_points(9000),
+    "deep lists": lambda: "[" * 1_000_000,
+    "deep objects": lambda: '{"a":' * 500_000,
+    "a wide list": lambda: "[" + ",".join(['"a"'] * 900_000) + "]",
+    "a wide object": lambda: "{" + ",".join(f'"k{i}":""' for i in range(300_000)) + "}",
+    "too long": lambda: " " * (MAX_BYTES + 1),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_files_end_soon(name, tmp_path):
+    path = tmp_path / "hostile.json"
+    path.write_text(HOSTILE[name](), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-S", "-O", "-c", ALONE, str(path)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=30,  # ten seconds on a machine of its own
+        check=False,
+    )
+    assert done.returncode in (1, 2)
+    assert done.stderr.count("\n") == 1 and "$" in done.stderr
+    if sys.platform == "linux":
+        kilobytes = int(done.stdout.split()[-1])
+        assert kilobytes < 200 * 1024
+
+
+def test_work_is_charged_by_evaluations_and_bits():
+    place = Reader("x", "$.here")
+    place.charge(MAX_WORK, 64)
+    with pytest.raises(Malformed, match=r"^\$\.here: more work"):
+        place.charge(1, 64)
+    place = Reader(["x", "y"], "$")
+    for item in place.items():
+        item.charge(MAX_WORK // 2, 255)
+    with pytest.raises(Malformed):
+        place.charge(1, 64)
+    with pytest.raises(Malformed):
+        Reader("x").charge(MAX_WORK // 200, 4000)
+
+
+def test_the_main_job_is_far_from_the_limit(monkeypatch):
+    from proofs.trusted.verify import check
+
+    charged = []
+    monkeypatch.setattr(Reader, "charge", lambda self, n, bits: charged.append((n, bits)))
+    check(corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8"))
+    assert 100 < sum(n * (1 + (bits // 256) ** 2) for n, bits in charged) < MAX_WORK / 100
+
+
+@pytest.mark.skipif(not hasattr(os, "posix_spawn"), reason="needs processes")
+@pytest.mark.parametrize(
+    ("text", "path"),
+    [
+        ('{"a": 1}', "$.a"),
+        ('{"steps": {"s": {"x": ["1", {"y": 1.5}]}}}', "$.steps.s.x[1].y"),
+        ('{"claims": [{"id": "H1", "id": "H2"}]}', "$.claims[0]"),
+        ('{"a": NaN}', "$.a"),
+        ('{"a\\u001b": 1}', "$.'a\\x1b'"),
+    ],
+)
+def test_faults_have_their_path(text, path):
+    from proofs.trusted.certificate import parse
+
+    with pytest.raises(Malformed) as caught:
+        parse(text)
+    assert str(caught.value).startswith(f"{path}: ")

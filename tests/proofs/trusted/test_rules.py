@@ -1,0 +1,606 @@
+"""Each inference rule takes true witnesses and refuses false ones.
+
+The true times and phases below come from `reference` (equation (10) typed by hand, mpmath, 50
+digits). At phase 1.2 the gap has a minimum of 1.06e-5 near time 25.874 and vanishes first at
+56.16847...; at phase 1.15 it vanishes at 25.32582... and is positive again at 27.
+"""
+
+import copy
+from fractions import Fraction
+from functools import cache
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.facts import PAPER
+from proofs.trusted.flights import RULES, FirstImpact, Motion, _meets, phase_after
+from proofs.trusted.kernel.arithmetic import Unproved
+from tests.proofs.trusted.paper import reference
+
+TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
+IMPACT_115 = {"phases": ["23/20", "23/20"], "times": [*TO_25, "251/10", "126/5", "51/2"]}
+
+# -- witnesses -------------------------------------------------------------------------------------
+
+
+def step(rule, witness, known=None, of=PAPER):
+    return RULES[rule](of, known if known is not None else {}, Reader(copy.deepcopy(witness)))
+
+
+def times(*values):
+    return [str(Fraction(value)) for value in values]
+
+
+def flight_time(phase):
+    """The true time of the first impact, correct to some 40 digits."""
+    return reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(phase))[0]
+
+
+def exact(value):
+    """A 50-digit number as a rational."""
+    return Fraction(mp.nstr(value, 45))
+
+
+def bracket(phase, reach="1e-20"):
+    centre = exact(flight_time(phase))
+    return [str(centre - Fraction(reach)), str(centre + Fraction(reach))]
+
+
+def near_115():
+    """First impacts of all phases in [1.14, 1.15], whose times lie in [25.27, 25.33]."""
+    return step("first-impact", {"phases": times("1.14", "1.15"), "times": [*TO_25, "51/2"]})
+
+
+@pytest.fixture
+def known():
+    return {"impact": near_115()}
+
+
+def refused(rule, witness, known=None, reason=None, error=(Unproved, Malformed)):
+    with pytest.raises(error, match=reason):
+        step(rule, witness, known)
+
+
+# -- first-impact ----------------------------------------------------------------------------------
+
+
+def test_first_impact_finds_the_true_window():
+    found = step("first-impact", IMPACT_115)
+    assert found.transversal
+    ((low, high),) = found.windows
+    assert low < exact(flight_time("1.15")) < high <= Fraction("25.5")
+
+
+def test_first_impact_after_a_near_grazing_minimum():
+    fine = [Fraction(25) + Fraction(k, 64) for k in range(1, 128)]
+    coarse = [
+        28,
+        30,
+        32,
+        34,
+        38,
+        42,
+        46,
+        50,
+        52,
+        53,
+        54,
+        55,
+        56,
+        Fraction("56.1"),
+        Fraction("56.3"),
+    ]
+    found = step(
+        "first-impact", {"phases": times("1.2", "1.2"), "times": TO_25 + times(*fine, *coarse)}
+    )
+    assert found.transversal
+    assert found.windows[0][0] < exact(flight_time("1.2")) < found.windows[0][1]
+    assert found.windows[0][0] > 50
+
+
+@pytest.mark.parametrize(
+    "after",
+    [
+        ["26", "28", "32", "40", "50", "56", "57"],  # over the minimum in coarse steps
+        ["28", "32", "40", "50", "56", "57"],
+        ["57"],
+        times("25.8", "25.9", "26", "28", "32", "40", "50", "56", "57"),
+    ],
+)
+def test_near_grazing_is_not_passed_over(after):
+    """Where the steps do not exclude an earlier impact, it is possible: not transversal."""
+    found = step("first-impact", {"phases": times("1.2", "1.2"), "times": TO_25 + after})
+    assert not found.transversal
+    assert found.windows[0][0] < 26
+
+
+@pytest.mark.parametrize("skipped", [["27"], ["27", "28"], times("25.3", "27"), ["28", "40"]])
+def test_a_later_impact_is_not_taken_for_the_first(skipped):
+    """At phase 1.15 the gap is positive at 25 and at 27, and vanishes twice between."""
+    tail = [*skipped, *times(45, 50, 54, 55, 56, "56.25", "56.5")]
+    tail = sorted(set(map(Fraction, tail)))
+    found = step("first-impact", {"phases": times("1.15", "1.15"), "times": TO_25 + times(*tail)})
+    assert not found.transversal
+    assert found.windows[0][0] <= exact(flight_time("1.15")) <= found.windows[0][1]
+    refused(
+        "point",
+        {"flight": "impact", "phase": "23/20", "time": times(56, "56.5")},
+        {"impact": found},
+        "transversal",
+    )
+
+
+@pytest.mark.parametrize("end", ["25.4", "56.5", "57", "60", "400"])
+def test_window_may_not_start_before_the_flight_is_known(end):
+    """With one huge piece the window holds more than one zero, and gap' has no sign on it."""
+    try:
+        found = step("first-impact", {"phases": times("1.15", "1.15"), "times": ["1", *times(end)]})
+    except Unproved:
+        return
+    assert not found.transversal
+
+
+@pytest.mark.parametrize("first", ["10", "14", "20", "25", "25.3", "40"])
+def test_launch_piece_too_long(first):
+    """gap'' changes sign before: the launch piece proves nothing, whatever follows."""
+    refused(
+        "first-impact",
+        {"phases": times("1.15", "1.15"), "times": times(first, "56", "57")},
+        reason="leave the table",
+    )
+
+
+@pytest.mark.parametrize("phase", ["4", "4.7", "5"])
+def test_a_sticking_launch_is_refused(phase):
+    """Where the launch acceleration is negative the mass sticks to the table first."""
+    nu = mpf("-0.2")
+    assert reference.launch_acceleration(mpf("0.2121"), nu, mpf(phase)) < 0
+    refused(
+        "first-impact",
+        {"phases": times(phase, phase), "times": [*times("1/1000000", "1/2"), *TO_25]},
+        reason="leave the table",
+    )
+
+
+@pytest.mark.parametrize("last", ["51/2", "126/5", "25"])
+def test_last_time_must_lie_behind_the_impact(last):
+    behind = Fraction(last) > exact(flight_time("1.15"))
+    witness = {"phases": times("1.15", "1.15"), "times": [*TO_25[:-1], last]}
+    if behind:
+        assert step("first-impact", witness).transversal
+    else:
+        refused("first-impact", witness, reason="negative at the last time")
+
+
+def test_all_phases_count():
+    """At time 25.3 some of [1.11, 1.15] have had their impact and some not."""
+    refused(
+        "first-impact",
+        {"phases": times("1.11", "1.15"), "times": [*TO_25, "253/10"]},
+        reason="negative at the last time",
+    )
+
+
+@pytest.mark.parametrize("phases", [("1.1", "1.3"), ("1.15", "1.27"), ("1.2", "1.22")])
+def test_phases_on_both_sides_of_grazing_are_not_transversal(phases):
+    tail = times("25.5", "26", "27", "28", "32", "40", "50", "55", "56", "57")
+    try:
+        found = step("first-impact", {"phases": times(*phases), "times": TO_25 + tail})
+    except Unproved:
+        return
+    assert not found.transversal
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        ["1"],
+        [],
+        ["1", "1"],
+        ["2", "1"],
+        ["0", "1", "2"],
+        ["-1", "1", "2"],
+        ["1", "2", "1000001"],
+        ["1", "2", "4", "3"],
+        [*TO_25, "25"],
+    ],
+)
+def test_times_must_increase_from_zero(bad):
+    refused("first-impact", {"phases": times("1.15", "1.15"), "times": bad}, error=Malformed)
+
+
+@pytest.mark.parametrize("phases", [("1.15", "1.14"), ("-1", "1.15"), ("1.15", "6.29"), ("7", "8")])
+def test_phases_lie_on_the_circle(phases):
+    refused(
+        "first-impact", {"phases": times(*phases), "times": IMPACT_115["times"]}, error=Malformed
+    )
+
+
+# -- point -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("phase", ["1.14", "1.1425", "1.15"])
+def test_point(known, phase):
+    found = step(
+        "point", {"flight": "impact", "phase": times(phase)[0], "time": bracket(phase)}, known
+    )
+    flight, image = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(phase))
+    slope = exact(reference.slope(mpf("0.2121"), mpf("-0.2"), mpf(phase), flight))
+    near = Fraction(1, 10**17)
+    assert found.phase == Fraction(phase)
+    assert found.slope[0] - near < slope < found.slope[1] + near
+    assert found.slope[1] - found.slope[0] < near
+    assert found.image[0] <= exact(image) <= found.image[1] < found.image[0] + near
+
+
+@pytest.mark.parametrize(
+    ("reach", "shift"),
+    [
+        ("1e-20", "2e-20"),
+        ("1e-20", "-2e-20"),
+        ("1e-3", "2e-3"),
+        ("1e-3", "-2e-3"),
+        ("1e-30", "1e-29"),
+    ],
+)
+def test_point_bracket_beside_the_impact(known, reach, shift):
+    low, high = (Fraction(end) + Fraction(shift) for end in bracket("1.15", reach))
+    refused(
+        "point", {"flight": "impact", "phase": "23/20", "time": times(low, high)}, known, "signs"
+    )
+
+
+def test_point_bracket_of_another_phase(known):
+    refused(
+        "point", {"flight": "impact", "phase": "23/20", "time": bracket("1.14")}, known, "signs"
+    )
+
+
+@pytest.mark.parametrize(
+    "time",
+    [("24", "25.4"), ("25", "25.6"), ("56", "57"), ("-1", "25.4"), ("24.9", "57"), ("0", "1")],
+)
+def test_point_bracket_outside_the_window(known, time):
+    refused("point", {"flight": "impact", "phase": "23/20", "time": times(*time)}, known, "window")
+
+
+def test_point_bracket_of_no_width(known):
+    centre = bracket("1.15")[0]
+    refused(
+        "point", {"flight": "impact", "phase": "23/20", "time": [centre, centre]}, known, "empty"
+    )
+
+
+@pytest.mark.parametrize("phase", ["1.13", "1.151", "7", "-1", "1.1399999999999999"])
+def test_point_phase_outside_the_step(known, phase):
+    witness = {"flight": "impact", "phase": times(phase)[0], "time": bracket("1.14", "1e-2")}
+    refused("point", witness, known, "other phases", Malformed)
+
+
+@pytest.mark.parametrize("name", ["", "other", "impac", "point"])
+def test_point_needs_an_earlier_first_impact(known, name):
+    known["point"] = step(
+        "point", {"flight": "impact", "phase": "23/20", "time": bracket("1.15")}, known
+    )
+    refused(
+        "point",
+        {"flight": name, "phase": "23/20", "time": bracket("1.15")},
+        known,
+        "names no earlier first-impact",
+        Malformed,
+    )
+
+
+# -- phases mod 2 pi -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("phase", ["0", "0.752", "1.15", "6.2831853"])
+@pytest.mark.parametrize("time", ["0.001", "5.5311", "24.38", "56.1685", "12345.678"])
+def test_phase_after_is_the_phase_mod_a_turn(phase, time):
+    low, high = phase_after(Fraction(phase), (Fraction(time), Fraction(time)), 80)
+    true = exact((mpf(phase) + mpf(time)) % (2 * mp.pi))
+    assert low <= true <= high < low + Fraction(1, 10**15)
+
+
+@pytest.mark.parametrize("turns", [1, 2, 4, 100])
+def test_phase_after_next_to_whole_turns(turns):
+    """A bracket that contains 2 pi k stays one interval, up to and beyond 2 pi."""
+    centre = exact(2 * mp.pi * turns)
+    low, high = phase_after(Fraction(0), (centre - Fraction(1, 100), centre + Fraction(1, 100)), 80)
+    assert high - low < Fraction("0.0201")
+    assert low < exact(2 * mp.pi) - Fraction("0.0099") and high > exact(2 * mp.pi) + Fraction(
+        "0.0099"
+    )
+    low, high = phase_after(Fraction(0), (centre, centre), 64)
+    assert low <= 0 <= high or low <= exact(2 * mp.pi) <= high
+
+
+# -- slope-range -----------------------------------------------------------------------------------
+
+
+def slope_witness():
+    ends = ["57/50", "23/20"]
+    return {
+        "points": [
+            {"flight": "impact", "phase": x, "time": bracket(str(float(Fraction(x))))} for x in ends
+        ],
+        "pieces": [{"flight": "impact", "time": times("25.27", "25.33")}],
+    }
+
+
+def test_slope_range_contains_the_slopes_between(known):
+    found = step("slope-range", slope_witness(), known)
+    ((low, high),) = found.pieces
+    for share in range(11):
+        phase = mpf("1.14") + mpf(share) / 1000
+        flight = reference.first_impact(mpf("0.2121"), mpf("-0.2"), phase)[0]
+        assert low < exact(reference.slope(mpf("0.2121"), mpf("-0.2"), phase, flight)) < high
+
+
+def test_curvature():
+    """f''(1.15), from differences of the root of equation (10)."""
+    reach = Fraction(1, 10**30)
+    centre = exact(flight_time("1.15"))
+    phases = (Fraction("1.15"), Fraction("1.15"))
+    motion = Motion(-1, PAPER.eta, PAPER.nu, phases, 200)
+    low, high = motion.curvature((centre - reach, centre + reach)).range
+
+    def time(phase):
+        def gap(t):
+            return reference.left_side_10(mpf("0.2121"), mpf("-0.2"), phase, t)
+
+        return mp.findroot(gap, IMPACT_GUESS)
+
+    true = exact(mp.diff(time, mpf("1.15"), 2))
+    assert low - Fraction(1, 10**12) < true < high + Fraction(1, 10**12)
+    assert high - low < Fraction(1, 10**20)
+
+
+@pytest.mark.parametrize(
+    "time", [("25.28", "25.33"), ("25.27", "25.32"), ("25.29", "25.31"), ("25.3", "25.3")]
+)
+def test_slope_piece_bracket_must_hold_all_impacts(known, time):
+    """The impact times of [1.14, 1.15] fill [25.2767, 25.3258]."""
+    witness = slope_witness()
+    witness["pieces"][0]["time"] = times(*time)
+    refused("slope-range", witness, known, "bracket", Unproved)
+
+
+def edited(change):
+    witness = slope_witness()
+    change(witness)
+    return witness
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda w: w["points"].reverse(), "increase"),
+        (lambda w: w["points"].append(w["points"][-1]), "entries"),
+        (lambda w: w["points"].pop(), "entries"),
+        (lambda w: w["pieces"].pop(), "entries"),
+        (lambda w: w["pieces"].append(w["pieces"][0]), "entries"),
+        (lambda w: w["points"].__setitem__(1, w["points"][0]), "increase"),
+        (lambda w: w["pieces"][0].__setitem__("flight", "narrow"), "other phases"),
+        (lambda w: w["pieces"][0].__setitem__("flight", "late"), "other phases"),
+        (lambda w: w["pieces"][0].__setitem__("flight", "grazing"), "transversal"),
+        (lambda w: w["points"][0].__setitem__("time", bracket("1.15")), "signs"),
+        (lambda w: w["points"][0].__setitem__("phase", "113/100"), "other phases"),
+    ],
+)
+def test_slope_range_refuses(known, change, reason):
+    known["narrow"] = step("first-impact", IMPACT_115)
+    known["late"] = step(
+        "first-impact", {"phases": times("1.11", "1.12"), "times": [*TO_25, "51/2"]}
+    )
+    known["grazing"] = step(
+        "first-impact", {"phases": times("1.14", "1.15"), "times": [*TO_25, "27", "50", "56", "57"]}
+    )
+    assert not known["grazing"].transversal
+    refused("slope-range", edited(change), known, reason)
+
+
+def test_slope_piece_at_a_grazing_phase_has_no_bounded_slope():
+    """gap' vanishes somewhere on the bracket: the quotient is refused."""
+    wide = FirstImpact(near_115().motion, ((Fraction(25), Fraction(27)),), True)
+    witness = slope_witness()
+    witness["pieces"][0]["time"] = times("25", "26")
+    refused("slope-range", witness, {"impact": wide}, None, Unproved)
+
+
+# -- avoids ----------------------------------------------------------------------------------------
+
+
+def gap_flights():
+    return {
+        "a": step("first-impact", {"phases": times("1.14", "1.145"), "times": [*TO_25, "51/2"]}),
+        "b": step("first-impact", {"phases": times("1.145", "1.15"), "times": [*TO_25, "51/2"]}),
+        "thin": step("first-impact", IMPACT_115),
+    }
+
+
+def test_avoids():
+    """f([1.14, 1.15]) = [1.283..., 1.343...]; the windows allow [1.0073, 1.5173]."""
+    found = step("avoids", {"flights": ["a", "b"], "target": times("2", "6")}, gap_flights())
+    assert found.phases == (Fraction("1.14"), Fraction("1.15"))
+    assert found.target == (2, 6)
+    assert step("avoids", {"flights": ["b", "thin"], "target": times("0", "1")}, gap_flights())
+
+
+@pytest.mark.parametrize(
+    "target", [("1.3", "1.32"), ("1.34", "6"), ("0", "1.29"), ("0", "6.28"), ("1.34308", "1.34309")]
+)
+def test_avoids_refuses_a_target_that_is_entered(target):
+    refused(
+        "avoids", {"flights": ["a", "b"], "target": times(*target)}, gap_flights(), "miss", Unproved
+    )
+
+
+@pytest.mark.parametrize(
+    "flights", [["a", "thin"], ["b", "a"], ["a", "a"], ["a", "b", "b"], ["thin", "a"]]
+)
+def test_avoids_refuses_flights_that_do_not_follow_one_another(flights):
+    refused(
+        "avoids",
+        {"flights": flights, "target": times("2", "6")},
+        gap_flights(),
+        "continue",
+        Malformed,
+    )
+
+
+@pytest.mark.parametrize("target", [("6", "2"), ("-1", "0"), ("2", "6.2832"), ("8", "9")])
+def test_avoids_target_lies_on_the_circle(target):
+    refused("avoids", {"flights": ["a"], "target": times(*target)}, gap_flights(), None, Malformed)
+
+
+def test_avoids_needs_flights():
+    refused("avoids", {"flights": [], "target": times("2", "6")}, {}, "entries", Malformed)
+    refused("avoids", {"flights": ["x"], "target": times("2", "6")}, {}, "earlier", Malformed)
+
+
+def test_avoids_counts_every_window():
+    """A flight that may have its impact early or late must miss the target with both."""
+    grazing = step(
+        "first-impact",
+        {
+            "phases": times("1.2", "1.2"),
+            "times": [
+                *TO_25,
+                *times("25.5", "26", "26.5", 28, 30, 34),
+                *times(38, 42, 46, 50, 54, 55, 56, "56.1", "56.3"),
+            ],
+        },
+    )
+    assert len(grazing.windows) > 1
+    late = (Fraction("56.1") + Fraction("1.2")) % Fraction("6.283185307")
+    early = (Fraction("25.9") + Fraction("1.2")) % Fraction("6.283185307")
+    for centre in (late, early):
+        target = times(centre, centre + Fraction("0.01"))
+        refused("avoids", {"flights": ["g"], "target": target}, {"g": grazing}, "miss", Unproved)
+
+
+@pytest.mark.parametrize(
+    ("phases", "time", "target", "meets"),
+    [
+        (("1", "1"), ("5.1", "5.2"), ("6.2001", "6.25"), False),
+        (("1", "1"), ("5.1", "5.2"), ("6.2", "6.25"), True),
+        (("1", "1"), ("5.1", "5.3"), ("0", "0.01"), True),  # 6.1 to 6.3: past 2 pi
+        (("1", "1"), ("5.29", "5.3"), ("0", "0.001"), False),  # 6.29 to 6.3: past 0.0068
+        (("1", "1"), ("5.29", "5.3"), ("0.0069", "0.01"), True),
+        (("1", "1"), ("5.283185307", "5.4"), ("6.283", "6.283185307"), True),
+        (("0", "6"), ("1", "2"), ("3", "3"), True),
+        (("0", "0"), ("100", "107"), ("3", "3.1"), True),  # more than one turn
+        (("0", "0"), ("0", "0.001"), ("0", "0"), True),
+        (("0.5", "0.5"), ("62.83", "62.84"), ("0.4", "0.6"), True),  # ten turns, nearly
+        (("0.5", "0.5"), ("62.83", "62.84"), ("0", "0.49"), False),
+        (("0.5", "0.5"), ("62.83", "62.84"), ("0.51", "6.28"), False),
+    ],
+)
+def test_meets_mod_two_pi(phases, time, target, meets):
+    ranges = [tuple(map(Fraction, pair)) for pair in (phases, time, target)]
+    assert _meets(*ranges) is meets
+
+
+# -- moran-root ------------------------------------------------------------------------------------
+
+S0 = Fraction("0.448989707406679150108086734513027704911016535")
+PRINTED = times("0.1905", "0.2381")
+S0_GUESS, IMPACT_GUESS = "0.4489897074066791501", "25.3258280674639865318"
+
+
+def root(low, high, ratios=PRINTED):
+    return {"ratios": list(ratios), "root": times(low, high)}
+
+
+@pytest.mark.parametrize("reach", ["0.4", "1e-3", "1e-15", "1e-30", "1e-42"])
+def test_moran_root(reach):
+    found = step("moran-root", root(S0 - Fraction(reach), S0 + Fraction(reach)))
+    assert found.root[0] < S0 < found.root[1]
+    s = mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, 0.45)
+    assert abs(exact(s) - S0) < Fraction(1, 10**42)
+
+
+@pytest.mark.parametrize("reach", ["1e-1", "1e-15", "1e-25", "1e-40"])
+@pytest.mark.parametrize("side", [1, -1])
+def test_moran_root_beside_the_bracket(reach, side):
+    off = side * 2 * Fraction(reach)
+    refused(
+        "moran-root", root(S0 + off - Fraction(reach), S0 + off + Fraction(reach)), None, "signs"
+    )
+
+
+def test_moran_root_off_by_1e_25():
+    refused("moran-root", root(S0 + Fraction("1e-25"), S0 + Fraction("2e-25")), None, "signs")
+    refused("moran-root", root(S0 - Fraction("2e-25"), S0 - Fraction("1e-25")), None, "signs")
+
+
+@pytest.mark.parametrize(
+    "ratios",
+    [
+        ("0.1905", "0.2382"),
+        ("0.1904", "0.2381"),
+        ("0.1905", "0.2381000000000000000000000001"),
+    ],
+)
+def test_moran_root_of_other_ratios(ratios):
+    reach = Fraction(1, 10**30)
+    refused("moran-root", root(S0 - reach, S0 + reach, times(*ratios)), None, "signs")
+
+
+@pytest.mark.parametrize(
+    "ratios", [("1", "0.2"), ("0", "0.2"), ("-0.1", "0.2"), ("0.2", "1.5"), ("0.2", "1")]
+)
+def test_moran_ratios_lie_in_the_unit_interval(ratios):
+    refused("moran-root", root("0.1", "10", times(*ratios)), None, None, Unproved)
+
+
+@pytest.mark.parametrize("bounds", [("0", "1"), ("-1", "1"), ("0.4489", "0.4489"), ("1", "100000")])
+def test_moran_brackets_that_prove_nothing(bounds):
+    refused("moran-root", root(*bounds), None, None, Unproved)
+
+
+# -- signs that no precision decides ---------------------------------------------------------------
+
+
+@cache
+def to_1400_digits(find):
+    with mp.workdps(1420):
+        return Fraction(mp.nstr(find(), 1400))
+
+
+def root_of_moran():
+    return mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, S0_GUESS)
+
+
+def impact():
+    eta, nu, phase = mpf("0.2121"), mpf("-0.2"), mpf("1.15")
+    return mp.findroot(lambda t: reference.left_side_10(eta, nu, phase, t), IMPACT_GUESS)
+
+
+def thin(find, shift):
+    """A bracket 10^-1300 wide, beside a number that `find` computes to 1400 digits."""
+    low = to_1400_digits(find) + shift * Fraction(1, 10**1300)
+    low = Fraction(low * 10**1310 // 1, 10**1310)
+    return times(low, low + Fraction(1, 10**1300))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "shift", [2, *(pytest.param(shift, marks=pytest.mark.slow) for shift in (-2, 0))]
+)
+def test_an_undecided_sign_is_no_sign(known, shift):
+    """At such brackets F and the gap are far below the checker's last place."""
+    refused("moran-root", {"ratios": PRINTED, "root": thin(root_of_moran, shift)}, None, "signs")
+    witness = {"flight": "impact", "phase": "23/20", "time": thin(impact, shift)}
+    refused("point", witness, known, "signs")
+
+
+# -- the form of every witness ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("witness", [None, "1", [], {}, {"times": ["1"]}, {"phases": "1"}])
+def test_malformed_witnesses(rule, witness):
+    refused(rule, witness, {}, r"^\$", Malformed)
