@@ -1,7 +1,7 @@
 """The committed certificates: each file of tests/certificates, made from the accepted one.
 
-From the root, `python -m tests.proofs.trusted.corpus` writes them again, after a change of the schema or
-of a statement's words.
+From the root, `python -m tests.proofs.trusted.corpus` writes them again, after a change of the
+schema or of a statement's words.
 """
 
 import copy
@@ -405,8 +405,8 @@ def readme() -> str:
         "",
         "`python -m proofs.check FILE` leaves with status 0 for `accepted/`, 1 for `rejected/` (it",
         "is a certificate, and does not prove what it says) and 2 for `malformed/`. All are made",
-        "from `accepted/horseshoe.json` by `python -m tests.proofs.trusted.corpus`; `tests/proofs` proves",
-        "them up to date.",
+        "from `accepted/horseshoe.json` by `python -m tests.proofs.trusted.corpus`; `tests`",
+        "prove them up to date.",
         "",
         "| file | what was changed |",
         "|---|---|",

@@ -3,7 +3,7 @@
 A leaf is a quantity that a rule of proofs.trusted.flights needs positive, or only encloses. Both
 kernels evaluate the shared equations on the certificate's exact data: the checker at the bits that
 it chose, python-flint at several. Their enclosures must meet. From the root,
-`python -m tests.proofs.trusted.second_opinion tests/certificates/accepted/horseshoe.json` prints every
+`python -m tests.proofs.trusted.second_opinion CERTIFICATE` prints every
 leaf, those that one kernel decides and the other does not, and the checker's time by rule.
 """
 
