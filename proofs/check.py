@@ -7,10 +7,11 @@ import inspect
 import sys
 from pathlib import Path
 
-from proofs.trusted.certificate import LEMMA, MANIFEST, Malformed, digest, read, schema_of
+from proofs.trusted.certificate import MANIFEST, Malformed, digest, read, schema_of
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import check_manifest
-from proofs.trusted.paper import GROUPS, rules_of
-from proofs.trusted.statements import Verdict
+from proofs.trusted.rules import RULES, find_rule
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, Report, check
 
 EPILOG = """\
@@ -36,21 +37,30 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--stats", action="store_true", help="count what is evaluated")
+    help_text = f"how much work a file may take (default {DEFAULT})"
+    parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     options = parser.parse_args(arguments)
     if options.rules:
         print_rules()
     elif not options.files:
         parser.error("no file to check")
     examine = check_counting if options.stats else check_file
-    return max((examine(path) for path in options.files), default=0)
+    return max((examine(path, options.work) for path in options.files), default=0)
 
 
-def check_counting(path: Path) -> int:
+def _work(text: str) -> int:
+    """Read an amount of work for argparse."""
+    if not text.isascii() or not text.isdigit() or not int(text[:19]) > 0:
+        raise argparse.ArgumentTypeError(f"a positive whole number is expected, not {text[:20]!r}")
+    return int(text[:19])
+
+
+def check_counting(path: Path, work: int) -> int:
     """Check one file, and print what that evaluates; return its exit status."""
     from proofs.shell.counting import counted, show
 
     with counted() as counts:
-        status = check_file(path)
+        status = check_file(path, work)
     if status < 2:
         show(counts, [printable(path)], quiet=False)
     return status
@@ -61,19 +71,15 @@ def printable(path: Path) -> str:
     return str(path) if str(path).isprintable() else ascii(str(path))
 
 
-def check_file(path: Path) -> int:
+def check_file(path: Path, work: int = DEFAULT) -> int:
     """Check one file, print a line a claim; return its exit status."""
     name = printable(path)
     try:
         source = read(path)
-        schema = schema_of(source)
-        if schema == MANIFEST:
-            print(f"{name}: {check_manifest(source, path.parent)}")
+        if schema_of(source) == MANIFEST:
+            print(f"{name}: {check_manifest(source, path.parent, work)}")
             return 0
-        if schema == LEMMA:
-            print_lemma(name, source)
-            return 0
-        report = check(source)
+        report = check(source, work)
     except Malformed as error:
         print(f"{name}: malformed: {error}", file=sys.stderr)
         return 2
@@ -83,43 +89,30 @@ def check_file(path: Path) -> int:
     except Rejected as error:
         print(f"{name}: REJECTED: {error}", file=sys.stderr)
         return 1
+    except Exhausted as error:
+        print(f"{name}: not decided: {error}", file=sys.stderr)
+        return 1
     print_report(name, report, digest(source))
     return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
 
 
 def print_rules() -> None:
     """Print what each rule takes, what it checks and what it concludes."""
-    from proofs.trusted import flights as rules
-    from proofs.trusted.kernel import lemma
-
-    groups = {f"group {group}": rules_of(group) for group in GROUPS}
-    titles = {"the impact map": rules.RULES, **groups, "maps by formulas": lemma.RULES}
-    for title, known in titles.items():
-        print(f"Rules about {title}\n")
-        for rule in known.values():
-            print(inspect.cleandoc(rule.__doc__ or ""), end="\n\n")
-
-
-def print_lemma(name: str, source: str) -> None:
-    """Print what a file about formulas was found to prove."""
-    from proofs.trusted.kernel.lemma import check_lemma
-
-    claims = check_lemma(source).claims
-    print(f"{name}: accepted, {digest(source)}")
-    for claim in claims:
-        print(f"  {claim}")
+    for name in RULES:
+        print(inspect.cleandoc(getattr(find_rule(name), "__doc__", None) or ""), end="\n\n")
 
 
 def print_report(name: str, report: Report, digest_of: str) -> None:
     """Print what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
-    print(f"{name}: accepted, {whose}, {digest_of}")
+    about = "about formulas" if report.parameters is None else whose
+    print(f"{name}: accepted, {about}, {digest_of}")
     for claim in report.claims:
         print(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
         if claim.corrected is not None:
             print(f"       corrected, VERIFIED: {claim.corrected}")
-    if report.theorem is not None:
-        print(f"  corrected theorem, VERIFIED: {report.theorem}")
+    for sentence in report.sentences:
+        print(f"  {sentence}")
 
 
 if __name__ == "__main__":

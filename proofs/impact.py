@@ -32,7 +32,7 @@ from proofs.shell.cli import (
     stats,
     write_target,
 )
-from proofs.trusted.facts import TURN, Range, show
+from proofs.trusted.numbers import TURN, Range, show
 
 _COARSE_DIGITS = 9  # of a set of possible images, whose ends mean little
 

@@ -39,8 +39,10 @@ from proofs.shell.cli import (
     stats,
     write_target,
 )
-from proofs.trusted.facts import PAPER, Parameters, show, show_range
-from proofs.trusted.statements import Verdict
+from proofs.trusted.numbers import show, show_range
+from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.verdicts import Verdict
 
 SCHEMA = "impact-proofs.orbits/1"
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
@@ -73,11 +75,14 @@ def horseshoe(of: Parameters) -> ImpactMap:
     and f increasing by less than 2 pi between them; so the turns that f(phi) = phi + t leaves
     out are the same on all of I_j, those that take phi + t at the left end to its f.
     """
-    outcome = prove(of, ("H1", "H5"))
-    expanding, covering = outcome.rows
-    for row in outcome.rows:
-        if row.verdict is not Verdict.VERIFIED:
-            raise Undecided(_refusal(row.why, outcome.corrected))
+    proofs = prove(of, ("H1", "H5")).proofs
+    known = {claim: [found for _, found in proof] for claim, proof in proofs.items()}
+    decisions = {row.id: row.decide(of, known[row.id]) for row in ROWS if row.id in known}
+    for claim, decision in decisions.items():
+        if decision.verdict is not Verdict.VERIFIED:
+            beside = next((x for x in known[claim] if isinstance(x, Horseshoe)), None)
+            raise Undecided(_refusal(decision.why, beside))
+    expanding, covering = decisions["H1"], decisions["H5"]
     least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
     if not least > 1:
         raise Undecided("f' > 1 is not proved")
@@ -85,7 +90,7 @@ def horseshoe(of: Parameters) -> ImpactMap:
     covers = slope_cover(system, of.left, _BOXES), slope_cover(system, of.right, _BOXES)
     turns = []
     for j, (cover, domain) in enumerate(zip(covers, (of.left, of.right), strict=True)):
-        image = Interval(*covering.quantities[f"image_left_I{j}"])
+        image = Interval(*covering.quantities[f"image_low_I{j}"])
         whole = (cover.times[0].item() + domain[0] - image) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):
@@ -94,7 +99,7 @@ def horseshoe(of: Parameters) -> ImpactMap:
     return ImpactMap(of, least, covers, (turns[0], turns[1]))
 
 
-def _refusal(why: str, corrected: Parameters | None) -> str:
+def _refusal(why: str, corrected: Horseshoe | None) -> str:
     """Say why there is no proof, and on which sets there is one."""
     if corrected is None:
         return f"no horseshoe is proved: {why}"

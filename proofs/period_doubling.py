@@ -18,7 +18,7 @@ from typing import Any
 from intervals import Interval, atan, decimal_bounds
 from proofs.search.derivations import SPARE_BITS, enclose
 from proofs.shell.cli import Parser, add_stats, digits, number, stats
-from proofs.trusted.facts import Range, show
+from proofs.trusted.numbers import Range, show
 from proofs.trusted.paper.s5_soft import displayed as eq
 
 EPILOG = """\

@@ -20,7 +20,7 @@ from intervals import Undecided, decimal_bounds
 from proofs.motion.resonant import Motion, motion
 from proofs.shell.cli import Parser, add_stats, digits, number, stats
 from proofs.shell.runner import run
-from proofs.trusted.facts import TURN, Range, show
+from proofs.trusted.numbers import TURN, Range, show
 
 _STATE = ("--phi", "--gamma")  # options that only the map takes
 EPILOG = """\

@@ -17,7 +17,7 @@ from intervals import DomainError, Undecided, decimal_bounds
 from proofs.motion.single_orbits import SingleImpact, last_period, solutions
 from proofs.motion.system import System
 from proofs.shell.cli import Parser, add_stats, digits, number, stats
-from proofs.trusted.facts import Range, show
+from proofs.trusted.numbers import Range, show
 
 EPILOG = """\
 Numbers are exact: 0.237 is 237/1000; 7/5 and 2e-3 are fine too. Without --n, N goes up to where

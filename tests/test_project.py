@@ -32,7 +32,7 @@ def test_packages_are_typed_and_complete():
 def test_the_readme_s_table_names_things_that_exist():
     from proofs.motion import image
     from proofs.trusted import equations
-    from proofs.trusted.facts import Parameters
+    from proofs.trusted.parameters import Parameters
 
     assert {"eta", "nu", "left", "right", "interval", "slopes", "ratios"} <= set(
         Parameters.__dataclass_fields__

@@ -15,7 +15,7 @@ from intervals import Interval, Jet
 from intervals import exp as exp_of
 from intervals import log as log_of
 from proofs.trusted.equations import sincos
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 End = Fraction | float | int
 

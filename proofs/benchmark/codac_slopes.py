@@ -20,7 +20,7 @@ from proofs.benchmark.horseshoe_flint import ETA, NU
 from proofs.benchmark.peers import Codac
 from proofs.benchmark.slope_forms import Work, exclude, one_by_one
 from proofs.motion.system import System
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 def slopes(server: Codac, work: Work, order: int) -> Range:

@@ -28,14 +28,17 @@ from proofs.motion.kernel import Launches, exclude_impacts
 from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.motion.system import System
 from proofs.search.steps import Prover
-from proofs.trusted.statements import STATEMENTS
+from proofs.trusted.paper import GROUPS
 
 SYSTEM = System(horseshoe_flint.ETA, horseshoe_flint.NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
 BOXES = 1024
 _FASTER = 14  # times as fast as python-flint, box by box in lists
 JOB, BARE = ("-m", "proofs.horseshoe"), ("-c", "import numpy, mpmath")
-PLASTIC = ("--only", *STATEMENTS)  # the claims of the plastic map, those that have a target
+PLASTIC = (
+    "--only",
+    *GROUPS["horseshoe"],
+)  # those that have a target
 TARGET = 2.5  # times as long as BARE
 # Started by a process as small as this one, a job's peak memory is its own.
 _LAUNCHER = """

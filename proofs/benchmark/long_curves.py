@@ -18,8 +18,8 @@ from proofs.methods.words import Words
 from proofs.motion.horseshoe_map import ImpactMap
 from proofs.search import s32_dimension as dimension
 from proofs.trusted.certificate import SCHEMA, Malformed, read
-from proofs.trusted.facts import PAPER
 from proofs.trusted.paper.s32_sets.dimension import Repeller
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 
 _PERIOD = 4

@@ -25,7 +25,8 @@ from proofs.motion.image import Image, image
 from proofs.motion.impact import FirstImpact, locate
 from proofs.motion.marching import march
 from proofs.motion.restitution import Rebounds, next_impact
-from proofs.trusted.facts import PAPER, Range
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import PAPER
 
 PHASES = tuple(map(Fraction, ("1.11", "1.13", "1.15", "1.27", "1.3", "1.32")))
 _COARSE_BITS = 53

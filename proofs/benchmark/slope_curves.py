@@ -32,7 +32,7 @@ from proofs.motion.kernel import (
 )
 from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.search.steps import Prover
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 NAMES = {0: "natural", 1: "mean value", 2: "Taylor 2", 3: "Taylor 3", 4: "Taylor 4"}
 _BITS = 53

@@ -20,7 +20,7 @@ from intervals import Undecided
 from proofs.benchmark.arithmetics import Arithmetic
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, slope
-from proofs.trusted.facts import Range, hull
+from proofs.trusted.numbers import Range, hull
 
 MONOTONE = -1  # in the place of an order
 _OPENINGS = 12

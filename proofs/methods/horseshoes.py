@@ -28,7 +28,7 @@ from intervals import DomainError, Interval, IntervalArray, Undecided
 from intervals.jet import Jet
 from proofs.methods.orbits import Floats, Range
 from proofs.methods.words import Symbols
-from proofs.trusted.facts import hull, show_range
+from proofs.trusted.numbers import hull, show_range
 
 _PARTS = (16, 256, 4096)  # of each domain
 _ENDS_PRECISION = 100

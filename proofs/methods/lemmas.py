@@ -21,9 +21,8 @@ from proofs.methods.formulas import (
     subdivide,
     values,
 )
-from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.certificate import SCHEMA, Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.context import SCHEMA
 from proofs.trusted.kernel.enclose import Box
 from proofs.trusted.kernel.formula import Formula, read_formula
 from proofs.trusted.kernel.hset import inverse
@@ -56,6 +55,7 @@ class Lemmas:
         named = [name for name, step in self.steps.items() if step["rule"] != "h-set"]
         return {
             "schema": SCHEMA,
+            "parameters": None,
             "functions": {name: self._json(name) for name in self.functions},
             "steps": self.steps,
             "claims": list(claims) or named,

@@ -24,7 +24,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 Image = Callable[[int, Fraction], Range]  # an enclosure of f at a point of a piece
 

@@ -10,9 +10,9 @@ from intervals import Interval, Undecided
 from proofs.methods.formulas import Local, Values, dot, subdivide
 from proofs.methods.lemmas import Lemmas, Number, written
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Range
 from proofs.trusted.kernel.enclose import Box
 from proofs.trusted.kernel.hset import HSet, inverse
+from proofs.trusted.numbers import Range
 
 _CUBE_SIDE = (Fraction(-1), Fraction(1))
 _ENTRIES = ((Fraction(0), Fraction(1)),)  # derivatives are compared as they are

@@ -8,7 +8,7 @@ from fractions import Fraction
 from intervals import Interval
 from proofs.motion.flight import Flight
 from proofs.motion.impact import FirstImpact, impact_time, time_range
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from fractions import Fraction
 from intervals import Interval, Undecided
 from proofs.motion.system import System
 from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _PRECISION = 53
 _WIDENINGS = 7

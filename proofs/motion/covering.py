@@ -21,7 +21,7 @@ from proofs.motion.impact import (
     name_of,
 )
 from proofs.motion.system import System
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 def cover_by_impacts(

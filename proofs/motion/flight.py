@@ -10,7 +10,7 @@ from intervals import Interval, Jet
 from proofs.methods.extremes import piece_range
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,8 @@ from proofs.motion.phase import turn
 from proofs.motion.slope_cover import SlopeCover
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, gap, launch, slope
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Parameters
 
 _STEPS = 5  # of Newton's method, from within a box of the covers
 

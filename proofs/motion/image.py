@@ -27,7 +27,7 @@ from proofs.motion.impact import (
 from proofs.motion.phase import phase_after, turn
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.facts import Range, agree, hull
+from proofs.trusted.numbers import Range, agree, hull
 
 _ATTEMPTS = 6
 _NOT_CUT = (

@@ -12,7 +12,7 @@ from intervals.newton import Roots, newton
 from proofs.motion.flight import Flight
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 HORIZON = Fraction(1000)
 _NOW = Fraction(0)

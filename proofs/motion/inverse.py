@@ -14,7 +14,7 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import FirstImpact
 from proofs.motion.phase import turn
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _STEPS = 40  # of Newton's method in floating point
 

@@ -20,7 +20,7 @@ from proofs.motion.phase import phase_after, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
 from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Cell
 from proofs.trusted.paper.s34_circle.chaos import Branch
 from proofs.trusted.paper.s34_circle.landing import (

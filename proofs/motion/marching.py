@@ -21,7 +21,8 @@ from proofs.motion.image import Image, image
 from proofs.motion.kernel import Floats, float_clock, float_launch
 from proofs.motion.system import System
 from proofs.trusted.equations import gap
-from proofs.trusted.facts import PAPER, Range
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import PAPER
 
 _CHUNK = 1 << 14
 STEPS = (1e-2, 1e-3, 1e-4)

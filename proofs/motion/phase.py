@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from intervals import Interval
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 def turn(precision: int) -> Interval:

@@ -15,7 +15,7 @@ from proofs.motion.phase import turn
 from proofs.motion.restitution import Arrival, Rebounds, next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import arrival
-from proofs.trusted.facts import Range, agree, ceil_text, floor_text, hull
+from proofs.trusted.numbers import Range, agree, ceil_text, floor_text, hull
 
 _ATTEMPTS = 6
 _PARTS = 128

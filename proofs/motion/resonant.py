@@ -18,7 +18,7 @@ from intervals import DomainError, Interval, Undecided, atan
 from proofs.motion.phase import turn
 from proofs.motion.rebound import Impossible
 from proofs.trusted.equations import Clock, arrival, closing, launch
-from proofs.trusted.facts import Range, agree
+from proofs.trusted.numbers import Range, agree
 
 _ATTEMPTS = 6
 _MOST_IMPACTS = 20_000  # one by one, until the series converges

@@ -17,7 +17,7 @@ from proofs.trusted.equations import (
     launch_with_restitution,
     return_map_derivative,
 )
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
 _TINIEST = Fraction(1, 2**60)

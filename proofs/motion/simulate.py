@@ -19,7 +19,7 @@ from statistics import mean, median
 
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 
 _WEAKEST = 1e-6  # a rebound that counts as none where the table pushes; its height is 1e-12
 _NO_PUSH = 1e-12  # a launch acceleration that is no more than rounding above 0

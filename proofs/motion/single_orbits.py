@@ -19,7 +19,7 @@ from proofs.motion.impact import first_impact
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s4_single.single_facts import (
     defect,
     distance,

@@ -20,7 +20,7 @@ from proofs.motion.covering import cover_by_impacts
 from proofs.motion.impact import LEAST, FirstImpact, impact_time, locate, time_range
 from proofs.motion.kernel import Floats, Launches, enclose_times, exclude_impacts, find_times
 from proofs.motion.system import System
-from proofs.trusted.facts import Range, hull
+from proofs.trusted.numbers import Range, hull
 
 BINARY64 = 53
 _POINT = 80  # bits of the impact time of a single launch

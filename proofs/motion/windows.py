@@ -22,7 +22,7 @@ from proofs.motion.flight import Flight
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration, slope
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.chaos import Branch
 
 BITS = 80

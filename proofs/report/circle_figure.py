@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from proofs.trusted.certificate import parse
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,7 +10,9 @@ import math
 from typing import TYPE_CHECKING
 
 from proofs.motion.system import System
-from proofs.trusted.facts import Parameters, Range, show, show_range
+from proofs.trusted.numbers import Range, show, show_range
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 _BOXES = 150
 
 
-def svg(of: Parameters, corrected: Parameters | None) -> str:
+def svg(certificate: str) -> str:
     """Return an SVG of proved boxes around the graph of f on I0 and I1, printed and corrected.
 
     Each box is a piece of the phases times an enclosure of their images (`slope_cover`); widths
@@ -30,16 +32,19 @@ def svg(of: Parameters, corrected: Parameters | None) -> str:
     mpl.use("svg")
     from matplotlib import pyplot as plt
 
+    proved = premises(certificate)
+    of = proved.of
+    corrected = next((x for x in proved.known.values() if isinstance(x, Horseshoe)), None)
     with mpl.rc_context({"svg.hashsalt": "figure-2", "font.size": 9}):
         figure, axes = plt.subplots(figsize=(5.6, 5.2), layout="constrained")
-        sets = corrected or of
-        for domain, colour, name in ((sets.left, "C0", "I0"), (sets.right, "C3", "I1")):
+        left, right = (corrected or of).left, (corrected or of).right
+        for domain, colour, name in ((left, "C0", "I0"), (right, "C3", "I1")):
             label = f"f on {name} = {show_range(domain)}"
             _graph(axes, System(of.eta, of.nu), domain, colour, label)
         _square(axes, of.interval, ":", f"I printed, {show_range(of.interval)}")
         if corrected is not None:
             _square(axes, corrected.interval, "-", f"I corrected, {show_range(corrected.interval)}")
-        low, high = (float(x) for x in sets.interval)
+        low, high = float(left[0]), float(right[1])
         axes.plot([low, high], [low, high], color="0.7", lw=0.8, label="the diagonal")
         axes.set(
             xlabel=r"$\phi$",

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from proofs.shell.groups import Row
-from proofs.trusted.facts import PAPER, Parameters, show, show_range
-from proofs.trusted.statements import Verdict
+from proofs.shell.groups import Line
+from proofs.trusted.parameters import PAPER, Parameters
 
 _TITLES = {
+    "horseshoe": "The horseshoe, claim by claim",
     "nonplastic": "Section 3.3: impacts with restitution, and their horseshoe",
     "sets": "Sections 3.1 and 3.2: the invariant set, and the steps of Claim 1",
     "dimension": "Section 3.2: the Hausdorff dimension of the invariant set",
@@ -36,29 +36,7 @@ _NAMES = {
 }
 
 
-def markdown(
-    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any], rows: Sequence[Row]
-) -> str:
-    """Return the report on one run: verdicts, the corrected theorem, the numbers, how to check."""
-    at = f"(eta, nu) = ({show(of.eta)}, {show(of.nu)})"
-    whose = "the paper's parameters" if of == PAPER else "parameters of your own"
-    sections = [
-        "# The horseshoe, claim by claim",
-        f"At {at}, {whose}: I = {show_range(of.interval)}, I0 = {show_range(of.left)}, "
-        f"I1 = {show_range(of.right)}, slopes between {show(of.slopes[0])} and "
-        f"{show(of.slopes[1])}.",
-        "The paper's f follows a mass that sticks to the table until it separates, then to its "
-        "next impact. Verdicts are proved by interval arithmetic and re-derived by the checker.",
-        "## Verdicts",
-        _verdicts(rows),
-        *_correction(of, corrected, certificate),
-        *_theorems(certificate),
-        *_ending(certificate, "horseshoe"),
-    ]
-    return "\n\n".join(sections) + "\n"
-
-
-def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Row]) -> str:
+def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Line]) -> str:
     """Return the report on a group of claims: verdicts, theorems, the numbers, how to check."""
     whose = "the paper's parameters" if of == PAPER else "parameters of your own"
     sections = [
@@ -72,7 +50,7 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
     return "\n\n".join(sections) + "\n"
 
 
-def _verdicts(rows: Sequence[Row]) -> str:
+def _verdicts(rows: Sequence[Line]) -> str:
     lines = ["| claim | verdict | statement | because |", "|---|---|---|---|"]
     for row in rows:
         cells = (row.id, row.verdict.value, row.statement, row.why)
@@ -83,16 +61,13 @@ def _verdicts(rows: Sequence[Row]) -> str:
 def _theorems(certificate: dict[str, Any]) -> list[str]:
     """Return for each claim with a witness or a theorem of its own a section with these."""
     sections = []
-    theorem = certificate["corrected"] and certificate["corrected"]["theorem"]
     for claim in certificate["claims"]:
         witness, corrected = claim["witness"], claim["corrected"]
-        if not isinstance(witness, str) and corrected in (None, theorem):
+        if witness is None and corrected is None:
             continue
         sections.append(f"## {claim['id']}")
-        if isinstance(witness, str):
-            sections.append(f"Witness: {witness}")
-        if corrected is not None:
-            sections.append(f"Theorem (VERIFIED). {corrected}")
+        sections += [] if witness is None else [f"Witness: {witness}"]
+        sections += [] if corrected is None else [f"Theorem (VERIFIED). {corrected}"]
     return sections
 
 
@@ -112,29 +87,6 @@ def _ending(certificate: dict[str, Any], name: str) -> list[str]:
         f"The certificate `{name}.json` beside this page holds the witnesses in exact numbers. "
         "From the repository's root, with nothing but Python:",
         f"    python -S -m proofs.check reports/{name}.json",
-    ]
-
-
-def _correction(
-    of: Parameters, corrected: Parameters | None, certificate: dict[str, Any]
-) -> list[str]:
-    refuted = any(claim["verdict"] == Verdict.REFUTED.value for claim in certificate["claims"])
-    if corrected is None:
-        return ["## Correction", "No corrected sets were found nearby."] if refuted else []
-    changes = [
-        f"{name} {show_range(old)} becomes {show_range(new)}"
-        for name, old, new in (
-            ("I", of.interval, corrected.interval),
-            ("I0", of.left, corrected.left),
-            ("I1", of.right, corrected.right),
-            ("the slopes' range", of.slopes, corrected.slopes),
-        )
-        if old != new
-    ]
-    return [
-        "## Corrected theorem (VERIFIED)",
-        certificate["corrected"]["theorem"],
-        f"What changes: {'; '.join(changes)}.",
     ]
 
 

@@ -10,7 +10,7 @@ import io
 from proofs.motion.simulate import transients
 from proofs.motion.system import System
 from proofs.trusted.certificate import parse
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 
 
 def svg(source: str) -> str:

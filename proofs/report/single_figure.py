@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.trusted.certificate import Reader, parse
-from proofs.trusted.facts import PAPER
-from proofs.trusted.paper.s4_single.rules import RULES
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.paper.s4_single.single_facts import EtaWindows, NuWindows
+from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,15 +27,11 @@ _LABELLED = 8  # n up to which windows in eta are labelled
 
 def proved(source: str) -> tuple[EtaWindows, NuWindows]:
     """Return the windows that a certificate proves, derived again."""
-    found: dict[type, object] = {}
-    for _, step in dict(parse(source).entries())["steps"].members():
-        rule, witness = step.fields("rule", "witness")
-        if rule.string() in ("single-eta-windows", "single-nu-windows"):
-            conclusion = RULES[rule.string()](PAPER, {}, witness)
-            found[type(conclusion)] = conclusion
-    eta, nu = found.get(EtaWindows), found.get(NuWindows)
-    if not isinstance(eta, EtaWindows) or not isinstance(nu, NuWindows):
-        raise Reader({}).fail("no windows of section 4")
+    known = premises(source).known.values()
+    eta = next((each for each in known if isinstance(each, EtaWindows)), None)
+    nu = next((each for each in known if isinstance(each, NuWindows)), None)
+    if eta is None or nu is None:
+        raise Malformed("$: no windows of section 4")
     return eta, nu
 
 

@@ -24,10 +24,11 @@ from proofs.methods.formulas import (
 )
 from proofs.search.evidence import Evidence
 from proofs.trusted.certificate import Reader, texts
-from proofs.trusted.facts import Range
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.derivation import Formulas
 from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Lemma, Value
 
 SPARE_BITS = 40
@@ -79,9 +80,9 @@ class Steps:
 
     digits: int
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    names: dict[Lemma | Asked, tuple[str, object]] = field(default_factory=dict)
+    names: dict[Lemma | Asked, tuple[str, Conclusion]] = field(default_factory=dict)
 
-    def prove(self, wanted: Lemma | Asked) -> tuple[str, object] | None:
+    def prove(self, wanted: Lemma | Asked) -> tuple[str, Conclusion] | None:
         """Return the step that proves something, and its conclusion; None if none is found."""
         if wanted not in self.names:
             if isinstance(wanted, Asked):
@@ -116,7 +117,7 @@ class Steps:
         self._add(asked, Value(asked.function, asked.box, bounds), "formula-value", witness)
 
     def _add(
-        self, wanted: Lemma | Asked, found: object, rule: str, witness: dict[str, Any]
+        self, wanted: Lemma | Asked, found: Conclusion, rule: str, witness: dict[str, Any]
     ) -> None:
         name = f"{rule.removeprefix('formula-')}-{len(self.steps) + 1}"
         self.steps[name] = {"rule": rule, "witness": witness}

@@ -6,15 +6,22 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from intervals import DomainError, Undecided
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+
 Tell = Callable[[str], None]
+FAILED = (Undecided, DomainError, Unproved)  # what a proof that does not succeed raises
 
 
 @dataclass
 class Evidence:
     """What a prover found: its steps in order, and for each claim the steps that it rests on.
 
-    Each of these comes with the conclusion that the prover's own arithmetic reached.
+    Each of these comes with the conclusion that the prover's own arithmetic reached. notes: why
+    more was not proved.
     """
 
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    proofs: dict[str, list[tuple[str, object]]] = field(default_factory=dict)
+    proofs: dict[str, list[tuple[str, Conclusion]]] = field(default_factory=dict)
+    notes: dict[str, str] = field(default_factory=dict)

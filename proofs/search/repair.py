@@ -13,7 +13,8 @@ from itertools import product
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Parameters
 
 REACH = 6  # units in the last printed place, in all
 

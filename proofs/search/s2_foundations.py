@@ -17,11 +17,13 @@ from proofs.search.evidence import Evidence
 from proofs.search.s34_circle import prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader, texts
-from proofs.trusted.facts import Parameters
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS
 from proofs.trusted.paper.s7_appendix.appendix import NEGATIVE
 from proofs.trusted.paper.s7_appendix.rules import method_one
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = GROUPS["foundations"]
 
@@ -41,11 +43,11 @@ def prove(
     if "A2" in claims:
         name, witness = "method-one-1", counterexample()
         evidence.steps[name] = {"rule": "method-one", "witness": witness}
-        evidence.proofs["A2"] = [(name, method_one(of, {}, Reader(witness)))]
+        evidence.proofs["A2"] = [(name, method_one(Context(of), Reader(witness)))]
     return evidence
 
 
-def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> list[tuple[str, object]]:
+def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> list[tuple[str, Conclusion]]:
     """Prove that an interval of phases never impacts again, if one is found."""
     if not -1 < of.nu < 0 < of.eta < 1:
         return []

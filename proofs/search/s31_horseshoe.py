@@ -1,39 +1,33 @@
-"""Sections 3.1-3.2: is the plastic impact map a horseshoe on the printed sets?
+"""Section 3.1-3.2: is the plastic impact map a horseshoe on the printed sets? H1-H6, H11, H16.
 
-Claims H1-H6, H11 and H16: candidates by floating point, proof by interval arithmetic, a
-certificate of witnesses, and a repair where the printed numbers fail.
+Candidates by floating point, proof by interval arithmetic, a certificate of witnesses, and a
+repair where the printed numbers fail.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from itertools import islice
-from time import perf_counter
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from intervals import DomainError, Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.repair import grid, nearest_sets, places, rounded_slopes, short_decimal
+from proofs.search.evidence import FAILED, Evidence, Tell
+from proofs.search.repair import grid, nearest_sets, places
 from proofs.search.steps import Prover
-from proofs.shell.groups import Row, certificate, printed
-from proofs.trusted.certificate import parameters_to_json, texts
-from proofs.trusted.facts import Facts, Parameters, PointFact, Range, SlopeRange
-from proofs.trusted.statements import (
-    HORSESHOE,
-    STATEMENTS,
-    Verdict,
-    decide,
-    image_arcs,
-    quantities,
-    theorem,
-)
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Phase
+from proofs.trusted.paper import GROUPS
+from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import Avoids, Impact, SlopeRange
+from proofs.trusted.verdicts import Verdict
 
-CLAIMS = tuple(STATEMENTS)
 _Proved = TypeVar("_Proved")
 _STAGES = {
     "slopes": "first impacts and slopes on I0 and I1",
@@ -42,27 +36,19 @@ _STAGES = {
 }
 _NEEDS_SLOPES = {"H1", "H2", "H3", "H5", "H6"}
 _NEEDS_GAP = {"H4", "H5"}
-
-
-@dataclass
-class Outcome:
-    """What a run proved: rows for people, a certificate for the checker."""
-
-    parameters: Parameters
-    rows: list[Row]
-    corrected: Parameters | None
-    certificate: dict[str, Any]
+_DECIDE = {row.id: row.decide for row in ROWS}
+_TRIES = 3
 
 
 @dataclass
 class _Run:
-    """The facts of one run, about the printed sets and about corrected ones, and their steps."""
+    """What one run proved, about the printed sets and about corrected ones."""
 
     prover: Prover
     of: Parameters
-    tell: Callable[[str], None]
-    slope_steps: dict[str, SlopeRange] = field(default_factory=dict)
-    gap_steps: dict[str, tuple[Range, Range]] = field(default_factory=dict)
+    tell: Tell
+    slopes: list[tuple[str, SlopeRange]] = field(default_factory=list)
+    gaps: list[tuple[str, Avoids]] = field(default_factory=list)
     failures: dict[str, str] = field(default_factory=dict)
 
     def attempt(self, part: str, make: Callable[[], _Proved]) -> _Proved | None:
@@ -71,8 +57,9 @@ class _Run:
         before = dict(self.prover.steps)
         try:
             return make()
-        except (Undecided, DomainError) as failure:
-            self.prover.steps = before
+        except FAILED as failure:
+            self.prover.steps.clear()
+            self.prover.steps.update(before)
             self.failures[part] = str(failure)
             return None
 
@@ -80,86 +67,42 @@ class _Run:
         """Enclose f' on I0 and on I1, each the hull of those of the sets given."""
         for domains in ([one.left for one in sets], [one.right for one in sets]):
             points = sorted({end for domain in domains for end in domain})
-            if not any(set(points) <= set(known.points) for known in self.slope_steps.values()):
+            if not any(set(points) <= set(known.points) for _, known in self.slopes):
                 proved = self.attempt("slopes", partial(self.prover.slopes, points))
                 if proved is None:
                     return False
-                self.slope_steps[proved[0]] = proved[1]
+                self.slopes.append(proved)
         return True
 
     def prove_gap(self, *sets: Parameters) -> bool:
         """Prove that the gap, the hull of those of the sets given, avoids the hull of the Is."""
         phases = (min(one.gap[0] for one in sets), max(one.gap[1] for one in sets))
         target = (min(one.interval[0] for one in sets), max(one.interval[1] for one in sets))
-        name = self.attempt("gap", partial(self.prover.avoids, phases, target))
-        if name is not None:
-            self.gap_steps[name] = (phases, target)
-        return name is not None
+        proved = self.attempt("gap", partial(self.prover.avoids, phases, target))
+        self.gaps += [] if proved is None else [proved]
+        return proved is not None
 
-    def facts(self, of: Parameters) -> tuple[Facts, list[str], list[str]]:
-        """Return what the steps so far prove about `of`, and the names of those that do."""
-        facts, slopes, gaps = Facts(), [], []
-        for name, found in self.slope_steps.items():
-            known = len(facts.slope_min)
-            facts.add_slopes(of, found)
-            slopes += [name] * (len(facts.slope_min) > known)
-        for name, (phases, target) in self.gap_steps.items():
-            if not facts.avoided:
-                facts.add_avoided(of, phases, target)
-                gaps += [name] * facts.avoided
-        return facts, slopes, gaps
+    def evidence(self, claim: str) -> list[tuple[str, Conclusion]]:
+        """Return the steps that a claim rests on: enough to decide it, if they are."""
+        known: list[tuple[str, Conclusion]] = []
+        if claim in _NEEDS_SLOPES:
+            known += [(name, found) for name, found in self.slopes if self._is_about(found)]
+        if claim in _NEEDS_GAP and self._verdict(claim, known) is Verdict.UNDECIDED:
+            known += self.gaps[:1]
+        if self._verdict(claim, known) is Verdict.UNDECIDED:
+            found = self.witness(claim)
+            known = known if found is None else [found]
+        return known
 
-    # -- claims --------------------------------------------------------------------------------
+    def _is_about(self, found: SlopeRange) -> bool:
+        return any(found.over(domain) is not None for domain in (self.of.left, self.of.right))
 
-    def claim(self, claim: str) -> tuple[Row, dict[str, Any]]:
-        """Decide one claim at the printed sets; return its row and its certificate entry."""
-        began = perf_counter()
-        facts, proof = self.evidence(claim)
-        witness: dict[str, Any] | None = None
-        if facts.missed is not None:
-            witness = {"interval": texts(facts.missed)}
-        verdict, why = decide(claim, self.of, facts)
-        point = self.witness(claim) if verdict is Verdict.UNDECIDED else None
-        if point is not None:
-            name, fact = point
-            facts.points.append(fact)
-            proof, witness = [name, *proof], {"point": name, "phase": str(fact.phase)}
-            verdict, why = decide(claim, self.of, facts)
-        if verdict is Verdict.UNDECIDED:
-            parts = ["slopes"] * (claim in _NEEDS_SLOPES) + ["gap"] * (claim in _NEEDS_GAP)
-            why = "; ".join([why] + [self.failures[x] for x in parts if x in self.failures])
-        says, seconds = STATEMENTS[claim].says(self.of), perf_counter() - began
-        row = Row(claim, verdict, says, why, quantities(claim, facts), seconds)
-        return row, {
-            "id": claim,
-            "statement": row.statement,
-            "verdict": verdict.value,
-            "proof": proof,
-            "witness": witness if verdict is Verdict.REFUTED else None,
-            "corrected": None,
-            "quantities": {
-                name: printed(bounds, self.prover.digits) for name, bounds in row.quantities.items()
-            },
-        }
+    def _verdict(self, claim: str, known: Sequence[tuple[str, Conclusion]]) -> Verdict:
+        return _DECIDE[claim](self.of, [conclusion for _, conclusion in known]).verdict
 
-    def evidence(self, claim: str) -> tuple[Facts, list[str]]:
-        """Return the facts that a claim rests on, and the names of the steps that prove them."""
-        facts, slopes, gaps = self.facts(self.of)
-        proof = slopes if claim in _NEEDS_SLOPES else []
-        if claim == "H5":
-            facts.missed = missed_interval(self.of, facts)
-        if claim in _NEEDS_GAP and facts.missed is None:
-            proof = proof + gaps
-        if claim == "H11" and max(*self.of.moran_ratios, *self.of.reciprocals) < 1:
-            for ratios in dict.fromkeys((self.of.moran_ratios, self.of.reciprocals)):
-                name, bracket = self.prover.root(ratios)
-                facts.add_root(self.of, ratios, bracket)
-                proof = [*proof, name]
-        return facts, proof
-
-    def witness(self, claim: str) -> tuple[str, PointFact] | None:
+    def witness(self, claim: str) -> tuple[str, Impact] | None:
         """Look for one phase that refutes a claim, by candidates, and prove it."""
-        for phase in islice(self.suspects(claim), 3):
+        for phase in islice(self.suspects(claim), _TRIES):
             proved = self.attempt("witness", partial(self.prover.point, phase))
             if proved is not None:
                 return proved
@@ -174,94 +117,79 @@ class _Run:
             if candidate is None:
                 continue
             _, image, slope = (Fraction(value) for value in candidate)
-            guess = Facts(points=[PointFact(phase, (slope, slope), (image, image))])
-            if decide(claim, of, guess)[0] is Verdict.REFUTED:
+            try:
+                guess = Impact(of.place, phase, (slope, slope), Phase(image, image))
+            except Unproved:  # next to phase 0
+                continue
+            if _DECIDE[claim](of, [guess]).verdict is Verdict.REFUTED:
                 yield phase
 
-    # -- the repair ----------------------------------------------------------------------------
-
-    def correction(self) -> tuple[Parameters, dict[str, Any]] | None:
-        """Prove H1-H6 on the nearest sets on which that succeeds, slopes rounded outward."""
-        for sets in islice(nearest_sets(self.of), 3):
-            facts, _, _ = self.facts(sets)
-            if not facts.slopes_known:
-                self.prove_slopes(sets)
-            if not facts.avoided:
-                self.prove_gap(sets)
-            facts, slopes, gaps = self.facts(sets)
-            if not facts.slopes_known:
-                continue
-            bounds = (
-                min(low for low, _ in facts.slope_min.values()),
-                max(high for _, high in facts.slope_max.values()),
-            )
-            found = replace(
-                sets,
-                slopes=rounded_slopes(bounds, max(2, places(self.of.slopes))),
-                ratios=None,
-                printed_s0=None,
-                epsilon=None,
-                velocities=None,
-                reach=None,
-            )
-            if found.slopes[0] > 1 and all(
-                decide(claim, found, facts)[0] is Verdict.VERIFIED for claim in HORSESHOE
+    def correction(self) -> tuple[str, Horseshoe] | None:
+        """Prove a horseshoe on the nearest sets on which that succeeds, slopes rounded outward."""
+        for sets in islice(nearest_sets(self.of), _TRIES):
+            if self._proved(sets) is None and not (
+                self.prove_slopes(sets) and self.prove_gap(sets)
             ):
-                return found, {
-                    "parameters": parameters_to_json(found),
-                    "theorem": theorem(found),
-                    "proof": slopes + gaps,
-                }
+                continue
+            proved = self._proved(sets)
+            if proved is not None:
+                return proved
         return None
 
-
-def missed_interval(of: Parameters, facts: Facts) -> Range | None:
-    """Return a closed interval in I0 or I1 that seems to have no preimage in I0 or in I1."""
-    low, high = of.interval
-    for arc in image_arcs(of, facts):
-        if arc is None:
-            continue
-        if arc[0][0] > low:
-            return low, short_decimal(low, min(arc[0][0], of.left[1]))
-        if arc[1][1] < high:
-            return short_decimal(max(arc[1][1], of.right[0]), high), high
-    return None
+    def _proved(self, sets: Parameters) -> tuple[str, Horseshoe] | None:
+        """Return a horseshoe on these sets by the steps that there are."""
+        known = [
+            next(((name, found) for name, found in self.slopes if found.over(domain)), None)
+            for domain in (sets.left, sets.right)
+        ]
+        for gap in self.gaps:
+            if known[0] is None or known[1] is None:
+                return None
+            try:
+                digits = max(2, places(self.of.slopes))
+                return self.prover.horseshoe(known[0], known[1], gap, sets, digits)
+            except Unproved:
+                continue
+        return None
 
 
 def prove(
     of: Parameters,
-    claims: Iterable[str] = CLAIMS,
+    claims: Sequence[str] = GROUPS["horseshoe"],
     *,
     digits: int = 30,
     horizon: Fraction = HORIZON,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Outcome:
-    """Decide the claims asked for, and repair the sets where the printed ones fail.
+    tell: Tell = lambda stage: None,
+) -> Evidence:
+    """Prove what the claims asked for rest on, and repair the sets where the printed ones fail.
 
-    Work is done for what is asked only: slopes for H1-H3, H5, H6, the gap for H4 and H5, the
-    root for H11; a repair where one of H1-H6 asked for is refuted. If floating point expects a
-    repair, the steps are made on the hulls of the given and the corrected sets at once. `tell`
-    hears of each part of the proof before it is made.
+    Work is done for what is asked only: slopes for H1-H3, H5, H6, the gap for H4 and H5, roots for
+    H11; a repair where one of H1-H6 asked for is refuted. If floating point expects a repair, the
+    steps are made on the hulls of the given and the corrected sets at once.
     """
-    wanted = [claim for claim in CLAIMS if claim in set(claims)]
     run = _Run(Prover(System(of.eta, of.nu), digits, horizon), of, tell)
-    needs_slopes, needs_gap = _NEEDS_SLOPES.intersection(wanted), _NEEDS_GAP.intersection(wanted)
+    needs_slopes, needs_gap = _NEEDS_SLOPES.intersection(claims), _NEEDS_GAP.intersection(claims)
     sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
     if needs_slopes and not run.prove_slopes(*sets):
         run.prove_slopes(of)
     escapes = needs_gap and next(run.suspects("H4", finest=8, stride=6), None) is None
     if escapes and not run.prove_gap(*sets):
         run.prove_gap(of)
-    decided = [run.claim(claim) for claim in wanted]
-    refuted = [entry for row, entry in decided if is_repairable(row)]
+    found = Evidence(run.prover.steps)
+    for claim in claims:
+        if claim in _DECIDE:
+            found.proofs[claim] = run.evidence(claim)
+            parts = ["slopes"] * (claim in needs_slopes) + ["gap"] * (claim in needs_gap)
+            found.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
+    if "H11" in claims and max(*of.moran_ratios, *of.reciprocals) < 1:
+        ratios = dict.fromkeys((of.moran_ratios, of.reciprocals))
+        found.proofs["H11"] = [run.prover.root(each) for each in ratios]
+    refuted = [
+        claim
+        for claim, proof in found.proofs.items()
+        if claim in _DECIDE and run._verdict(claim, proof) is Verdict.REFUTED
+    ]
     correction = run.correction() if refuted else None
-    for entry in refuted:
-        entry["corrected"] = correction and correction[1]["theorem"]
-    entries = [entry for _, entry in decided]
-    proved = certificate(of, run.prover.steps, entries, correction and correction[1])
-    return Outcome(of, [row for row, _ in decided], correction and correction[0], proved)
-
-
-def is_repairable(row: Row) -> bool:
-    """Whether other sets or slopes could make the claim true."""
-    return row.id in HORSESHOE and row.verdict is Verdict.REFUTED
+    for claim in refuted if correction is not None else ():
+        found.proofs[claim] += [correction] if correction else []
+    return found

@@ -18,16 +18,19 @@ from proofs.search.evidence import Evidence, Tell
 from proofs.search.repair import nearest_sets, short_decimal
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Avoids, MoranRoot, Parameters, Range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s32_sets.dimension import CLAIMS as STATED
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, Repeller
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = tuple(claim.id for claim in STATED)
 _MOST_DIGITS = 30  # of the dimension: time grows faster than their square
 _TRIES = 100
 _SLACK = 20  # bits by which a bracket is wider than rounding
 
-Proof = list[tuple[str, object]]
+Proof = list[tuple[str, Conclusion]]
 
 
 @dataclass
@@ -51,14 +54,13 @@ class _Run:
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1."""
-        name, bracket = self.prover.root(ratios)
-        return name, MoranRoot(ratios, bracket)
+        return self.prover.root(ratios)
 
     def whole(self, sets: Parameters) -> Proof:
         """Enclose the dimension of the full horseshoe on `sets`; roughly by slopes alone too."""
         self.tell("where the gap between the two sets goes")
         gap = min(sets.gap[0], self.of.gap[0]), max(sets.gap[1], self.of.gap[1])
-        escape = (self.prover.avoids(gap, sets.interval), Avoids(gap, sets.interval))
+        escape = self.prover.avoids(gap, sets.interval)
         name, found = self.repeller(sets, FULL)
         # slopes in hundredths, outward: the checker's enclosures may be a little wider
         steep = [Fraction(high * 100 // 1 + 2, 100) for _, high in found.slopes]

@@ -11,32 +11,32 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
 
-from intervals import DomainError, Interval, Undecided, exp, log
+from intervals import Interval, exp, log
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.evidence import Evidence
-from proofs.search.repair import nearest_sets, places, rounded_slopes
+from proofs.search.evidence import FAILED, Evidence
+from proofs.search.repair import nearest_sets, places
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Facts, Parameters, Range, SlopeRange
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, decimal_between
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.cantor import (
     Excess,
     LinearSet,
     cylinder,
-    decimal_between,
     length,
     ratio_pairs,
 )
 from proofs.trusted.paper.s32_sets.itinerary import (
-    Horseshoe,
     Itinerary,
     follow,
-    horseshoe_sets,
-    obstacle,
 )
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.sets import CLAIMS as STATED
 from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import SlopeRange
 
 CLAIMS = tuple(claim.id for claim in STATED)
 _INVARIANT = ("H7", "H8", "H9", "H10")
@@ -45,7 +45,7 @@ _COARSE = 1e-5
 _TRIES = 6
 _FOLLOWED = 10
 
-Proof = list[tuple[str, object]]
+Proof = list[tuple[str, Conclusion]]
 Orbits = list[tuple[str, Itinerary]]
 
 
@@ -59,7 +59,7 @@ class _Run:
     of: Parameters
     prover: Prover
     looks_closer: bool
-    roots: dict[Range, tuple[str, Range]] = field(default_factory=dict)
+    roots: dict[Range, tuple[str, MoranRoot]] = field(default_factory=dict)
 
     # -- the invariant set of the map --------------------------------------------------------------
 
@@ -73,7 +73,7 @@ class _Run:
             before = dict(self.prover.steps)
             try:
                 return self._prove_on(sets)
-            except (Undecided, DomainError):
+            except FAILED:
                 self.prover.steps = before
         return [], []
 
@@ -87,32 +87,17 @@ class _Run:
         starts += slow_cylinder(self.of, self.prover.system) if self.looks_closer else []
         starts = list(dict.fromkeys(starts))
         extra = [point for start in starts for point in self._nearby(sets, start)]
-        slopes, facts = {}, Facts()
+        slopes: dict[str, SlopeRange] = {}
         for domain in (sets.left, sets.right):
             inside = {point for point in extra if domain[0] < point < domain[1]}
             name, found = self.prover.slopes(sorted({*domain, *inside}))
             slopes[name] = found
-            facts.add_slopes(sets, found)
-        avoided = self.prover.avoids(sets.gap, sets.interval)
-        facts.add_avoided(sets, sets.gap, sets.interval)
-        bounds = (
-            min(low for low, _ in facts.slope_min.values()),
-            max(high for _, high in facts.slope_max.values()),
-        )
-        if bounds[0] <= 1:
-            raise Undecided("f is not proved to expand I0 and I1")
-        slope_bounds = rounded_slopes(bounds, max(2, places(self.of.slopes)))
-        proved = horseshoe_sets(sets, sets.left, sets.right, slope_bounds)
-        missing = obstacle(proved, facts)
-        if missing is not None:
-            raise Undecided(missing)
-        witness = {"left": texts(proved.left), "right": texts(proved.right)}
-        name = self.prover.add(
-            "horseshoe",
-            {**witness, "slopes": texts(proved.slopes), "proof": [*slopes, avoided]},
-        )
-        orbits = [orbit for x in starts for orbit in self._itinerary(name, proved, slopes, x)]
-        return [(name, Horseshoe(proved))], orbits
+        left, right = slopes.items()
+        gap = self.prover.avoids(sets.gap, sets.interval)
+        digits = max(2, places(self.of.slopes))
+        base, proved = self.prover.horseshoe(left, right, gap, sets, digits)
+        orbits = [orbit for x in starts for orbit in self._itinerary(base, proved, slopes, x)]
+        return [(base, proved)], orbits
 
     def _nearby(self, sets: Parameters, start: Fraction) -> Iterator[Fraction]:
         """Yield a phase, and points close to its first images on both sides, by candidates."""
@@ -128,7 +113,7 @@ class _Run:
             reach = _NEARBY + round(reach * 2 * self.of.slopes[1] / _NEARBY) * _NEARBY
 
     def _itinerary(
-        self, horseshoe: str, sets: Parameters, slopes: dict[str, SlopeRange], start: Fraction
+        self, horseshoe: str, sets: Horseshoe, slopes: dict[str, SlopeRange], start: Fraction
     ) -> Iterator[tuple[str, Itinerary]]:
         found = follow(sets, list(slopes.values()), start)
         if found is not None:
@@ -137,7 +122,7 @@ class _Run:
 
     # -- the linear set ----------------------------------------------------------------------------
 
-    def root(self, ratios: Range) -> tuple[str, Range]:
+    def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root for a pair of ratios, once."""
         if ratios not in self.roots:
             self.roots[ratios] = self.prover.root(ratios)
@@ -148,9 +133,9 @@ class _Run:
         proof: Proof = []
         for ratios in self._pairs():
             name, root = self.root(ratios)
-            measure = _power(length(self.of.interval), root, self.prover.bits)
+            measure = _power(length(self.of.interval), root.root, self.prover.bits)
             step = self.prover.add("linear-set", {"root": name})
-            proof.append((step, LinearSet(ratios, root, (measure.inf, measure.sup))))
+            proof.append((step, LinearSet(ratios, root.root, (measure.inf, measure.sup))))
         return proof
 
     def excesses(self) -> Proof:
@@ -162,7 +147,9 @@ class _Run:
             epsilon, word = decimal_between(most * Fraction(9, 10), most), "11"
             inside = length(cylinder(ratios, self.of.interval, word))
             bits, delta = self.prover.bits, epsilon / 4
-            found = _power(inside + delta, root, bits) - _power(inside, root, bits) - delta
+            found = (
+                _power(inside + delta, root.root, bits) - _power(inside, root.root, bits) - delta
+            )
             witness = {"root": name, "epsilon": str(epsilon), "word": word}
             step = self.prover.add("excess", witness)
             proof.append((step, Excess(ratios, epsilon, word, (found.inf, found.sup))))

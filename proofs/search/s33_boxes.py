@@ -17,7 +17,7 @@ from proofs.search.s33_rectangles import (
     stays,
 )
 from proofs.search.s33_steps import ReboundProver
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebound_boxes import with_side
 from proofs.trusted.paper.s33_restitution.rebounds import Box, Unjoined
 

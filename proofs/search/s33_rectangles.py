@@ -18,8 +18,9 @@ from proofs.trusted.equations import (
     launch_acceleration,
     launch_with_restitution,
 )
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebounds import Box
+from proofs.trusted.parameters import Parameters
 
 Sets = tuple[Range, Range]
 Images = Callable[[Fraction], tuple[float, float] | None]

@@ -21,9 +21,10 @@ from proofs.search.s33_boxes import on_box
 from proofs.search.s33_rectangles import Sets, image_phases, narrowed, nearest_rectangles, widened
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebound_facts import oscillator
 from proofs.trusted.paper.s33_restitution.rebounds import Box, Unjoined
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = ("N1", "N2", "N3", "N4")
 _ATTEMPTS = 12  # with widened rectangles

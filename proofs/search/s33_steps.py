@@ -18,7 +18,7 @@ from proofs.motion.system import System
 from proofs.search.s33_rectangles import Sets, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebound_boxes import with_side
 from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, oscillator
 from proofs.trusted.paper.s33_restitution.rebounds import (
@@ -31,6 +31,7 @@ from proofs.trusted.paper.s33_restitution.rebounds import (
     horseshoe,
     rectangle,
 )
+from proofs.trusted.parameters import Parameters
 
 _WIDEST = Fraction(1, 32)  # of a part of a rectangle, in phase
 _NARROWEST = Fraction(1, 256)

@@ -37,7 +37,7 @@ from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, links, with_gaps
 from proofs.trusted.paper.s34_circle.chaos import Branch
 from proofs.trusted.paper.s34_circle.landing import Absorption, Separation

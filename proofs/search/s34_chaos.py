@@ -20,8 +20,10 @@ from proofs.search.evidence import Evidence
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.chaos import PRINTED, Branch, CoveringGraph
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = ("G5", "G9")
 
@@ -57,7 +59,7 @@ def prove(
 
 def prove_entropy(
     prover: Prover, most_turns: int = _MOST_TURNS, depth: int = _DEPTH
-) -> list[tuple[str, object]]:
+) -> list[tuple[str, Conclusion]]:
     """Prove a covering graph on all branches with flights over at most so many turns.
 
     At the paper's numbers the growth is 1.618 with two branches, up to 5 turns; 3.469 with four, up

@@ -22,10 +22,11 @@ from proofs.search.evidence import Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import Parameters
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.paper.s34_circle.circle import CLAIMS as STATED
 from proofs.trusted.paper.s34_circle.circle import LONG
 from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = tuple(claim.id for claim in STATED)
 
@@ -33,7 +34,7 @@ _NEVER = {"M6", "G4", "G6"}  # what rests on phases that never impact again
 _FOLLOWED = {"G3", "G4", "G6"}  # what rests on where all others lead
 _REPELLED = {"G4", "G6"}  # what rests on a fixed point
 _NARROW = 12  # decimal places
-_Found = TypeVar("_Found")
+_Found = TypeVar("_Found", bound=Conclusion)
 
 
 def prove(
@@ -92,7 +93,7 @@ def prove_arc(prover: Prover) -> tuple[str, Separation]:
     return prover.add("separation", witness), found
 
 
-def prove_longest(prover: Prover) -> tuple[str, object]:
+def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
     """Prove an interval around pi/2 without a next impact, to nine places the longest."""
     low, high, centre, unit = 0, 10**9, Fraction(math.pi / 2), Fraction(1, 10**9)
 

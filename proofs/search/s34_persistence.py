@@ -23,9 +23,11 @@ from proofs.search.evidence import Evidence
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import TURN, Parameters, Range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.paper.s34_circle.persistence import Chatter, SeparationFlight, stable_pair
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = ("G7", "G8")
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
@@ -154,7 +156,7 @@ def _halved(
     ]
 
 
-def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, object]]:
+def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, Conclusion]]:
     """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found.
 
     The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
@@ -184,7 +186,7 @@ def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, object]]:
         around(state, (_rounded(half[0]), _rounded(half[1])))
         for state, half in zip(states, halves_of, strict=True)
     ]
-    proof: list[tuple[str, object]] = [boxes[0], centres[0], boxes[1], centres[1]]
+    proof: list[tuple[str, Conclusion]] = [boxes[0], centres[0], boxes[1], centres[1]]
     return proof if stable_pair(of, [step for _, step in proof]) else []
 
 

@@ -13,9 +13,11 @@ from proofs.motion.impact import impact_time, locate
 from proofs.motion.phase import phase_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import PointFact, Range, SlopeRange
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.chaos import brackets
 from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
+from proofs.trusted.slopes import Impact, SlopeRange
 
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
@@ -118,7 +120,7 @@ class Sketcher:
         return covers
 
 
-def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[str, object]]:
+def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[str, Conclusion]]:
     """Prove which orbits stay in `printed`, and full shifts on two and three symbols around it.
 
     The second one in an interval that contains `around` too. What is not proved is left out.
@@ -129,14 +131,14 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[s
     shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
     sketches += [one for one in shifts if one is not None]
     proofs = Pieces(prover, sketches)
-    found: list[tuple[str, object]] = []
+    found: list[tuple[str, Conclusion]] = []
     for sketch in sketches:
         with suppress(Undecided, DomainError, ValueError):
             found.append(proofs.prove(sketch))
     for _, staying in list(found):
         if isinstance(staying, StayingSet):
             for cells in staying.orbits:
-                points = [x for _, x in found if isinstance(x, PointFact)]
+                points = [x for _, x in found if isinstance(x, Impact)]
                 if not brackets(cells, points):
                     found += periodic_orbit(prover, cells)
     return found
@@ -153,7 +155,7 @@ class Pieces:
     def prove(self, sketch: Sketch) -> tuple[str, StayingSet]:
         """Record the step `staying-set` and those that it needs."""
         slopes = [self._slopes(piece) for piece in sketch.pieces]
-        gaps = [self.prover.avoids(gap, sketch.interval) for gap in sketch.gaps]
+        gaps = [self.prover.avoids(gap, sketch.interval)[0] for gap in sketch.gaps]
         pieces = list(zip(slopes, sketch.pieces, strict=True))
         found = StayingSet.of(
             sketch.interval,
@@ -180,7 +182,7 @@ class Pieces:
         return self._known[-1]
 
 
-def periodic_orbit(prover: Prover, cells: Sequence[Cell]) -> list[tuple[str, PointFact]]:
+def periodic_orbit(prover: Prover, cells: Sequence[Cell]) -> list[tuple[str, Impact]]:
     """Bracket a periodic orbit with one point in each cell by phases on both sides of its points.
 
     f expands, so it maps the interval between two of them over the one between the next two.

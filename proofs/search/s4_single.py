@@ -28,7 +28,8 @@ from proofs.search.evidence import Evidence
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import clock, launch_acceleration, slope
-from proofs.trusted.facts import PAPER, TURN, Parameters, Range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.formulas import Asked, Lemma
 from proofs.trusted.paper.s4_single import displayed as eq
 from proofs.trusted.paper.s4_single import single as claims
@@ -43,6 +44,7 @@ from proofs.trusted.paper.s4_single.single_facts import (
     Window,
     records,
 )
+from proofs.trusted.parameters import PAPER, Parameters
 
 CLAIMS = ("P1", "P2", "P3", "P4", "P5", "P6")
 
@@ -59,7 +61,7 @@ class Single:
     """Collects the steps of this group, each with its conclusion."""
 
     prover: Prover
-    found: dict[str, object] = field(default_factory=dict)
+    found: dict[str, Conclusion] = field(default_factory=dict)
 
     def solution(self, system: System, of: SingleImpact, early: bool) -> str:
         """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for."""
@@ -221,7 +223,7 @@ def prove(
     prover = Prover(System(of.eta, of.nu), digits, HORIZON, formulas.steps)
     single, evidence = Single(prover), Evidence(formulas.steps)
 
-    def lemmas(wanted: Sequence[Lemma | Asked]) -> list[tuple[str, object]]:
+    def lemmas(wanted: Sequence[Lemma | Asked]) -> list[tuple[str, Conclusion]]:
         proved = [formulas.prove(each) for each in wanted]
         return [each for each in proved if each is not None]
 

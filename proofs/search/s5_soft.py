@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 from proofs.search.derivations import prove_derivations
 from proofs.search.evidence import Evidence
-from proofs.trusted.facts import Parameters
 from proofs.trusted.paper.s5_soft.soft import DERIVATIONS
+from proofs.trusted.parameters import Parameters
 
 CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
 

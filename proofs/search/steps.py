@@ -17,8 +17,14 @@ from proofs.motion.covering import cover_by, cover_by_impacts
 from proofs.motion.impact import FirstImpact, impact_time, locate
 from proofs.motion.phase import misses, phase_after
 from proofs.motion.system import System
+from proofs.search.repair import rounded_slopes
 from proofs.trusted.certificate import texts
-from proofs.trusted.facts import PointFact, Range, SlopeRange, show_range
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Phase, Phases, Range, hull, show_range
+from proofs.trusted.paper.s31_horseshoe import Horseshoe, horseshoe
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.slopes import Avoids, Impact, SlopeRange
 
 
 @dataclass
@@ -29,6 +35,11 @@ class Prover:
     digits: int
     horizon: Fraction
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    @property
+    def at(self) -> Place:
+        """The oscillator that conclusions are about."""
+        return Place.plastic(self.system.eta, self.system.nu)
 
     @property
     def bits(self) -> int:
@@ -63,15 +74,16 @@ class Prover:
             "points": [bracket(x, x, phase=str(x)) for x in found.points],
             "pieces": [bracket(*piece) for piece in pairwise(found.points)],
         }
-        images = (phase_after(x, branch.time(x, x), self.bits + 30) for x in found.points)
+        images = (Phase(*phase_after(x, branch.time(x, x), self.bits + 30)) for x in found.points)
         return self.add("slope-range", witness), SlopeRange(
+            self.at,
             found.points,
             tuple((value.inf, value.sup) for value in found.values),
             tuple(images),
             tuple((piece.inf, piece.sup) for piece in found.pieces),
         )
 
-    def avoids(self, phases: Range, target: Range) -> str:
+    def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
 
         def accept(found: FirstImpact) -> bool:
@@ -81,9 +93,10 @@ class Prover:
         why = f"an impact in {show_range(target)} is possible"
         parts = cover_by(self.system, phases, accept, obstacle=why, horizon=self.horizon)
         flights = [self.add_impact(part) for part in parts]
-        return self.add("avoids", {"flights": flights, "target": texts(target)})
+        name = self.add("avoids", {"flights": flights, "target": texts(target)})
+        return name, Avoids(self.at, Phases(*phases), Phases(*target))
 
-    def point(self, phase: Fraction) -> tuple[str, PointFact]:
+    def point(self, phase: Fraction) -> tuple[str, Impact]:
         """Enclose f and f' at one phase (rule point)."""
         impact = locate(self.system, (phase, phase), horizon=self.horizon)
         time = impact_time(impact, (phase, phase), self.bits)
@@ -93,10 +106,34 @@ class Prover:
             "phase": str(phase),
             "time": texts(time),
         }
-        fact = PointFact(phase, (slope.inf, slope.sup), phase_after(phase, time, self.bits + 30))
-        return self.add("point", witness), fact
+        image = Phase(*phase_after(phase, time, self.bits + 30))
+        return self.add("point", witness), Impact(self.at, phase, (slope.inf, slope.sup), image)
 
-    def root(self, ratios: Range) -> tuple[str, Range]:
+    def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
         bracket = moran_root(ratios, self.bits)
-        return self.add("moran-root", {"ratios": texts(ratios), "root": texts(bracket)}), bracket
+        witness = {"ratios": texts(ratios), "root": texts(bracket)}
+        return self.add("moran-root", witness), MoranRoot(ratios, bracket)
+
+    def horseshoe(
+        self,
+        left: tuple[str, SlopeRange],
+        right: tuple[str, SlopeRange],
+        gap: tuple[str, Avoids],
+        sets: Parameters,
+        digits: int,
+    ) -> tuple[str, Horseshoe]:
+        """Prove a horseshoe on I0 and I1 of `sets`, slopes rounded outward (rule horseshoe)."""
+        domains = sets.left, sets.right
+        parts = [x[1].over(domain) for x, domain in zip((left, right), domains, strict=True)]
+        if parts[0] is None or parts[1] is None:
+            raise Unproved("f' is not known on I0 and I1")
+        bounds = hull([(part.minimum[0], part.maximum[1]) for part in parts if part is not None])
+        slopes = rounded_slopes(bounds, digits)
+        found = horseshoe(parts[0], parts[1], [gap[1]], slopes)
+        named = zip((left[0], right[0]), domains, strict=True)
+        witness = [{"slopes": name, "domain": texts(domain)} for name, domain in named]
+        return self.add(
+            "horseshoe",
+            {"left": witness[0], "right": witness[1], "gap": gap[0], "slopes": texts(slopes)},
+        ), found

@@ -15,7 +15,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, NoReturn
 
 from intervals import fraction
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts

@@ -14,7 +14,6 @@ from typing import Any
 
 from intervals import decimal_bounds
 from proofs.search.evidence import Evidence, Tell
-from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import (
     SCHEMA,
     Reader,
@@ -22,11 +21,14 @@ from proofs.trusted.certificate import (
     render,
     used_steps,
 )
-from proofs.trusted.facts import Parameters, Range
-from proofs.trusted.statements import Verdict
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper import GROUPS, find
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 PROVERS: Mapping[str, str] = MappingProxyType(
     {
+        "horseshoe": "s31_horseshoe",
         "foundations": "s2_foundations",
         "nonplastic": "s33_restitution",
         "sets": "s32_sets",
@@ -39,20 +41,32 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "resonance": "s6_resonance",
     }
 )
+FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
+    {group: {group: claims} for group, claims in GROUPS.items()}
+    | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
+)  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)
 
 
 @dataclass(frozen=True)
-class Row:
-    """One decided claim, with the numbers and the time that it took."""
+class Line:
+    """One decided claim, as the screen and the page show it."""
 
     id: str
     verdict: Verdict
     statement: str
     why: str
+    corrected: str | None
     quantities: Mapping[str, Range]
-    seconds: float | None = None
-    corrected: str | None = None
+
+
+@dataclass(frozen=True)
+class Made:
+    """What a run made: lines for the screen, certificate, page."""
+
+    lines: list[Line]
+    certificate: str
+    page: str
 
 
 def printed(bounds: Range, digits: int) -> dict[str, str]:
@@ -63,84 +77,76 @@ def printed(bounds: Range, digits: int) -> dict[str, str]:
     return {"lower": lower, "upper": upper}
 
 
-def decide(
-    claim: str, of: Parameters, proof: Sequence[tuple[str, object]], digits: int
-) -> tuple[Row, dict[str, Any]]:
-    """Decide a claim of a group by what was proved; return its row and its certificate entry."""
-    stated = catalogue.find(claim)
-    if stated is None:
-        raise ValueError(f"no group has the claim {claim}")
-    found = stated.decide(of, [conclusion for _, conclusion in proof])
-    row = Row(
-        claim, found.verdict, stated.says(of), found.why, found.quantities, None, found.corrected
-    )
-    return row, {
+def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Line, dict[str, Any]]:
+    """Decide a claim by what was proved; return its line and its certificate entry."""
+    row, proof = find(claim), found.proofs.get(claim, [])
+    if row is None:
+        raise ValueError(f"no section has the claim {claim}")
+    decision = row.decide(of, [conclusion for _, conclusion in proof])
+    quantities = decision.quantities.items()
+    note = found.notes.get(claim) if decision.verdict is Verdict.UNDECIDED else None
+    why = "; ".join(filter(None, (decision.why, note)))
+    line = Line(claim, decision.verdict, row.says(of), why, decision.theorem, decision.quantities)
+    return line, {
         "id": claim,
-        "statement": row.statement,
-        "verdict": found.verdict.value,
+        "statement": line.statement,
+        "verdict": decision.verdict.value,
         "proof": [name for name, _ in proof],
-        "witness": found.witness,
-        "corrected": found.corrected,
-        "quantities": {name: printed(each, digits) for name, each in found.quantities.items()},
+        "why": decision.why,
+        "witness": decision.witness,
+        "corrected": decision.theorem,
+        "quantities": {name: printed(each, digits) for name, each in quantities},
     }
 
 
 def certificate(
-    of: Parameters,
-    steps: Mapping[str, dict[str, Any]],
-    entries: Sequence[dict[str, Any]],
-    corrected: dict[str, Any] | None = None,
+    of: Parameters, steps: Mapping[str, dict[str, Any]], entries: Sequence[dict[str, Any]]
 ) -> dict[str, Any]:
     """Assemble a certificate; steps that nothing uses are left out."""
-    named = {name for entry in entries for name in entry["proof"]}
-    if corrected is not None:
-        named.update(corrected["proof"])
-    needed = used_steps(Reader(dict(steps)), named)
+    needed = used_steps(Reader(dict(steps)), {name for entry in entries for name in entry["proof"]})
     return {
         "schema": SCHEMA,
         "parameters": parameters_to_json(of),
+        "functions": {},
         "steps": {name: step for name, step in steps.items() if name in needed},
         "claims": list(entries),
-        "corrected": corrected,
     }
 
 
-def settle(
-    group: str, of: Parameters, claims: Iterable[str] | None = None, *, digits: int, tell: Tell
-) -> tuple[list[Row], dict[str, Any]]:
-    """Prove and decide claims of a group; return rows for people and the certificate."""
-    asked = set(catalogue.GROUPS[group] if claims is None else claims)
-    wanted = [claim for claim in catalogue.GROUPS[group] if claim in asked]
-    evidence: Evidence = import_module(f"proofs.search.{PROVERS[group]}").prove(
-        of, wanted, digits=digits, tell=tell
-    )
-    decided = [decide(claim, of, evidence.proofs.get(claim, []), digits) for claim in wanted]
-    return [row for row, _ in decided], certificate(
-        of, evidence.steps, [entry for _, entry in decided]
-    )
-
-
-@dataclass(frozen=True)
-class Made:
-    """What a run made: rows for the screen, certificate, page; theorem about corrected sets."""
-
-    rows: list[Row]
-    certificate: str
-    page: str
-    theorem: str | None = None
-    corrected: Parameters | None = None
-
-
 def produce(
-    group: str,
+    groups: Mapping[str, Sequence[str]],
     of: Parameters,
-    claims: Iterable[str] | None = None,
     *,
     digits: int,
     tell: Tell = lambda stage: None,
+    **options: Any,
 ) -> Made:
-    """Prove and decide claims of a group; return the texts of the certificate and the page."""
+    """Prove and decide claims of groups; return the texts of the certificate and the page.
+
+    options go to the prover of the first group.
+    """
     from proofs.report.page import page
 
-    rows, found = settle(group, of, claims, digits=digits, tell=tell)
-    return Made(rows, render(found), page(group, of, found, rows))
+    lines: list[Line] = []
+    entries: list[dict[str, Any]] = []
+    steps: dict[str, dict[str, Any]] = {}
+    for group, claims in groups.items():
+        prover = import_module(f"proofs.search.{PROVERS[group]}")
+        found: Evidence = prover.prove(of, claims, digits=digits, tell=tell, **options)
+        options = {}
+        steps |= found.steps
+        for claim in claims:
+            line, entry = decide(claim, of, found, digits)
+            lines.append(line)
+            entries.append(entry)
+    proved = certificate(of, steps, entries)
+    return Made(lines, render(proved), page(next(iter(groups)), of, proved, lines))
+
+
+def wanted(file: str, claims: Iterable[str] | None = None) -> dict[str, tuple[str, ...]]:
+    """Return what is asked for of a file, by group; all of it without a choice."""
+    groups = {
+        group: tuple(x for x in ids if claims is None or x in claims)
+        for group, ids in FILES[file].items()
+    }
+    return {group: ids for group, ids in groups.items() if ids}

@@ -11,32 +11,27 @@ import json
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
-from functools import partial
 from pathlib import Path
 from time import perf_counter
-from types import MappingProxyType
 from typing import Any
 
-from proofs import horseshoe
-from proofs.shell import groups, runner
+from proofs.shell import runner
 from proofs.shell.cli import Parser, coloured, counting, progress, writable
 from proofs.shell.counting import Counts, show
+from proofs.shell.groups import FILES, Made, produce, wanted
 from proofs.trusted.certificate import Malformed, read, render, write_atomically
-from proofs.trusted.facts import PAPER
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.statements import STATEMENTS, Verdict
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, Report, check
 
 SCHEMA = "impact-proofs.ledger/1"
-FILES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"horseshoe": (*STATEMENTS, "N1", "N2"), **GROUPS}
-)
 CLAIMS = tuple(
     sorted(
-        {claim for claims in FILES.values() for claim in claims},
+        {claim for claims in GROUPS.values() for claim in claims},
         key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
     )
 )
@@ -72,25 +67,23 @@ class Job:
 
 @dataclass(frozen=True)
 class Settled:
-    """A file of claims: certificate, what the checker found in it, the page if it was made now."""
+    """A file of claims: its certificate and page, what the checker found in it."""
 
     job: Job
-    certificate: str
+    made: Made
     report: Report
-    page: str | None
+    is_new: bool
     seconds: float
     counts: Counts = field(default_factory=Counter)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the entries asked for, for the ledger."""
-        whys = {claim.id: claim.why for claim in self.report.claims}
         return [
             {
                 **{name: value for name, value in entry.items() if name != "proof"},
-                "why": whys[entry["id"]],
                 "file": f"{self.job.name}.json",
             }
-            for entry in json.loads(self.certificate)["claims"]
+            for entry in json.loads(self.made.certificate)["claims"]
             if entry["id"] in self.job.claims
         ]
 
@@ -101,10 +94,11 @@ def jobs(
     """Return the files to settle: those that have a claim which no file before them has."""
     asked, found = set(claims), []
     left = set(asked)
-    for name, members in FILES.items():
+    for name, parts in FILES.items():
+        members = [claim for ids in parts.values() for claim in ids]
         if left.intersection(members):
-            wanted = tuple(claim for claim in members if claim in asked)
-            found.append(Job(name, wanted, folder, places, fresh, stats))
+            chosen = tuple(claim for claim in members if claim in asked)
+            found.append(Job(name, chosen, folder, places, fresh, stats))
             left.difference_update(members)
     return found
 
@@ -117,11 +111,9 @@ def settle(job: Job) -> Settled:
     began = perf_counter()
     there = None if job.fresh else _there(job)
     if there is not None:
-        return Settled(job, *there, None, perf_counter() - began)
-    prove = horseshoe.produce if job.name == "horseshoe" else partial(groups.produce, job.name)
-    made = prove(PAPER, job.claims, digits=job.digits)
-    report = check(made.certificate)
-    return Settled(job, made.certificate, report, made.page, perf_counter() - began)
+        return Settled(job, Made([], there[0], ""), there[1], False, perf_counter() - began)
+    made = produce(wanted(job.name, job.claims), PAPER, digits=job.digits)
+    return Settled(job, made, check(made.certificate), True, perf_counter() - began)
 
 
 def settle_counting(job: Job) -> Settled:
@@ -150,10 +142,10 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     writable(parser, options.out)
     asked = options.only or CLAIMS
-    wanted = jobs(asked, options.out, options.digits, options.fresh, options.stats)
+    todo = jobs(asked, options.out, options.digits, options.fresh, options.stats)
     began = perf_counter()
     try:
-        settled = _settle_all(wanted)
+        settled = _settle_all(todo)
     except (Malformed, Rejected) as error:
         print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
         return 3
@@ -161,8 +153,8 @@ def main(arguments: list[str] | None = None) -> int:
     text = render({"schema": SCHEMA, "claims": rows})
     try:
         for one in settled:
-            if one.page is not None:
-                runner.write(options.out, one.job.name, one.certificate, one.page, _command(one))
+            if one.is_new:
+                runner.write(options.out, one.job.name, one.made, _command(one))
         write_atomically(options.out / "ledger.json", text)
         write_atomically(options.out / "ledger.md", markdown(rows))
     except OSError as error:
@@ -202,7 +194,7 @@ def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: 
         print(f"{row['id']:4} {coloured(Verdict(row['verdict']))} {row['statement']}")
         print(f"     {row['why']}")
     for one in settled:
-        what = "checked again" if one.page is None else "proved and checked"
+        what = "proved and checked" if one.is_new else "checked again"
         print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
     counts = Counter(row["verdict"] for row in rows)
     print(", ".join(f"{count} {name}" for name, count in counts.items()), f"in {seconds:.1f} s")

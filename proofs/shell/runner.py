@@ -18,6 +18,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from intervals import Undecided
 from proofs.shell import manifest
 from proofs.shell.cli import (
     Parser,
@@ -25,19 +26,20 @@ from proofs.shell.cli import (
     coloured,
     counting,
     digits,
+    horizon,
     number,
     progress,
     writable,
 )
-from proofs.shell.groups import Made, Row, printed, produce
-from proofs.trusted import paper as catalogue
+from proofs.shell.groups import FILES, Line, Made, printed, produce, wanted
 from proofs.trusted.certificate import (
     Malformed,
     read,
     write_atomically,
 )
-from proofs.trusted.facts import PAPER, Parameters, show
-from proofs.trusted.statements import Verdict
+from proofs.trusted.numbers import show
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 
 if TYPE_CHECKING:
@@ -59,38 +61,49 @@ examples:
 
 
 def run(
-    group: str,
+    file: str,
     arguments: list[str] | None = None,
     description: str | None = None,
     *,
     figure: bool = False,
+    examples: str = "",
 ) -> int:
-    """Run the command of a group; return the exit status.
+    """Run the command of a certificate; return the exit status.
 
-    figure: whether the group has a picture, drawn by `proofs.report.<group>_figure.svg`.
+    figure: whether there is a picture, drawn by `proofs.report.<file>_figure.svg`.
     """
-    claims = catalogue.GROUPS[group]
-    parser = Parser(f"proofs.{group}", description, EPILOG.format(group=group, first=claims[0]))
+    claims = [claim for ids in FILES[file].values() for claim in ids]
+    epilog = EPILOG.format(group=file, first=claims[0]) + examples
+    parser = Parser(f"proofs.{file}", description, epilog)
     add_parameters(parser)
     add_outputs(parser, claims)
+    if file == "horseshoe":
+        longest = "longest flight looked at (default 1000)"
+        parser.add_argument("--horizon", type=horizon, help=longest)
     if figure:
-        add_figure(parser, group)
+        help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
+        parser.add_argument("--figure", action="store_true", help=help_text)
     options = parser.parse_args(arguments)
-    check_figure(parser, options)
+    drawn = figure and options.figure
+    if drawn and find_spec("matplotlib") is None:
+        parser.error("--figure needs matplotlib: pip install matplotlib")
     of = prepared(parser, options)
+    more = {"horizon": options.horizon} if getattr(options, "horizon", None) else {}
     began = perf_counter()
     with counting(options.stats) as counts, progress() as tell:
-        made = produce(group, of, options.only, digits=options.digits, tell=tell)
+        asked = wanted(file, options.only)
+        made = produce(asked, of, digits=options.digits, tell=tell, **more)
     seconds = perf_counter() - began
-    made_by = command(f"proofs.{group}", arguments)
     try:
-        write(options.out, group, made.certificate, made.page, made_by)
-        if figure and options.figure:
-            draw = import_module(f"proofs.report.{group}_figure").svg
-            write_atomically(options.out / f"{group}.svg", draw(made.certificate))
+        write(options.out, file, made, command(f"proofs.{file}", arguments))
+        if drawn:
+            draw = import_module(f"proofs.report.{file}_figure").svg
+            write_atomically(options.out / f"{file}.svg", draw(made.certificate))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
-    return finish(made, seconds, options, f"{group}.json", counts)
+    except (Undecided, OverflowError) as failure:
+        print(f"{parser.prog}: no figure: {failure}", file=sys.stderr)
+    return finish(made, seconds, options, f"{file}.json", counts)
 
 
 def add_parameters(parser: Parser) -> None:
@@ -131,18 +144,6 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")
     add_stats(parser)
-
-
-def add_figure(parser: Parser, name: str) -> None:
-    """Add the option for a picture."""
-    help_text = f"draw DIR/{name}.svg too (needs matplotlib)"
-    parser.add_argument("--figure", action="store_true", help=help_text)
-
-
-def check_figure(parser: Parser, options: Namespace) -> None:
-    """Leave with one line if a picture is asked for and cannot be drawn."""
-    if getattr(options, "figure", False) and find_spec("matplotlib") is None:
-        parser.error("--figure needs matplotlib: pip install matplotlib")
 
 
 def prepared(parser: Parser, options: Namespace) -> Parameters:
@@ -192,11 +193,11 @@ def command(module: str, arguments: list[str] | None) -> str:
     return shlex.join(["python", "-m", module, *(sys.argv[1:] if arguments is None else arguments)])
 
 
-def write(folder: Path, name: str, certificate: str, page: str, made: str) -> None:
-    """Write a certificate and its page, and enter it in the manifest."""
-    write_atomically(folder / f"{name}.json", certificate)
-    write_atomically(folder / f"{name}.md", page)
-    manifest.record(folder, f"{name}.json", certificate, made)
+def write(folder: Path, name: str, made: Made, by: str) -> None:
+    """Write a certificate and its page, and enter it in the manifest as made by a command."""
+    write_atomically(folder / f"{name}.json", made.certificate)
+    write_atomically(folder / f"{name}.md", made.page)
+    manifest.record(folder, f"{name}.json", made.certificate, by)
 
 
 def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:
@@ -208,33 +209,30 @@ def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Co
     if options.json:
         print(made.certificate, end="")
     else:
-        print_rows(made.rows, seconds, made.theorem)
+        print_lines(made.lines, seconds)
     with counting(options.stats) as checking:
         accepted = options.no_check or _checked(options.out / name, quiet=bool(options.json))
     if options.stats:
         from proofs.shell.counting import show
 
-        show(counts + checking, [row.id for row in made.rows], quiet=bool(options.json))
+        show(counts + checking, [row.id for row in made.lines], quiet=bool(options.json))
     if not accepted:
         return 3
-    return int(any(row.verdict is Verdict.UNDECIDED for row in made.rows))
+    return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
 
-def print_rows(rows: Sequence[Row], seconds: float, theorem: str | None = None) -> None:
-    """Print a paragraph a claim, the corrected theorem and a summary line."""
-    for row in rows:
-        print(f"{row.id:4} {coloured(row.verdict)} {row.statement}")
-        spent = "" if row.seconds is None else f"  ({row.seconds * 1000:.1f} ms)"
-        print(f"     {row.why}{spent}")
-        for name, bounds in row.quantities.items():
+def print_lines(lines: Sequence[Line], seconds: float) -> None:
+    """Print a paragraph a claim, the theorems beside them once each, and a summary line."""
+    for line in lines:
+        print(f"{line.id:4} {coloured(line.verdict)} {line.statement}")
+        print(f"     {line.why}")
+        for name, bounds in line.quantities.items():
             lower, upper = printed(bounds, 17).values()
             print(f"     {name} in [{lower}, {upper}]")
-    if theorem is not None:
-        print(f"\nCorrected theorem, VERIFIED: {theorem}")
-    for text in dict.fromkeys(row.corrected for row in rows if row.corrected is not None):
-        beside = ", ".join(row.id for row in rows if row.corrected == text)
+    for text in dict.fromkeys(line.corrected for line in lines if line.corrected is not None):
+        beside = ", ".join(line.id for line in lines if line.corrected == text)
         print(f"\nTheorem beside {beside}, VERIFIED: {text}")
-    counts = Counter(row.verdict.value for row in rows)
+    counts = Counter(line.verdict.value for line in lines)
     summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
 

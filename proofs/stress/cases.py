@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
 from proofs.stress.kernels import Kernel
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 Ranges = dict[str, Range]
 

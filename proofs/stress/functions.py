@@ -10,7 +10,7 @@ from fractions import Fraction
 from intervals import Interval, IntervalArray
 from proofs.stress.cases import Answer, Truth
 from proofs.stress.kernels import Kernel
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _PERIODIC = ("sin", "cos", "tan")
 _NEAR_ONE = ("log", "log2", "log10", "acosh", "sqrt", "cbrt")

@@ -14,7 +14,7 @@ from proofs.motion.rebound import Impossible
 from proofs.stress.cases import Answer, Case, Ranges, Truth, inputs
 from proofs.stress.kernels import Kernel
 from proofs.stress.limit import TookTooLong, limited
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _TURN_BITS = 800
 

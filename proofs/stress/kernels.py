@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager
 from fractions import Fraction
 from typing import Any, Protocol
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 
 class Kernel(Protocol):

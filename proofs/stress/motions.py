@@ -20,7 +20,7 @@ from proofs.stress.cases import Answer, Ranges, Truth, Unknown
 from proofs.stress.kernels import Kernel
 from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _SAMPLES = (Fraction(0), Fraction(1, 2), Fraction(1), Fraction(281, 1009))
 

@@ -13,7 +13,7 @@ from intervals import Interval, IntervalArray
 from proofs.stress.cases import Answer, Truth
 from proofs.stress.functions import least_width, rounded_down
 from proofs.stress.kernels import Kernel
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _OPERATIONS: dict[str, Any] = {
     "+": operator.add,

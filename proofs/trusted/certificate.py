@@ -17,13 +17,14 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Parameters
 
-SCHEMA = "impact-proofs.certificate/2"
+SCHEMA = "impact-proofs.certificate/3"
+FIELDS = ("schema", "parameters", "functions", "steps", "claims")
 MANIFEST = "impact-proofs.manifest/1"
-LEMMA = "impact-proofs.lemma/1"
 MAX_BYTES = 4_000_000
-MAX_WORK = 100_000  # some seconds: see Reader.charge
 _MAX_DIGITS = 3000
 _MAX_DIGITS_OF_PARAMETERS = 400
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
@@ -52,23 +53,13 @@ class _Broken(str):
 class Reader:
     """A value in the JSON with its path; every access states what it expects."""
 
-    def __init__(self, value: Any, path: str = "$", spent: list[int] | None = None) -> None:
+    def __init__(self, value: Any, path: str = "$") -> None:
+        METER.get().spend(1)
         self._value = value
         self.path = path
-        self._spent = [0] if spent is None else spent  # one count for the whole file
 
     def _inner(self, value: Any, path: str) -> Reader:
-        return Reader(value, self.path + path, self._spent)
-
-    def charge(self, evaluations: int, bits: int) -> None:
-        """Count the evaluations that this place asks for; refuse a file that asks for too many.
-
-        The unit is an evaluation of the gap at up to 255 bits, about 50 microseconds; at 4000
-        bits it takes some 250 times as long.
-        """
-        self._spent[0] += evaluations * (1 + (bits // 256) ** 2)
-        if self._spent[0] > MAX_WORK:
-            raise self.fail("more work than the checker takes on for one file")
+        return Reader(value, self.path + path)
 
     def fail(self, message: str) -> Malformed:
         """Return the error to raise for this place."""
@@ -110,12 +101,14 @@ class Reader:
 
     def mentioned(self) -> Iterator[str]:
         """Iterate over all strings inside, however deep."""
-        if isinstance(self._value, str):
-            yield self._value
-        elif isinstance(self._value, list | dict):
-            inner = self._value.values() if isinstance(self._value, dict) else self._value
-            for value in inner:
-                yield from Reader(value).mentioned()
+        waiting = [self._value]
+        while waiting:
+            value = waiting.pop()
+            METER.get().spend(1)
+            if isinstance(value, str):
+                yield value
+            elif isinstance(value, list | dict):
+                waiting += value.values() if isinstance(value, dict) else value
 
     def is_null(self) -> bool:
         """Whether the value is null."""
@@ -131,6 +124,7 @@ class Reader:
         value = self.string()
         if len(value) > _MAX_DIGITS or not pattern.fullmatch(value):
             raise self.fail(f"not a number in canonical form: {value[:40]!r}")
+        METER.get().spend(len(value) >> 3)
         return value
 
     def number(self) -> Fraction:

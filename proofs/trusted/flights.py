@@ -11,12 +11,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
-from typing import TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
-from proofs.trusted.facts import TURN, Avoids, MoranRoot, Parameters, PointFact, Range, SlopeRange
-from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, exp, log, pi, rational
+from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import TURN, Phase, Phases, Range, show_range
+from proofs.trusted.parameters import Place
+from proofs.trusted.slopes import Avoids, Impact, SlopeRange
 
 COVER_BITS = 64
 MAX_BITS = 4000
@@ -81,29 +84,37 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class FirstImpact:
+class FirstImpact(Conclusion):
     """Every launch in motion.phases has its first impact, at a time in one of `windows`."""
 
+    at: Place
     motion: Motion
     windows: tuple[Range, ...]
     transversal: bool
 
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        times = ", ".join(show_range(window) for window in self.windows)
+        kind = "transversal first" if self.transversal else "first"
+        return (
+            f"every launch from a phase in {show_range(self.motion.phases)} has its {kind} impact "
+            f"at a time in {times}."
+        )
 
-Known = dict[str, object]  # the conclusions of the steps so far, by name
-Rule = Callable[[Parameters, Known, Reader], object]
+
 Gap = Callable[[Range, int], Enclosure]
-_Conclusion = TypeVar("_Conclusion")
 
 
 def read_phases(reader: Reader) -> Range:
-    """Read an interval of phases from 0 to 2 pi."""
+    """Read an interval of phases from 0 to 2 pi, one phase as well."""
     low, high = reader.range()
     if low < 0 or high > TURN:
         raise reader.fail("phases lie between 0 and 2 pi")
     return low, high
 
 
-def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
+def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}.
 
     Hypotheses: gap'' > 0 on phases x [0, t_1]; gap < 0 at t_n. A piece [t_j, t_(j+1)] of width
@@ -122,7 +133,7 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
     # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
     shortest = min(now - before for before, now in zip((_ZERO, *times), times, strict=False))
     bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-    times_of.charge(2 * len(times) + 3, bits)
+    of = context.of
     motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, read_phases(phases_of), bits)
     start = motion.start()
     gap_of = partial(motion.gap, start)
@@ -130,7 +141,8 @@ def first_impact(of: Parameters, known: Known, reader: Reader) -> FirstImpact:
         raise Unproved("the launches are not proved to leave the table")
     windows = open_windows(gap_of, times)
     single = len(windows) == 1 and windows[0][1] == times[-1]
-    return FirstImpact(motion, tuple(windows), single and motion.falls(start, windows[0]))
+    transversal = single and motion.falls(start, windows[0])
+    return FirstImpact(of.place, motion, tuple(windows), transversal)
 
 
 def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
@@ -165,17 +177,9 @@ def falls(gap_of: Gap, time: Range) -> bool:
     return fall(gap_of, time)[1] < 0
 
 
-def earlier(known: Known, name: Reader, kind: type[_Conclusion], rule: str) -> _Conclusion:
-    """Return the conclusion of an earlier step by a rule, which is of this kind."""
-    step = known.get(name.string())
-    if not isinstance(step, kind):
-        raise name.fail(f"names no earlier {rule} step that proves {kind.__name__}")
-    return step
-
-
-def transversal_step(known: Known, name: Reader, phases: Range) -> FirstImpact:
+def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpact:
     """Return the transversal first-impact step of that name, which must contain `phases`."""
-    step = earlier(known, name, FirstImpact, "first-impact")
+    step = context.step(name, FirstImpact)
     if not step.transversal:
         raise Unproved("the first impact is not transversal")
     if phases[0] < step.motion.phases[0] or phases[1] > step.motion.phases[1]:
@@ -203,7 +207,6 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
         precision = min(factor * bits, MAX_BITS)
-        time_of.charge(8, precision)  # the two ends, and f' or f'' afterwards
         inner = Motion(motion.side, motion.eta, motion.nu, phases, precision)
         start = inner.start()
         low, high = (inner.gap(start, (t, t)) for t in time)
@@ -230,19 +233,20 @@ def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
     return total - high, phase + time[1] - low
 
 
-def point(of: Parameters, known: Known, reader: Reader) -> PointFact:
+def point(context: Context, reader: Reader) -> Impact:
     """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
 
     Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
     """
     flight, phase_of, time_of = reader.fields("flight", "phase", "time")
     phase = phase_of.number()
-    step = transversal_step(known, flight, (phase, phase))
+    step = transversal_step(context, flight, (phase, phase))
     motion, time = bracketed(step, (phase, phase), time_of)
-    return PointFact(phase, motion.slope(time).range, phase_after(phase, time, motion.bits))
+    image = Phase(*phase_after(phase, time, motion.bits))
+    return Impact(step.at, phase, motion.slope(time).range, image)
 
 
-def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
+def slope_range(context: Context, reader: Reader) -> SlopeRange:
     """Rule `slope-range`: {points: [{flight, phase, time}], pieces: [{flight, time}]}.
 
     Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
@@ -253,7 +257,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
     """
     points_of, pieces_of = reader.fields("points", "pieces")
     entries = points_of.items(least=2)
-    facts = [point(of, known, entry) for entry in entries]
+    facts = [point(context, entry) for entry in entries]
     pieces = []
     for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
         flight, time_of = entry.fields("flight", "time")
@@ -261,7 +265,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
         if left.phase >= right.phase:
             raise points_of.fail("phases must increase")
         phases = (left.phase, right.phase)
-        motion, time = bracketed(transversal_step(known, flight, phases), phases, time_of)
+        motion, time = bracketed(transversal_step(context, flight, phases), phases, time_of)
         low, high = motion.curvature(time).range
         width = right.phase - left.phase
         fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
@@ -272,6 +276,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
             )
         )
     return SlopeRange(
+        facts[0].at,
         tuple(fact.phase for fact in facts),
         tuple(fact.slope for fact in facts),
         tuple(fact.image for fact in facts),
@@ -279,7 +284,7 @@ def slope_range(of: Parameters, known: Known, reader: Reader) -> SlopeRange:
     )
 
 
-def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
+def avoids(context: Context, reader: Reader) -> Avoids:
     """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
 
     Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
@@ -289,14 +294,15 @@ def avoids(of: Parameters, known: Known, reader: Reader) -> Avoids:
     target = read_phases(target_of)
     steps: list[FirstImpact] = []
     for name in flights_of.items(least=1):
-        step = earlier(known, name, FirstImpact, "first-impact")
+        step = context.step(name, FirstImpact)
         if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
             raise name.fail("its phases do not continue those of the step before")
         steps.append(step)
         for window in step.windows:
             if _meets(step.motion.phases, window, target):
                 raise Unproved(f"a window of {name.string()} is not proved to miss the target")
-    return Avoids((steps[0].motion.phases[0], steps[-1].motion.phases[1]), target)
+    phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
+    return Avoids(steps[0].at, phases, Phases(*target))
 
 
 def _meets(phases: Range, time: Range, target: Range) -> bool:
@@ -312,32 +318,3 @@ def _meets(phases: Range, time: Range, target: Range) -> bool:
         if arrival[0] <= high + target[1]:
             return True
         count += 1
-
-
-def moran_root(of: Parameters, known: Known, reader: Reader) -> MoranRoot:
-    """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
-
-    F(s) = r0^s + r1^s - 1 decreases from 1 to -1, so F(l) > 0 > F(u) brackets its one root.
-    """
-    ratios_of, root_of = reader.fields("ratios", "root")
-    ratios, root = ratios_of.numbers(2, 2), root_of.range()
-    if not all(0 < ratio < 1 for ratio in ratios) or root[0] <= 0:
-        raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
-    bits = bits_for(root)
-    root_of.charge(12, bits)
-    logs = [log(ratio, bits) for ratio in ratios]
-    low, high = (
-        exp(rational(s, bits) * logs[0]) + exp(rational(s, bits) * logs[1]) - 1 for s in root
-    )
-    if low.lo <= 0 or high.hi >= 0:
-        raise Unproved("the bracket of the root does not have the signs +, -")
-    return MoranRoot((ratios[0], ratios[1]), root)
-
-
-RULES: dict[str, Rule] = {
-    "first-impact": first_impact,
-    "point": point,
-    "slope-range": slope_range,
-    "avoids": avoids,
-    "moran-root": moran_root,
-}

@@ -8,7 +8,7 @@ from proofs.trusted.certificate import digest, parse, read
 from proofs.trusted.verify import Checked, Rejected, check
 
 
-def check_manifest(source: str, folder: Path) -> str:
+def check_manifest(source: str, folder: Path, work: float) -> str:
     """Check every file that a manifest lists, and its entries; return what was found, in a line.
 
     Raises Malformed or Rejected where a file is not accepted, its digest is another one, or it
@@ -23,7 +23,7 @@ def check_manifest(source: str, folder: Path) -> str:
             text = read(folder / name)
         except OSError as error:
             raise Rejected(f"{entry.path}: cannot be read: {error.strerror}") from None
-        proved[name] = digest(text), {claim.id: claim for claim in check(text).claims}
+        proved[name] = digest(text), {claim.id: claim for claim in check(text, work).claims}
     count = 0
     for claim, entry in claims_of.members():
         verdict, statement, file, own, _, _ = entry.fields(

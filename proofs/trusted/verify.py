@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from proofs.trusted import flights as rules
-from proofs.trusted import paper as catalogue
-from proofs.trusted.certificate import SCHEMA, Reader, parameters_from_json, parse, used_steps
-from proofs.trusted.facts import PAPER, Facts, Parameters, PointFact, Range
-from proofs.trusted.flights import Known, Rule
+from proofs.trusted.certificate import (
+    FIELDS,
+    SCHEMA,
+    Reader,
+    parameters_from_json,
+    parse,
+    used_steps,
+)
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.statements import HORSESHOE, STATEMENTS, Verdict, decide, quantities, theorem
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.formula import read_formula
+from proofs.trusted.kernel.meter import DEFAULT, metered
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper import find
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.rules import RULES, find_rule
+from proofs.trusted.verdicts import Verdict
+
+_MAX_TEXT = 1_000_000
 
 
 class Rejected(ValueError):
@@ -26,16 +39,16 @@ class Checked:
     verdict: Verdict
     statement: str
     why: str
-    corrected: str | None = None
+    corrected: str | None
 
 
 @dataclass(frozen=True)
 class Report:
-    """All that a certificate proves."""
+    """All that a file proves: claims of the catalogue; sentences, where it has no parameters."""
 
-    parameters: Parameters
-    claims: tuple[Checked, ...]
-    theorem: str | None
+    parameters: Parameters | None
+    claims: tuple[Checked, ...] = ()
+    sentences: tuple[str, ...] = ()
 
     @property
     def is_paper(self) -> bool:
@@ -43,159 +56,105 @@ class Report:
         return self.parameters == PAPER
 
 
-def check(source: str) -> Report:
-    """Re-derive everything in a certificate's text.
+def check(source: str, work: float = DEFAULT) -> Report:
+    """Re-derive everything in a certificate's text, with so much work at most.
 
-    Raises Malformed where it is no certificate, Rejected where a step, a bound or a verdict
-    does not follow from the witnesses.
+    Raises Malformed where it is no certificate, Rejected where a step, a bound, a text or a verdict
+    does not follow from the witnesses, Exhausted where that takes more work.
     """
-    root = parse(source)
-    schema, parameters_of, steps_of, claims_of, corrected_of = root.fields(
-        "schema", "parameters", "steps", "claims", "corrected"
-    )
+    with metered(work):
+        steps_of, claims_of = parse(source).fields(*FIELDS)[3:]
+        context = premises(source)
+        used: set[str] = set()
+        report = _conclude(context, claims_of, used)
+        unused = sorted({*context.known, *context.functions} - used_steps(steps_of, used))
+        if unused:
+            raise steps_of.fail(f"steps or functions that nothing uses: {', '.join(unused)[:80]}")
+        return report
+
+
+def premises(source: str) -> Context:
+    """Return what the steps of a certificate prove, whatever its claims."""
+    schema, parameters_of, functions_of, steps_of, _ = parse(source).fields(*FIELDS)
     if schema.string() != SCHEMA:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
-    parameters = parameters_from_json(parameters_of)
-    known = _derive_steps(parameters, steps_of, _groups(claims_of))
-    used: set[str] = set()
-    theorem_text = None
-    if not corrected_of.is_null():
-        theorem_text = _check_corrected(parameters, known, corrected_of, used)
-    claims = [
-        _check_claim(parameters, known, entry, used, theorem_text)
-        for entry in claims_of.items(least=1)
-    ]
-    if len({claim.id for claim in claims}) != len(claims):
-        raise claims_of.fail("a claim appears twice")
-    unused = sorted(set(known) - used_steps(steps_of, used))
-    if unused:
-        raise steps_of.fail(f"steps that nothing uses: {', '.join(unused)[:80]}")
-    return Report(parameters, tuple(claims), theorem_text)
+    context = Context(
+        None if parameters_of.is_null() else parameters_from_json(parameters_of),
+        {name: read_formula(name, each) for name, each in functions_of.members()},
+    )
+    derive(context, steps_of)
+    return context
 
 
-def _groups(claims_of: Reader) -> list[str]:
-    """Return all groups of claims, those that the file is about first."""
-    named = set(claims_of.mentioned())
-    groups = catalogue.GROUPS
-    return sorted(groups, key=lambda group: named.isdisjoint(groups[group]))
-
-
-def _derive_steps(
-    of: Parameters, steps_of: Reader, groups: Iterable[str] = tuple(catalogue.GROUPS)
-) -> Known:
-    known: Known = {}
-    names = {step.fields("rule", "witness")[0].string() for _, step in steps_of.members()}
+def derive(context: Context, steps_of: Reader) -> None:
+    """Derive the steps, in the order of the file: each names only earlier ones."""
+    rules = {step.fields("rule", "witness")[0].string() for _, step in steps_of.members()}
     for name, step in steps_of.members():
         rule_of, witness = step.fields("rule", "witness")
-        rule = find_rule(rule_of.string(), groups)
+        rule = find_rule(rule_of.string())
         if rule is None:
             raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
-        if name in names or name in rules.RULES:
-            raise step.fail("a step is not named like a rule")
+        if name in rules or name in RULES or name in context.functions:
+            raise step.fail("a step is not named like a rule or a function")
         try:
-            known[name] = rule(of, known, witness)
+            context.known[name] = rule(context, witness)
         except Unproved as error:
             raise Rejected(f"{step.path}: {error}") from None
-    return known
 
 
-def find_rule(name: str, groups: Iterable[str] = tuple(catalogue.GROUPS)) -> Rule | None:
-    """Return a rule by its name; the modules of the groups are imported until one has it."""
-    found = rules.RULES.get(name)
-    for group in groups:
-        if found is not None:
-            break
-        found = catalogue.rules_of(group).get(name)
-    return found
+def _conclude(context: Context, claims_of: Reader, used: set[str]) -> Report:
+    """Return what the claims of a file are: of the catalogue, or the sentences of its steps."""
+    entries = claims_of.items(least=1)
+    if context.parameters is None:
+        names = _named(context, claims_of, used)
+        sentences = tuple(context.known[name].sentence for name in names)
+        if sum(map(len, sentences)) > _MAX_TEXT:
+            raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
+        return Report(None, sentences=sentences)
+    claims = tuple(_check_claim(context, entry, used) for entry in entries)
+    if len({claim.id for claim in claims}) != len(claims):
+        raise claims_of.fail("a claim appears twice")
+    return Report(context.parameters, claims)
 
 
-def _facts(of: Parameters, conclusions: Iterable[object]) -> Facts:
-    """Collect what the steps prove about one set of parameters, points aside."""
-    facts = Facts()
-    for step in conclusions:
-        facts.add(of, step)
-    return facts
-
-
-def _check_claim(
-    of: Parameters, known: Known, entry: Reader, used: set[str], theorem_text: str | None
-) -> Checked:
-    id_of, statement, verdict_of, proof, witness, corrected, bounds = entry.fields(
-        "id", "statement", "verdict", "proof", "witness", "corrected", "quantities"
-    )
-    claim = id_of.string()
-    other = None if claim in STATEMENTS else catalogue.find(claim)
-    if other is not None:
-        return _check_decision(of, known, entry, used, other)
-    if claim not in STATEMENTS:
-        raise id_of.fail(f"unknown claim {claim[:20]!r}")
-    if statement.string() != STATEMENTS[claim].says(of):
-        raise Rejected(f"{statement.path}: this is not what {claim} says at these parameters")
-    facts = _facts(of, _named(known, proof, used))
-    alone, _ = decide(claim, of, facts)
-    if not witness.is_null():
-        _take_witness(witness, facts, known, proof)
-    verdict, why = decide(claim, of, facts)
-    if verdict_of.string() != verdict.value:
-        raise Rejected(
-            f"{verdict_of.path}: {claim} is given as {verdict_of.string()[:20]!r}, "
-            f"its proof makes it {verdict.value} ({why})"
-        )
-    if not witness.is_null() and verdict is alone:
-        raise Rejected(f"{witness.path}: a witness that the verdict does not rest on")
-    correction = theorem_text if verdict is Verdict.REFUTED else None
-    if not corrected.is_null() and corrected.string() != correction:
-        raise Rejected(f"{corrected.path}: not a proved correction of a refuted claim")
-    _check_quantities(claim, quantities(claim, facts), bounds)
-    return Checked(claim, verdict, STATEMENTS[claim].says(of), why)
-
-
-def _check_decision(
-    of: Parameters, known: Known, entry: Reader, used: set[str], claim: catalogue.Claim
-) -> Checked:
+def _check_claim(context: Context, entry: Reader, used: set[str]) -> Checked:
     """Check an entry whose every text must be what the conclusions of its steps decide."""
-    _, statement, verdict, proof, witness, corrected, bounds = entry.fields(
-        "id", "statement", "verdict", "proof", "witness", "corrected", "quantities"
+    id_of, statement, verdict, proof, why, witness, corrected, bounds = entry.fields(
+        "id", "statement", "verdict", "proof", "why", "witness", "corrected", "quantities"
     )
-    decided = claim.decide(of, _named(known, proof, used))
+    row = find(id_of.string())
+    if row is None:
+        raise id_of.fail(f"unknown claim {id_of.string()[:20]!r}")
+    decision = row.decide(context.of, _conclusions(context, proof, used))
+    says = row.says(context.of)
     for given, own in (
-        (statement, claim.says(of)),
-        (verdict, decided.verdict.value),
-        (witness, decided.witness),
-        (corrected, decided.corrected),
+        (statement, says),
+        (verdict, decision.verdict.value),
+        (why, decision.why),
+        (witness, decision.witness),
+        (corrected, decision.theorem),
     ):
         if (None if given.is_null() else given.string()) != own:
-            raise Rejected(f"{given.path}: the proof of {claim.id} gives {str(own)[:100]!r}")
-    _check_quantities(claim.id, decided.quantities, bounds)
-    return Checked(claim.id, decided.verdict, claim.says(of), decided.why, decided.corrected)
+            raise Rejected(f"{given.path}: the proof of {row.id} gives {str(own)[:100]!r}")
+    _check_quantities(row.id, decision.quantities, bounds)
+    return Checked(row.id, decision.verdict, says, decision.why, decision.theorem)
 
 
-def _take_witness(witness: Reader, facts: Facts, known: Known, proof: Reader) -> None:
-    """Read the witness that a refutation points at: an interval J, or a step about a phase."""
-    if "interval" in dict(witness.members()):
-        (interval,) = witness.fields("interval")
-        facts.missed = interval.range()
-        return
-    name, phase = witness.fields("point", "phase")
-    step = known.get(name.string())
-    if not isinstance(step, PointFact) or name.string() not in set(proof.mentioned()):
-        raise name.fail("names no point step of this proof")
-    if step.phase != phase.number():
-        raise phase.fail("is not the phase of that step")
-    facts.points.append(step)
-
-
-def _named(known: Known, names: Reader, used: set[str]) -> list[object]:
-    """Return the named conclusions and mark them, and the first impacts, as used."""
-    result: dict[str, object] = {}
+def _named(context: Context, names: Reader, used: set[str]) -> list[str]:
+    """Return names of steps, each once, and mark them as used."""
+    result: list[str] = []
     for name in names.items():
-        if name.string() not in known:
+        if name.string() not in context.known:
             raise name.fail(f"names no step: {name.string()[:40]!r}")
         if name.string() in result:
             raise name.fail("names a step twice")
-        result[name.string()] = known[name.string()]
+        result.append(name.string())
     used.update(result)
-    return list(result.values())
+    return result
+
+
+def _conclusions(context: Context, names: Reader, used: set[str]) -> Sequence[Conclusion]:
+    return [context.known[name] for name in _named(context, names, used)]
 
 
 def _check_quantities(claim: str, own: Mapping[str, Range], bounds: Reader) -> None:
@@ -206,25 +165,3 @@ def _check_quantities(claim: str, own: Mapping[str, Range], bounds: Reader) -> N
         lower, upper = value.decimals()
         if not (lower <= own[name][0] and own[name][1] <= upper):
             raise Rejected(f"{value.path}: the bounds do not contain the proved enclosure")
-
-
-def _check_corrected(paper: Parameters, known: Known, corrected: Reader, used: set[str]) -> str:
-    """Check H1-H6 at the corrected sets; return the theorem that follows from them."""
-    parameters_of, statement, proof = corrected.fields("parameters", "theorem", "proof")
-    of = parameters_from_json(parameters_of)
-    if (of.eta, of.nu) != (paper.eta, paper.nu):
-        raise Rejected(f"{parameters_of.path}: a correction is about the same eta and nu")
-    if of.ratios is not None or of.printed_s0 is not None:
-        raise Rejected(f"{parameters_of.path}: a correction proves nothing about s_0")
-    if (of.epsilon, of.velocities, of.reach) != (None, None, None):
-        raise Rejected(f"{parameters_of.path}: a correction is about plastic impacts")
-    facts = _facts(of, _named(known, proof, used))
-    if of.slopes[0] <= 1:
-        raise Rejected(f"{parameters_of.path}: the corrected slopes do not expand")
-    for claim in HORSESHOE:
-        verdict, why = decide(claim, of, facts)
-        if verdict is not Verdict.VERIFIED:
-            raise Rejected(f"{corrected.path}: {claim} is {verdict.value} there ({why})")
-    if statement.string() != theorem(of):
-        raise Rejected(f"{statement.path}: not the theorem at these numbers")
-    return theorem(of)

@@ -9,9 +9,9 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, gap, launch
-from proofs.trusted.facts import Range
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
+from proofs.trusted.numbers import Range
 
 BITS = 80
 _DEEPEST = 24
@@ -158,7 +158,6 @@ def _clear(
     motion: Motion, times: Range, least: Sequence[Fraction], reader: Reader, depth: int
 ) -> None:
     """Do `clear`, lower bounds of the gap at the ends of the interval being known."""
-    reader.charge(2, motion.bits)
     if min(least) <= 0 or depth == _DEEPEST:
         raise Unproved("an earlier impact is not excluded")
     bend = motion.gap(motion.start(), times, 2).range[1]
@@ -172,7 +171,6 @@ def _clear(
 
 def falls(motion: Motion, times: Range, reader: Reader, depth: int = 0) -> None:
     """Prove gap' < 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    reader.charge(3, motion.bits)
     if motion.falls(motion.start(), times):
         return
     if depth == _DEEPEST:

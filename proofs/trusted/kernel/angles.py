@@ -13,6 +13,7 @@ from fractions import Fraction
 from math import gcd
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.normalform import (
     Monomial,
     NormalForms,
@@ -23,7 +24,6 @@ from proofs.trusted.kernel.normalform import (
 )
 
 _MOST = 24  # multiples of a unit
-_TERM = 800  # the work of a term
 
 Base = tuple[Monomial, tuple[tuple[Monomial, Fraction], ...]]
 Point = tuple[Quotient, Quotient]  # cosine and sine of an angle
@@ -101,7 +101,7 @@ class Angles(NormalForms):
                 return None
             (monomial,) = _without({first: Fraction(1)}, lead)
             result[monomial] = top[first] / bottom[lead]
-            self.work.spend(_TERM * len(bottom))
+            METER.get().spend(15 * len(bottom))
             top = plus(top, _shifted(bottom, monomial, -result[monomial]))
         return result
 

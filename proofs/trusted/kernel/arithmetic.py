@@ -10,6 +10,8 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import lru_cache
 
+from proofs.trusted.kernel.meter import METER
+
 
 class Unproved(ArithmeticError):
     """A hypothesis of a rule could not be established."""
@@ -69,6 +71,7 @@ class Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
+        METER.get().spend(1 + (self.bits >> 6))
         products = (
             self.lo * other.lo,
             self.lo * other.hi,
@@ -85,6 +88,7 @@ class Enclosure:
         other = self._like(value)
         if other.lo <= 0 <= other.hi:
             raise Unproved("division by an enclosure of 0")
+        METER.get().spend(2 + (self.bits >> 6))
         quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
         low = min(a // b for a, b in quotients)
         return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
@@ -170,6 +174,7 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
     """
     guard = 12 + max(0, abs(x).bit_length() - bits)
     work = bits + guard
+    METER.get().spend(20 + (work >> 6) ** 2)  # about work / 4 steps
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
     x <<= guard
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
@@ -195,6 +200,7 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
 def log(value: Fraction, bits: int) -> Enclosure:
     """Enclose the logarithm of a positive rational: value = m 2^n, m in [2/3, 4/3]."""
     n = value.numerator.bit_length() - value.denominator.bit_length()
+    METER.get().spend(abs(n) >> 4)
     scaled = value / Fraction(2) ** n
     while 3 * scaled > 4:
         scaled, n = scaled / 2, n + 1

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context, read_box, read_point
 from proofs.trusted.kernel.enclose import PRECISIONS, Box, Matrix, decide, enclosed, leaves, shown
 from proofs.trusted.kernel.graph import Graph, beyond, cube
@@ -17,13 +18,14 @@ Form = tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
-class Conjugacy:
+class Conjugacy(Conclusion):
     """Each path of a graph is followed once: forward if all forms are positive."""
 
     graph: Graph
     forward: bool
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         if self.forward:
             return (
@@ -72,7 +74,6 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
         jacobian = _derivatives(step.local, relation, n)
         _, _, _, _, matrices = relation.fields("box", "outside", "jacobian", "tree", "matrices")
         for leaf in leaves(matrices, jacobian):
-            context.work.spend(20 * n**3 * PRECISIONS[0])
             _check_cone(leaf, forms[i], forms[j])
     return Conjugacy(of, all(entry > 0 for form in forms for entry in form))
 

@@ -4,32 +4,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.enclose import Box, Components, Work, box_text, integer
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.enclose import Box, Components, box_text, integer
 from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.parameters import Parameters
 
-SCHEMA = "impact-proofs.lemma/1"
-
-
-class Conclusion(Protocol):
-    """What a step proves."""
-
-    def says(self) -> str:
-        """Return it as a sentence that takes nothing from texts in the file but names."""
-
-
-C = TypeVar("C")
+C = TypeVar("C", bound=Conclusion)
 
 
 @dataclass
 class Context:
-    """The premises of a step."""
+    """The premises of a step: the statement's numbers, the file's functions, the steps before."""
 
-    functions: dict[str, Formula]
+    parameters: Parameters | None = None
+    functions: dict[str, Formula] = field(default_factory=dict)
     known: dict[str, Conclusion] = field(default_factory=dict)
-    work: Work = field(default_factory=Work)
+
+    @property
+    def of(self) -> Parameters:
+        """The statement's numbers; Unproved in a file that has none."""
+        if self.parameters is None:
+            raise Unproved("the rule is about an oscillator, and the file has no parameters")
+        return self.parameters
 
     def formula(self, name: Reader) -> Formula:
         """Return the function of that name."""
@@ -46,7 +46,7 @@ class Context:
 
     def map_of(self, formula: Formula) -> Components:
         """Return the whole function as a map."""
-        return Components.of(formula, self.work)
+        return Components.of(formula)
 
 
 def where(formula: Formula, box: Box, *components: int) -> str:
@@ -107,6 +107,6 @@ class Quantity:
         root, tape = self.formula.roots[self.component], self.formula.tape
         return (root,) if self.variable is None else (root, tape.derivative(root, self.variable))
 
-    def map(self, work: Work) -> Components:
+    def map(self) -> Components:
         """Return the component and, last, the quantity, as a map."""
-        return Components(self.formula.tape, len(self.formula.variables), self.roots, work)
+        return Components(self.formula.tape, len(self.formula.variables), self.roots)

@@ -9,15 +9,15 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import wraps
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import Parameters, Range
 from proofs.trusted.kernel.angles import Angles, Finer
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.enclose import Box, Components, Work, decide, leaves
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.enclose import Box, Components, decide, leaves
 from proofs.trusted.kernel.expansion import Expansions, Laurent
-from proofs.trusted.kernel.formula import FUNCTIONS, Exhausted, Tape
+from proofs.trusted.kernel.formula import FUNCTIONS, Tape
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import Equal, Series, Value
 
 _MAX_LENGTH = 12_000
@@ -26,7 +26,6 @@ _MAX_VARIABLES = 30
 _MAX_POWER = 64
 _MAX_ORDER = 12
 _SPARE = 8  # how many terms a series may lose by cancellation
-_WORK = 8000  # of the work that the lemma rules count, for a charge of 1
 
 _WORDS = {*FUNCTIONS, "D", "at"}
 _UNUSED = (Fraction(0), Fraction(0))  # the side of a variable that is substituted away
@@ -138,21 +137,16 @@ def _exponent(node: ast.expr, reader: Reader) -> int:
 
 def _prove(formulas: Formulas, reader: Reader, by_forms: Callable[[Angles], None]) -> None:
     """Prove something by normal forms, with units of angles as fine as it takes."""
-    work, units = Work(), Angles(0, Work()).units
+    units = Angles(0).units
     while True:
         try:
-            by_forms(Angles(len(formulas.variables), work, units=units))
+            by_forms(Angles(len(formulas.variables), units=units))
         except Finer:
             continue
         break
-    _charge(reader, work)
 
 
-def _charge(reader: Reader, work: Work) -> None:
-    reader.charge((Work().left - work.left) // _WORK + 1, 64)
-
-
-def equal(of: Parameters, known: dict[str, object], reader: Reader) -> Equal:
+def equal(context: Context, reader: Reader) -> Equal:
     """Rule `formula-equal`: {left, right}, formulas.
 
     Hypothesis: the two have normal forms P/Q and R/S with P S - R Q = 0, as polynomials in the
@@ -173,7 +167,7 @@ def equal(of: Parameters, known: dict[str, object], reader: Reader) -> Equal:
     return Equal(left.string(), right.string())
 
 
-def series(of: Parameters, known: dict[str, object], reader: Reader) -> Series:
+def series(context: Context, reader: Reader) -> Series:
     """Rule `formula-series`: {function, variable, coefficients, nonzero}.
 
     Hypothesis: the Laurent series of the function in the variable x, computed with normal forms as
@@ -227,7 +221,7 @@ def _expanded(formulas: Formulas, root: int, numbers: Expansions) -> Laurent:
     raise Unproved("too few terms of the series are known")
 
 
-def value(of: Parameters, known: dict[str, object], reader: Reader) -> Value:
+def value(context: Context, reader: Reader) -> Value:
     """Rule `formula-value`: {function, box: {variable: range}, tree, bounds}.
 
     Hypothesis: on each leaf of the tree, which divides the box (coordinates in the order in which
@@ -235,42 +229,18 @@ def value(of: Parameters, known: dict[str, object], reader: Reader) -> Value:
     function is defined on the box and lies within the bounds there.
     """
     function, box_of, tree, bounds_of = reader.fields("function", "box", "tree", "bounds")
-    formulas, work = Formulas(), Work()
+    formulas = Formulas()
     root = formulas.read(function)
     sides = {name: side.range() for name, side in box_of.members()}
     if set(sides) != set(formulas.free(root, *formulas.parts)):
         raise box_of.fail("a side for each variable of the function is expected")
     box: Box = tuple(sides.get(name, _UNUSED) for name in formulas.variables)
     bounds = bounds_of.range()
-    map_ = Components(formulas.tape, len(box), (root, *formulas.parts), work)
+    map_ = Components(formulas.tape, len(box), (root, *formulas.parts))
     for leaf in leaves(tree, box):
         decide(map_, leaf, lambda found: _within(found[0].range, bounds))
-    _charge(reader, work)
     return Value(function.string(), tuple(sides.items()), bounds)
 
 
 def _within(values: Range, bounds: Range) -> bool:
     return bounds[0] <= values[0] and values[1] <= bounds[1]
-
-
-Rule = Callable[[Parameters, dict[str, object], Reader], object]
-
-
-def _limited(rule: Rule) -> Rule:
-    """Return a rule that proves nothing where it would take too much work."""
-
-    @wraps(rule)
-    def limited(of: Parameters, known: dict[str, object], reader: Reader) -> object:
-        try:
-            return rule(of, known, reader)
-        except Exhausted as error:
-            raise Unproved(str(error)) from None
-
-    return limited
-
-
-RULES = {
-    "formula-equal": _limited(equal),
-    "formula-series": _limited(series),
-    "formula-value": _limited(value),
-}

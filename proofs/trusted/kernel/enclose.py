@@ -1,8 +1,6 @@
 """What the rules about formulas compute with: enclosures on boxes, and exact rationals.
 
-Precision adapts: 64 bits first, then twice as many while a question is undecided. The work is
-counted, so that no file can make a check endless.
-"""
+Precision adapts: 64 bits first, then twice as many while a question is undecided."""
 
 from __future__ import annotations
 
@@ -14,32 +12,18 @@ from math import isqrt
 from typing import Any, Protocol
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import Range, show, show_range
 from proofs.trusted.kernel import arithmetic
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
-from proofs.trusted.kernel.formula import Exhausted, Formula, Tape
+from proofs.trusted.kernel.formula import Formula, Tape
+from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024)
-_LIMIT = 150_000_000  # multiplications times bits
 _LARGEST = 256  # results beyond 2^256 are not followed
 _MOST_DIGITS = 20_000  # bits of an exact rational
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
 
 Box = tuple[Range, ...]
-
-
-@dataclass
-class Work:
-    """A budget for a whole file."""
-
-    left: int = _LIMIT
-
-    def spend(self, amount: int) -> None:
-        """Count work; Exhausted where there has been too much."""
-        self.left -= amount
-        if self.left < 0:
-            raise Exhausted("the file asks for more work than a check does")
 
 
 ARITHMETIC: dict[str, Callable[..., Any]] = {
@@ -169,12 +153,11 @@ class Components:
     tape: Tape
     variables: int
     roots: tuple[int, ...]
-    work: Work
 
     @classmethod
-    def of(cls, formula: Formula, work: Work) -> Components:
+    def of(cls, formula: Formula) -> Components:
         """Return the whole function."""
-        return cls(formula.tape, len(formula.variables), formula.roots, work)
+        return cls(formula.tape, len(formula.variables), formula.roots)
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values."""
@@ -189,7 +172,6 @@ class Components:
 
     def _enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
         bits = x[0].bits
-        self.work.spend(self.tape.cost(roots) * bits)
         return self.tape.evaluate(roots, Enclosures(bits), x)
 
 

@@ -17,7 +17,8 @@ from fractions import Fraction
 from typing import NamedTuple, Protocol, TypeVar
 
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.facts import show
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import show
 
 FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
 MAX_VARIABLES = 6
@@ -33,10 +34,6 @@ _RESERVED = {*FUNCTIONS, "pi", "e"}
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # how tightly a text binds
 
 T = TypeVar("T")
-
-
-class Exhausted(ArithmeticError):
-    """The check would take more work or memory than any file may ask for."""
 
 
 class Numbers(Protocol[T]):
@@ -76,7 +73,7 @@ class Tape:
         place = self._places.setdefault(node, len(self.nodes))
         if place == len(self.nodes):
             if place >= _MAX_TAPE:
-                raise Exhausted("derivatives of a formula with too many operations")
+                raise Unproved("derivatives of a formula with too many operations")
             self.nodes.append(node)
         return place
 

@@ -8,13 +8,15 @@ from fractions import Fraction
 from functools import partial
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import ceil_text, floor_text, show
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context, read_point
 from proofs.trusted.kernel.enclose import Box, decide, integer, leaves, size
 from proofs.trusted.kernel.formula import MAX_VARIABLES, Formula
 from proofs.trusted.kernel.hset import HSet, LocalMap, disjoint, inverse
 from proofs.trusted.kernel.inequalities import read_sign
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import ceil_text, floor_text, show
 
 _MAX_POWER = 100
 _MAX_GROWTH = 10**30
@@ -24,7 +26,7 @@ _MOST_DIGITS = 1000  # bits
 
 
 @dataclass(frozen=True)
-class Covers:
+class Covers(Conclusion):
     """The map covers the target by the source."""
 
     formula: Formula
@@ -37,16 +39,17 @@ class Covers:
         power = self.local.power
         return self.formula.name if power == 1 else f"the iterate {self.formula.name}^{power}"
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return (
             f"for {self.formula.definition()}: N => M under {self.map_name}, with N "
-            f"{self.local.source.says()}, and M {self.local.target.says()}"
+            f"{self.local.source.sentence}, and M {self.local.target.sentence}"
         )
 
 
 @dataclass(frozen=True)
-class Graph:
+class Graph(Conclusion):
     """Covering relations of one map among pairwise disjoint h-sets."""
 
     covers: tuple[Covers, ...]
@@ -57,11 +60,12 @@ class Graph:
     def described(self) -> str:
         """The map, the sets and the relations."""
         first = self.covers[0]
-        sets = "; ".join(f"N{i} is {node.says()}" for i, node in enumerate(self.nodes, 1))
+        sets = "; ".join(f"N{i} is {node.sentence}" for i, node in enumerate(self.nodes, 1))
         edges = ", ".join(f"N{i + 1} => N{j + 1}" for i, j in self.edges)
         return f"for {first.formula.definition()}: {edges} under {first.map_name}, where {sets}"
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return (
             f"{self.described}; the sets are disjoint; each infinite path of these arrows is "
@@ -71,14 +75,15 @@ class Graph:
 
 
 @dataclass(frozen=True)
-class Entropy:
+class Entropy(Conclusion):
     """A lower bound log(growth) / (length k) on the entropy."""
 
     graph: Graph
     growth: int
     length: int
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement, with the bound as decimals."""
         steps = self.length * self.graph.covers[0].local.power
         low, high = (end / steps for end in log(Fraction(self.growth), _LOG_BITS).range)
@@ -193,7 +198,7 @@ def graph(context: Context, reader: Reader) -> Graph:
 def _check_disjoint(context: Context, node: HSet, others: Iterable[HSet]) -> None:
     """Raise Unproved unless an h-set is proved disjoint from the others."""
     for other in others:
-        context.work.spend(1000 * len(node.centre) ** 2)
+        METER.get().spend(20 * len(node.centre) ** 2)
         if not disjoint(node, other):
             raise Unproved("two h-sets are not proved disjoint")
 
@@ -218,7 +223,7 @@ def entropy(context: Context, reader: Reader) -> Entropy:
     if not any(vector):
         raise vector_of.fail("a vector other than 0 is expected")
     image = vector
-    context.work.spend(100 * length * len(of.edges))
+    METER.get().spend(2 * length * len(of.edges))
     for _ in range(length):
         following = [0] * n
         for i, j in of.edges:

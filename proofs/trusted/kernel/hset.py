@@ -6,22 +6,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import show
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.enclose import Components, Matrix, add
+from proofs.trusted.numbers import show
 
 Rows = tuple[tuple[Fraction, ...], ...]
 
 
 @dataclass(frozen=True)
-class HSet:
+class HSet(Conclusion):
     """The points c + A q, q in [-1, 1]^n, A regular; the first coordinate q_1 is unstable."""
 
     centre: tuple[Fraction, ...]
     matrix: Rows
     inverse: Rows
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return what set it is."""
         centre = ", ".join(map(show, self.centre))
         rows = ", ".join(f"({', '.join(map(show, row))})" for row in self.matrix)
@@ -83,14 +85,12 @@ class LocalMap:
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose f' = B^-1 F'(x_(k-1)) ... F'(x_0) A (chain rule)."""
         points, product = self._points(x), _rows(self.source.matrix, x)
-        self.map.work.spend(2 * self.power * len(x) ** 3 * x[0].bits)
         for _ in range(self.power):
             product = multiply(self.map.jacobian(points), product)
             points = self.map.values(points)
         return multiply(_rows(self.target.inverse, x), product)
 
     def _points(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        self.map.work.spend(20 * len(x) ** 2 * x[0].bits)
         centre = _vector(self.source.centre, x)
         rows = _rows(self.source.matrix, x)
         return [add(c, row, x) for c, row in zip(centre, rows, strict=True)]

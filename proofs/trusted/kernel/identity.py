@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.formula import Formula
@@ -15,7 +16,7 @@ _MAX_ORDER = 4
 
 
 @dataclass(frozen=True)
-class Identity:
+class Identity(Conclusion):
     """Two components are equal, or a partial derivative of one and another."""
 
     formula: Formula
@@ -23,7 +24,8 @@ class Identity:
     derivative: tuple[int, ...]
     right: int
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         sides = tuple(dict.fromkeys((self.left, self.right)))
         names = [self.formula.component(index) for index in (self.left, self.right)]
@@ -65,7 +67,7 @@ def identity(context: Context, reader: Reader) -> Identity:
     one, two = formula.roots[left], formula.roots[right]
     for variable in variables:
         one = formula.tape.derivative(one, variable)
-    forms = NormalForms(len(formula.variables), context.work)
+    forms = NormalForms(len(formula.variables))
     a, b = formula.tape.evaluate((one, two), forms, forms.inputs())
     if forms.apply("-", [a, b], None).top:
         raise Unproved(f"the normal forms of the two sides of {formula.name} differ")

@@ -12,18 +12,20 @@ from fractions import Fraction
 from typing import TypeVar
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import Range, show, show_range
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context, Quantity, read_box, read_point, where
 from proofs.trusted.kernel.enclose import Box, Exact, attempts, box_text, decide, leaves, point_box
 from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Range, show, show_range
 
 SIGNS = {"+": 1, "-": -1}
 S = TypeVar("S", "Sign", "Monotone", "Within", "Expands")
 
 
 @dataclass(frozen=True)
-class Inequality:
+class Inequality(Conclusion):
     """A statement about a quantity at every point of a box."""
 
     quantity: Quantity
@@ -42,7 +44,8 @@ class Inequality:
         """Whether it is false if at one point the quantity lies in these bounds."""
         raise NotImplementedError
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         raise NotImplementedError
 
@@ -68,7 +71,8 @@ class Sign(Inequality):
         """Whether it is false if at one point the quantity lies in these bounds."""
         return values[1] <= 0 if self.sign > 0 else values[0] >= 0
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return f"{self.where}: {self.quantity.name} {'>' if self.sign > 0 else '<'} 0"
 
@@ -106,7 +110,8 @@ class Monotone(Inequality):
         """Whether it is false if at one point the derivative lies in these bounds: strictly."""
         return _has_sign(values, -self.sign)
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         way = "increasing" if self.sign > 0 else "decreasing"
         name = self.quantity.component_name
@@ -136,7 +141,8 @@ class Within(Inequality):
         """Whether it is false if at one point the quantity lies in these bounds."""
         return values[1] < self.bounds[0] or values[0] > self.bounds[1]
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return f"{self.where}: {self.quantity.name} lies in {show_range(self.bounds)}"
 
@@ -166,35 +172,38 @@ class Expands(Inequality):
         """Whether it is false if at one point the derivative lies in these bounds."""
         return -self.bound < values[0] and values[1] < self.bound
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return f"{self.where}: |{self.quantity.name}| >= {show(self.bound)}"
 
 
 @dataclass(frozen=True)
-class NoZero:
+class NoZero(Conclusion):
     """F has no zero in the box."""
 
     formula: Formula
     box: Box
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return f"{where(self.formula, self.box)}: {self.formula.name} has no zero"
 
 
 @dataclass(frozen=True)
-class Refuted:
+class Refuted(Conclusion):
     """The statement is false, because of the quantity's value at one point."""
 
     statement: Inequality
     point: tuple[Fraction, ...]
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the negation."""
         variables = self.statement.quantity.formula.variables
         point = box_text(point_box(self.point), variables)
-        return f"it is false that {self.statement.says()}; a witness is {point}"
+        return f"it is false that {self.statement.sentence}; a witness is {point}"
 
 
 def read_sign(reader: Reader) -> int:
@@ -213,7 +222,7 @@ def _proved(context: Context, reader: Reader, kind: type[S]) -> S:
     """Read {claim, tree}; return the claim, proved on each leaf of the tree."""
     claim, tree = reader.fields("claim", "tree")
     statement = kind.read(context, claim)
-    map_ = statement.quantity.map(context.work)
+    map_ = statement.quantity.map()
     for leaf in leaves(tree, statement.box):
         decide(map_, leaf, lambda values: statement.holds(values[-1].range))
     return statement
@@ -301,8 +310,8 @@ def refute_at(context: Context, reader: Reader) -> Refuted:
 
 def _at(context: Context, quantity: Quantity, point: tuple[Fraction, ...]) -> list[Range]:
     """Return bounds on a quantity at a point: the exact value, or better and better enclosures."""
-    map_ = quantity.map(context.work)
-    context.work.spend(map_.tape.cost(map_.roots) * 1000)
+    map_ = quantity.map()
+    METER.get().spend(20 * map_.tape.cost(map_.roots))
     try:
         value = map_.tape.evaluate(map_.roots, Exact(), point)[-1]
     except Unproved:

@@ -13,10 +13,10 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.enclose import Work, size
+from proofs.trusted.kernel.enclose import size
+from proofs.trusted.kernel.meter import METER
 
 _MOST_DIGITS = 20_000  # bits of a coefficient
-_TERM = 800  # the work of a product of two terms
 
 Monomial = tuple[tuple[int, int], ...]  # (generator, exponent > 0), generators increasing
 Polynomial = dict[Monomial, Fraction]  # no coefficient is 0
@@ -76,7 +76,6 @@ class NormalForms:
     """The operations of formulas on quotients; the first generators are the variables, then pi."""
 
     variables: int
-    work: Work
     _known: list[Generator] = field(default_factory=list)
     _squares: dict[int, Polynomial] = field(default_factory=dict)
 
@@ -110,7 +109,7 @@ class NormalForms:
     # -- quotients -----------------------------------------------------------------------------
 
     def _sum(self, a: Quotient, b: Quotient, factor: int) -> Quotient:
-        self.work.spend(200 * (len(a.top) + len(b.top)))
+        METER.get().spend(4 * (len(a.top) + len(b.top)))
         if a.bottom == b.bottom:
             return Quotient(plus(a.top, b.top, factor), a.bottom)
         top = plus(self._times(a.top, b.bottom), self._times(b.top, a.bottom), factor)
@@ -182,7 +181,7 @@ class NormalForms:
         product: Polynomial = {}
         for one, c in a.items():
             for two, d in b.items():
-                self.work.spend(_TERM + 10 * (size(c) + size(d)))
+                METER.get().spend(15 + (size(c) + size(d)) / 5)
                 _accumulate(product, _merge(one, two), c * d)
         while places := self._squared(product):
             product = self._without_square(product, max(places))
@@ -192,7 +191,7 @@ class NormalForms:
 
     def _squared(self, polynomial: Polynomial) -> set[int]:
         """Return the places of the generators of which a square is to be replaced."""
-        self.work.spend(200 * len(polynomial))
+        METER.get().spend(4 * len(polynomial))
         powers = {power for monomial in polynomial for power in monomial}
         return {place for place, n in powers if n > 1 and place in self._squares}
 
@@ -207,6 +206,6 @@ class NormalForms:
             powers[place] -= 2
             rest = tuple((g, n) for g, n in powers.items() if n)
             for other, factor in self._squares[place].items():
-                self.work.spend(_TERM + 10 * (size(value) + size(factor)))
+                METER.get().spend(15 + (size(value) + size(factor)) / 5)
                 _accumulate(result, _merge(rest, other), value * factor)
         return result

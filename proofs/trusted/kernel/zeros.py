@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import Range, show_range
 from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context, Quantity, read_box, read_point, where
 from proofs.trusted.kernel.enclose import (
     PRECISIONS,
@@ -23,30 +23,33 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.kernel.inequalities import Monotone, excludes_zero
+from proofs.trusted.numbers import Range, show_range
 
 
 @dataclass(frozen=True)
-class Zero:
+class Zero(Conclusion):
     """A function of one variable has a zero inside an interval."""
 
     quantity: Quantity
     interval: Range
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         of = self.quantity
         return f"{where(of.formula, (self.interval,), of.component)}: {of.name} has a zero"
 
 
 @dataclass(frozen=True)
-class Root:
+class Root(Conclusion):
     """A function of one variable has exactly one zero in an interval, and it lies in a bracket."""
 
     quantity: Quantity
     interval: Range
     bracket: Range
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         of = self.quantity
         return (
@@ -56,20 +59,21 @@ class Root:
 
 
 @dataclass(frozen=True)
-class UniqueZero:
+class UniqueZero(Conclusion):
     """F has exactly one zero in a box."""
 
     formula: Formula
     box: Box
 
-    def says(self) -> str:
+    @property
+    def sentence(self) -> str:
         """Return the statement."""
         return f"{where(self.formula, self.box)}: {self.formula.name} has exactly one zero"
 
 
 def _sign_at(context: Context, quantity: Quantity, point: Fraction) -> int:
     """Return the strict sign of a component at a point, or raise Unproved."""
-    for values in attempts(quantity.map(context.work), point_box((point,))):
+    for values in attempts(quantity.map(), point_box((point,))):
         if excludes_zero(values[0]):
             return 1 if values[0].lo > 0 else -1
     raise Unproved(f"the sign is not decided at {shown(point_box((point,)))}")
@@ -98,7 +102,7 @@ def zero(context: Context, reader: Reader) -> Zero:
     interval = interval_of.range()
     _change(context, quantity, interval)
     for leaf in leaves(tree, (interval,)):
-        decide(quantity.map(context.work), leaf, lambda values: True)
+        decide(quantity.map(), leaf, lambda values: True)
     return Zero(quantity, interval)
 
 

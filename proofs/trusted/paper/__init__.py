@@ -1,8 +1,8 @@
-"""The claims beyond H1-H6, H11 and H16: what they say, and what decides them. Trusted, and shared.
+"""The catalogue: which module holds the row of a claim, and which file its certificate.
 
-Each module states the claims of a group: the conclusions that proof steps may reach, as frozen
-dataclasses, and for each claim a function from conclusions to a `Decision`. Prover and checker
-reach the conclusions by arithmetic of their own and decide by the same function.
+Each module states the rows of a section: the conclusions that proof steps may reach, the theorems
+that follow from these, and for each row a function from conclusions to a decision. Prover and
+checker reach conclusions by arithmetic of their own and decide by the same functions.
 """
 
 from __future__ import annotations
@@ -11,13 +11,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from types import MappingProxyType
-from typing import Any
 
-from proofs.trusted.facts import Parameters, Range
-from proofs.trusted.statements import Verdict, fill
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Row, Verdict
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
+        "horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16"),
         "foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9", "A1", "A2"),
         "nonplastic": ("N1", "N2", "N3", "N4"),
         "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
@@ -31,43 +33,38 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 
-_SECTIONS: Mapping[str, tuple[str, str | None]] = MappingProxyType(
+_MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "foundations": ("s2_foundations.relations", "s7_appendix.rules"),
-        "nonplastic": ("s33_restitution.nonplastic", "s33_restitution.rules"),
-        "sets": ("s32_sets.sets", "s32_sets.rules"),
-        "dimension": ("s32_sets.dimension", "s32_sets.dimension_rules"),
-        "chaos": ("s34_circle.chaos", "s34_circle.chaos_rules"),
-        "circle": ("s34_circle.circle", "s34_circle.circle_rules"),
-        "persistence": ("s34_circle.persistence", "s34_circle.persistence_rules"),
-        "single": ("s4_single.single", "s4_single.rules"),
-        "soft": ("s5_soft.soft", None),
-        "resonance": ("s6_resonance.resonance", None),
+        "s31_horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6"),
+        "s32_sets.moran": ("H11", "H16"),
+        "s2_foundations.relations": GROUPS["foundations"],
+        "s33_restitution.nonplastic": GROUPS["nonplastic"],
+        "s32_sets.sets": GROUPS["sets"],
+        "s32_sets.dimension": GROUPS["dimension"],
+        "s34_circle.chaos": GROUPS["chaos"],
+        "s34_circle.circle": GROUPS["circle"],
+        "s34_circle.persistence": GROUPS["persistence"],
+        "s4_single.single": GROUPS["single"],
+        "s5_soft.soft": GROUPS["soft"],
+        "s6_resonance.resonance": GROUPS["resonance"],
     }
 )
 
 
-def rules_of(group: str) -> Mapping[str, Callable[..., Any]]:
-    """Return the rules that a group of claims has, beside those about the impact map."""
-    own = _SECTIONS[group][1]
-    module = "proofs.trusted.kernel.derivation" if own is None else f"{__name__}.{own}"
-    found: Mapping[str, Callable[..., Any]] = import_module(module).RULES
-    return found
-
-
 @dataclass(frozen=True)
 class Decision:
-    """What conclusions prove about a claim.
-
-    why: a line with the numbers. witness: what refutes it, or the conditions it needs, exact.
-    corrected: the strongest true statement nearby, complete. quantities: enclosures by name.
-    """
+    """What conclusions prove about a claim: of the sections that are not yet rows."""
 
     verdict: Verdict
     why: str
     witness: str | None = None
     corrected: str | None = None
     quantities: Mapping[str, Range] = field(default_factory=dict)
+
+    @property
+    def theorem(self) -> str | None:
+        """The strongest true statement nearby."""
+        return self.corrected
 
 
 def undecided(missing: str) -> Decision:
@@ -77,15 +74,15 @@ def undecided(missing: str) -> Decision:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim: its id in the catalogue, its text, the rule that decides it from conclusions."""
+    """A claim of the sections that are not yet rows."""
 
     id: str
     text: str
-    decide: Callable[[Parameters, Sequence[object]], Decision]
+    decide: Callable[[Parameters, Sequence[Conclusion]], Decision]
 
     def says(self, of: Parameters) -> str:
         """Return the claim in words at the given numbers."""
-        return fill(self.text, of)
+        return of.fill(self.text)
 
 
 def group_of(claim: str) -> str | None:
@@ -93,10 +90,11 @@ def group_of(claim: str) -> str | None:
     return next((group for group, claims in GROUPS.items() if claim in claims), None)
 
 
-def find(claim: str) -> Claim | None:
-    """Return a claim by its id; only its own group's module is imported."""
-    group = group_of(claim)
-    if group is None:
-        return None
-    claims: tuple[Claim, ...] = import_module(f"{__name__}.{_SECTIONS[group][0]}").CLAIMS
-    return next(one for one in claims if one.id == claim)
+def find(claim: str) -> Row | Claim | None:
+    """Return the row of a claim by its id; only its own module is imported."""
+    for name, claims in _MODULES.items():
+        if claim in claims:
+            module = import_module(f"{__name__}.{name}")
+            rows: Sequence[Row | Claim] = getattr(module, "ROWS", None) or module.CLAIMS
+            return next(row for row in rows if row.id == claim)
+    return None

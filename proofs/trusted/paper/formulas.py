@@ -11,12 +11,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import Parameters, Range, ceil_text, floor_text
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, ceil_text, floor_text
 from proofs.trusted.paper import Claim, Decision, undecided
+from proofs.trusted.parameters import Parameters
 
 
 @dataclass(frozen=True)
-class Equal:
+class Equal(Conclusion):
     """left = right, at all real values of the variables at which all parts of both are defined."""
 
     left: str
@@ -24,7 +26,7 @@ class Equal:
 
 
 @dataclass(frozen=True)
-class Series:
+class Series(Conclusion):
     """function = coefficients[0] + coefficients[1] x + ... + O(x^len(coefficients)) as x -> 0.
 
     x is the variable, from both sides; at fixed real values of the other variables at which the
@@ -38,7 +40,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Value:
+class Value(Conclusion):
     """The function and all its parts are defined on a box; its values there are in these bounds."""
 
     function: str

@@ -20,7 +20,7 @@ from proofs.motion.system import System
 from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.stress.grazing import graze
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import PAPER as FACTS
+from proofs.trusted.parameters import PAPER as FACTS
 from proofs.trusted.flights import RULES
 from tests.proofs.trusted.paper import reference
 

@@ -44,7 +44,7 @@ from proofs.shell.counting import (
     counted,
 )
 from proofs.trusted import equations
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.formula import Tape
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single_facts

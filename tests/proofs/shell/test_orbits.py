@@ -17,7 +17,7 @@ from intervals import Interval, IntervalArray, Undecided
 from proofs import orbits
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")

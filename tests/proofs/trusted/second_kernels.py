@@ -7,7 +7,7 @@ from typing import Any
 from flint import arb, arb_series, ctx
 
 from proofs.trusted import equations
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.flights import Motion, phase_after
 from proofs.trusted.kernel.arithmetic import exp, log, pi, rational
 from tests.proofs.trusted.second_map import ball, bounds

@@ -21,7 +21,7 @@ from flint import ctx
 
 from proofs.trusted import flights as rules
 from proofs.trusted.certificate import Reader, parameters_from_json, parse
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.flights import FirstImpact, Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from tests.proofs.trusted import second_reader

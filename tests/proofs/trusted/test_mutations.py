@@ -9,7 +9,7 @@ from proofs.check import check_file
 from proofs.search.s31_horseshoe import prove
 from proofs.trusted.certificate import MAX_BYTES, Malformed, parse
 from proofs.trusted.certificate import render as text_of
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.mutations import (

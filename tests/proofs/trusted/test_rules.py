@@ -13,7 +13,7 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.flights import RULES, FirstImpact, Motion, _meets, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
 from tests.proofs.trusted.paper import reference

@@ -9,8 +9,10 @@ from fractions import Fraction
 import pytest
 
 from proofs.trusted.certificate import parameters_to_json
-from proofs.trusted.facts import PAPER, Facts, PointFact, SlopeRange
-from proofs.trusted.statements import STATEMENTS, decide, quantities
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.GONE import Facts
+from proofs.trusted.slopes import Impact, SlopeRange
+from proofs.trusted.GONE import STATEMENTS, decide, quantities
 from tests.proofs.trusted import second_claims
 from tests.proofs.trusted.second_both import both
 
@@ -154,7 +156,7 @@ def compare_tables(seed, size):
         for claim in ("H1", "H2", "H3", "H4", "H5", "H6"):
             for witness in ({}, {"point": point}, {"missed": missed}):
                 facts = told_to_the_checker(of, steps)
-                facts.points += [PointFact(*witness["point"])] if "point" in witness else []
+                facts.points += [Impact(*witness["point"])] if "point" in witness else []
                 facts.missed = witness.get("missed")
                 expected = decide(claim, of, facts)[0].value
                 mine = second_claims.Facts(of, steps)

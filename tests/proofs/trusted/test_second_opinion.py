@@ -12,7 +12,7 @@ import pytest
 from proofs.search.s31_horseshoe import prove
 from proofs.trusted import flights as rules
 from proofs.trusted.certificate import render
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted import second_kernels
 from tests.proofs.trusted.second_opinion import opinions, summary, table
 

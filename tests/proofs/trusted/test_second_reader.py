@@ -16,7 +16,7 @@ from flint import arb, arb_series
 
 from proofs.search.s31_horseshoe import prove
 from proofs.trusted.certificate import render
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.mutations import mutations, renew_texts
 from tests.proofs.trusted.second_both import both
 from tests.proofs.trusted.second_map import Impacts, ball

@@ -5,28 +5,12 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.facts import (
-    PAPER,
-    TURN,
-    Facts,
-    Parameters,
-    PointFact,
-    SlopeRange,
-    ceil_text,
-    floor_text,
-    show,
-    show_range,
-)
-from proofs.trusted.statements import (
-    HORSESHOE,
-    STATEMENTS,
-    Verdict,
-    decide,
-    image_arcs,
-    quantities,
-    readings,
-    theorem,
-)
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.numbers import TURN, ceil_text, floor_text, show, show_range
+from proofs.trusted.GONE import Facts
+from proofs.trusted.slopes import Impact, SlopeRange
+from proofs.trusted.GONE import HORSESHOE, STATEMENTS, decide, image_arcs, quantities, readings, theorem
+from proofs.trusted.verdicts import Verdict
 
 VERIFIED, REFUTED, UNDECIDED = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 
@@ -55,7 +39,7 @@ def covering(first=("1.1", "1.33"), second=("1.1", "1.33"), avoided=True, sign=1
 
 
 def point(phase, slope=("5", "5"), image=("3", "3")):
-    return Facts(points=[PointFact(Fraction(phase), span(*slope), span(*image))])
+    return Facts(points=[Impact(Fraction(phase), span(*slope), span(*image))])
 
 
 def verdict(claim, facts, of=PAPER):

@@ -8,7 +8,7 @@ from proofs.trusted.paper.s2_foundations import displayed as eq
 from proofs.trusted.paper.s2_foundations.separation import LAUNCH, SEPARATIONS
 from proofs.trusted.paper.s5_soft.displayed import HEIGHT4
 from proofs.trusted.paper.s7_appendix.appendix import MARCHING, MEASURES
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 _FLIGHT = (
     Equal(f"D({eq.X2}, t, t) + omega_n**2*({eq.X2})", "0"),

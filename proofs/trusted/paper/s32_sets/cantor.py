@@ -31,15 +31,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import Parameters, Range, ceil_text, floor_text, show
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, ceil_text, decimal_between, floor_text, show
 from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 _LONGEST = 30
 
 
 @dataclass(frozen=True)
-class LinearSet:
+class LinearSet(Conclusion):
     """The root s of r0^s + r1^s = 1 is in `root`, and |I|^s in `measure`; r0 + r1 < 1."""
 
     ratios: Range
@@ -48,7 +50,7 @@ class LinearSet:
 
 
 @dataclass(frozen=True)
-class Excess:
+class Excess(Conclusion):
     """(|L| + d)^s - |L|^s - d is in `excess`, s the root for the ratios.
 
     L = I_w with w of n + 1 letters, and d = epsilon / 2^(n+1).
@@ -83,16 +85,6 @@ def length(interval: Range) -> Fraction:
 def ratio_pairs(of: Parameters) -> list[Range]:
     """Return (eta0, eta1) as 1 / slopes and, where they differ, as printed."""
     return list(dict.fromkeys((of.reciprocals, of.moran_ratios)))
-
-
-def decimal_between(low: Fraction, high: Fraction) -> Fraction:
-    """Return a decimal strictly between two numbers, of the fewest places that there are."""
-    if low >= high:
-        raise ValueError("nothing lies between")
-    unit = Fraction(1)
-    while not low < (value := (low // unit + 1) * unit) < high:
-        unit /= 10
-    return value
 
 
 def _in_gap(ratios: Range, interval: Range, word: str) -> Fraction:

@@ -9,28 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from proofs.trusted.facts import (
-    TURN,
-    Avoids,
-    MoranRoot,
-    Parameters,
-    PointFact,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    show,
-    show_range,
-)
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.statements import Verdict
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.verdicts import Verdict
 
 FULL = ("0", "1")
 WITHOUT_000 = ("1", "01", "001")
 
 
 @dataclass(frozen=True)
-class Repeller:
+class Repeller(Conclusion):
     """The compact set K = union of g_w(K) over the words; g_w is g_j after g_v where w = jv.
 
     f increases on both domains; g_j is its inverse from `hull` into domains[j], for letters that
@@ -85,7 +77,7 @@ def _without_000(of: Parameters, found: Sequence[object]) -> Repeller | None:
     end - 2 pi. So a phase within I is the lifted value; one beyond c in [0, 2 pi) is that
     value, or is 2 pi above it, and then the value is below I, where f(y) >= f(a) is not.
     """
-    points = [one for one in found if isinstance(one, PointFact)]
+    points = [one for one in found if isinstance(one, Impact)]
     start, top = of.interval[0], of.left[1]
     blocked = any(
         first.phase == start < second.phase <= first.image[0]

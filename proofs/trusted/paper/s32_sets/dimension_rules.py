@@ -9,10 +9,8 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.facts import Parameters, Range
 from proofs.trusted.flights import (
     FirstImpact,
-    Known,
     Motion,
     bits_for,
     read_phases,
@@ -20,7 +18,9 @@ from proofs.trusted.flights import (
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log, pi, rational
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.series import Series, polynomial
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s32_sets.dimension import Repeller
 
 _MOST_WORDS, _LONGEST_WORD, _MOST_PIECES, _HIGHEST = 16, 16, 200, 200
@@ -172,7 +172,7 @@ class _Test:
         return total
 
 
-def dimension(of: Parameters, known: Known, reader: Reader) -> Repeller:
+def dimension(context: Context, reader: Reader) -> Repeller:
     """Rule `dimension`: {flights, turns, hull, domains, words, inverse, ..., dimension: [l, u]}.
 
     f is the impact map; for j = 0, 1 flights[j] is a transversal first-impact step that contains
@@ -207,7 +207,7 @@ def dimension(of: Parameters, known: Known, reader: Reader) -> Repeller:
     over 1 for a large n. As g_W contract by r_W at most and have disjoint images,
     dim K >= l - t (Falconer, Fractal Geometry, Proposition 9.7).
     """
-    system, test, span = _read(of, known, reader)
+    system, test, span = _read(context, reader)
     system.show()
     above = below = Fraction(0)  # the extremes of (L_s h - h) / h, at least 0
     slopes: dict[str, Range] = {}
@@ -242,7 +242,7 @@ def dimension(of: Parameters, known: Known, reader: Reader) -> Repeller:
     )
 
 
-def _read(of: Parameters, known: Known, reader: Reader) -> tuple[_System, _Test, Range]:
+def _read(context: Context, reader: Reader) -> tuple[_System, _Test, Range]:
     """Read a witness of the rule `dimension`; return what it is about, and [l, u]."""
     flights, turns, hull_of, domains, words_of, inverse, radius_of, *rest = reader.fields(
         "flights", "turns", "hull", "domains", "words", "inverse", "radius",
@@ -264,18 +264,16 @@ def _read(of: Parameters, known: Known, reader: Reader) -> tuple[_System, _Test,
     }
     coefficients = test_of.numbers(1, _HIGHEST)
     # two series for each piece and suffix, a product of series is order^2 / 2 products
-    cost = 2 * pieces * len(suffixes) * (order + 1) ** 2 * (len(coefficients) + 20) // 100
-    reader.charge(4 * len(suffixes) * (2 * pieces + 1) + cost, bits)
     entries = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
-    first, second = (_branch(known, *entry, bits) for entry in entries)
+    first, second = (_branch(context, *entry, bits) for entry in entries)
     system = _System(hull, (first, second), words, pieces, centres, radius, order, bits)
     return system, _Test(hull, coefficients, (span[0] + span[1]) / 2, bits), span
 
 
-def _branch(known: Known, flight: Reader, domain: Reader, turns: Reader, bits: int) -> _Branch:
+def _branch(context: Context, flight: Reader, domain: Reader, turns: Reader, bits: int) -> _Branch:
     """Read one branch, and show that F' > 0 on it: the slope's other factors have known signs."""
     phases = read_phases(domain)
-    step = transversal_step(known, flight, phases)
+    step = transversal_step(context, flight, phases)
     eta = rational(step.motion.eta, step.motion.bits)
     if (eta * Enclosure.of(*step.windows[0], step.motion.bits)).sincos()[0].hi >= 0:
         raise Unproved("f is not proved to increase on a domain")
@@ -299,6 +297,3 @@ def _whole(reader: Reader, least: int, most: int) -> int:
     if value.denominator != 1 or not least <= value <= most:
         raise reader.fail(f"a whole number from {least} to {most} is expected")
     return int(value)
-
-
-RULES = {"dimension": dimension}

@@ -22,53 +22,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import TURN, Facts, Parameters, Range, SlopeRange, show
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range, show
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.subshift import Subshift, words
-from proofs.trusted.statements import HORSESHOE, Verdict, decide
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import SlopeRange
 
 _LONGEST = 10
 
 
 @dataclass(frozen=True)
-class Horseshoe:
-    """H1 to H6 hold at these sets and slopes, all slopes above 1."""
-
-    sets: Parameters
-
-
-@dataclass(frozen=True)
-class Itinerary:
+class Itinerary(Conclusion):
     """A phase follows a word in I0 and I1 of a horseshoe and then leaves both.
 
     orbit: enclosures of the phase and its images, the one that left included; leaves: 0, 1 or 2
     where that is below I0, between I0 and I1, or above I1.
     """
 
-    sets: Parameters
+    sets: Horseshoe
     phase: Fraction
     word: str
     leaves: int
     orbit: tuple[Range, ...]
 
 
-def horseshoe_sets(of: Parameters, left: Range, right: Range, slopes: Range) -> Parameters:
-    """Return the numbers of a horseshoe of the same map; ValueError where they describe none."""
-    interval = left[0], right[1]
-    return Parameters(of.eta, of.nu, left, right, interval, slopes)
-
-
-def obstacle(sets: Parameters, facts: Facts) -> str | None:
-    """Return what is not proved about a horseshoe on these sets; None if nothing is missing."""
-    if sets.slopes[0] <= 1:
-        return "the slopes do not expand"
-    for claim in HORSESHOE:
-        verdict, why = decide(claim, sets, facts)
-        if verdict is not Verdict.VERIFIED:
-            return f"{claim} is {verdict.value} there ({why})"
-    return None
-
-
-def follow(sets: Parameters, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary | None:
+def follow(sets: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary | None:
     """Follow a phase through a proved horseshoe, f being known at points; None if undecided.
 
     f increases on I0 and I1, and f(I0), f(I1) do not pass phase 0 (H5). So where p <= x <= q are
@@ -109,21 +88,21 @@ def _image(slopes: Sequence[SlopeRange], domain: Range, x: Range) -> Range | Non
     return (max(below), min(above)) if below and above else None
 
 
-def surrounding(of: Parameters, found: Sequence[object]) -> Parameters | None:
+def surrounding(of: Parameters, found: Sequence[object]) -> Horseshoe | None:
     """Return the sets of a horseshoe among the conclusions whose interval contains I."""
     low, high = of.interval
     for step in found:
         if isinstance(step, Horseshoe):
-            begin, end = step.sets.interval
+            begin, end = step.interval
             if begin <= low and high <= end:
-                return step.sets
+                return step
     return None
 
 
 NO_HORSESHOE = "no horseshoe is proved on sets around the given interval I"
 
 
-def invariant_set(of: Parameters, found: Sequence[object]) -> tuple[Parameters, Subshift] | str:
+def invariant_set(of: Parameters, found: Sequence[object]) -> tuple[Horseshoe, Subshift] | str:
     """Return the horseshoe around I and the subshift of the points whose orbits stay in I.
 
     What is missing, if it is not proved.

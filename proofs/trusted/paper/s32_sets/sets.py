@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import combinations
 
-from proofs.trusted.facts import Parameters, ceil_text, floor_text, show, show_range
+from proofs.trusted.numbers import ceil_text, floor_text, show, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.cantor import CLAIMS as LINEAR_CLAIMS
 from proofs.trusted.paper.s32_sets.itinerary import (
     NO_HORSESHOE,
@@ -20,10 +21,11 @@ from proofs.trusted.paper.s32_sets.itinerary import (
     surrounding,
 )
 from proofs.trusted.paper.s32_sets.subshift import Subshift
-from proofs.trusted.statements import Verdict, theorem
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict, told
 
 
-def _told(sets: Parameters, of: Parameters, shift: Subshift) -> str:
+def _told(sets: Horseshoe, of: Parameters, shift: Subshift) -> str:
     """Say what the invariant set of I is, with its numbers."""
     if not shift.forbidden:
         return "Lambda is conjugate to the full shift on two symbols"
@@ -68,17 +70,17 @@ def _homeomorphism(of: Parameters, found: Sequence[object]) -> Decision:
     )
 
 
-def _of_ends(of: Parameters, sets: Parameters, found: Iterable[object]) -> list[Itinerary]:
+def _of_ends(of: Parameters, sets: Horseshoe, found: Iterable[object]) -> list[Itinerary]:
     """Return the orbits of the ends of I among the conclusions."""
     return [x for x in _orbits(sets, found) if x.phase in of.interval]
 
 
-def _orbits(sets: Parameters, found: Iterable[object]) -> list[Itinerary]:
+def _orbits(sets: Horseshoe, found: Iterable[object]) -> list[Itinerary]:
     orbits = [x for x in found if isinstance(x, Itinerary) and x.sets == sets]
     return sorted(orbits, key=lambda orbit: orbit.phase)
 
 
-def _no_point(of: Parameters, sets: Parameters, shift: Subshift, found: Sequence[object]) -> str:
+def _no_point(of: Parameters, sets: Horseshoe, shift: Subshift, found: Sequence[object]) -> str:
     """Name the shortest word without a point, and why; and two points that the index confuses."""
     where = (f"below {show(sets.left[0])}", "in the gap", f"above {show(sets.right[1])}")
     orbits = "; ".join(
@@ -100,7 +102,7 @@ def _no_point(of: Parameters, sets: Parameters, shift: Subshift, found: Sequence
     return text + _slow(of, sets, found)
 
 
-def _slow(of: Parameters, sets: Parameters, found: Sequence[object]) -> str:
+def _slow(of: Parameters, sets: Horseshoe, found: Sequence[object]) -> str:
     """Name a word w and a letter a for which |I_wa| < |I_w| / lo fails, if orbits prove one.
 
     I_w is the interval of the phases whose first iterates are in the given I0 and I1 as w says.
@@ -139,10 +141,10 @@ def _stays(of: Parameters, orbit: Itinerary) -> int:
     return count
 
 
-def _corrected(of: Parameters, sets: Parameters, shift: Subshift) -> str:
+def _corrected(of: Parameters, sets: Horseshoe, shift: Subshift) -> str:
     """State the theorem for the horseshoe, and what holds for the given I."""
     text = (
-        f"{theorem(sets)} The conjugacy is phi -> alpha_0 alpha_1 alpha_2 ..., f^k(phi) in "
+        f"{told([sets])} The conjugacy is phi -> alpha_0 alpha_1 alpha_2 ..., f^k(phi) in "
         f"I_(alpha_k), from k = 0 on. And {_told(sets, of, shift)}; there it is a homeomorphism "
         "onto the one-sided subshift of the sequences without these factors and conjugates f to it"
     )

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import product
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _PLACES = 10**30
 _ROUNDS = 200

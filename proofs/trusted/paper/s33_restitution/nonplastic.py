@@ -5,15 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import product
 
-from proofs.trusted.facts import (
-    Parameters,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    parameters_text,
-    show,
-)
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.s33_restitution.rebound_boxes import on_box
 from proofs.trusted.paper.s33_restitution.rebound_facts import (
@@ -43,7 +35,8 @@ from proofs.trusted.paper.s33_restitution.rebounds import (
     size,
     stable_slope,
 )
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters, parameters_text
+from proofs.trusted.verdicts import Verdict
 
 # -- N1 --------------------------------------------------------------------------------------------
 

@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from proofs.trusted.facts import (
-    Parameters,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    parameters_text,
-    show,
-    within,
-)
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, within
 from proofs.trusted.paper import Decision, undecided
 from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, corner_of, horseshoes
 from proofs.trusted.paper.s33_restitution.rebound_texts import (
@@ -23,7 +14,8 @@ from proofs.trusted.paper.s33_restitution.rebound_texts import (
     word_text,
 )
 from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Box, Horseshoe, Rebound
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters, parameters_text
+from proofs.trusted.verdicts import Verdict
 
 _MOST_PARTS = 32  # that a box is covered with
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from itertools import combinations, product
 
-from proofs.trusted.facts import Parameters, Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebounds import (
     BarredWord,
     Box,
@@ -15,6 +15,7 @@ from proofs.trusted.paper.s33_restitution.rebounds import (
     Unjoined,
     horseshoe,
 )
+from proofs.trusted.parameters import Parameters
 
 FULL = ((0, 1), (0, 1))
 NO_REPEATED_ONE = ((0, 1), (0,))  # as 11 is barred: the golden mean shift

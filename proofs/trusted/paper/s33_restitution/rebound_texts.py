@@ -5,17 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from proofs.trusted.facts import (
-    Parameters,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    parameters_text,
-    show,
-    show_range,
-)
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.rebounds import Box, Horseshoe, Rebound
+from proofs.trusted.parameters import Parameters, parameters_text
 
 
 def word_text(word: Sequence[int]) -> str:

@@ -10,7 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import TURN, Range, ceil_text, hull, within
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range, ceil_text, hull, within
 
 Box = tuple[Range, Range, Range]  # eta, nu, epsilon
 Entries = tuple[tuple[Range, Range], tuple[Range, Range]]  # DF: rows (phase, velocity)
@@ -27,7 +28,7 @@ def size(values: Range) -> Fraction:
 
 
 @dataclass(frozen=True)
-class Rebound:
+class Rebound(Conclusion):
     """For oscillators in `box` and states in phases x velocities: impacts after `turns` turns.
 
     All states are possible, F is smooth in states and parameters; `phase` and `velocity` enclose
@@ -49,7 +50,7 @@ class Rebound:
 
 
 @dataclass(frozen=True)
-class Rectangle:
+class Rectangle(Conclusion):
     """For oscillators in `box`: F on phases x velocities, smooth, all states possible.
 
     Phases of images are less `turns` turns. left, right: enclosures of those of the left and of
@@ -67,7 +68,7 @@ class Rectangle:
 
 
 @dataclass(frozen=True)
-class BarredWord:
+class BarredWord(Conclusion):
     """For oscillators in `box`: no orbit x_0, ..., x_n of F with x_k in the rectangle word[k].
 
     0 stands for left x velocities, 1 for right x velocities. short: by how much the n-th image
@@ -180,7 +181,7 @@ def barred(
 
 
 @dataclass(frozen=True)
-class Horseshoe:
+class Horseshoe(Conclusion):
     """What the function `horseshoe` proves; margin: by how far edges overshoot the targets."""
 
     rectangles: tuple[Rectangle, Rectangle]

@@ -17,21 +17,19 @@ from proofs.trusted.equations import (
     launch_with_restitution,
     return_map_derivative,
 )
-from proofs.trusted.facts import Parameters, Range
 from proofs.trusted.flights import (
     COVER_BITS,
     LATEST,
     MAX_BITS,
     Gap,
-    Known,
-    Rule,
-    earlier,
     falls,
     open_windows,
     read_phases,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.rebounds import (
     BarredWord,
     Rebound,
@@ -60,7 +58,7 @@ class _Flights:
         return value
 
 
-def rebound(of: Parameters, known: Known, reader: Reader) -> Rebound:
+def rebound(context: Context, reader: Reader) -> Rebound:
     """Rule `rebound`: {eta, nu, epsilon, phases, velocities, times 0 < t_1 < ... < t_n, impact}.
 
     The first five are ranges: a box of oscillators, and of states (phi, gamma) before an impact,
@@ -92,7 +90,6 @@ def rebound(of: Parameters, known: Known, reader: Reader) -> Rebound:
         raise Unproved("an empty bracket")
     bits = COVER_BITS + 2 * (1 / min(shortest, narrowest)).__ceil__().bit_length()
     bits = min(MAX_BITS, bits)
-    times_of.charge(2 * len(times) + 16, bits)
     flights = _flights((eta, nu, epsilon, phases, velocities), bits)
     if flights.closing_speed.lo < 0:
         raise Unproved("the states are not proved possible: the mass would come from the table")
@@ -137,25 +134,24 @@ def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:
     return count, (phases[0] + time[0] - high, phases[1] + time[1] - low)
 
 
-def _rebounds(known: Known, names: Reader) -> list[Rebound]:
-    return [earlier(known, name, Rebound, "rebound") for name in names.items(least=1)]
+def _rebounds(context: Context, names: Reader) -> list[Rebound]:
+    return [context.step(name, Rebound) for name in names.items(least=1)]
 
 
-def rectangle(of: Parameters, known: Known, reader: Reader) -> Rectangle:
+def rectangle(context: Context, reader: Reader) -> Rectangle:
     """Rule `rectangle`: {impacts, eta, nu, epsilon, phases, velocities}: rebound steps that join.
 
     Hypotheses, conclusion and proof: `rebounds.rectangle`.
     """
     impacts, *box_of = reader.fields("impacts", "eta", "nu", "epsilon", "phases", "velocities")
     eta, nu, epsilon, phases, velocities = (part.range() for part in box_of)
-    reader.charge(_JOINING, COVER_BITS)
     try:
-        return join(_rebounds(known, impacts), (eta, nu, epsilon), phases, velocities)
+        return join(_rebounds(context, impacts), (eta, nu, epsilon), phases, velocities)
     except Unjoined as failure:
         raise Unproved(str(failure)) from None
 
 
-def barred_word(of: Parameters, known: Known, reader: Reader) -> BarredWord:
+def barred_word(context: Context, reader: Reader) -> BarredWord:
     """Rule `barred-word`: {impacts, rectangles: two names, word of 0 and 1, bounds, from}.
 
     from: "above" or "below". Hypotheses, conclusion and proof: `rebounds.barred`.
@@ -166,20 +162,12 @@ def barred_word(of: Parameters, known: Known, reader: Reader) -> BarredWord:
     if side.string() not in ("above", "below"):
         raise side.fail("above or below")
     sign = 1 if side.string() == "above" else -1
-    pair = [earlier(known, name, Rectangle, "rectangle") for name in names.items(2, 2)]
+    pair = [context.step(name, Rectangle) for name in names.items(2, 2)]
     word = word_of.string()
     if not set(word) <= {"0", "1"}:
         raise word_of.fail("a word is written in 0 and 1")
-    parts, symbols = _rebounds(known, impacts), tuple(map(int, word))
-    reader.charge(_JOINING, COVER_BITS)
+    parts, symbols = _rebounds(context, impacts), tuple(map(int, word))
     try:
         return barred(parts, (pair[0], pair[1]), symbols, bounds.numbers(), sign)
     except Unjoined as failure:
         raise Unproved(str(failure)) from None
-
-
-RULES: dict[str, Rule] = {
-    "rebound": rebound,
-    "rectangle": rectangle,
-    "barred-word": barred_word,
-}

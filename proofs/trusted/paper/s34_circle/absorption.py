@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 
 _UNIT = 1 << 64
 

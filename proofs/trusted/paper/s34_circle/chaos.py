@@ -7,25 +7,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.trusted.facts import (
-    TURN,
-    Parameters,
-    PointFact,
-    Range,
-    ceil_text,
-    floor_text,
-    show,
-    show_range,
-)
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, show, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import Impact
+from proofs.trusted.verdicts import Verdict
 
 PRINTED = (Fraction("1.32"), Fraction("1.48"))  # where section 3.4 sees another invariant set
 
 
 @dataclass(frozen=True)
-class Branch:
+class Branch(Conclusion):
     """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
 
     A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], gap' < 0 on [begin, ends[i]] and
@@ -45,7 +39,7 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class CoveringGraph:
+class CoveringGraph(Conclusion):
     """f has compact invariant sets on which it is continuous with entropy >= log(growth).
 
     By a covering graph on the branches; `entropy` encloses log(growth). states: how many.
@@ -75,7 +69,7 @@ def _another_set(of: Parameters, found: Sequence[object]) -> Decision:
     if not printed.finite:
         return undecided(f"infinitely many orbits may stay in {where}")
     shifts = [one for one in sets if one.is_full_shift and one.increasing]
-    points = [one for one in found if isinstance(one, PointFact)]
+    points = [one for one in found if isinstance(one, Impact)]
     named = _named([printed, *shifts], points)
     theorems = [*map(_theorem, shifts), *map(_connections, shifts)]
     theorems += [_named_text(period, places) for period, places in named.items()]
@@ -126,7 +120,7 @@ def _theorem(of: StayingSet) -> str:
     )
 
 
-def brackets(cells: Sequence[Cell], points: Sequence[PointFact]) -> list[Range]:
+def brackets(cells: Sequence[Cell], points: Sequence[Impact]) -> list[Range]:
     """Return brackets of the points of the periodic orbit through cells; [] if not proved.
 
     Let f increase and expand on cells, [u_i, v_i] in cell i, f(u_i) <= u_(i+1), f(v_i) >= v_(i+1),
@@ -152,7 +146,7 @@ def brackets(cells: Sequence[Cell], points: Sequence[PointFact]) -> list[Range]:
     return []
 
 
-def _named(sets: Sequence[StayingSet], points: Sequence[PointFact]) -> dict[int, list[Range]]:
+def _named(sets: Sequence[StayingSet], points: Sequence[Impact]) -> dict[int, list[Range]]:
     """Return the bracketed points of `StayingSet.orbits` by period."""
     named: dict[int, list[Range]] = {}
     for cells in dict.fromkeys(cells for one in sets for cells in one.orbits):

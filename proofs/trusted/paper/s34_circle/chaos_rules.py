@@ -7,18 +7,21 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import TURN, Avoids, Parameters, Range, SlopeRange
-from proofs.trusted.flights import Known, Motion, Rule, earlier
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved, log, pi
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s34_circle.chaos import Branch, CoveringGraph
 from proofs.trusted.paper.s34_circle.staying import StayingSet
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import Avoids, SlopeRange
 from proofs.trusted.windows import BITS, Meetings, clear, falls, leaves, level
 
 _MOST_TURNS = 20_000
 _LOG_BITS = 160
 
 
-def branch(of: Parameters, known: Known, reader: Reader) -> Branch:
+def branch(context: Context, reader: Reader) -> Branch:
     """Rule `branch`: {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}, for -1 < nu < 0.
 
     Hypotheses: on phases [x_0, x_n], gap'' > 0 on [0, t_1]; gap > 0 after t_1 in each of the
@@ -37,10 +40,9 @@ def branch(of: Parameters, known: Known, reader: Reader) -> Branch:
         raise turn_of.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
     if any(high <= low for low, high in pairwise(cuts)) or cuts[0] < 0 or cuts[-1] > TURN:
         raise cuts_of.fail("phases must increase, from 0 to 2 pi")
-    if not -1 < of.nu < 0:
+    if not -1 < context.of.nu < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
-    reader.charge(int(turn) // 20, BITS)
-    whole = Motion(-1, of.eta, of.nu, (cuts[0], cuts[-1]), BITS)
+    whole = Motion(-1, context.of.eta, context.of.nu, (cuts[0], cuts[-1]), BITS)
     meetings = Meetings.of(whole)
     launched = leaves(whole)
     for low, high in meetings.before(int(turn)):
@@ -50,7 +52,7 @@ def branch(of: Parameters, known: Known, reader: Reader) -> Branch:
     if begin <= launched:
         raise Unproved("the last window starts at launch")
     for phases, end in zip(pairwise(cuts), ends, strict=True):
-        piece = Motion(-1, of.eta, of.nu, phases, BITS)
+        piece = Motion(-1, context.of.eta, context.of.nu, phases, BITS)
         if end <= begin:
             raise ends_of.fail("an end before the window")
         falls(piece, (begin, end), reader)
@@ -59,7 +61,7 @@ def branch(of: Parameters, known: Known, reader: Reader) -> Branch:
     return Branch(cuts, int(turn), begin, ends)
 
 
-def covering_graph(of: Parameters, known: Known, reader: Reader) -> CoveringGraph:
+def covering_graph(context: Context, reader: Reader) -> CoveringGraph:
     """Rule `covering-graph`: {branches, images: [{phase, time}], states, vector, growth m}.
 
     Hypotheses: branches Z_b, disjoint, within one turn; states D_i, closed intervals. If the ends
@@ -79,8 +81,8 @@ def covering_graph(of: Parameters, known: Known, reader: Reader) -> CoveringGrap
     branches_of, images_of, states_of, vector_of, growth_of = reader.fields(
         "branches", "images", "states", "vector", "growth"
     )
-    branches = _branches(known, branches_of)
-    images = _images(of, branches, images_of)
+    branches = _branches(context, branches_of)
+    images = _images(context.of, branches, images_of)
     states = [state.range() for state in states_of.items(1, 2000)]
     vector = vector_of.numbers(len(states), len(states))
     growth = growth_of.number()
@@ -89,8 +91,6 @@ def covering_graph(of: Parameters, known: Known, reader: Reader) -> CoveringGrap
     if growth < 1:
         raise growth_of.fail("a growth below 1 proves nothing")
     best = _Targets(states, [int(v) for v in vector])
-    pairs = len(branches) + 2 * len(states)  # a state cuts two branches at most
-    reader.charge(len(states) * (len(branches) // 20 + pairs // 50), BITS)
     for (low, high), value in zip(states, vector, strict=True):
         total = 0
         for one in branches:
@@ -102,11 +102,11 @@ def covering_graph(of: Parameters, known: Known, reader: Reader) -> CoveringGrap
     return CoveringGraph(tuple(branches), len(states), growth, log(growth, _LOG_BITS).range)
 
 
-def _branches(known: Known, reader: Reader) -> list[Branch]:
+def _branches(context: Context, reader: Reader) -> list[Branch]:
     """Read the branches, in order, disjoint, within one turn."""
     branches: list[Branch] = []
     for name in reader.items(1, 1000):
-        step = earlier(known, name, Branch, "branch")
+        step = context.step(name, Branch)
         if branches and step.phases[0] <= branches[-1].phases[1]:
             raise name.fail("branches must be disjoint and in order")
         branches.append(step)
@@ -128,7 +128,6 @@ def _images(of: Parameters, branches: Sequence[Branch], reader: Reader) -> dict[
         one, end = _place(branches, phase, phase_of)
         if time[0] < one.begin or time[1] > end:
             raise time_of.fail("the bracket leaves the window of the first impact")
-        time_of.charge(2, BITS)
         thin = Motion(-1, of.eta, of.nu, (phase, phase), BITS)
         start = thin.start()
         if not thin.gap(start, (time[0],) * 2).lo > 0 > thin.gap(start, (time[1],) * 2).hi:
@@ -163,7 +162,7 @@ class _Targets:
         return self._found[one, two]
 
 
-def staying_set(of: Parameters, known: Known, reader: Reader) -> StayingSet:
+def staying_set(context: Context, reader: Reader) -> StayingSet:
     """Rule `staying-set`: {interval, pieces: [{slopes: a slope-range step, cuts}], gaps: avoids}.
 
     The theorem is `StayingSet.of`, with the gaps proved to avoid their targets.
@@ -172,20 +171,13 @@ def staying_set(of: Parameters, known: Known, reader: Reader) -> StayingSet:
     pieces: list[tuple[SlopeRange, tuple[Fraction, ...]]] = []
     for entry in pieces_of.items(0, 20):
         name, cuts_of = entry.fields("slopes", "cuts")
-        slopes = earlier(known, name, SlopeRange, "slope-range")
+        slopes = context.step(name, SlopeRange)
         pieces.append((slopes, cuts_of.numbers(2, 100)))
     gaps: list[tuple[Range, Range]] = []
     for name in gaps_of.items(0, 20):
-        gap = earlier(known, name, Avoids, "avoids")
+        gap = context.step(name, Avoids)
         gaps.append((gap.phases, gap.target))
     try:
         return StayingSet.of(interval_of.range(), pieces, gaps)
     except ValueError as error:
         raise Unproved(str(error)) from None
-
-
-RULES: dict[str, Rule] = {
-    "branch": branch,
-    "covering-graph": covering_graph,
-    "staying-set": staying_set,
-}

@@ -10,15 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from proofs.trusted.facts import (
-    TURN,
-    Parameters,
-    Range,
-    ceil_text,
-    floor_text,
-    show,
-    show_range,
-)
+from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, show, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.s34_circle.landing import (
     Absorption,
@@ -27,7 +19,8 @@ from proofs.trusted.paper.s34_circle.landing import (
     fixed_point,
     repelling,
 )
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 CONSTANT = (Fraction("3.38"), Fraction("6.04"))  # where f' = 0, as printed
 ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printed

@@ -9,9 +9,10 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.facts import Parameters, Range
-from proofs.trusted.flights import FirstImpact, Known, Motion, earlier, phase_after
+from proofs.trusted.flights import FirstImpact, Motion, phase_after
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, cells_met, links, with_gaps
 from proofs.trusted.paper.s34_circle.chaos import Branch
 from proofs.trusted.paper.s34_circle.landing import (
@@ -21,6 +22,7 @@ from proofs.trusted.paper.s34_circle.landing import (
     Separation,
     closest_approach,
 )
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.windows import BITS, clear, falls, level
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `absorption`
@@ -42,7 +44,7 @@ def _acceleration(motion: Motion) -> Enclosure:
     return value
 
 
-def separation(of: Parameters, known: Known, reader: Reader) -> Separation:
+def separation(context: Context, reader: Reader) -> Separation:
     """Rule `separation`: {phase: [l, u], time: [v, w]}, for -1 < nu < 0 and eta < 1.
 
     Hypotheses: 3 pi/2 < l, u < 2 pi; the launch acceleration A is < 0 at l, > 0 at u. After every
@@ -60,21 +62,20 @@ def separation(of: Parameters, known: Known, reader: Reader) -> Separation:
     if width <= 0:
         raise Unproved("an empty bracket")
     bits = min(_MAX_BITS, max(BITS, 2 * (1 / width).__ceil__().bit_length() + 40))
-    phase_of.charge(12, bits)
     half, two = (pi(bits) * 3).range, (pi(bits) * 2).range
     if not (half[1] < 2 * phase[0] and phase[1] < two[0]):
         raise Unproved("the separation phase is sought between 3 pi/2 and 2 pi")
-    ends = [_acceleration(_motion(of, (x, x), bits)) for x in phase]
+    ends = [_acceleration(_motion(context.of, (x, x), bits)) for x in phase]
     if not ends[0].hi < 0 < ends[1].lo:
         raise Unproved("the launch acceleration does not change sign in the bracket")
     arc = half[0] - phase[1], half[1] - phase[0]
-    motion = _motion(of, phase)
+    motion = _motion(context.of, phase)
     leaves = arc[0] - (phase[1] - two[0])
-    if not (0 < leaves < time[0] - _EARLIER and of.eta * leaves < _THREE):
+    if not (0 < leaves < time[0] - _EARLIER and context.of.eta * leaves < _THREE):
         raise Unproved("the first time of the flight is not examined")
     clear(motion, (leaves, time[0] - _EARLIER), time_of)
     falls(motion, (time[0] - _EARLIER, time[1]), time_of)
-    fine = _motion(of, phase, bits)
+    fine = _motion(context.of, phase, bits)
     early, late = (fine.gap(fine.start(), (t, t)) for t in time)
     if not early.lo > 0 > late.hi:
         raise Unproved("the impact after separation is not bracketed")
@@ -88,7 +89,7 @@ def _lifted(ends: Range, turns: int) -> Range:
     return ends[0] + low, ends[1] + high
 
 
-def lands(of: Parameters, known: Known, reader: Reader) -> Lands:
+def lands(context: Context, reader: Reader) -> Lands:
     """Rule `lands`: {separation, cuts x_0 < ... < x_n, turns k >= 0}.
 
     Let the sticking arc be (a, s). Hypotheses: eta (s - x_0) < pi. If k = 0, [x_0, x_n] lies in
@@ -104,7 +105,7 @@ def lands(of: Parameters, known: Known, reader: Reader) -> Lands:
     The first zero is where A < 0: the mass sticks.
     """
     separation_of, cuts_of, turns_of = reader.fields("separation", "cuts", "turns")
-    arc, cuts = earlier(known, separation_of, Separation, "separation"), cuts_of.numbers(2, 200)
+    arc, cuts = context.step(separation_of, Separation), cuts_of.numbers(2, 200)
     turns = turns_of.number()
     if turns.denominator != 1 or not 0 <= turns <= 1000:
         raise turns_of.fail("a whole number from 0 to 1000 is expected")
@@ -112,11 +113,10 @@ def lands(of: Parameters, known: Known, reader: Reader) -> Lands:
         raise cuts_of.fail("phases must increase")
     first = _lifted(arc.phase if turns == 0 else arc.start, -1)[1]
     last = arc.phase[0] if turns == 0 else arc.start[0]
-    if cuts[0] < first or cuts[-1] > last or of.eta * (arc.phase[1] - cuts[0]) >= _THREE:
+    if cuts[0] < first or cuts[-1] > last or context.of.eta * (arc.phase[1] - cuts[0]) >= _THREE:
         raise Unproved("the launches are not proved to stay up until the sticking arc")
     if turns == 0:
-        cuts_of.charge(2, BITS)
-        motion = _motion(of, (cuts[0], cuts[0]))
+        motion = _motion(context.of, (cuts[0], cuts[0]))
         time = arc.phase[0] - cuts[0]
         if motion.gap(motion.start(), (time, time)).hi >= 0:
             raise Unproved("the gap is not negative at the end of the sticking arc")
@@ -125,14 +125,14 @@ def lands(of: Parameters, known: Known, reader: Reader) -> Lands:
     for low, high in pairwise(cuts):
         if end[0] - high <= start[1] - low:
             raise Unproved("a piece is longer than the sticking arc")
-        motion = _motion(of, (low, high))
+        motion = _motion(context.of, (low, high))
         clear(motion, (arc.start[0] - high, start[1] - low), reader)
         if level(motion, end[0] - high)[1] >= 0:
             raise Unproved("the gap is not negative at the end of the sticking arc")
     return Lands((cuts[0], cuts[-1]))
 
 
-def never_impacts(of: Parameters, known: Known, reader: Reader) -> NeverImpacts:
+def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q in lowest terms.
 
     Hypotheses: all phases are in (0, 3), and `closest_approach` gives positive numbers for them.
@@ -142,17 +142,16 @@ def never_impacts(of: Parameters, known: Known, reader: Reader) -> NeverImpacts:
     phases = phases_of.range()
     if not 0 < phases[0] <= phases[1] < _THREE:
         raise phases_of.fail("phases between 0 and 3 are expected")
-    phases_of.charge(3, BITS)
-    motion = _motion(of, phases)
+    motion = _motion(context.of, phases)
     start = motion.start()
     away = Enclosure.of(*phases, BITS) - pi(BITS) / 2
-    bounds = closest_approach(of.eta, rational(of.nu, BITS), start, away, pi(BITS))
+    bounds = closest_approach(context.of.eta, rational(context.of.nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):
         raise Unproved("an impact is not excluded")
     return NeverImpacts(phases)
 
 
-def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
+def absorption(context: Context, reader: Reader) -> Absorption:
     """Rule `absorption`: {separation, lands, impacts, cells: [{branch, cuts, times, after}], rest,
     within}.
 
@@ -171,18 +170,16 @@ def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
     separation_of, lands_of, impacts_of, cells_of, rest_of, within_of = reader.fields(
         "separation", "lands", "impacts", "cells", "rest", "within"
     )
-    arc = earlier(known, separation_of, Separation, "separation")
-    cells = [
-        Cell(earlier(known, name, Lands, "lands").phases, ()) for name in lands_of.items(least=2)
-    ]
+    arc = context.step(separation_of, Separation)
+    cells = [Cell(context.step(name, Lands).phases, ()) for name in lands_of.items(least=2)]
     cells.sort(key=lambda cell: cell.phases)
     origin, end = cells[0].phases[0], cells[-1].phases[1]
     if origin > _lifted(arc.phase, -1)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
     for name in impacts_of.items():
-        cells.append(_whole(earlier(known, name, FirstImpact, "first-impact"), origin))
+        cells.append(_whole(context.step(name, FirstImpact), origin))
     for entry in cells_of.items():
-        cells += _cells(of, known, entry, origin)
+        cells += _cells(context, entry, origin)
     cells.sort(key=lambda cell: cell.phases)
     rest, claimed = rest_of.numbers(1, _MOST_STEPS), within_of.items()
     cells = with_gaps(cells)
@@ -190,7 +187,6 @@ def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
         met = links(cells)
     except ValueError as error:
         raise cells_of.fail(str(error)) from None
-    rest_of.charge(len(rest) * sum(map(len, filter(None, met))) // 100, BITS)
     found = absorbed(cells, met, len(rest) - 1)
     if any(own > given for own, given in zip(found.rest, rest, strict=True)):
         raise Unproved("more may be left than is said")
@@ -204,13 +200,12 @@ def absorption(of: Parameters, known: Known, reader: Reader) -> Absorption:
     return Absorption(rest, tuple(within))
 
 
-def _cells(of: Parameters, known: Known, reader: Reader, origin: Fraction) -> list[Cell]:
+def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
-    branch = earlier(known, branch_of, Branch, "branch")
+    branch = context.step(branch_of, Branch)
     cuts = cuts_of.numbers(2)
     times = times_of.numbers(len(cuts), len(cuts))
-    cuts_of.charge(6 * len(cuts), BITS)
     if cuts[0] < branch.cuts[0] or cuts[-1] > branch.cuts[-1]:
         raise cuts_of.fail("cuts outside the branch")
     if any(high <= low for low, high in pairwise(cuts)):
@@ -219,18 +214,17 @@ def _cells(of: Parameters, known: Known, reader: Reader, origin: Fraction) -> li
     if not branch.begin <= window[0] < min(branch.ends):
         raise Unproved("the window of the first impact begins later, or ends before")
     for phases in pairwise(cuts) if window[0] > branch.begin else ():
-        after_of.charge(3, BITS)
-        if level(_motion(of, phases), window[0])[0] <= 0:
+        if level(_motion(context.of, phases), window[0])[0] <= 0:
             raise Unproved("an impact before the time given is not excluded")
-    along = _motion(of, (cuts[0], cuts[-1])).clock(window).mass_sin
+    along = _motion(context.of, (cuts[0], cuts[-1])).clock(window).mass_sin
     if along.lo <= 0 <= along.hi:
         raise Unproved("f' is not proved to have one sign on a branch")
-    images = [_image(of, branch, window[0], x, t) for x, t in zip(cuts, times, strict=True)]
+    images = [_image(context.of, branch, window[0], x, t) for x, t in zip(cuts, times, strict=True)]
     cells = []
     for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
         low, high = min(ends[0][0], ends[1][0]), max(ends[0][1], ends[1][1])
         flight = max(window[0], low - phases[1]), min(window[1], high - phases[0])
-        stretch = _stretch(_motion(of, phases), flight)
+        stretch = _stretch(_motion(context.of, phases), flight)
         cells.append(Cell(phases, tuple(_reduced((low, high), origin)), stretch))
     return cells
 
@@ -278,11 +272,3 @@ def _reduced(image: Range, origin: Fraction) -> Iterator[Range]:
         low, high = _lifted(image, -turns)
         if high >= origin and low <= origin + turn[1]:
             yield low, high
-
-
-RULES = {
-    "separation": separation,
-    "lands": lands,
-    "never-impacts": never_impacts,
-    "absorption": absorption,
-}

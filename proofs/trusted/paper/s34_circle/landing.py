@@ -8,13 +8,15 @@ from fractions import Fraction
 from typing import Any
 
 from proofs.trusted.equations import Launch
-from proofs.trusted.facts import TURN, Range, SlopeRange
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.slopes import SlopeRange
 
 Number = Any
 
 
 @dataclass(frozen=True)
-class Separation:
+class Separation(Conclusion):
     """The launch acceleration is < 0 exactly on the arc from a to phi_s, mod 2 pi: there the mass
     sticks, until phi_s. The flight from phi_s has its first impact, a transversal one, after a
     time in `time`, at the phase in `arrival`, mod 2 pi.
@@ -34,14 +36,14 @@ class Separation:
 
 
 @dataclass(frozen=True)
-class Lands:
+class Lands(Conclusion):
     """The first impact of every launch in `phases`, mod 2 pi, that does not stick is in the arc."""
 
     phases: Range
 
 
 @dataclass(frozen=True)
-class NeverImpacts:
+class NeverImpacts(Conclusion):
     """After a launch in `phases` gap > 0 up to the time 2 pi q, where eta = p/q in lowest terms.
 
     Then mass and table are exactly where they were at launch, and as fast: gap = gap' = 0.
@@ -51,7 +53,7 @@ class NeverImpacts:
 
 
 @dataclass(frozen=True)
-class Absorption:
+class Absorption(Conclusion):
     """Phases that reach the sticking arc.
 
     The phases that do not within n impacts have a measure of at most rest[n]. within: intervals

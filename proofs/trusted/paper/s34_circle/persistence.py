@@ -9,14 +9,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.facts import Parameters, Range, ceil_text, floor_text, show, show_range, within
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, ceil_text, floor_text, show, show_range, within
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 
 @dataclass(frozen=True)
-class SeparationFlight:
+class SeparationFlight(Conclusion):
     """The flight that starts at the separation phase with relative velocity 0.
 
     It has its first impact after a time in `flight`, at the phase phi_s + time - 2 pi `turns`,
@@ -33,7 +35,7 @@ class SeparationFlight:
 
 
 @dataclass(frozen=True)
-class Chatter:
+class Chatter(Conclusion):
     """For every epsilon in `epsilon`: impacts near that of `after` end in rest before phi_s.
 
     Near means: at a phase within `spread` of after.impact, with a relative speed before the

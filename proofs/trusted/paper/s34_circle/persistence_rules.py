@@ -33,21 +33,20 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import AT_LAUNCH, Launch, clock, gap, launch, launch_acceleration
-from proofs.trusted.facts import Parameters, Range
 from proofs.trusted.flights import (
     COVER_BITS,
     FirstImpact,
-    Known,
     Motion,
-    Rule,
     bits_for,
     bracketed,
-    earlier,
     read_phases,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.persistence import Chatter, SeparationFlight
+from proofs.trusted.parameters import Parameters
 
 _ZERO = Fraction(0)
 
@@ -67,7 +66,7 @@ def _accelerations(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Ran
     return value.range
 
 
-def separation_flight(of: Parameters, known: Known, reader: Reader) -> SeparationFlight:
+def separation_flight(context: Context, reader: Reader) -> SeparationFlight:
     """Rule `separation-flight`: {separation: [l, u], times 0 < t_1 < ... < t_n, time}.
 
     Hypotheses: the launch acceleration is < 0 at l, > 0 at u, and increases on [l, u], so it
@@ -81,14 +80,15 @@ def separation_flight(of: Parameters, known: Known, reader: Reader) -> Separatio
     separation_of, times_of, time_of = reader.fields("separation", "times", "time")
     separation, times = read_phases(separation_of), times_of.numbers(least=2)
     bits = bits_for(separation)
-    times_of.charge(2 * len(times) + 8, bits)
-    motion = Motion(_side(of), of.eta, of.nu, separation, bits)
-    _isolate(of, motion)
+    motion = Motion(_side(context.of), context.of.eta, context.of.nu, separation, bits)
+    _isolate(context.of, motion)
     _exclude(motion, times, times_of)
     window = (times[-2], times[-1])
     if not motion.falls(motion.start(), window):
         raise Unproved("the gap is not proved to fall in the last piece")
-    inner, time = bracketed(FirstImpact(motion, (window,), True), separation, time_of)
+    inner, time = bracketed(
+        FirstImpact(context.of.place, motion, (window,), True), separation, time_of
+    )
     speed = (-inner.gap(inner.start(), time, 1)).range
     arrival = (separation[0] + time[0], separation[1] + time[1])
     turns = int((arrival[1] - separation[0]) // whole_turns(1, bits)[0]) + 1
@@ -122,7 +122,7 @@ def _exclude(motion: Motion, times: tuple[Fraction, ...], times_of: Reader) -> N
         value = following
 
 
-def chatter(of: Parameters, known: Known, reader: Reader) -> Chatter:
+def chatter(context: Context, reader: Reader) -> Chatter:
     """Rule `chatter`: {flight, spread, cells: [{epsilon, bounces: [[t, t'], ...], ratio, rest}]}.
 
     `flight` names a separation-flight step; the cells' epsilons increase, 0 < e_1 < ... < e_n,
@@ -134,13 +134,13 @@ def chatter(of: Parameters, known: Known, reader: Reader) -> Chatter:
     rest < phi_s, since the launch acceleration is < 0 up to `rest`.
     """
     flight_of, spread_of, cells_of = reader.fields("flight", "spread", "cells")
-    after = earlier(known, flight_of, SeparationFlight, "separation-flight")
+    after = context.step(flight_of, SeparationFlight)
     spread = spread_of.number()
     states = [(low - spread, high + spread) for low, high in (after.impact, after.speed)]
     arc = (states[0][0], after.separation[0])
     if not (spread > 0 and states[1][0] > 0 and states[0][1] < arc[1]):
         raise Unproved("the states near the impact are not all in the sticking arc, with speed > 0")
-    if _accelerations(of, arc, bits_for(after.separation))[1] >= 0:
+    if _accelerations(context.of, arc, bits_for(after.separation))[1] >= 0:
         raise Unproved("the table does not push from the impact to the separation phase")
     begin, rests = _ZERO, []
     for cell in cells_of.items(least=1):
@@ -151,8 +151,8 @@ def chatter(of: Parameters, known: Known, reader: Reader) -> Chatter:
         phases, speeds = states
         for bounce in bounces.items():
             kicks = begin * speeds[0], end * speeds[1]
-            phases, speeds = _bounce(of, phases, kicks, bounce)
-        rests.append(_settle(of, phases, end * speeds[1], (end, ratio.number()), rest))
+            phases, speeds = _bounce(context.of, phases, kicks, bounce)
+        rests.append(_settle(context.of, phases, end * speeds[1], (end, ratio.number()), rest))
         begin = end
     return Chatter(after, (_ZERO, begin), spread, max(rests))
 
@@ -165,7 +165,6 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, bracket: Reader) -> tup
     time = bracket.range()
     if time[0] <= 0 or of.eta * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    bracket.charge(4, COVER_BITS)
     kick = Enclosure.of(*kicks, COVER_BITS) * _side(of)
     start = _launches(of, phases, COVER_BITS)._replace(kick=kick)
 
@@ -192,7 +191,6 @@ def _settle(
     shrinking: the largest epsilon, and r.
     """
     end, (epsilon, ratio) = rest.number(), shrinking
-    rest.charge(1, COVER_BITS)
     if end <= phases[1] or not 0 < ratio < 1:
         raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
     low, high = _accelerations(of, (phases[0], end))
@@ -201,9 +199,3 @@ def _settle(
     if phases[1] + 2 * kick / (-high * (1 - ratio)) > end:
         raise Unproved("the bounces are not proved to end by the phase of rest")
     return end
-
-
-RULES: dict[str, Rule] = {
-    "separation-flight": separation_flight,
-    "chatter": chatter,
-}

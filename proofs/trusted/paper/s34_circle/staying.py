@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.trusted.facts import TURN, Range, SlopeRange
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.slopes import SlopeRange
 
 Edges = frozenset[tuple[int, int]]
 
@@ -33,7 +35,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class StayingSet:
+class StayingSet(Conclusion):
     """All phases whose orbits stay in an interval: each such orbit runs through the cells."""
 
     interval: Range

@@ -6,9 +6,10 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, launch_acceleration, sincos, slope
-from proofs.trusted.facts import TURN, Parameters, Range
-from proofs.trusted.flights import COVER_BITS, MAX_BITS, FirstImpact, Motion, Rule, earlier
+from proofs.trusted.flights import COVER_BITS, MAX_BITS, FirstImpact, Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s4_single.single_facts import (
     FLIP,
     MOST_PERIODS,
@@ -28,7 +29,6 @@ from proofs.trusted.paper.s4_single.single_facts import (
 _MOST_RECORDS = 10**5
 _HALF = Fraction(1, 2)
 _MOST_DIGITS = 400
-Known = dict[str, object]
 Turn = tuple[Enclosure, Enclosure]
 
 
@@ -58,7 +58,7 @@ def _turn(eta: Fraction, n: int, bits: int) -> Turn:
     return (pi(bits) * rational(n * eta, bits)).sincos()
 
 
-def single_solution(of: Parameters, known: Known, reader: Reader) -> Solution:
+def single_solution(context: Context, reader: Reader) -> Solution:
     """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null}.
 
     Hypotheses: n eta is no integer; K changes its sign between lo and hi, dK/dphi has one sign
@@ -72,7 +72,6 @@ def single_solution(of: Parameters, known: Known, reader: Reader) -> Solution:
     if phase[0] < -TURN or phase[1] > TURN:
         raise phase_of.fail("phases lie between -2 pi and 2 pi")
     bits = _bits(phase[1] - phase[0], n)
-    reader.charge(8, bits)
     own_eta, own_nu, turn = rational(eta, bits), rational(nu, bits), _turn(eta, n, bits)
 
     def k(x: Dual) -> Dual:
@@ -98,7 +97,7 @@ def single_solution(of: Parameters, known: Known, reader: Reader) -> Solution:
     return Solution(eta, nu, n, phase, factor.range, acceleration.range, early)
 
 
-def single_orbit(of: Parameters, known: Known, reader: Reader) -> Orbit:
+def single_orbit(context: Context, reader: Reader) -> Orbit:
     """Rule `single-orbit`: {solution, flight}.
 
     Hypotheses: the earlier step `flight` proves a transversal first impact, at these eta and nu,
@@ -106,8 +105,8 @@ def single_orbit(of: Parameters, known: Known, reader: Reader) -> Orbit:
     there and has one zero in the window, that is the first impact.
     """
     solution_of, flight_of = reader.fields("solution", "flight")
-    solution = earlier(known, solution_of, Solution, "single-solution")
-    flight = earlier(known, flight_of, FirstImpact, "first-impact")
+    solution = context.step(solution_of, Solution)
+    flight = context.step(flight_of, FirstImpact)
     motion = flight.motion
     if (solution.eta, solution.nu) != (motion.eta, motion.nu):
         raise flight_of.fail("is about other parameters")
@@ -120,7 +119,7 @@ def single_orbit(of: Parameters, known: Known, reader: Reader) -> Orbit:
     return Orbit(solution)
 
 
-def eta_windows(of: Parameters, known: Known, reader: Reader) -> EtaWindows:
+def eta_windows(context: Context, reader: Reader) -> EtaWindows:
     """Rule `single-eta-windows`: {nu, low, ends: [[flip lo, hi, stick lo, hi]] for n = 1, 2, ...}.
 
     Hypotheses: 0 < nu < 1; all brackets lie in (0, 1/(2 n)); excess at M = -1 (flip) and M = 0
@@ -139,7 +138,6 @@ def eta_windows(of: Parameters, known: Known, reader: Reader) -> EtaWindows:
             if not 0 < bracket[0] < bracket[1] < _HALF / n:
                 raise entry.fail("a bracket in (0, 1/(2 n)) is expected")
             bits = _bits(bracket[1] - bracket[0], n)
-            entry.charge(4, bits)
             low, high = (_excess(eta, nu, n, end, bits) for eta in bracket)
             if not low.hi < 0 < high.lo:
                 raise Unproved("an end of a window is not bracketed")
@@ -160,20 +158,18 @@ def _excess(eta: Fraction, nu: Fraction, n: int, end: int, bits: int) -> Enclosu
 def _bracketed_nu(eta: Fraction, n: int, end: int, reader: Reader) -> Range:
     """Enclose the |nu| of a solution with M = end; (1, 1) for null if it is 1 or more."""
     if reader.is_null():
-        reader.charge(2, COVER_BITS)
         if _excess(eta, Fraction(1), n, end, COVER_BITS).lo <= 0:
             raise Unproved("an end of a window is not proved to be at |nu| >= 1")
         return Fraction(1), Fraction(1)
     bracket = reader.range()
     bits = _bits(bracket[1] - bracket[0], n)
-    reader.charge(4, bits)
     low, high = (_excess(eta, nu, n, end, bits) for nu in bracket)
     if not (bracket[0] > 0 and bracket[1] <= 1 and high.hi < 0 < low.lo):
         raise Unproved("an end of a window is not bracketed")
     return bracket
 
 
-def nu_windows(of: Parameters, known: Known, reader: Reader) -> NuWindows:
+def nu_windows(context: Context, reader: Reader) -> NuWindows:
     """Rule `single-nu-windows`: {eta, above: [[from, to]], below: [[from, to]], early: [time]}.
 
     `above` is about n = 1, 2, ... < 1/(2 eta), `below` about the records n < 1/eta, both 0 < eta
@@ -186,7 +182,6 @@ def nu_windows(of: Parameters, known: Known, reader: Reader) -> NuWindows:
     eta = _parameter(eta_of)
     if not 0 < eta < 1 or eta.denominator > _MOST_RECORDS:
         raise eta_of.fail(f"0 < eta < 1 and a denominator up to {_MOST_RECORDS} are expected")
-    eta_of.charge(eta.denominator // 30, COVER_BITS)
     found = list(records(eta, eta.denominator))
     single = [n for n in found if n * eta < 1]
     later = [n for n in found if n * eta > 1]
@@ -197,7 +192,6 @@ def nu_windows(of: Parameters, known: Known, reader: Reader) -> NuWindows:
     if len(times) != len(later):
         raise early_of.fail(f"{len(later)} times are expected")
     for n, time in zip(later, times, strict=True):
-        early_of.charge(2, 4 * COVER_BITS)
         _excluded(eta, n, time)
     return NuWindows(eta, above, below, tuple(later))
 
@@ -225,11 +219,3 @@ def _excluded(eta: Fraction, n: int, time: Fraction) -> None:
     above: Enclosure = distance(own, turn, now, -(tangent * tangent))
     if not (0 < time < (pi(bits) * (2 * n)).range[0] and above.lo > 0):
         raise Unproved(f"an earlier impact is not proved for n = {n}")
-
-
-RULES: dict[str, Rule] = {
-    "single-solution": single_solution,
-    "single-orbit": single_orbit,
-    "single-eta-windows": eta_windows,
-    "single-nu-windows": nu_windows,
-}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from proofs.trusted.facts import Parameters, Range, ceil_text, floor_text, show
+from proofs.trusted.numbers import Range, ceil_text, floor_text, show
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.formulas import Derivation, Equal, Value, at
 from proofs.trusted.paper.s4_single import displayed as eq
@@ -17,7 +17,8 @@ from proofs.trusted.paper.s4_single.single_facts import (
     Solution,
     Window,
 )
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 FIGURE_NU, FIGURE_ETAS = Fraction("0.2"), (Fraction("0.01"), Fraction(14))
 FIGURE_ETA, FIGURE_NUS = Fraction("0.237"), (Fraction("-0.9"), Fraction("0.9"))

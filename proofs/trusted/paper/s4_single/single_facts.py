@@ -55,7 +55,8 @@ from fractions import Fraction
 from typing import Any
 
 from proofs.trusted.equations import Clock
-from proofs.trusted.facts import Range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 
 Number = Any
 Pair = tuple[Number, Number]
@@ -108,7 +109,7 @@ def records(eta: Fraction, most: int) -> Iterator[int]:
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(Conclusion):
     """(16) has exactly one solution phi in `phase` for these eta, nu, n, n eta being no integer.
 
     multiplier encloses the slope (18) there, acceleration the relative one at launch, < 0 where
@@ -130,14 +131,14 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class Orbit:
+class Orbit(Conclusion):
     """After a launch at the solution's phase the first impact is at 2 pi n, and transversal."""
 
     solution: Solution
 
 
 @dataclass(frozen=True)
-class EtaWindows:
+class EtaWindows(Conclusion):
     """Where stable orbits are at fixed nu in (0, 1), for all eta >= low.
 
     An orbit over n table periods that leaves at once, launch acceleration > 0, with its first
@@ -154,7 +155,7 @@ Window = tuple[int, Range, Range]
 
 
 @dataclass(frozen=True)
-class NuWindows:
+class NuWindows(Conclusion):
     """Where such stable orbits are at fixed eta, for 0 < |nu| < 1: n and enclosures of the ends.
 
     above: for nu > 0, from the nu where the slope is 0 to that where it is -1 (or 1 if that is

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper import Decision
 from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, between, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft.soft_stability import STABILITY
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 _FLIGHT = (
     Equal(f"D({eq.X20}, t, t) + omega_n**2*({eq.X20})", "-g"),

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper import Decision
 from proofs.trusted.paper.formulas import Derivation, Equal, at, between, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import soft_lemmas as given
 from proofs.trusted.paper.s5_soft import soft_theorems as theorems
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 
 def _verified(why: str, corrected: str | None = None) -> Decision:

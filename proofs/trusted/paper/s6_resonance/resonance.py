@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from proofs.trusted.facts import Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper import Decision
 from proofs.trusted.paper.formulas import Derivation, Equal, between, differ
 from proofs.trusted.paper.s6_resonance import displayed as eq
@@ -30,7 +30,7 @@ from proofs.trusted.paper.s6_resonance.resonance_theorems import (
     STICKING,
     SUBHARMONICS,
 )
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 
 def _verified(why: str, corrected: str | None = None) -> Decision:

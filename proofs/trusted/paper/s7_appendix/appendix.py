@@ -7,13 +7,15 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf
 
-from proofs.trusted.facts import Parameters, Range, show, show_range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, show, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.paper.formulas import Asked, Derivation, Equal, at
 from proofs.trusted.paper.s2_foundations import displayed as eq
 from proofs.trusted.paper.s2_foundations.separation import LAUNCH
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Verdict
 
 # -- A1 --------------------------------------------------------------------------------------------
 
@@ -131,7 +133,7 @@ MARCHING = Marching(
 
 
 @dataclass(frozen=True)
-class MethodOne:
+class MethodOne(Conclusion):
     """Method I on the finite set {0, ..., points - 1}: from sets and values to a set function.
 
     outer[A], A as a bit mask, is the infimum of sums of values over countable covers of A.

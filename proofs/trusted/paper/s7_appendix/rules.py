@@ -6,15 +6,13 @@ from fractions import Fraction
 from math import inf
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.facts import Parameters
-from proofs.trusted.flights import Known, Rule
-from proofs.trusted.kernel import derivation
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.s7_appendix.appendix import MethodOne
 
 _MOST_POINTS = 6
 
 
-def method_one(of: Parameters, known: Known, reader: Reader) -> MethodOne:
+def method_one(context: Context, reader: Reader) -> MethodOne:
     """Rule `method-one`: {points: n <= 6, sets: lists of points in increasing order, values}.
 
     The sets are different ones, the empty set with value 0 among them. Conclusion: `MethodOne`.
@@ -51,9 +49,3 @@ def _infima(points: int, values: dict[int, Fraction]) -> tuple[Fraction | float,
         best.append(min(sums, default=inf))
     below = min(values.values()) < 0
     return tuple(-inf if below and value < inf else value for value in best)
-
-
-RULES: dict[str, Rule] = {
-    **derivation.RULES,
-    "method-one": method_one,
-}

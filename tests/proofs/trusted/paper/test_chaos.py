@@ -21,14 +21,15 @@ from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
 from proofs.shell.groups import certificate, decide, produce
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.facts import PAPER, PointFact, SlopeRange
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.flights import RULES as BASIC
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s34_circle.chaos import CLAIMS, PRINTED, Branch, CoveringGraph, brackets
 from proofs.trusted.paper.s34_circle.chaos_rules import RULES
 from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from proofs.trusted.windows import BITS, Meetings
 from tests.proofs.trusted.paper import reference
@@ -160,8 +161,8 @@ def test_the_orbit_of_period_two_is_the_true_one(stays):
 
 @pytest.mark.slow
 def test_brackets_of_an_orbit_need_points_on_both_sides(stays):
-    points = [x for x in stays.values() if isinstance(x, PointFact)]
-    others = [x for x in stays.values() if not isinstance(x, PointFact)]
+    points = [x for x in stays.values() if isinstance(x, Impact)]
+    others = [x for x in stays.values() if not isinstance(x, Impact)]
     whole = DECIDE["G5"](PAPER, [*others, *points]).quantities
     assert len(points) == 10 and len(whole) == 5
     for point in points:
@@ -173,7 +174,7 @@ def test_brackets_of_an_orbit_need_points_on_both_sides(stays):
 
 def test_an_orbit_is_bracketed_by_covering():
     def fact(phase, image):
-        return PointFact(F(phase), (F(5), F(5)), (F(image), F(image)))
+        return Impact(F(phase), (F(5), F(5)), (F(image), F(image)))
 
     one = cell("1.32", "1.34", "1.3", "1.5")
     around = [fact("1.329", "1.325"), fact("1.331", "1.335")]

@@ -16,10 +16,12 @@ from proofs.motion.system import System
 from proofs.search import s32_dimension as dimension
 from proofs.shell import groups
 from proofs.trusted.certificate import render
-from proofs.trusted.facts import PAPER, Avoids, MoranRoot, PointFact
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, Repeller
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import periodic_dimension, reference
 
@@ -155,7 +157,7 @@ def test_the_paper_is_refuted():
 
 
 def test_a_set_around_i_bounds_from_above():
-    found = [each for each in conclusions() if not isinstance(each, PointFact)]
+    found = [each for each in conclusions() if not isinstance(each, Impact)]
     decision = decide(found)
     assert decision.verdict is Verdict.REFUTED
     assert "dimension_of_I" not in decision.quantities and "at most" in decision.corrected
@@ -195,7 +197,7 @@ FALSE_STEPS = {
 def test_what_a_decision_needs(name):
     kind, change = FALSE_STEPS[name]
     found = changed(kind, change, **({"words": FULL} if kind is Repeller else {}))
-    found = [each for each in found if not isinstance(each, PointFact)]
+    found = [each for each in found if not isinstance(each, Impact)]
     assert decide(found).verdict is Verdict.UNDECIDED
 
 
@@ -224,13 +226,13 @@ def test_a_root_for_other_ratios_is_not_s_0():
     ],
 )
 def test_when_000_is_excluded(points):
-    found = [each for each in conclusions() if not isinstance(each, PointFact)]
+    found = [each for each in conclusions() if not isinstance(each, Impact)]
     for numbers in points:
         phase, low, high = map(Fraction, numbers)
-        found.append(PointFact(phase, (Fraction(4), Fraction(5)), (low, high)))
+        found.append(Impact(phase, (Fraction(4), Fraction(5)), (low, high)))
     assert "dimension_of_I" not in decide(found).quantities
-    right = PointFact(Fraction("1.11"), (Fraction(4), Fraction(5)), (Fraction("1.129"),) * 2)
-    then = PointFact(Fraction("1.12"), (Fraction(4), Fraction(5)), (Fraction("1.2"),) * 2)
+    right = Impact(Fraction("1.11"), (Fraction(4), Fraction(5)), (Fraction("1.129"),) * 2)
+    then = Impact(Fraction("1.12"), (Fraction(4), Fraction(5)), (Fraction("1.2"),) * 2)
     assert "dimension_of_I" in decide([*found, right, then]).quantities
 
 

@@ -13,7 +13,7 @@ from proofs.search import s32_dimension as dimension
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.flights import RULES as BASIC
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s32_sets.dimension import FULL, Repeller

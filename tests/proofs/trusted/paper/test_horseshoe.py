@@ -14,8 +14,8 @@ from proofs import horseshoe
 from proofs.search.s31_horseshoe import CLAIMS, prove
 from proofs.shell import runner
 from proofs.trusted.certificate import render
-from proofs.trusted.facts import PAPER
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.paper import reference

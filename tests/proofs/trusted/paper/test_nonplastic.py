@@ -12,8 +12,8 @@ from mpmath import mp, mpf
 
 from proofs.shell.groups import settle
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.facts import PAPER
-from proofs.trusted.statements import Verdict
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 

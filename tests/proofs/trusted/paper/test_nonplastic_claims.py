@@ -5,11 +5,11 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.rebound_facts import restricted
 from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Rectangle
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 from tests.proofs.trusted.paper.test_rebounds import HERE, linear, pair_of
 
 # -- orbits that never repeat the right rectangle, at the paper's numbers --------------------------

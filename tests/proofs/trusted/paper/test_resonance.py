@@ -10,7 +10,7 @@ from proofs.methods import derive
 from proofs.search.s6_resonance import CLAIMS, prove
 from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.derivation import RULES
 from proofs.trusted.paper import GROUPS, find

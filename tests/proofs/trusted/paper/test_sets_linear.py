@@ -10,7 +10,8 @@ from flint import arb, ctx
 
 from proofs.search.s32_sets import prove
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.facts import PAPER, MoranRoot, Parameters
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s32_sets.cantor import (
     Excess,
@@ -24,7 +25,7 @@ from proofs.trusted.paper.s32_sets.cantor import (
 from proofs.trusted.paper.s32_sets.rules import RULES
 from proofs.trusted.paper.s32_sets.sets import CLAIMS
 from proofs.trusted.paper.s32_sets.subshift import words
-from proofs.trusted.statements import Verdict
+from proofs.trusted.verdicts import Verdict
 
 DECIDE = {claim.id: claim.decide for claim in CLAIMS}
 EXACT = (Fraction(4, 21), Fraction(5, 21))

@@ -11,7 +11,7 @@ from proofs.search.derivations import Steps
 from proofs.search.s5_soft import CLAIMS, prove
 from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.facts import PAPER
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.derivation import RULES, Formulas
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Asked, Equal, Series, differ

@@ -1,0 +1,45 @@
+"""What is proved, as a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from proofs.trusted.numbers import Range
+    from proofs.trusted.parameters import Place
+
+
+class Conclusion:
+    """What a rule or a theorem yields: one immutable value that carries all that it is about.
+
+    Subclasses are frozen dataclasses. Their constructor raises Unproved unless the data are
+    canonical (ordered, disjoint, of positive width), and theorems are functions from conclusions to
+    a conclusion. Nothing is printed about the mathematics but what conclusions print of themselves.
+    """
+
+    @property
+    def place(self) -> Place | None:
+        """The oscillators that it is about, its field `at`; None if it is about none."""
+        place: Place | None = getattr(self, "at", None)
+        return place
+
+    @property
+    def sentence(self) -> str:
+        """Return it in words, complete but for `at`; names aside, nothing from a file's texts."""
+        raise NotImplementedError
+
+    @property
+    def brief(self) -> str:
+        """Return it in a line, its numbers first."""
+        return self.sentence
+
+    @property
+    def latex(self) -> str:
+        """Return it as a formula in LaTeX; "" where the sentence says it better."""
+        return ""
+
+    @property
+    def quantities(self) -> Mapping[str, Range]:
+        """Return the enclosures that it reports, by name."""
+        return {}

@@ -1,0 +1,95 @@
+"""Exact numbers, ranges of them, phases; and how they are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from proofs.trusted.kernel.arithmetic import Unproved
+
+Range = tuple[Fraction, Fraction]
+
+TURN = Fraction("6.283185307")  # a little less than 2 pi
+
+
+class Phases(tuple[Fraction, Fraction]):
+    """A closed interval of phases in [0, 2 pi), of positive width: it has an order."""
+
+    __slots__ = ()
+
+    def __new__(cls, low: Fraction, high: Fraction) -> Phases:
+        """Raise Unproved unless 0 <= low < high < 2 pi."""
+        if not 0 <= low < high <= TURN:
+            raise Unproved(f"[{show(low)}, {show(high)}] is no interval of phases in [0, 2 pi)")
+        return super().__new__(cls, (low, high))
+
+
+class Phase(tuple[Fraction, Fraction]):
+    """An enclosure of one phase in [0, 2 pi): it does not straddle 2 pi, so it can be compared."""
+
+    __slots__ = ()
+
+    def __new__(cls, low: Fraction, high: Fraction) -> Phase:
+        """Raise Unproved unless 0 <= low <= high < 2 pi."""
+        if not 0 <= low <= high <= TURN:
+            raise Unproved("an enclosure of a phase straddles 2 pi")
+        return super().__new__(cls, (low, high))
+
+
+def show(value: Fraction) -> str:
+    """Write an exact rational as a plain decimal where it is one, else as p/q."""
+    rest, twos, fives = value.denominator, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    places = max(twos, fives)
+    if rest != 1 or places > 40:
+        return str(value)
+    digits = str(abs(value.numerator) * (10**places // value.denominator)).rjust(places + 1, "0")
+    sign = "-" if value < 0 else ""
+    return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
+
+
+def show_range(values: Range) -> str:
+    """Write a closed interval of exact rationals."""
+    return f"[{show(values[0])}, {show(values[1])}]"
+
+
+def floor_text(value: Fraction, places: int = 6) -> str:
+    """Write a decimal of so many places that is <= value."""
+    return show(Fraction(value * 10**places // 1, 10**places))
+
+
+def ceil_text(value: Fraction, places: int = 6) -> str:
+    """Write a decimal of so many places that is >= value."""
+    return show(-Fraction(-value * 10**places // 1, 10**places))
+
+
+def within(inner: Range, outer: Range) -> bool:
+    """Whether one range contains another."""
+    return outer[0] <= inner[0] and inner[1] <= outer[1]
+
+
+def hull(ranges: Sequence[Range]) -> Range:
+    """Return the smallest range that contains all."""
+    return min(low for low, _ in ranges), max(high for _, high in ranges)
+
+
+def agree(bounds: Range, digits: int) -> bool:
+    """Whether two bounds are equal to `digits` significant digits."""
+    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
+
+
+def decimal_between(low: Fraction, high: Fraction, most: int = 60) -> Fraction:
+    """Return a decimal strictly between two numbers, of the fewest places, at most so many.
+
+    Raises Unproved where there is none.
+    """
+    unit = Fraction(1)
+    for _ in range(most + 1):
+        value = (low // unit + 1) * unit
+        if low < value < high:
+            return value
+        unit /= 10
+    raise Unproved(f"no decimal of {most} places lies between")

@@ -1,0 +1,76 @@
+"""The rules of inference, from name to function: each turns a witness into a conclusion.
+
+A rule takes the premises of a step and its witness; it raises Unproved where a hypothesis is not
+established. Its docstring is its theorem.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from types import MappingProxyType
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+
+Rule = Callable[[Context, Reader], Conclusion]
+
+RULES: Mapping[str, str] = MappingProxyType(
+    {
+        "first-impact": "flights.first_impact",
+        "point": "flights.point",
+        "slope-range": "flights.slope_range",
+        "avoids": "flights.avoids",
+        "formula-equal": "kernel.derivation.equal",
+        "formula-series": "kernel.derivation.series",
+        "formula-value": "kernel.derivation.value",
+        "sign": "kernel.inequalities.sign",
+        "monotone": "kernel.inequalities.monotone",
+        "range": "kernel.inequalities.range_",
+        "expansion": "kernel.inequalities.expansion",
+        "no-zero": "kernel.inequalities.no_zero",
+        "refute-at": "kernel.inequalities.refute_at",
+        "zero": "kernel.zeros.zero",
+        "root": "kernel.zeros.root",
+        "unique-zero": "kernel.zeros.unique_zero",
+        "identity": "kernel.identity.identity",
+        "h-set": "kernel.graph.h_set",
+        "covers": "kernel.graph.covers",
+        "graph": "kernel.graph.graph",
+        "entropy": "kernel.graph.entropy",
+        "cone": "kernel.cones.cone",
+        "horseshoe": "paper.s31_horseshoe.prove_horseshoe",
+        "moran-root": "paper.s32_sets.moran.moran_root",
+        "itinerary": "paper.s32_sets.rules.itinerary",
+        "linear-set": "paper.s32_sets.rules.linear_set",
+        "excess": "paper.s32_sets.rules.excess",
+        "dimension": "paper.s32_sets.dimension_rules.dimension",
+        "rebound": "paper.s33_restitution.rules.rebound",
+        "rectangle": "paper.s33_restitution.rules.rectangle",
+        "barred-word": "paper.s33_restitution.rules.barred_word",
+        "separation": "paper.s34_circle.circle_rules.separation",
+        "lands": "paper.s34_circle.circle_rules.lands",
+        "never-impacts": "paper.s34_circle.circle_rules.never_impacts",
+        "absorption": "paper.s34_circle.circle_rules.absorption",
+        "branch": "paper.s34_circle.chaos_rules.branch",
+        "covering-graph": "paper.s34_circle.chaos_rules.covering_graph",
+        "staying-set": "paper.s34_circle.chaos_rules.staying_set",
+        "separation-flight": "paper.s34_circle.persistence_rules.separation_flight",
+        "chatter": "paper.s34_circle.persistence_rules.chatter",
+        "single-solution": "paper.s4_single.rules.single_solution",
+        "single-orbit": "paper.s4_single.rules.single_orbit",
+        "single-eta-windows": "paper.s4_single.rules.eta_windows",
+        "single-nu-windows": "paper.s4_single.rules.nu_windows",
+        "method-one": "paper.s7_appendix.rules.method_one",
+    }
+)
+
+
+def find_rule(name: str) -> Rule | None:
+    """Return a rule by its name; only its own module is imported."""
+    if name not in RULES:
+        return None
+    module, _, function = RULES[name].rpartition(".")
+    found: Rule = getattr(import_module(f"proofs.trusted.{module}"), function)
+    return found

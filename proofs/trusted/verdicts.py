@@ -1,0 +1,151 @@
+"""Verdicts, and how rows of the catalogue are decided by conclusions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from itertools import groupby
+from types import MappingProxyType
+from typing import TypeVar
+
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, floor_text
+from proofs.trusted.parameters import Parameters, Place
+
+C = TypeVar("C", bound=Conclusion)
+
+
+class Verdict(Enum):
+    """The outcome of a claim.
+
+    Proved as printed; proved false; proved under conditions that the paper leaves out; neither;
+    or no mathematics but an observation, reproduced by simulation.
+    """
+
+    VERIFIED = "VERIFIED"
+    REFUTED = "REFUTED"
+    CONDITIONAL = "CONDITIONAL"
+    UNDECIDED = "UNDECIDED"
+    SIMULATED = "SIMULATED"
+
+
+def told(conclusions: Iterable[Conclusion]) -> str:
+    """Return conclusions as a text: their sentences, each after the parameters that it is about."""
+    parts = []
+    for at, group in groupby(dict.fromkeys(conclusions), key=lambda each: each.place):
+        sentences = " ".join(each.sentence for each in group)
+        parts.append(sentences if at is None else f"At {at}: {sentences}")
+    return " ".join(parts)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What conclusions make of a claim.
+
+    because: those that verify, refute or condition it. corrected: the strongest true statements
+    nearby. margin: by how much a printed bound holds. missing: what is not proved, where nothing
+    is decided.
+    """
+
+    verdict: Verdict
+    because: tuple[Conclusion, ...] = ()
+    corrected: tuple[Conclusion, ...] = ()
+    margin: Fraction | None = None
+    missing: str = ""
+    quantities: Mapping[str, Range] = field(default_factory=dict)
+
+    @property
+    def why(self) -> str:
+        """A line with the numbers."""
+        reasons = [each.brief for each in dict.fromkeys(self.because)]
+        spare = [] if self.margin is None else [f"margin {floor_text(self.margin)}"]
+        return self.missing or "; ".join([*reasons, *spare])
+
+    @property
+    def witness(self) -> str | None:
+        """What refutes the claim, or the conditions that it needs."""
+        told_by = (Verdict.REFUTED, Verdict.CONDITIONAL)
+        return told(self.because) if self.verdict in told_by else None
+
+    @property
+    def theorem(self) -> str | None:
+        """The strongest true statement nearby, complete; None where there is nothing to add."""
+        return told(self.corrected) if self.corrected else None
+
+
+def decided(
+    verdict: Verdict,
+    *because: Conclusion,
+    corrected: Iterable[Conclusion] = (),
+    margin: Fraction | None = None,
+    known: Mapping[str, Range] = MappingProxyType({}),
+) -> Decision:
+    """Return a decision that rests on conclusions, with the enclosures that these report."""
+    beside = tuple(corrected)
+    quantities = {name: x for each in (*because, *beside) for name, x in each.quantities.items()}
+    return Decision(verdict, because, beside, margin, quantities={**quantities, **known})
+
+
+def undecided(missing: str, known: Mapping[str, Range] = MappingProxyType({})) -> Decision:
+    """Return that nothing is decided, what is missing, and what is known all the same."""
+    return Decision(Verdict.UNDECIDED, missing=missing, quantities=known)
+
+
+class Found:
+    """The conclusions that a claim is decided by, matched with its parameters here, and only here.
+
+    here: about the claim's own oscillator, or about none; everywhere: witnesses at other ones, too.
+    """
+
+    def __init__(self, of: Parameters, conclusions: Iterable[Conclusion]) -> None:
+        self.everywhere = tuple(conclusions)
+        self.here = tuple(x for x in self.everywhere if x.place is None or x.place.holds(of))
+
+    def all(self, kind: type[C]) -> list[C]:
+        """Return the conclusions of a kind about the claim's own oscillator, in their order."""
+        return [each for each in self.here if isinstance(each, kind)]
+
+    def first(self, kind: type[C]) -> C | None:
+        """Return the first of them, None if there is none."""
+        return next(iter(self.all(kind)), None)
+
+    def elsewhere(self, kind: type[C]) -> list[C]:
+        """Return the conclusions of a kind, whatever oscillator they are about."""
+        return [each for each in self.everywhere if isinstance(each, kind)]
+
+
+Decide = Callable[[Parameters, Found], Decision]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A claim of the catalogue.
+
+    where: section, equation, figure. words: the paper's own, a few; "" for a row of the project's.
+    reading: ours, complete; {eta}, {nu}, {i} and so on are the numbers of the statement.
+    printed_at: the oscillator at which alone its printed numbers are asked about; None: all.
+    """
+
+    id: str
+    where: str
+    words: str
+    reading: str
+    decide_by: Decide
+    printed_at: Place | None = None
+
+    @property
+    def own(self) -> bool:
+        """Whether the row is the project's, not the paper's."""
+        return not self.words
+
+    def says(self, of: Parameters) -> str:
+        """Return the claim in words at the given numbers."""
+        return of.fill(self.reading)
+
+    def decide(self, of: Parameters, conclusions: Sequence[Conclusion]) -> Decision:
+        """Decide the claim by what is proved."""
+        if self.printed_at is not None and not self.printed_at.holds(of):
+            return undecided(f"the printed numbers are about {self.printed_at}: not asked here")
+        return self.decide_by(of, Found(of, conclusions))
