@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Self
 
 from proofs.trusted.kernel.arithmetic import Unproved
 
@@ -12,28 +13,42 @@ Range = tuple[Fraction, Fraction]
 TURN = Fraction("6.283185307")  # a little less than 2 pi
 
 
-class Phases(tuple[Fraction, Fraction]):
+class _Pair(tuple[Fraction, Fraction]):
+    __slots__ = ()
+
+    def __new__(cls, low: Fraction, high: Fraction) -> Self:
+        """Raise Unproved unless the ends are as the class says."""
+        cls._require(low, high)
+        return super().__new__(cls, (low, high))
+
+    def __getnewargs__(self) -> tuple[Fraction, Fraction]:  # to be copied, and sent to processes
+        return self[0], self[1]
+
+    @staticmethod
+    def _require(low: Fraction, high: Fraction) -> None:
+        raise NotImplementedError
+
+
+class Phases(_Pair):
     """A closed interval of phases in [0, 2 pi), of positive width: it has an order."""
 
     __slots__ = ()
 
-    def __new__(cls, low: Fraction, high: Fraction) -> Phases:
-        """Raise Unproved unless 0 <= low < high < 2 pi."""
+    @staticmethod
+    def _require(low: Fraction, high: Fraction) -> None:
         if not 0 <= low < high <= TURN:
             raise Unproved(f"[{show(low)}, {show(high)}] is no interval of phases in [0, 2 pi)")
-        return super().__new__(cls, (low, high))
 
 
-class Phase(tuple[Fraction, Fraction]):
+class Phase(_Pair):
     """An enclosure of one phase in [0, 2 pi): it does not straddle 2 pi, so it can be compared."""
 
     __slots__ = ()
 
-    def __new__(cls, low: Fraction, high: Fraction) -> Phase:
-        """Raise Unproved unless 0 <= low <= high < 2 pi."""
+    @staticmethod
+    def _require(low: Fraction, high: Fraction) -> None:
         if not 0 <= low <= high <= TURN:
             raise Unproved("an enclosure of a phase straddles 2 pi")
-        return super().__new__(cls, (low, high))
 
 
 def show(value: Fraction) -> str:
