@@ -29,7 +29,7 @@ from proofs.trusted.kernel.derivation import Formulas
 from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Lemma, Value
+from proofs.trusted.paper.formulas import Asked, Derivation, DerivedRow, Equal, Lemma, Value
 
 SPARE_BITS = 40
 _COARSE_DIGITS = 3
@@ -125,7 +125,7 @@ class Steps:
 
 
 def prove_derivations(
-    derivations: Sequence[Derivation],
+    derivations: Sequence[Derivation | DerivedRow],
     claims: Sequence[str],
     digits: int,
     tell: Callable[[str], None],
@@ -135,7 +135,11 @@ def prove_derivations(
     for derivation in derivations:
         if derivation.id in claims:
             tell(f"formulas of {derivation.id}")
-            proved = [steps.prove(each) for each in (*derivation.lemmas, *derivation.values)]
+            if isinstance(derivation, DerivedRow):
+                needs = derivation.needs
+            else:
+                needs = (*derivation.lemmas, *derivation.values)
+            proved = [steps.prove(each) for each in needs]
             evidence.proofs[derivation.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps
     return evidence

@@ -12,9 +12,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range, ceil_text, floor_text
+from proofs.trusted.numbers import Range, ceil_text, floor_text, show_range
 from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.parameters import Parameters
+from proofs.trusted.verdicts import Decision as RowDecision
+from proofs.trusted.verdicts import Found, Row, Verdict, decided
+from proofs.trusted.verdicts import undecided as row_undecided
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,11 @@ class Equal(Conclusion):
 
     left: str
     right: str
+
+    @property
+    def sentence(self) -> str:
+        """Return the equation."""
+        return f"{self.left} = {self.right}, wherever all parts of both sides are defined."
 
 
 @dataclass(frozen=True)
@@ -38,6 +46,18 @@ class Series(Conclusion):
     coefficients: tuple[str, ...]
     nonzero: tuple[str, ...] = ()
 
+    @property
+    def sentence(self) -> str:
+        """Return the series."""
+        terms = " + ".join(
+            f"({each})*{self.variable}**{n}" for n, each in enumerate(self.coefficients)
+        )
+        where = f" where {', '.join(self.nonzero)} are not 0" if self.nonzero else ""
+        return (
+            f"{self.function} = {terms} + O({self.variable}**{len(self.coefficients)}) as "
+            f"{self.variable} -> 0{where}."
+        )
+
 
 @dataclass(frozen=True)
 class Value(Conclusion):
@@ -46,6 +66,12 @@ class Value(Conclusion):
     function: str
     box: tuple[tuple[str, Range], ...]
     bounds: Range
+
+    @property
+    def sentence(self) -> str:
+        """Return the bounds."""
+        box = ", ".join(f"{name} in {show_range(side)}" for name, side in self.box)
+        return f"{self.function} lies in {between(self.bounds)} for {box}."
 
 
 @dataclass(frozen=True)
@@ -62,6 +88,11 @@ class Asked:
             return False
         low, high = found.bounds
         return 0 in self.signs or (1 in self.signs and low > 0) or (-1 in self.signs and high < 0)
+
+    def best(self, found: Sequence[Value]) -> Range | None:
+        """Return the narrowest bounds among conclusions, None if there are none."""
+        met = [value.bounds for value in found if self.met_by(value)]
+        return min(met, key=lambda ends: ends[1] - ends[0], default=None)
 
 
 def _point(places: dict[str, str]) -> tuple[tuple[str, Range], ...]:
@@ -124,3 +155,109 @@ class Derivation:
     def claim(self) -> Claim:
         """The claim, as the catalogue has it."""
         return Claim(self.id, self.text, self.decide)
+
+
+# -- theorems that follow from formulas ------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Theorem(Conclusion):
+    """A theorem that follows from proved formulas: its text and, in a line, its point."""
+
+    text: str
+    short: str
+    tex: str
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        return self.text
+
+    @property
+    def brief(self) -> str:
+        """Return its point."""
+        return self.short or self.text
+
+    @property
+    def latex(self) -> str:
+        """Return it as a formula."""
+        return self.tex
+
+
+@dataclass(frozen=True)
+class Derived:
+    """How a theorem follows: what it needs, and its text given bounds on the values in order.
+
+    The docstring of `text` is the proof, in steps that name what they use.
+    """
+
+    text: Callable[..., str]
+    lemmas: tuple[Lemma, ...]
+    values: tuple[Asked, ...]
+    short: str
+    tex: str
+
+    @property
+    def needs(self) -> tuple[Lemma | Asked, ...]:
+        """All that has to be proved."""
+        return (*self.lemmas, *self.values)
+
+    def prove(self, found: Found) -> Theorem | None:
+        """Return the theorem, None if something that it needs is not proved."""
+        known = set(found.all(Equal)) | set(found.all(Series))
+        bounds = [value.best(found.all(Value)) for value in self.values]
+        if not set(self.lemmas) <= known or None in bounds:
+            return None
+        shown = [between(each) for each in bounds if each is not None]
+        return Theorem(self.text(*shown), self.short.format(*shown), self.tex)
+
+
+def theorem(
+    *lemmas: Lemma, values: tuple[Asked, ...] = (), short: str = "", tex: str = ""
+) -> Callable[[Callable[..., str]], Derived]:
+    """Make a theorem of the function that returns its text; bounds of values are its arguments."""
+    return lambda text: Derived(text, lemmas, values, short, tex)
+
+
+@dataclass(frozen=True)
+class DerivedRow(Row):
+    """A claim that is decided once its theorems are proved, whatever the parameters.
+
+    because: the theorems that verify, refute or condition it. corrected: those that hold nearby.
+    """
+
+    verdict: Verdict = Verdict.UNDECIDED
+    because: tuple[Derived, ...] = ()
+    corrected: tuple[Derived, ...] = ()
+
+    @property
+    def needs(self) -> tuple[Lemma | Asked, ...]:
+        """All that has to be proved, once each."""
+        parts = (*self.because, *self.corrected)
+        return tuple(dict.fromkeys(need for part in parts for need in part.needs))
+
+
+def derived_row(
+    claim: str,
+    where: str,
+    words: str,
+    reading: str,
+    verdict: Verdict,
+    *because: Derived,
+    corrected: tuple[Derived, ...] = (),
+) -> DerivedRow:
+    """Return the row of a claim that follows from formulas."""
+
+    def decide(of: Parameters, found: Found) -> RowDecision:
+        reasons = [each.prove(found) for each in because]
+        nearby = [each.prove(found) for each in corrected]
+        if None in reasons or None in nearby:
+            missing = sum(each is None for each in (*reasons, *nearby))
+            return row_undecided(f"{missing} of the theorems that decide it are not proved")
+        return decided(
+            verdict,
+            *(each for each in reasons if each is not None),
+            corrected=[each for each in nearby if each is not None],
+        )
+
+    return DerivedRow(claim, where, words, reading, decide, None, verdict, because, corrected)
