@@ -5,15 +5,17 @@ from __future__ import annotations
 import argparse
 import inspect
 import sys
+from collections import Counter
 from pathlib import Path
 
-from proofs.trusted.certificate import MANIFEST, Malformed, digest, read, schema_of
+from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, digest, read, schema_of
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
-from proofs.trusted.manifest import check_manifest
+from proofs.trusted.manifest import Listed, check_ledger, check_manifest
 from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, Report, check
 
+FOLDERS = {MANIFEST: check_manifest, LEDGER: check_ledger}
 EPILOG = """\
 exit status: 0 every claim in every file is proved as stated (verified or refuted)
              1 a claim is undecided, or a file does not prove what it says
@@ -76,9 +78,11 @@ def check_file(path: Path, work: int = DEFAULT) -> int:
     name = printable(path)
     try:
         source = read(path)
-        if schema_of(source) == MANIFEST:
-            print(f"{name}: {check_manifest(source, path.parent, work)}")
-            return 0
+        schema = schema_of(source)
+        if schema in FOLDERS:
+            listed = FOLDERS[schema](source, path.parent, work)
+            print(f"{name}: {_counted(listed)}, all as listed")
+            return int(any(each.verdict is Verdict.UNDECIDED for each in listed))
         report = check(source, work)
     except Malformed as error:
         print(f"{name}: malformed: {error}", file=sys.stderr)
@@ -94,6 +98,14 @@ def check_file(path: Path, work: int = DEFAULT) -> int:
         return 1
     print_report(name, report, digest(source))
     return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
+
+
+def _counted(listed: list[Listed]) -> str:
+    counts = Counter(each.verdict.value for each in listed)
+    named = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    other = sum(not each.is_paper for each in listed)
+    where = f", {other} of them at other parameters" if other else " at the paper's parameters"
+    return f"{len(listed)} claims{where}: {named}"
 
 
 def print_rules() -> None:

@@ -22,13 +22,12 @@ from proofs.shell import runner
 from proofs.shell.cli import Parser, coloured, counting, progress, writable
 from proofs.shell.counting import Counts, show
 from proofs.shell.groups import FILES, Made, produce, wanted
-from proofs.trusted.certificate import Malformed, read, render, write_atomically
+from proofs.trusted.certificate import LEDGER, Malformed, read, render, write_atomically
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, Report, check
 
-SCHEMA = "impact-proofs.ledger/1"
 CLAIMS = tuple(
     sorted(
         {claim for claims in GROUPS.values() for claim in claims},
@@ -150,11 +149,11 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
         return 3
     rows = _in_order([row for one in settled for row in one.rows()])
-    text = render({"schema": SCHEMA, "claims": rows})
+    text = render({"schema": LEDGER, "claims": rows})
     try:
         for one in settled:
             if one.is_new:
-                runner.write(options.out, one.job.name, one.made, _command(one))
+                runner.write(options.out, one.job.name, one.made)
         write_atomically(options.out / "ledger.json", text)
         write_atomically(options.out / "ledger.md", markdown(rows))
     except OSError as error:
@@ -183,10 +182,6 @@ def _settle_all(wanted: Sequence[Job]) -> list[Settled]:
             found[futures[future]] = future.result()
             tell(f"{len(found)} of {len(wanted)} groups of claims")
     return [found[job] for job in wanted]
-
-
-def _command(one: Settled) -> str:
-    return f"python -m proofs --only {' '.join(one.job.claims)} --digits {one.job.digits}"
 
 
 def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: float) -> None:

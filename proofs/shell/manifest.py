@@ -15,34 +15,41 @@ from pathlib import Path
 from typing import Any
 
 from proofs import __version__
-from proofs.trusted.certificate import MANIFEST, digest, render, write_atomically
+from proofs.trusted.certificate import (
+    MANIFEST,
+    Reader,
+    digest,
+    parameters_from_json,
+    render,
+    write_atomically,
+)
+from proofs.trusted.manifest import command
 
 NAME = "MANIFEST.json"
 
 
-def record(folder: Path, name: str, content: str, made: str) -> None:
-    """Enter the claims of the certificate `folder / name`, made by the command `made`.
+def record(folder: Path, name: str, content: str) -> None:
+    """Enter the claims of the certificate `folder / name`.
 
     Entries about other files stay; a manifest that cannot be read is replaced.
     """
     claims, files = _existing(folder)
     claims = {claim: entry for claim, entry in claims.items() if entry["file"] != name}
-    source = {
-        "file": name,
-        "digest": digest(content),
-        "made": made,
-        "checked": f"python -S -O -m proofs.check {folder / name}",
+    document = json.loads(content)
+    entries = {entry["id"]: entry for entry in document["claims"]}
+    claims |= {
+        claim: {"verdict": entry["verdict"], "statement": entry["statement"], "file": name}
+        for claim, entry in entries.items()
     }
-    for claim in json.loads(content)["claims"]:
-        claims[claim["id"]] = {
-            "verdict": claim["verdict"],
-            "statement": claim["statement"],
-            **source,
-        }
+    of = parameters_from_json(Reader(document["parameters"]))
     files.pop(name, None)  # the newest is the last
-    files[name] = _provenance()
-    document = {"schema": MANIFEST, "claims": claims, "files": files}
-    write_atomically(folder / NAME, render(document))
+    files[name] = {
+        "digest": digest(content),
+        "parameters": document["parameters"],
+        "made": command(name, of, tuple(entries)),
+        "with": _provenance(),
+    }
+    write_atomically(folder / NAME, render({"schema": MANIFEST, "claims": claims, "files": files}))
 
 
 def _existing(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -50,7 +57,9 @@ def _existing(folder: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     try:
         document = json.loads((folder / NAME).read_text(encoding="utf-8"))
         claims, files = dict(document["claims"]), dict(document["files"])
-        if all(isinstance(entry["file"], str) for entry in claims.values()):
+        if document["schema"] == MANIFEST and all(
+            entry["file"] in files for entry in claims.values()
+        ):
             return claims, files
     except (OSError, ValueError, KeyError, TypeError):
         pass

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from argparse import Namespace
 from collections import Counter
@@ -95,7 +94,7 @@ def run(
         made = produce(asked, of, digits=options.digits, tell=tell, **more)
     seconds = perf_counter() - began
     try:
-        write(options.out, file, made, command(f"proofs.{file}", arguments))
+        write(options.out, file, made)
         if drawn:
             draw = import_module(f"proofs.report.{file}_figure").svg
             write_atomically(options.out / f"{file}.svg", draw(made.certificate))
@@ -188,16 +187,11 @@ def _reach(options: Namespace) -> tuple[Fraction, Fraction, Fraction] | None:
     return first, second, third
 
 
-def command(module: str, arguments: list[str] | None) -> str:
-    """Return the command that is running, as the manifest records it."""
-    return shlex.join(["python", "-m", module, *(sys.argv[1:] if arguments is None else arguments)])
-
-
-def write(folder: Path, name: str, made: Made, by: str) -> None:
-    """Write a certificate and its page, and enter it in the manifest as made by a command."""
+def write(folder: Path, name: str, made: Made) -> None:
+    """Write a certificate and its page, and enter it in the manifest."""
     write_atomically(folder / f"{name}.json", made.certificate)
     write_atomically(folder / f"{name}.md", made.page)
-    manifest.record(folder, f"{name}.json", made.certificate, by)
+    manifest.record(folder, f"{name}.json", made.certificate)
 
 
 def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:

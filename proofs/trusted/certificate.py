@@ -23,7 +23,8 @@ from proofs.trusted.parameters import Parameters
 
 SCHEMA = "impact-proofs.certificate/3"
 FIELDS = ("schema", "parameters", "functions", "steps", "claims")
-MANIFEST = "impact-proofs.manifest/1"
+MANIFEST = "impact-proofs.manifest/2"
+LEDGER = "impact-proofs.ledger/2"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
 _MAX_DIGITS_OF_PARAMETERS = 400
@@ -55,7 +56,7 @@ class Reader:
 
     def __init__(self, value: Any, path: str = "$") -> None:
         METER.get().spend(1)
-        self._value = value
+        self.value = value  # as parsed
         self.path = path
 
     def _inner(self, value: Any, path: str) -> Reader:
@@ -67,21 +68,21 @@ class Reader:
 
     def fields(self, *names: str) -> list[Reader]:
         """Return the members of an object that has exactly these, in the order asked for."""
-        if not isinstance(self._value, dict):
+        if not isinstance(self.value, dict):
             raise self.fail("an object is expected")
-        for name in self._value:
+        for name in self.value:
             if name not in names:
                 raise self.fail(f"unknown field {name[:40]!r}")
         for name in names:
-            if name not in self._value:
+            if name not in self.value:
                 raise self.fail(f"missing field {name!r}")
-        return [self._inner(self._value[name], f".{name}") for name in names]
+        return [self._inner(self.value[name], f".{name}") for name in names]
 
     def entries(self) -> Iterator[tuple[str, Reader]]:
         """Iterate over the members of an object, whatever their names."""
-        if not isinstance(self._value, dict):
+        if not isinstance(self.value, dict):
             raise self.fail("an object is expected")
-        for name, value in self._value.items():
+        for name, value in self.value.items():
             yield name, self._inner(value, f".{_shown(name)}")
 
     def members(self) -> Iterator[tuple[str, Reader]]:
@@ -93,15 +94,15 @@ class Reader:
 
     def items(self, least: int = 0, most: int = 10_000) -> list[Reader]:
         """Return the members of a list."""
-        if not isinstance(self._value, list):
+        if not isinstance(self.value, list):
             raise self.fail("a list is expected")
-        if not least <= len(self._value) <= most:
-            raise self.fail(f"{len(self._value)} entries, expected {least} to {most}")
-        return [self._inner(value, f"[{i}]") for i, value in enumerate(self._value)]
+        if not least <= len(self.value) <= most:
+            raise self.fail(f"{len(self.value)} entries, expected {least} to {most}")
+        return [self._inner(value, f"[{i}]") for i, value in enumerate(self.value)]
 
     def mentioned(self) -> Iterator[str]:
         """Iterate over all strings inside, however deep."""
-        waiting = [self._value]
+        waiting = [self.value]
         while waiting:
             value = waiting.pop()
             METER.get().spend(1)
@@ -112,13 +113,13 @@ class Reader:
 
     def is_null(self) -> bool:
         """Whether the value is null."""
-        return self._value is None
+        return self.value is None
 
     def string(self) -> str:
         """Return a string."""
-        if not isinstance(self._value, str):
+        if not isinstance(self.value, str):
             raise self.fail("a string is expected")
-        return self._value
+        return self.value
 
     def _matching(self, pattern: re.Pattern[str]) -> str:
         value = self.string()

@@ -1,42 +1,115 @@
-"""MANIFEST.json against the files that it lists."""
+"""MANIFEST.json and ledger.json against the certificates that they speak of."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, NamedTuple
 
-from proofs.trusted.certificate import digest, parse, read
-from proofs.trusted.verify import Checked, Rejected, check
+from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
+from proofs.trusted.numbers import show
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import Rejected, check
 
 
-def check_manifest(source: str, folder: Path, work: float) -> str:
-    """Check every file that a manifest lists, and its entries; return what was found, in a line.
+class Listed(NamedTuple):
+    """A claim as it is listed."""
 
-    Raises Malformed or Rejected where a file is not accepted, its digest is another one, or it
-    does not prove a claim with the verdict and the statement that are listed.
+    verdict: Verdict
+    is_paper: bool  # whether at the paper's own parameters
+
+
+_FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
+
+
+def command(file: str, of: Parameters, claims: Sequence[str] = ()) -> str:
+    """Return the command that makes a certificate of this name, about these numbers and claims."""
+    parts = [f"python -m proofs.{file.removesuffix('.json')}"]
+    options = ("eta", "nu", "left", "right", "interval", "slopes", "epsilon", "velocities", "reach")
+    for name in options:
+        value = getattr(of, name)
+        if value is not None and value != getattr(PAPER, name):
+            numbers = value if isinstance(value, tuple) else (value,)
+            parts += [f"--{name}", *map(show, numbers)]
+    return " ".join([*parts, *(["--only", *claims] if claims else [])])
+
+
+def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
+    """Check every file that a manifest lists, and its entries; return what is listed.
+
+    An entry of a claim is what its file proves: verdict, statement; one of a file has its digest,
+    its parameters, and the command that makes it. Raises Malformed or Rejected where they differ.
     """
     _, claims_of, files_of = parse(source).fields("schema", "claims", "files")
-    proved: dict[str, tuple[str, dict[str, Checked]]] = {}
+    proved = {}
     for name, entry in files_of.entries():
-        if Path(name).name != name:
-            raise entry.fail("not the name of a file in the same folder")
-        try:
-            text = read(folder / name)
-        except OSError as error:
-            raise Rejected(f"{entry.path}: cannot be read: {error.strerror}") from None
-        proved[name] = digest(text), {claim.id: claim for claim in check(text, work).claims}
-    count = 0
+        digest_of, parameters, made, _ = entry.fields("digest", "parameters", "made", "with")
+        text = _beside(folder, name, entry)
+        report = check(text, work)
+        of = report.parameters
+        if of is None:
+            raise Rejected(f"{entry.path}: a file about formulas decides no claim")
+        _same(digest_of, digest(text))
+        _same(parameters, parameters_to_json(of))
+        ids = [claim.id for claim in report.claims]
+        if made.string() not in (command(name, of), command(name, of, ids)):
+            raise Rejected(f"{made.path}: the command is {command(name, of, ids)!r}")
+        proved[name] = {claim.id: (claim, of == PAPER) for claim in report.claims}
+    listed = []
     for claim, entry in claims_of.members():
-        verdict, statement, file, own, _, _ = entry.fields(
-            "verdict", "statement", "file", "digest", "made", "checked"
-        )
-        if file.string() not in proved:
-            raise file.fail("names no file of the list")
-        true_digest, found = proved[file.string()]
-        if own.string() != true_digest:
-            raise Rejected(f"{own.path}: the file has the digest {true_digest}")
-        if claim not in found or found[claim].verdict.value != verdict.string():
-            raise Rejected(f"{verdict.path}: the file does not prove this")
-        if found[claim].statement != statement.string():
-            raise Rejected(f"{statement.path}: the file proves another statement")
-        count += 1
-    return f"{count} claims in {len(proved)} files, all as listed"
+        verdict, statement, file = entry.fields("verdict", "statement", "file")
+        found, is_paper = proved.get(file.string(), {}).get(claim, (None, False))
+        if found is None:
+            raise Rejected(f"{file.path}: no listed file of this name is about {claim}")
+        _same(verdict, found.verdict.value)
+        _same(statement, found.statement)
+        listed.append(Listed(found.verdict, is_paper))
+    return _some(listed, claims_of)
+
+
+def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
+    """Check that each entry of a ledger is one of the certificate that it names.
+
+    Raises Malformed or Rejected where that is not so.
+    """
+    _, claims_of = parse(source).fields("schema", "claims")
+    proved: dict[str, dict[str, Any]] = {}
+    listed = []
+    for entry in claims_of.items():
+        members = dict(entry.entries())
+        if not {"id", "file"} <= set(members):
+            raise entry.fail("an id and a file are expected")
+        name = members["file"].string()
+        if name not in proved:
+            text = _beside(folder, name, members["file"])
+            if check(text, work).parameters != PAPER:
+                raise Rejected(f"{entry.path}: the file is not about the paper's parameters")
+            proved[name] = {x["id"]: x for x in parse(text).value["claims"]}
+        own = dict(proved[name].get(members["id"].string(), {}))
+        own.pop("proof", None)
+        _same(entry, {**own, "file": name})
+        listed.append(Listed(Verdict(own["verdict"]), is_paper=True))
+    return _some(listed, claims_of)
+
+
+def _beside(folder: Path, name: str, reader: Reader) -> str:
+    """Return the text of a file in the same folder."""
+    if not _FILE.fullmatch(name):
+        raise reader.fail("not the name of a certificate in the same folder")
+    try:
+        return read(folder / name)
+    except OSError as error:
+        raise Rejected(f"{reader.path}: cannot be read: {error.strerror}") from None
+
+
+def _same(given: Reader, own: Any) -> None:
+    if given.value != own:
+        raise Rejected(f"{given.path}: the file proves {str(own)[:100]!r}")
+
+
+def _some(listed: list[Listed], reader: Reader) -> list[Listed]:
+    if not listed:
+        raise reader.fail("no claims")
+    return listed

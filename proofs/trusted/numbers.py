@@ -11,6 +11,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 Range = tuple[Fraction, Fraction]
 
 TURN = Fraction("6.283185307")  # a little less than 2 pi
+_LONGEST = 12_000  # bits of a number that is written
 
 
 class _Pair(tuple[Fraction, Fraction]):
@@ -52,7 +53,12 @@ class Phase(_Pair):
 
 
 def show(value: Fraction) -> str:
-    """Write an exact rational as a plain decimal where it is one, else as p/q."""
+    """Write an exact rational as a plain decimal where it is one, else as p/q.
+
+    Raises Unproved where it has more digits than anybody reads.
+    """
+    if max(abs(value.numerator), value.denominator).bit_length() > _LONGEST:
+        raise Unproved("a number with too many digits to be written")
     rest, twos, fives = value.denominator, 0, 0
     while rest % 2 == 0:
         rest, twos = rest // 2, twos + 1

@@ -66,7 +66,10 @@ def check(source: str, work: float = DEFAULT) -> Report:
         steps_of, claims_of = parse(source).fields(*FIELDS)[3:]
         context = premises(source)
         used: set[str] = set()
-        report = _conclude(context, claims_of, used)
+        try:
+            report = _conclude(context, claims_of, used)
+        except Unproved as error:
+            raise Rejected(f"{claims_of.path}: {error}") from None
         unused = sorted({*context.known, *context.functions} - used_steps(steps_of, used))
         if unused:
             raise steps_of.fail(f"steps or functions that nothing uses: {', '.join(unused)[:80]}")
