@@ -160,19 +160,13 @@ class Missed(Conclusion):
 
 
 def missed(arc: ImageArc, of: Parameters) -> Missed | None:
-    """Return an interval at an end of I, in I0 or in I1, that the image of one of these misses."""
-    low, high = of.interval
-    ends: list[Range] = []
-    if arc.is_interval and low < arc.low[0]:
-        ends.append((low, decimal_between(low, min(arc.low[0], of.left[1]))))
-    if arc.is_interval and arc.high[1] < high:
-        ends.append((decimal_between(max(arc.high[1], of.right[0]), high), high))
-    inside = [
-        end
-        for end in ends
-        if any(begin <= end[0] and end[1] <= last for begin, last in (of.left, of.right))
-    ]
-    return Missed(arc.at, arc, Phases(*inside[0])) if inside else None
+    """Return an interval at the lower end of I0, or the upper one of I1, that an image misses."""
+    (first, end), (begin, last) = of.left, of.right
+    if arc.is_interval and first < arc.low[0]:
+        return Missed(arc.at, arc, Phases(first, decimal_between(first, min(arc.low[0], end))))
+    if arc.is_interval and arc.high[1] < last:
+        return Missed(arc.at, arc, Phases(decimal_between(max(arc.high[1], begin), last), last))
+    return None
 
 
 def slopes_on(of: Parameters, found: Found) -> tuple[SlopeRange, SlopeRange] | None:

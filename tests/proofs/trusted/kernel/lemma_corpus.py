@@ -284,8 +284,8 @@ def readme() -> str:
         [
             "# Lemma files that the checker must accept, reject, or call malformed",
             "",
-            "All are made by `python -m tests.proofs.trusted.kernel.lemma_corpus`; `tests` prove them",
-            "up to date.",
+            "All are made by `python -m tests.proofs.trusted.kernel.lemma_corpus`; tests prove",
+            "them up to date.",
             "",
             "| file | what it is |",
             "|---|---|",

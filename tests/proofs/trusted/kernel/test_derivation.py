@@ -6,10 +6,10 @@ import pytest
 
 from proofs.methods import derive
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.derivation import RULES
 from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Value, at, differ
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 
 
