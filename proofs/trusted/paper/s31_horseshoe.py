@@ -169,13 +169,13 @@ def missed(arc: ImageArc, of: Parameters) -> Missed | None:
     return None
 
 
-def slopes_on(of: Parameters, found: Found) -> tuple[SlopeRange, SlopeRange] | None:
-    """Return what is proved about f' on I0 and on I1; None unless both are known."""
-    left, right = (
+def slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
+    """Return what is proved about f' on I0 and on I1, as far as it is known."""
+    parts = [
         next((part for each in found.all(SlopeRange) if (part := each.over(domain))), None)
         for domain in (of.left, of.right)
-    )
-    return None if left is None or right is None else (left, right)
+    ]
+    return [part for part in parts if part is not None]
 
 
 def inside(of: Parameters, found: Found) -> list[Impact]:
@@ -194,12 +194,18 @@ def _bounded(
 
     margin: how far bounds (low, high) on f' are inside; of (high, low) it is how far at most.
     """
-    theorem = found.all(Horseshoe)[:1]
     for point in inside(of, found):
         if margin(point.slope[::-1]) < 0:
-            return decided(Verdict.REFUTED, point, corrected=theorem)
+            return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
+    return _everywhere(of, found, margin, strict)
+
+
+def _everywhere(
+    of: Parameters, found: Found, margin: Callable[[Range], Fraction], strict: bool
+) -> Decision:
+    """Decide that f' is bounded on I0 and I1, by bounds on both."""
     parts = slopes_on(of, found)
-    if parts is None:
+    if len(parts) < 2:
         return undecided(_NO_SLOPES)
     least = min(margin((part.minimum[0], part.maximum[1])) for part in parts)
     known: dict[str, Range] = {
@@ -243,7 +249,7 @@ def _gap_escapes(of: Parameters, found: Found) -> Decision:
 def arcs_on(of: Parameters, found: Found) -> list[ImageArc]:
     """Return f(I0) and f(I1), as far as they are proved to be arcs."""
     arcs = []
-    for part in slopes_on(of, found) or ():
+    for part in slopes_on(of, found):
         with suppress(Unproved):
             arcs.append(image_arc(part))
     return arcs
@@ -285,7 +291,7 @@ def _short_preimages(of: Parameters, found: Found) -> Decision:
         lands = any(begin < low and high < end for begin, end in (of.left, of.right))
         if lands and point.slope[0] > 0 and point.slope[1] < bound:
             return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
-    decision = _bounded(of, found, lambda bounds: bounds[0] - bound, strict=True)
+    decision = _everywhere(of, found, lambda bounds: bounds[0] - bound, strict=True)
     if decision.verdict is Verdict.VERIFIED and len(arcs_on(of, found)) < 2:
         return undecided("an image may be longer than the circle, a preimage in several pieces")
     return decision

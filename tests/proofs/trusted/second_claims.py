@@ -1,4 +1,4 @@
-"""What follows from steps: the table of claims of proofs/CERTIFICATE.md, typed from that page."""
+"""What follows from steps: the claims on I0 and I1, typed from what they say."""
 
 from fractions import Fraction
 
@@ -13,6 +13,7 @@ class Facts:
     def __init__(self, of, steps):
         self.of, self.sides = of, (of.left, of.right)
         self.slopes, self.roots, self.escape = [None, None], [None, None], False
+        self.points = []
         self.reciprocals = (1 / of.slopes[1], 1 / of.slopes[0])
         self.ratios = of.ratios or self.reciprocals
         for rule, conclusion in steps:
@@ -23,6 +24,8 @@ class Facts:
                 union, target = conclusion
                 whole = within((of.left[1], of.right[0]), union) and within(of.interval, target)
                 self.escape = self.escape or whole
+            elif rule == "point":
+                self.points.append(conclusion)
             elif rule == "moran-root":
                 for index, ratios in enumerate((self.ratios, self.reciprocals)):
                     if conclusion[0] == ratios:
@@ -47,15 +50,17 @@ class Facts:
         if claim == "H11":
             names = ("s0", "s0_reciprocal_slopes")
             return dict(zip(names, self.roots, strict=True)) if all(self.roots) else {}
-        found = {}
-        for side, facts in zip(("I0", "I1"), self.slopes, strict=True):
-            names = ("slope_min", "slope_max", "image_left", "image_right")
-            found |= {
-                f"{name}_{side}": fact for name, fact in zip(names, facts or (), strict=False)
-            }
-        kind = {"H1": "slope_min", "H3": "slope_min", "H6": "slope_min", "H2": "slope_max"}
-        kind = kind.get(claim, "image" if claim == "H5" else "none")
-        return {name: fact for name, fact in found.items() if name.startswith(kind)}
+        if claim == "H5":
+            arcs = [(f"I{i}", self.arc(i)) for i in (0, 1) if self.arc(i)]
+            names = ("image_low", "image_high")
+            pairs = [(side, zip(names, arc, strict=True)) for side, arc in arcs]
+        else:
+            known = all(self.slopes) and claim in ("H1", "H2", "H3", "H6")
+            names = ("slope_min", "slope_max")
+            pairs = [
+                (f"I{i}", zip(names, self.slopes[i][:2], strict=True)) for i in (0, 1) if known
+            ]
+        return {f"{name}_{side}": ends for side, named in pairs for name, ends in named}
 
 
 def slopes_of(side, points, pieces):
@@ -74,8 +79,8 @@ def interior(inner, outer):
     return outer[0] < inner[0] and inner[1] < outer[1]
 
 
-def verified(claim, facts):
-    """Whether the facts prove one of H1 to H6."""
+def verified(claim, facts, closed=False):
+    """Whether the facts prove one of H1 to H6; closed: H6 with <= for <, as in a horseshoe."""
     lo, hi = facts.of.slopes
     if claim == "H4":
         return facts.escape
@@ -91,20 +96,25 @@ def verified(claim, facts):
         "H1": least >= lo,
         "H2": most <= hi,
         "H3": least > 0,
-        "H6": least > lo and facts.short(0) and facts.short(1),
+        "H6": (least >= lo if closed else least > lo) and facts.arc(0) and facts.arc(1),
     }[claim]
 
 
-def refuted(claim, facts, point=None, missed=None):
+def missed(facts):
+    """Whether an image misses an interval at the lower end of I0, or the upper one of I1."""
+    arcs = [arc for arc in (facts.arc(0), facts.arc(1)) if arc and arc[0][1] < arc[1][0]]
+    return any(facts.sides[0][0] < first[0] or last[1] < facts.sides[1][1] for first, last in arcs)
+
+
+def refuted(claim, facts):
     """Whether a point (phase, f', f), or an interval, refutes one of H1 to H6."""
+    if claim == "H5":
+        return missed(facts)
+    return any(refutes(claim, facts, *point) for point in facts.points)
+
+
+def refutes(claim, facts, phase, slope, image):
     (lo, hi), sides = facts.of.slopes, facts.sides
-    if claim == "H5" and missed:
-        arcs = [arc for arc in (facts.arc(0), facts.arc(1)) if arc and arc[0][1] < arc[1][0]]
-        off = any(missed[1] < first[0] or last[1] < missed[0] for first, last in arcs)
-        return missed[0] < missed[1] and any(within(missed, side) for side in sides) and off
-    if claim == "H5" or not point:
-        return False
-    phase, slope, image = point
     if claim == "H4":
         return sides[0][1] < phase < sides[1][0] and within(image, facts.of.interval)
     return (
@@ -118,10 +128,10 @@ def refuted(claim, facts, point=None, missed=None):
     )
 
 
-def verdict(claim, facts, point=None, missed=None):
+def verdict(claim, facts):
     if claim in ("H11", "H16"):
         return of_dimension(claim, facts)
-    if refuted(claim, facts, point, missed):
+    if refuted(claim, facts):
         return "REFUTED"
     return "VERIFIED" if verified(claim, facts) else "UNDECIDED"
 

@@ -6,6 +6,7 @@ enclosures do not decide, Arb's may.
 
 import json
 import random
+import re
 from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
@@ -14,17 +15,16 @@ from pathlib import Path
 import pytest
 from flint import arb, arb_series
 
-from proofs.search.s31_horseshoe import prove
 from proofs.trusted.certificate import render
 from proofs.trusted.parameters import PAPER
-from tests.proofs.trusted.mutations import mutations, renew_texts
+from tests.proofs.trusted.mutations import mutations, renew_texts, steps
+from tests.proofs.trusted.renewing import fresh
 from tests.proofs.trusted.second_both import both
 from tests.proofs.trusted.second_map import Impacts, ball
 
 ROOT = Path(__file__).parents[3]
 ACCEPTED = ROOT / "tests/certificates/accepted/horseshoe.json"
 CORPUS = sorted((ROOT / "tests/certificates").glob("[amr]*/*.json"))
-OTHER_SCHEMA = "impact-proofs.lemma/1"
 
 # Kinds that break the form and prove nothing: the page lets a reader call them either.
 BOTH_FAULTS = {
@@ -32,11 +32,15 @@ BOTH_FAULTS = {
     "flight of the gap dropped": "the gap is not covered; a step is unused",
     "flight phases moved": "no impact proved; points lie outside the phases",
     "flight phases the whole circle": "no impact proved; the phases do not touch the next",
+    "phase of a point changed": "no impact proved; the sets are no points of the slopes",
+    "proof of another claim": "another verdict; a step that nothing uses",
     "points swapped": "brackets of other phases, which do not increase",
     "reference dropped": "a fact is missing; its step is unused",
     "other type": "a quantity that the claim does not have; it is no pair of bounds",
     "unknown field": "a quantity that the claim does not have; it is no pair of bounds",
 }
+# The second reader leaves it to the checker how a reason is worded.
+WORDING = re.compile(r"rejected: \$\.claims\[\d+\]\.(why|witness|corrected): ")
 # Kinds of which Arb may prove more: the times of a flight subdivide less, and it bisects.
 MORE_DECIDED = {"time dropped"}
 
@@ -47,8 +51,6 @@ MORE_DECIDED = {"time dropped"}
 @pytest.mark.parametrize("path", CORPUS, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_both_agree_on_the_corpus(path):
     text = path.read_text()
-    if OTHER_SCHEMA in text[:200]:
-        pytest.skip("a certificate of lemmas: not the specification's")
     found, other, same, reasons = both(text)
     assert found == other == path.parent.name and same, reasons
 
@@ -76,7 +78,9 @@ def compare(chosen):
         found, other, same, reasons = both(mutation.make())
         told = f"{mutation.kind} at {mutation.where}: {reasons}"
         counts[found, other] += 1
-        if (found, other) == ("rejected", "accepted") and mutation.kind in MORE_DECIDED:
+        if (found, other) == ("rejected", "accepted") and (
+            mutation.kind in MORE_DECIDED or WORDING.match(reasons)
+        ):
             continue
         assert (found == "accepted") == (other == "accepted"), told
         assert found == other or mutation.kind in BOTH_FAULTS, told
@@ -104,7 +108,7 @@ def test_both_agree_on_many_changed_certificates(by_kind, part):
 @pytest.mark.parametrize(("bound", "outcome"), [("1001/1000", "accepted"), ("1", "rejected")])
 def test_both_want_a_correction_that_expands(bound, outcome):
     document = json.loads(ACCEPTED.read_text())
-    document["corrected"]["parameters"]["slopes"][0] = bound
+    steps(document, "horseshoe")[0][1]["slopes"][0] = bound
     renew_texts(document)
     found, other, _, reasons = both(json.dumps(document))
     assert found == other == outcome, reasons
@@ -139,7 +143,7 @@ def test_both_refuse_a_number_out_of_form(number):
     ],
 )  # fmt: skip
 def test_both_agree_at_other_parameters(changes):
-    found, other, same, reasons = both(render(prove(replace(PAPER, **changes)).certificate))
+    found, other, same, reasons = both(render(fresh(replace(PAPER, **changes))))
     assert found == other == "accepted" and same, reasons
 
 
