@@ -41,7 +41,7 @@ class Facts:
         if not self.slopes[index] or not self.short(index):
             return None
         least, most, *ends = self.slopes[index]
-        if any(end[1] >= BELOW_TURN for end in ends):
+        if any(end[1] > BELOW_TURN for end in ends):
             return None
         return ends if least[0] > 0 else ends[::-1] if most[1] < 0 else None
 

@@ -9,6 +9,7 @@ import pytest
 
 from proofs.trusted.certificate import MAX_BYTES
 from tests.proofs.trusted import corpus
+from tests.proofs.trusted.renewing import renewed
 
 ROOT = Path(__file__).parents[3]
 REFUSED = ("numpy", "mpmath", "sympy", "flint", "gmpy2", "scipy", "matplotlib", "intervals")
@@ -65,9 +66,9 @@ def test_accepts_with_the_standard_library_alone(code):
     result = run(corpus.path_of("accepted/horseshoe"), code=code)
     assert result.stderr == ""
     assert result.returncode == 0
-    verdicts = {line.split()[0]: line.split()[1] for line in result.stdout.splitlines()[1:-1]}
-    assert verdicts == corpus.VERDICTS
-    assert result.stdout.splitlines()[-1].startswith("  corrected theorem, VERIFIED")
+    lines = [line.split() for line in result.stdout.splitlines()[1:]]
+    assert {line[0]: line[1] for line in lines if line[0] != "corrected,"} == corpus.VERDICTS
+    assert sum(line[0] == "corrected," for line in lines) == 2  # beside H2 and H5
 
 
 def test_the_refusal_works():
@@ -102,9 +103,8 @@ def test_an_undecided_claim_is_status_1(tmp_path):
     file = tmp_path / "undecided.json"
     document = corpus.accepted()
     corpus.only("H4")(document)
-    document["claims"][0].update(verdict="UNDECIDED", proof=[])
-    document["steps"] = {}
-    file.write_text(corpus.text_of(document))
+    document["claims"][0]["proof"], document["steps"] = [], {}
+    file.write_text(corpus.text_of(renewed(document)))
     result = run(file)
     assert result.returncode == 1
     assert "H4   UNDECIDED" in result.stdout

@@ -10,8 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from proofs.trusted.certificate import MAX_BYTES, MAX_WORK, Malformed, Reader
+from proofs.check import main
+from proofs.trusted.certificate import MAX_BYTES, Malformed, Reader
 from proofs.trusted.certificate import render as text_of
+from proofs.trusted.kernel.arithmetic import rational
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
+from proofs.trusted.verify import check
 from tests.proofs.trusted import corpus
 
 ROOT = Path(__file__).parents[3]
@@ -95,33 +99,43 @@ def test_hostile_files_end_soon(name, tmp_path):
         check=False,
     )
     assert done.returncode in (1, 2)
-    assert done.stderr.count("\n") == 1 and "$" in done.stderr
+    assert done.stderr.count("\n") == 1 and ("$" in done.stderr or "--work" in done.stderr)
     if sys.platform == "linux":
         kilobytes = int(done.stdout.split()[-1])
         assert kilobytes < 200 * 1024
 
 
-def test_work_is_charged_by_evaluations_and_bits():
-    place = Reader("x", "$.here")
-    place.charge(MAX_WORK, 64)
-    with pytest.raises(Malformed, match=r"^\$\.here: more work"):
-        place.charge(1, 64)
-    place = Reader(["x", "y"], "$")
-    for item in place.items():
-        item.charge(MAX_WORK // 2, 255)
-    with pytest.raises(Malformed):
-        place.charge(1, 64)
-    with pytest.raises(Malformed):
-        Reader("x").charge(MAX_WORK // 200, 4000)
+def test_work_is_counted_in_the_arithmetic_and_in_the_reader():
+    with metered(1000) as meter:
+        x = rational(Fraction(1, 3), 64)
+        before = meter.left
+        assert (x * x / x).bits == 64 and meter.left < before
+        small, before = before - meter.left, meter.left
+        y = rational(Fraction(1, 3), 6400)
+        assert (y * y / y).bits == 6400 and before - meter.left > 10 * small
+        before = meter.left
+        list(Reader({"a": ["1", "2"]}).mentioned())
+        assert meter.left <= before - 4
+        with pytest.raises(Exhausted, match="--work 2000"):
+            for _ in range(1000):
+                x.sincos()
 
 
-def test_the_main_job_is_far_from_the_limit(monkeypatch):
-    from proofs.trusted.verify import check
+def test_the_main_job_is_far_from_the_limit():
+    text = corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8")
+    assert check(text, DEFAULT // 50).claims
+    with pytest.raises(Exhausted):
+        check(text, 1000)
 
-    charged = []
-    monkeypatch.setattr(Reader, "charge", lambda self, n, bits: charged.append((n, bits)))
-    check(corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8"))
-    assert 100 < sum(n * (1 + (bits // 256) ** 2) for n, bits in charged) < MAX_WORK / 100
+
+def test_a_file_that_needs_more_work_is_status_1_and_says_how_much(capsys):
+    path = str(corpus.path_of("accepted/horseshoe"))
+    assert main(["--work", "5000", path]) == 1
+    assert "it needs more work, --work 10000" in capsys.readouterr().err
+    assert main(["--work", str(DEFAULT), path]) == 0
+    with pytest.raises(SystemExit) as leave:
+        main(["--work", "-1", path])
+    assert leave.value.code == 2
 
 
 @pytest.mark.skipif(not hasattr(os, "posix_spawn"), reason="needs processes")

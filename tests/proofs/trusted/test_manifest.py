@@ -8,9 +8,10 @@ import pytest
 from proofs.check import main as check
 from proofs.horseshoe import main
 from proofs.shell import manifest
-from proofs.shell.ledger import CLAIMS, FILES
+from proofs.shell.ledger import CLAIMS
 from proofs.trusted.certificate import MANIFEST, Malformed, digest
-from proofs.trusted.manifest import check_manifest
+from proofs.trusted.kernel.meter import DEFAULT
+from proofs.trusted.manifest import check_ledger, check_manifest
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted import corpus
 
@@ -21,7 +22,7 @@ ROOT = Path(__file__).parents[3]
 def folder(tmp_path):
     content = corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8")
     (tmp_path / "horseshoe.json").write_text(content, encoding="utf-8")
-    manifest.record(tmp_path, "horseshoe.json", content, "python -m proofs.horseshoe")
+    manifest.record(tmp_path, "horseshoe.json", content)
     return tmp_path
 
 
@@ -39,31 +40,65 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
     document = json.loads(path.read_text(encoding="utf-8"))
     assert document["schema"] == MANIFEST
     assert set(document["claims"]) == {"H1", "H16"}
-    entry = document["claims"]["H1"]
-    assert entry["made"].startswith("python -m proofs.horseshoe --only H1 H16")
+    entry = document["files"]["horseshoe.json"]
+    assert entry["made"] == "python -m proofs.horseshoe --only H1 H16"
     assert entry["digest"] == digest((tmp_path / "horseshoe.json").read_text(encoding="utf-8"))
-    provenance = document["files"]["horseshoe.json"]
-    assert {"impact-proofs", "commit", "python", "mpmath", "platform", "date"} <= set(provenance)
+    assert {"impact-proofs", "commit", "python", "mpmath", "platform"} <= set(entry["with"])
     capsys.readouterr()
     assert check([str(path)]) == 0
-    assert "2 claims in 1 files, all as listed" in capsys.readouterr().out
+    assert "2 claims at the paper's parameters: 2 VERIFIED" in capsys.readouterr().out
+
+
+def test_the_command_names_the_parameters(tmp_path, capsys):
+    words = ["--eta", "0.25", "--nu", "-0.3", "--only", "H16", "--out", str(tmp_path)]
+    assert main(words) == 0
+    path = tmp_path / manifest.NAME
+    made = json.loads(path.read_text(encoding="utf-8"))["files"]["horseshoe.json"]["made"]
+    assert made == "python -m proofs.horseshoe --eta 0.25 --nu -0.3 --only H16"
+    capsys.readouterr()
+    assert check([str(path)]) == 0
+    assert "1 claims, 1 of them at other parameters" in capsys.readouterr().out
+
+
+def test_an_undecided_claim_in_a_manifest_is_status_1(tmp_path, capsys):
+    words = ["--eta", "0.25", "--nu", "-0.3", "--only", "H5", "--out", str(tmp_path)]
+    assert main(words) == 1
+    capsys.readouterr()
+    assert check([str(tmp_path / manifest.NAME)]) == 1
 
 
 @pytest.mark.slow
-def test_the_committed_manifest_is_about_the_committed_files():
-    source = (ROOT / "reports" / manifest.NAME).read_text(encoding="utf-8")
-    assert f"{len(CLAIMS)} claims in {len(FILES)} files" in check_manifest(source, ROOT / "reports")
-    for entry in json.loads(source)["claims"].values():
-        assert entry["checked"] == "python -S -O -m proofs.check reports/" + entry["file"]
+@pytest.mark.parametrize("name", ["MANIFEST.json", "ledger.json"])
+def test_what_is_committed_is_about_the_committed_files(name):
+    source = (ROOT / "reports" / name).read_text(encoding="utf-8")
+    examine = check_manifest if name == manifest.NAME else check_ledger
+    listed = examine(source, ROOT / "reports", DEFAULT)
+    assert len(listed) == len(CLAIMS) and all(each.is_paper for each in listed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("field", ["statement", "verdict", "why", "witness", "corrected", "file"])
+def test_no_text_of_a_ledger_is_believed(tmp_path, field):
+    for path in (ROOT / "reports").glob("*.json"):
+        (tmp_path / path.name).write_text(path.read_text())
+    document = json.loads((ROOT / "reports/ledger.json").read_text())
+    entry = next(each for each in document["claims"] if each["id"] == "H5")
+    document["claims"] = [entry]
+    assert check_ledger(json.dumps(document), tmp_path, DEFAULT)
+    entry[field] = {"verdict": "VERIFIED", "file": "sets.json"}.get(field, f"{entry[field]} ")
+    with pytest.raises((Rejected, Malformed)):
+        check_ledger(json.dumps(document), tmp_path, DEFAULT)
+    with pytest.raises(Malformed, match="no claims"):
+        check_ledger(json.dumps({**document, "claims": []}), tmp_path, DEFAULT)
 
 
 def test_entries_about_other_files_stay(folder):
     content = corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8")
-    edited(folder, lambda d: d["claims"].update(X1={**d["claims"]["H1"], "file": "other.json"}))
-    manifest.record(folder, "horseshoe.json", content, "again")
+    other = corpus.path_of("accepted/h16_alone").read_text(encoding="utf-8")
+    manifest.record(folder, "other.json", other)
+    manifest.record(folder, "horseshoe.json", content)
     claims = json.loads((folder / manifest.NAME).read_text(encoding="utf-8"))["claims"]
-    assert claims["X1"]["file"] == "other.json"
-    assert claims["H1"]["made"] == "again"
+    assert claims["H1"]["file"] == "horseshoe.json" and len(claims) == 8
 
 
 @pytest.mark.parametrize(
@@ -73,19 +108,24 @@ def test_a_manifest_that_cannot_be_read_is_replaced(folder, text):
     path = folder / manifest.NAME
     path.write_text(text, encoding="utf-8")
     content = (folder / "horseshoe.json").read_text(encoding="utf-8")
-    manifest.record(folder, "horseshoe.json", content, "again")
+    manifest.record(folder, "horseshoe.json", content)
     assert len(json.loads(path.read_text(encoding="utf-8"))["claims"]) == 8
 
 
+FILE = "horseshoe.json"
 WRONG = {
-    "digest": (lambda d: d["claims"]["H2"].update(digest="sha256:" + "0" * 64), "has the digest"),
-    "verdict": (lambda d: d["claims"]["H2"].update(verdict="VERIFIED"), "does not prove this"),
-    "statement": (lambda d: d["claims"]["H2"].update(statement="f' <= 7."), "another statement"),
-    "claim": (lambda d: d["claims"].update(G1=d["claims"]["H1"]), "does not prove this"),
-    "missing file": (lambda d: d["files"].update({"none.json": {}}), "cannot be read"),
-    "file outside": (lambda d: d["files"].update({"../x.json": {}}), "same folder"),
-    "unlisted file": (lambda d: d["claims"]["H2"].update(file="x.json"), "names no file"),
-    "field": (lambda d: d["claims"]["H2"].pop("made"), "missing field"),
+    "digest": (lambda d: d["files"][FILE].update(digest="sha256:" + "0" * 64), "proves 'sha256"),
+    "parameters": (lambda d: d["files"][FILE]["parameters"].update(eta="1/5"), "file proves"),
+    "made": (lambda d: d["files"][FILE].update(made="python -m proofs.sets"), "the command is"),
+    "verdict": (lambda d: d["claims"]["H2"].update(verdict="VERIFIED"), "proves 'REFUTED'"),
+    "statement": (lambda d: d["claims"]["H2"].update(statement="f' <= 7."), "file proves"),
+    "claim": (lambda d: d["claims"].update(G1=d["claims"]["H1"]), "is about G1"),
+    "no claims": (lambda d: d.update(claims={}), "no claims"),
+    "missing file": (lambda d: d["files"].update({"none.json": d["files"][FILE]}), "be read"),
+    "file outside": (lambda d: d["files"].update({"../x.json": d["files"][FILE]}), "same folder"),
+    "NUL": (lambda d: d["files"].update({"x\0.json": d["files"][FILE]}), "same folder"),
+    "unlisted file": (lambda d: d["claims"]["H2"].update(file="x.json"), "no listed file"),
+    "field": (lambda d: d["claims"]["H2"].pop("file"), "missing field"),
     "extra": (lambda d: d["claims"]["H2"].update(extra=""), "unknown field"),
 }
 
@@ -95,7 +135,7 @@ def test_a_changed_manifest_is_refused(folder, name, capsys):
     edit, message = WRONG[name]
     path = edited(folder, edit)
     with pytest.raises((Rejected, Malformed), match=message):
-        check_manifest(path.read_text(encoding="utf-8"), folder)
+        check_manifest(path.read_text(encoding="utf-8"), folder, DEFAULT)
     assert check([str(path)]) in (1, 2)
     assert capsys.readouterr().err.count("\n") == 1
 
@@ -105,8 +145,8 @@ def test_a_changed_certificate_is_noticed(folder):
     document = json.loads(path.read_text(encoding="utf-8"))
     document["claims"] = document["claims"][::-1]
     path.write_text(json.dumps(document), encoding="utf-8")
-    with pytest.raises(Rejected, match="has the digest"):
-        check_manifest((folder / manifest.NAME).read_text(encoding="utf-8"), folder)
+    with pytest.raises(Rejected, match="proves 'sha256"):
+        check_manifest((folder / manifest.NAME).read_text(encoding="utf-8"), folder, DEFAULT)
 
 
 def test_the_digest_is_of_the_canonical_form():

@@ -13,9 +13,11 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.flights import RULES, FirstImpact, Motion, _meets, phase_after
+from proofs.trusted.flights import FirstImpact, Motion, _meets, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.rules import RULES, find_rule
 from tests.proofs.trusted.paper import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
@@ -25,7 +27,8 @@ IMPACT_115 = {"phases": ["23/20", "23/20"], "times": [*TO_25, "251/10", "126/5",
 
 
 def step(rule, witness, known=None, of=PAPER):
-    return RULES[rule](of, known if known is not None else {}, Reader(copy.deepcopy(witness)))
+    context = Context(of, known=dict(known or {}))
+    return find_rule(rule)(context, Reader(copy.deepcopy(witness)))
 
 
 def times(*values):
@@ -287,7 +290,7 @@ def test_point_needs_an_earlier_first_impact(known, name):
         "point",
         {"flight": name, "phase": "23/20", "time": bracket("1.15")},
         known,
-        "names no earlier first-impact",
+        "names no earlier step that is a FirstImpact",
         Malformed,
     )
 
@@ -403,7 +406,7 @@ def test_slope_range_refuses(known, change, reason):
 
 def test_slope_piece_at_a_grazing_phase_has_no_bounded_slope():
     """gap' vanishes somewhere on the bracket: the quotient is refused."""
-    wide = FirstImpact(near_115().motion, ((Fraction(25), Fraction(27)),), True)
+    wide = FirstImpact(PAPER.place, near_115().motion, ((Fraction(25), Fraction(27)),), True)
     witness = slope_witness()
     witness["pieces"][0]["time"] = times("25", "26")
     refused("slope-range", witness, {"impact": wide}, None, Unproved)
@@ -600,7 +603,7 @@ def test_an_undecided_sign_is_no_sign(known, shift):
 # -- the form of every witness ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("rule", sorted(RULES))
 @pytest.mark.parametrize("witness", [None, "1", [], {}, {"times": ["1"]}, {"phases": "1"}])
 def test_malformed_witnesses(rule, witness):
     refused(rule, witness, {}, r"^\$", Malformed)
