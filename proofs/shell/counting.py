@@ -233,8 +233,8 @@ def _made(counts: Counts, frame: FrameType, value: Any) -> None:
 
 def _checked(counts: Counts, frame: FrameType, value: Any) -> None:
     """Count the work charged to a file, also to one that is rejected."""
-    if "root" in frame.f_locals:
-        counts[Kind(WORK)] += frame.f_locals["root"]._spent[0]
+    if "meter" in frame.f_locals:
+        counts[Kind(WORK)] += round(frame.f_locals["meter"].spent)
 
 
 _RULES = {
@@ -264,6 +264,6 @@ _RULES = {
     "proofs.methods.derive.equal": _one(ALGEBRA),
     "proofs.methods.derive.begins": _one(ALGEBRA),
     "proofs.trusted.certificate.render": _made,
-    "proofs.trusted.verify.find_rule": _one(CHECKED),
+    "proofs.trusted.rules.find_rule": _one(CHECKED),
     "proofs.trusted.verify.check": _checked,
 }

@@ -62,7 +62,7 @@ def check(source: str, work: float = DEFAULT) -> Report:
     Raises Malformed where it is no certificate, Rejected where a step, a bound, a text or a verdict
     does not follow from the witnesses, Exhausted where that takes more work.
     """
-    with metered(work):
+    with metered(work) as meter:  # counted, if asked for, by `shell.counting`
         steps_of, claims_of = parse(source).fields(*FIELDS)[3:]
         context = premises(source)
         used: set[str] = set()

@@ -194,7 +194,10 @@ def test_tables(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (["--left", "1.11", "1.15"], "[1.11, 1.12] has no preimage in I0; it is one on I0 = [1.1,"),
+        (
+            ["--left", "1.11", "1.15"],
+            "[1.11, 1.12] has no preimage in [1.11, 1.15]; it is one on I0 = [1.1,",
+        ),
         (["--left", "1.1", "1.12"], "no horseshoe is proved"),
         pytest.param(
             ["--left", "1.1", "1.16", "--right", "1.161", "1.32"],
