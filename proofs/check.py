@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import sys
 from collections import Counter
 from pathlib import Path
@@ -11,7 +10,6 @@ from pathlib import Path
 from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, digest, read, schema_of
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
-from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, Report, check
 
@@ -43,7 +41,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     options = parser.parse_args(arguments)
     if options.rules:
-        print_rules()
+        from proofs.report.specification import specification
+
+        print(specification(), end="")
     elif not options.files:
         parser.error("no file to check")
     examine = check_counting if options.stats else check_file
@@ -106,12 +106,6 @@ def _counted(listed: list[Listed]) -> str:
     other = sum(not each.is_paper for each in listed)
     where = f", {other} of them at other parameters" if other else " at the paper's parameters"
     return f"{len(listed)} claims{where}: {named}"
-
-
-def print_rules() -> None:
-    """Print what each rule takes, what it checks and what it concludes."""
-    for name in RULES:
-        print(inspect.cleandoc(getattr(find_rule(name), "__doc__", None) or ""), end="\n\n")
 
 
 def print_report(name: str, report: Report, digest_of: str) -> None:

@@ -232,8 +232,8 @@ def _made(counts: Counts, frame: FrameType, value: Any) -> None:
 
 
 def _checked(counts: Counts, frame: FrameType, value: Any) -> None:
-    """Count the work charged to a file, also to one that is rejected."""
-    if "meter" in frame.f_locals:
+    """Count the work charged to a file, also to one that is rejected, when its meter ends."""
+    if value is None and "meter" in frame.f_locals:
         counts[Kind(WORK)] += round(frame.f_locals["meter"].spent)
 
 
@@ -265,5 +265,5 @@ _RULES = {
     "proofs.methods.derive.begins": _one(ALGEBRA),
     "proofs.trusted.certificate.render": _made,
     "proofs.trusted.rules.find_rule": _one(CHECKED),
-    "proofs.trusted.verify.check": _checked,
+    "proofs.trusted.kernel.meter.metered": _checked,
 }

@@ -1,8 +1,18 @@
-"""The certificate: its numbers, its JSON, and a reader that takes nothing on faith.
+"""The form of a certificate, and a reader that takes nothing on faith.
 
-A certificate is a JSON object of strings, lists and objects; every number is a string, in
-lowest terms ("111/100", "-7"), bounds of quantities are decimals. This file knows the form, not
-what it means: `proofs.check` does.
+- A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (null
+  in a file about formulas alone), `functions` (name to {`variables`, `values`}), `steps` (name to
+  {`rule`, `witness`}, in the order of the proof) and `claims` (a list, not empty).
+- Every number is a string, a rational in lowest terms such as "111/100" or "-7", of at most 3000
+  characters, 400 in `parameters`; bounds of quantities are plain decimals. Bare JSON numbers are
+  refused. A range is a list of two numbers in increasing order, equal ones allowed.
+- Objects have exactly the fields that are named; one that is there twice, unknown or missing is
+  refused. Names match [A-Za-z][A-Za-z0-9_-]{0,59}; a step is not named like a rule or a function.
+- A step refers to earlier steps by name; each step and function is used, by a claim or by a step
+  that is. At most 4,000,000 bytes and 10,000 entries a list.
+- The digest is the SHA-256 of the JSON with sorted keys, without white space, in ASCII.
+
+What breaks this form, or that of a witness, is malformed; whatever else fails is no proof.
 """
 
 from __future__ import annotations

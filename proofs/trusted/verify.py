@@ -1,4 +1,12 @@
-"""From a certificate's text to verdicts: every step re-derived, every field accounted for."""
+"""From a certificate's text to verdicts: every step re-derived, every field accounted for.
+
+Each step is proved by the rule that it names, from its witness and the conclusions of the steps
+that it names. A claim is {`id`, `statement`, `verdict`, `proof`: names of steps, `why`, `witness`,
+`corrected`, `quantities`: name to {`lower`, `upper`}}. The row of that id says what the conclusions
+of its proof make of it, at these parameters; verdict and texts must be what the row gives, and each
+bound of a quantity must contain the enclosure that is proved. In a file without parameters a claim
+is the name of a step, whose conclusion is printed as a sentence.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +70,7 @@ def check(source: str, work: float = DEFAULT) -> Report:
     Raises Malformed where it is no certificate, Rejected where a step, a bound, a text or a verdict
     does not follow from the witnesses, Exhausted where that takes more work.
     """
-    with metered(work) as meter:  # counted, if asked for, by `shell.counting`
+    with metered(work):
         steps_of, claims_of = parse(source).fields(*FIELDS)[3:]
         context = premises(source)
         used: set[str] = set()
