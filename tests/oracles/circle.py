@@ -96,8 +96,6 @@ def impacts_before_rest(eta, nu, phase, most):
         if sticks(eta, nu, phase):
             return n
         found = next_impact(eta, nu, Fraction(phase))
-        if found == "none":
-            return most + 1
         if not isinstance(found, Impact):
             return None
         phase = found.phase

@@ -116,7 +116,9 @@ def series(view, rng):
     """function - sum of the terms is O(x^n) as x -> 0, from both sides."""
     n, name = len(view.coefficients), view.variable
     with flint.ctx.workprec(_DEEP):
-        names = compiled(view.function)[1].union(*(compiled(c)[1] for c in view.coefficients))
+        names = frozenset().union(
+            *(compiled(c)[1] for c in (view.function, *view.coefficients, *view.nonzero))
+        )
         for sign in (1, -1):
             for _ in range(6):
                 env = {**random_env(names, rng), name: sign * flint.arb(2) ** -90}

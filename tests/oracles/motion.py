@@ -18,9 +18,9 @@ import flint
 import numpy as np
 
 PRECISION = 240
-LATEST = 400.0  # the longest flight that is followed, unless more is asked for
+LATEST = 2000.0  # the longest flight that is followed, unless more is asked for
 TURN = 2 * math.pi
-_BLOCK = np.arange(0, TURN, TURN / 32)
+_SHORT, _STEP = 60.0, TURN / 32  # after so long a time, a scan with this step comes first
 
 
 def ball(x):
@@ -116,31 +116,45 @@ def _leaves(gap, released):
     return min(1.0, math.sqrt(6 * bend / fourth) if third >= 0 else bend / (-third + fourth))
 
 
-def _next_suspect(gap, t, latest):
-    """The first time from t on that a coarse scan does not exclude: for long flights."""
-    limit = (abs(float(gap.height)) + abs(float(gap.speed))) * float(gap.eta) ** 2
-    limit = (limit + abs(float(gap.nu))) * (TURN / 32) ** 2 / 8 + 1e-8
-    eta, height, speed = float(gap.eta), float(gap.height), float(gap.speed)
-    table = 1 + float(gap.nu) * np.sin(float(gap.phi) + t + _BLOCK)
-    turns = int((latest - t) / TURN) + 2
-    for first in range(0, turns, 500):
-        times = t + TURN * np.arange(first, min(turns, first + 500))[:, None] + _BLOCK[None, :]
-        x = height * np.cos(eta * times) + speed * np.sin(eta * times)
-        low = np.nonzero((gap.side * (x - table) <= limit).ravel())[0]
-        if len(low):
-            return max(t, float(times.ravel()[low[0]]) - TURN / 32)
-    return latest
+def _suspects(gap, t, latest):
+    """The times from t on, on a grid, that a coarse scan does not exclude: for long flights.
+
+    Below the table's extreme at nu < 0 (above it at nu > 0) there is no impact: so the scan
+    visits, of each oscillation R cos(eta t - delta) of the mass, only the times when it gets there.
+    """
+    eta, nu, side = float(gap.eta), float(gap.nu), gap.side
+    height, speed = float(gap.height), float(gap.speed)
+    size = math.hypot(height, speed)
+    limit = (size * eta**2 + abs(nu)) * _STEP**2 / 8 + 1e-8
+    middle = math.atan2(speed, height) + (math.pi if side > 0 else 0)  # of the times near the table
+    ratio = (-1 - nu if side > 0 else 1 + nu) / size - 1e-9
+    if ratio >= 1:
+        return
+    reach = math.acos(max(-1.0, ratio)) / eta + _STEP
+    offsets = np.arange(-reach, reach + _STEP, _STEP)
+    first = math.floor((eta * (t - reach - _STEP) - middle) / TURN)
+    last = math.ceil((eta * (latest + reach) - middle) / TURN) + 1
+    rows = max(1, 20_000 // len(offsets))
+    for begin in range(first, last, rows):
+        peaks = (middle + TURN * np.arange(begin, min(last, begin + rows))) / eta
+        times = (peaks[:, None] + offsets[None, :]).ravel()
+        mass = height * np.cos(eta * times) + speed * np.sin(eta * times)
+        near = side * (mass - 1 - nu * np.sin(float(gap.phi) + times)) <= limit
+        yield from np.sort(times[near & (times >= t - 3 * _STEP)]).tolist()
 
 
 def _march(gap, t, latest):
     """A bracket (t, t') of the first zero, gap falling in it; "none" up to latest; or None."""
     margin, third = gap.kind.margin, gap.third
-    make, jumped = gap.kind.make, -1.0
+    make, suspects, suspect = gap.kind.make, None, 0.0
     for _ in range(20_000):
+        if t > _SHORT:
+            suspects = suspects or _suspects(gap, t, latest)
+            while suspect < t - 3 * _STEP:
+                suspect = next(suspects, 2 * latest)
+            t = max(t, suspect - 3 * _STEP)
         if t > latest:
             return "none"
-        if t > jumped + 60 and t > 60:
-            t = jumped = _next_suspect(gap, t, latest)
         value, slope, bend = map(float, gap.at(make(t)))
         if value <= margin:
             return None
@@ -284,8 +298,8 @@ def _next(eta, nu, phi, latest):
 
 def next_impact(eta, nu, phi, latest=LATEST):
     """f of section 2: the next impact, after the separation where the mass sticks; or a word."""
-    return _next(Fraction(eta), Fraction(nu), phi if isinstance(phi, flint.arb) else Fraction(phi),
-                 float(latest))
+    find = _next.__wrapped__ if isinstance(phi, flint.arb) else _next
+    return find(eta, nu, phi, float(latest))
 
 
 def orbit(eta, nu, phi, count, latest=LATEST):
