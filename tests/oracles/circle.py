@@ -55,8 +55,8 @@ def separation_arc(view, rng):
             told.append(f"the flight ends at {found.phase:.15g}")
         if view.returns and not sticks(view.eta, view.nu, found.phase):
             told.append("the flight does not end in the sticking arc")
-    elif found == "none":
-        told.append("the flight from phi_s has no impact")
+    elif found is not None:
+        told.append(f"the flight from phi_s: {found}")
     return told
 
 
@@ -67,8 +67,8 @@ def lands(view, rng):
         if sticks(view.eta, view.nu, phase):
             continue
         found = flight(view.eta, view.nu, phase)
-        if found == "none":
-            told.append(f"the launch at {float(phase):.9g} has no impact")
+        if isinstance(found, str):
+            told.append(f"the launch at {float(phase):.9g}: {found}")
         if isinstance(found, Impact) and not sticks(view.eta, view.nu, found.phase):
             told.append(f"the launch at {float(phase):.9g} lands at {found.phase:.9g}")
     return told
@@ -96,6 +96,8 @@ def impacts_before_rest(eta, nu, phase, most):
         if sticks(eta, nu, phase):
             return n
         found = next_impact(eta, nu, Fraction(phase))
+        if found == "touches":
+            return most + 1
         if not isinstance(found, Impact):
             return None
         phase = found.phase

@@ -237,7 +237,14 @@ class Impact:
 
 
 def flight(eta, nu, phi, epsilon=0, gamma=0, latest=LATEST, released=False):
-    """The first impact after a launch; "sticks", "none" (up to latest), or None: undecided."""
+    """The first impact after a launch; or "sticks", "none" (up to latest), "touches"; or None.
+
+    After a plastic impact mass and table are, if eta = p/q, after q turns where they were, and as
+    fast: where there is no impact before, the mass touches the table then. None: undecided.
+    """
+    back = TURN * Fraction(eta).denominator if epsilon == 0 else math.inf
+    last = "touches" if back < latest else "none"
+    latest = min(float(latest), back - 1e-3)
     with flint.ctx.workprec(PRECISION):
         found = None
         for kind in (_Floats, _Balls):
@@ -256,7 +263,7 @@ def flight(eta, nu, phi, epsilon=0, gamma=0, latest=LATEST, released=False):
             if found is not None:
                 break
         if found is None or found == "none":
-            return found
+            return found and last
         exact = gap if kind is _Balls else Gap(_Balls, eta, nu, phi, epsilon, gamma)
         time = _refined(exact, found)
         return None if time is None else Impact(exact, epsilon, time)
