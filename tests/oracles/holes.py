@@ -18,6 +18,7 @@ class Hole(NamedTuple):
 
     name: str
     claims: tuple[str, ...]
+    false: str  # the verdict, which is false, or rests on a falsehood
     make: Callable[[], dict[str, Any]]  # {"parameters", "steps", "proofs": {claim: [names]}}
     told: str  # part of the complaint that is expected of the oracles
 
@@ -128,26 +129,26 @@ def one_phase():
 
 
 HOLES = (
-    Hole("swapped pieces of a staying set", ("G5",), swapped_pieces, "order"),
+    Hole("swapped pieces of a staying set", ("G5",), "REFUTED", swapped_pieces, "order"),
     Hole(
         "an image that straddles 2 pi, G6",
-        ("G6",),
+        ("G6",), "VERIFIED",
         lambda: _straddling(proved("circle", "5/22", "-0.95"), ("1.228", "1.236")),
         "fixed point",
     ),
     Hole(
         "an image that straddles 2 pi, G4",
-        ("G4",),
+        ("G4",), "REFUTED",
         lambda: _straddling(proved("circle", "1/6", "-0.45"), ("1.246", "1.25")),
         "fixed point",
     ),
-    Hole("equal ratios", ("H15",), equal_ratios, "as printed it is True"),
-    Hole("no linear set, H14", ("H14",), no_linear_set, "linear Cantor set"),
-    Hole("no linear set, H13", ("H13",), no_linear_dimension, "linear Cantor set"),
-    Hole("one phase that never impacts", ("M6", "G4"), one_phase, "no interval"),
+    Hole("equal ratios", ("H15",), "REFUTED", equal_ratios, "as printed it is True"),
+    Hole("no linear set, H14", ("H14",), "REFUTED", no_linear_set, "linear Cantor set"),
+    Hole("no linear set, H13", ("H13",), "REFUTED", no_linear_dimension, "linear Cantor set"),
+    Hole("one phase that never impacts", ("G4",), "REFUTED", one_phase, "no interval"),
     Hole(
         "another orbit than the one printed",
-        ("G3",),
+        ("G3",), "VERIFIED",
         lambda: proved("circle", "1/6", "-0.45"),
         "there is not the orbit",
     ),
