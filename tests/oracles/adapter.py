@@ -86,7 +86,9 @@ def plain(value):
         if hasattr(value, low) and hasattr(value, high):
             return plain(getattr(value, low)), plain(getattr(value, high))
     if is_dataclass(value):
-        record = {f.name: plain(getattr(value, f.name)) for f in fields(value) if f.name not in _BLIND}
+        record = {
+            f.name: plain(getattr(value, f.name)) for f in fields(value) if f.name not in _BLIND
+        }
         return SimpleNamespace(kind=CLASSES.get(name_of(value), (None,))[0], **record)
     raise TypeError(f"nothing is known about {type(value).__name__}")
 

@@ -50,7 +50,11 @@ def _straddling(made, phases):
     last = max(ends_of) + Fraction(1, 50)
     thin = Fraction(1, 10**7)
     points = [
-        {"flight": "wide", "phase": str(ends[0]), "time": _texts(ends_of[0] - thin, ends_of[0] + thin)},
+        {
+            "flight": "wide",
+            "phase": str(ends[0]),
+            "time": _texts(ends_of[0] - thin, ends_of[0] + thin),
+        },
         {"flight": "wide", "phase": str(ends[1]), "time": _texts(early, ends_of[1] + thin)},
     ]
     made["steps"]["wide"] = {
@@ -132,13 +136,15 @@ HOLES = (
     Hole("swapped pieces of a staying set", ("G5",), "REFUTED", swapped_pieces, "order"),
     Hole(
         "an image that straddles 2 pi, G6",
-        ("G6",), "VERIFIED",
+        ("G6",),
+        "VERIFIED",
         lambda: _straddling(proved("circle", "5/22", "-0.95"), ("1.228", "1.236")),
         "fixed point",
     ),
     Hole(
         "an image that straddles 2 pi, G4",
-        ("G4",), "REFUTED",
+        ("G4",),
+        "REFUTED",
         lambda: _straddling(proved("circle", "1/6", "-0.45"), ("1.246", "1.25")),
         "fixed point",
     ),
@@ -148,9 +154,9 @@ HOLES = (
     Hole("one phase that never impacts", ("G4",), "REFUTED", one_phase, "no interval"),
     Hole(
         "another orbit than the one printed",
-        ("G3",), "VERIFIED",
+        ("G3",),
+        "VERIFIED",
         lambda: proved("circle", "1/6", "-0.45"),
         "there is not the orbit",
     ),
 )
-

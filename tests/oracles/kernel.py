@@ -70,7 +70,9 @@ def refuted(view, rng):
         return ["the witness is not in the box"]
     with flint.ctx.workprec(BITS):
         q = quantity(view.statement.quantity, [exact(x) for x in view.point])
-        return [] if _wrong(view.statement.kind, view.statement, q) else [f"{q.str(9)} is no witness"]
+        return (
+            [] if _wrong(view.statement.kind, view.statement, q) else [f"{q.str(9)} is no witness"]
+        )
 
 
 def _told(point):
@@ -118,7 +120,9 @@ def zeros_in(formula, box, rng):
             zero = newton(_plain(formula), start)
             if zero is None:
                 continue
-            inside = all(float(a) + 1e-9 < x < float(b) - 1e-9 for x, (a, b) in zip(zero, box, strict=True))
+            inside = all(
+                float(a) + 1e-9 < x < float(b) - 1e-9 for x, (a, b) in zip(zero, box, strict=True)
+            )
             if inside and all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
                 found.append(zero)
     return found
@@ -177,15 +181,20 @@ def identity(view, rng):
 def h_set(view, rng):
     """The matrix is regular, and its inverse is the one given."""
     n, total = len(view.centre), view.matrix
-    unit = [[sum(total[i][k] * view.inverse[k][j] for k in range(n)) for j in range(n)] for i in range(n)]
+    unit = [
+        [sum(total[i][k] * view.inverse[k][j] for k in range(n)) for j in range(n)]
+        for i in range(n)
+    ]
     return [] if unit == [[int(i == j) for j in range(n)] for i in range(n)] else ["no inverse"]
 
 
 def _local(cover, q, derivative=False):
     """f(q) = B^-1 (F^k(c + A q) - d) in Arb numbers; with the derivative, in floats."""
     local, n = cover.local, len(q)
-    point = [exact(c) + sum((exact(a) * x for a, x in zip(row, q, strict=True)), flint.arb(0))
-             for c, row in zip(local.source.centre, local.source.matrix, strict=True)]
+    point = [
+        exact(c) + sum((exact(a) * x for a, x in zip(row, q, strict=True)), flint.arb(0))
+        for c, row in zip(local.source.centre, local.source.matrix, strict=True)
+    ]
     product_ = np.array(local.source.matrix, float)
     for _ in range(local.power):
         if derivative:
@@ -193,8 +202,10 @@ def _local(cover, q, derivative=False):
             product_ = np.array([[float(x) for x in column] for column in columns]).T @ product_
         point = [x.mid() for x in values(cover.formula, point)]
     moved = [x - exact(d) for x, d in zip(point, local.target.centre, strict=True)]
-    image = [sum((exact(a) * x for a, x in zip(row, moved, strict=True)), flint.arb(0))
-             for row in local.target.inverse]
+    image = [
+        sum((exact(a) * x for a, x in zip(row, moved, strict=True)), flint.arb(0))
+        for row in local.target.inverse
+    ]
     return (image, np.array(local.target.inverse, float) @ product_) if derivative else image
 
 
@@ -278,7 +289,9 @@ def conjugacy(view, rng):
 def _closed(edges, rng, most=2):
     """Some closed paths of up to three arrows."""
     paths = [(e,) for e in edges if e[0] == e[1]]
-    paths += [(e, f) for e, f in product(edges, repeat=2) if e[1] == f[0] and f[1] == e[0] and e < f]
+    paths += [
+        (e, f) for e, f in product(edges, repeat=2) if e[1] == f[0] and f[1] == e[0] and e < f
+    ]
     return rng.sample(paths, min(most, len(paths)))
 
 

@@ -192,8 +192,10 @@ def _refined(gap, bracket):
         elif abs(step) < flint.arb(2) ** (20 - PRECISION):
             break
     width = flint.arb(2) ** (30 - PRECISION) * (1 + abs(1 / slope))
-    if gap.at(t - width)[0] > 0 > gap.at(t + width)[0]:
-        return t + flint.arb(0, width)
+    while width < 1e-9:  # wider, where the launch itself is not known so well
+        if gap.at(t - width)[0] > 0 > gap.at(t + width)[0]:
+            return t + flint.arb(0, width)
+        width *= 1024
     return None
 
 

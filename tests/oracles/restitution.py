@@ -13,8 +13,13 @@ CONE = 2  # unstable vectors have |dgamma| <= CONE |dphi|
 def _states(box, phases, velocities, rng, count=5):
     """(eta, nu, epsilon, phi, gamma): two opposite corners and random places."""
     for k in range(count):
-        shares = [Fraction(k) if k < 2 else Fraction(rng.choice((0, 1, rng.random()))) for _ in range(5)]
-        yield [between(side, share) for side, share in zip((*box, phases, velocities), shares, strict=True)]
+        shares = [
+            Fraction(k) if k < 2 else Fraction(rng.choice((0, 1, rng.random()))) for _ in range(5)
+        ]
+        yield [
+            between(side, share)
+            for side, share in zip((*box, phases, velocities), shares, strict=True)
+        ]
 
 
 def _image(view, state):

@@ -81,7 +81,9 @@ def repeller(view, rng):
         images.append(y)
         rates.append(rate)
         if np.any(1 / rate < float(slopes[0]) - 1e-7) or np.any(1 / rate > float(slopes[1]) + 1e-7):
-            told.append(f"slopes along {word} reach from {min(1 / rate):.9g} to {max(1 / rate):.9g}")
+            told.append(
+                f"slopes along {word} reach from {min(1 / rate):.9g} to {max(1 / rate):.9g}"
+            )
     spans = sorted((min(y), max(y)) for y in images)
     if spans[0][0] < low - 1e-9 or spans[-1][1] > high + 1e-9:
         told.append("the inverse branches leave the hull")
@@ -102,7 +104,9 @@ def _interpolated(view, domain):
         return None
     values = np.array(values)
     turns = np.round((np.median(values) - float(sum(view.hull)) / 2) / TURN)
-    fit = chebyshev.Chebyshev.fit([float(x) for x in places], values - TURN * turns, _DEGREE - 1, [low, high])
+    fit = chebyshev.Chebyshev.fit(
+        [float(x) for x in places], values - TURN * turns, _DEGREE - 1, [low, high]
+    )
     return fit, (low, high)
 
 
@@ -121,7 +125,10 @@ def _inverse(branch, targets):
 
 def _dimension(images, rates, nodes, hull):
     scale = chebyshev.chebvander(2 * (nodes - hull[0]) / (hull[1] - hull[0]) - 1, _DEGREE - 1)
-    basis = [chebyshev.chebvander(2 * (y - hull[0]) / (hull[1] - hull[0]) - 1, _DEGREE - 1) for y in images]
+    basis = [
+        chebyshev.chebvander(2 * (y - hull[0]) / (hull[1] - hull[0]) - 1, _DEGREE - 1)
+        for y in images
+    ]
     inverse = np.linalg.inv(scale)
 
     def eigenvalue(s):

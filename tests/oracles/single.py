@@ -50,7 +50,10 @@ def solution(view, rng):
         here = [x for x in here if inside(x, view.phase)]
         if len(here) != 1:
             return [f"{len(here)} solutions of (16) in the bracket"]
-        slope, push = slope18(view.eta, view.nu, view.n, here[0]), _acceleration(view.eta, view.nu, here[0])
+        slope, push = (
+            slope18(view.eta, view.nu, view.n, here[0]),
+            _acceleration(view.eta, view.nu, here[0]),
+        )
         told = [] if inside(slope, view.multiplier) else [f"the slope is {slope.str(12)}"]
         if not inside(push, view.acceleration):
             told.append(f"the launch acceleration is {push.str(12)}")
@@ -68,7 +71,11 @@ def orbit(view, rng):
     here = [x for x in both if inside_mod(x, view.phase)]
     if len(here) != 1:
         return [f"{len(here)} solutions of (16) in the bracket"]
-    return [] if is_orbit(view.eta, view.nu, view.n, here[0]) is not False else ["another impact is the first"]
+    return (
+        []
+        if is_orbit(view.eta, view.nu, view.n, here[0]) is not False
+        else ["another impact is the first"]
+    )
 
 
 def is_orbit(eta, nu, n, phi):
@@ -111,13 +118,26 @@ def eta_windows(view, rng):
         tried = [view.low + (Fraction(1, 2 * n) - view.low) * share for share in _shares(rng)]
         for inner, outer in ((flip[1], flip[0]), (stick[0], stick[1])):
             width = max(outer - inner, inner - outer, Fraction(1, 10**12))
-            tried += [outer + (outer - inner), inner + (inner - outer), outer - width, outer + width]
-        if n <= count:
+            tried += [
+                outer + (outer - inner),
+                inner + (inner - outer),
+                outer - width,
+                outer + width,
+            ]
+        if n > count:
+            tried += [
+                view.low + (Fraction(1, 2 * n) - view.low) * Fraction(k, 64) for k in range(1, 64)
+            ]
+        else:
             tried += [flip[1] + (stick[0] - flip[1]) * share for share in _shares(rng)]
         for eta in tried:
             if eta < view.low or any(low <= eta <= high for low, high in (flip, stick)):
                 continue
-            told += _window(stable(eta, view.nu, n), n <= count and flip[1] < eta < stick[0], f"eta = {float(eta):.12g}, n = {n}")
+            told += _window(
+                stable(eta, view.nu, n),
+                n <= count and flip[1] < eta < stick[0],
+                f"eta = {float(eta):.12g}, n = {n}",
+            )
     return told
 
 
@@ -133,7 +153,10 @@ def nu_windows(view, rng):
         most = int(1 / view.eta) + 1
         for n in {1, most, rng.randint(1, most), *list(known)[:3], *view.early[:1]}:
             first, last = known.get(n, ((Fraction(1),) * 2, (Fraction(1),) * 2))
-            tried = list(_shares(rng))
+            tried = [
+                *_shares(rng),
+                *(Fraction(k, 24) for k in range(1, 24 if n not in known else 1)),
+            ]
             for low, high in (first, last):
                 tried += [low - (high - low), high + (high - low)]
             if n in known:
@@ -141,7 +164,9 @@ def nu_windows(view, rng):
             for size in tried:
                 if 0 < size < 1 and not any(low <= size <= high for low, high in (first, last)):
                     own = stable(view.eta, sign * size, n)
-                    told += _window(own, first[1] < size < last[0], f"nu = {float(sign * size):.12g}, n = {n}")
+                    told += _window(
+                        own, first[1] < size < last[0], f"nu = {float(sign * size):.12g}, n = {n}"
+                    )
     return told
 
 
@@ -149,7 +174,7 @@ def contracting_but_none(eta, nu, periods):
     """Whether some solution with |slope| < 1 is no orbit."""
     for n in periods:
         for phi in solutions(eta, nu, n) or ():
-            if abs(float(slope18(eta, nu, n, phi))) < 0.999 and is_orbit(eta, nu, n, phi) is False:
+            if abs(slope18(eta, nu, n, phi)) < 1 and is_orbit(eta, nu, n, phi) is False:
                 return True
     return False
 

@@ -26,7 +26,9 @@ def committed(name):
 
 def certificates():
     """The names of the committed certificates."""
-    documents = ((path.stem, json.loads(path.read_text())) for path in sorted(REPORTS.glob("*.json")))
+    documents = (
+        (path.stem, json.loads(path.read_text())) for path in sorted(REPORTS.glob("*.json"))
+    )
     return [name for name, document in documents if "steps" in document]
 
 
@@ -71,13 +73,14 @@ def reported(name):
         yield report.parameters, own.id, own.verdict.value, [text for text in texts if text]
 
 
-def joined(of, known):
+def joined(made):
     """Conclusions that claims draw from others: crossed rectangles, stable pairs."""
     from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, horseshoes
     from proofs.trusted.paper.s34_circle.persistence import stable_pair
 
+    of, known = conclusions(made)
     found = list(known.values())
-    pair = stable_pair(of, found)
+    pair = stable_pair(of, [known[name] for name in made["proofs"].get("G7", ())])
     return [*list(horseshoes(of, found, FULL))[:2], *([pair] if pair else [])]
 
 
@@ -100,7 +103,7 @@ def lemmas():
 OTHERS = set(
     "Parameters Motion Checked Report Decision Claim Statement Derivation Asked Marching Cell "
     "Absorbed Subshift Meetings Inequality Quantity Formula LocalMap LemmaReport Enclosure Dual "
-    "Quotient ManifestReport".split()
+    "Quotient ManifestReport Components".split()
 )
 
 

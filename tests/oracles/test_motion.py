@@ -32,7 +32,9 @@ def test_first_impacts_are_those_of_a_dense_simulation(seed):
     eta, nu = Fraction(rng.randint(50, 2500), 1000), Fraction(rng.randint(-950, 950) or 1, 1000)
     phi = Fraction(rng.randint(0, 6283), 1000)
     epsilon = Fraction(rng.choice((0, 0, 100, 500, 900)), 1000)
-    gamma = -nu / eta * Fraction(math.cos(phi)) + Fraction(rng.randint(1, 500), 1000) / (1 if nu > 0 else -1)
+    gamma = -nu / eta * Fraction(math.cos(phi)) + Fraction(rng.randint(1, 500), 1000) / (
+        1 if nu > 0 else -1
+    )
     found = flight(eta, nu, phi, epsilon, gamma, latest=70)
     if found == "sticks":
         assert epsilon == 0
@@ -62,7 +64,10 @@ def test_derivatives_are_difference_quotients():
     for place in (2, 4):
         moved = flight(*(x + step * (i == place) for i, x in enumerate(state)))
         with flint.ctx.workprec(200):
-            by = [(moved.lifted - one.lifted) / ball(step), (moved.velocity - one.velocity) / ball(step)]
+            by = [
+                (moved.lifted - one.lifted) / ball(step),
+                (moved.velocity - one.velocity) / ball(step),
+            ]
         column = [row[(place - 2) // 2] for row in one.derivative()]
         assert all(abs(float(x - y)) < 1e-8 for x, y in zip(by, column, strict=True))
 
