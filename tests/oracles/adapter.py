@@ -12,7 +12,10 @@ from types import SimpleNamespace
 
 # class: (kind, fields; "own=path" where the class has another name for it)
 CLASSES = {
-    "FirstImpact": ("first_impact", "eta=motion.eta nu=motion.nu phases=motion.phases windows transversal"),
+    "FirstImpact": (
+        "first_impact",
+        "eta=motion.eta nu=motion.nu phases=motion.phases windows transversal",
+    ),
     "PointFact": ("point", "phase slope image"),
     "SlopeRange": ("slope_range", "points slopes images pieces"),
     "Avoids": ("avoids", "phases target"),

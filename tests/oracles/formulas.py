@@ -31,10 +31,9 @@ def _built(node):
     match node:
         case ast.Constant(value=value):
             return (lambda env, own=Fraction(str(value)): exact(own)), frozenset()
-        case ast.Name(id="pi"):
-            return (lambda env: flint.arb.pi()), frozenset()
         case ast.Name(id=name):
-            return operator.itemgetter(name), frozenset({name})
+            known = (lambda env: flint.arb.pi()) if name == "pi" else operator.itemgetter(name)
+            return known, frozenset({name} - {"pi"})
         case ast.UnaryOp(op=ast.USub(), operand=inner):
             value, free = _built(inner)
             return (lambda env: -value(env)), free
@@ -44,24 +43,26 @@ def _built(node):
         case ast.BinOp(left=left, op=op, right=right):
             (a, free), (b, more), act = _built(left), _built(right), _OPERATIONS[type(op)]
             return (lambda env: act(a(env), b(env))), free | more
-        case ast.Call(func=ast.Name(id="D"), args=[inner, *names]):
-            value, free = _built(inner)
-            for name in names:
-                value = _derivative(value, name.id)
-            return value, free
-        case ast.Call(func=ast.Name(id="at"), args=[inner], keywords=places):
-            value, free = _built(inner)
-            others = {one.arg: _built(one.value) for one in places}
-
-            def substituted(env):
-                return value({**env, **{name: other(env) for name, (other, _) in others.items()}})
-
-            used = (names for name, (_, names) in others.items())
-            return substituted, (free - set(others)).union(*used)
-        case ast.Call(func=ast.Name(id=name), args=[inner]):
-            value, free = _built(inner)
-            return (lambda env: getattr(value(env), name)()), free
+        case ast.Call(func=ast.Name(id=name), args=[inner, *others], keywords=places):
+            return _called(name, inner, others, places)
     raise ValueError(f"no formula: {ast.dump(node)[:80]}")
+
+
+def _called(name, inner, others, places):
+    value, free = _built(inner)
+    if name == "D":
+        for other in others:
+            value = _derivative(value, other.id)
+        return value, free
+    if name == "at":
+        moved = {one.arg: _built(one.value) for one in places}
+        used = (names for _, names in moved.values())
+
+        def substituted(env):
+            return value({**env, **{key: other(env) for key, (other, _) in moved.items()}})
+
+        return substituted, (free - set(moved)).union(*used)
+    return (lambda env: getattr(value(env), name)()), free
 
 
 def _derivative(value, name):

@@ -1,4 +1,4 @@
-"""The holes that a hostile audit found (issue 13): documents that must not be accepted as they were.
+"""The holes that a hostile audit found (issue 13): documents that must not be accepted as then.
 
 Each is made from what the project's own provers find, at the parameters named, by an edit of the
 witnesses. The texts are left out: a test that puts a hole back renews them with the checker's own

@@ -1,12 +1,12 @@
 """Judges of the generic kernel's conclusions, from the texts of the formulas alone."""
 
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 import flint
 import numpy as np
 
-from tests.oracles.formulas import BITS, STEP, compiled, exact
+from tests.oracles.formulas import BITS, STEP, compiled, differ, exact
 
 
 def values(formula, point):
@@ -144,7 +144,7 @@ def _changes(of, interval):
     with flint.ctx.workprec(BITS):
         signs = [quantity(of, [exact(low + (high - low) * k / 60)]) for k in range(61)]
     signs = [x > 0 for x in signs if x > 0 or x < 0]
-    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+    return sum(a != b for a, b in pairwise(signs))
 
 
 def zero(view, rng):
@@ -169,9 +169,9 @@ def identity(view, rng):
             point = [exact(Fraction(rng.randint(300, 2500), 997)) for _ in view.formula.variables]
             left = partial(view.formula, point, *view.derivative)[view.left]
             right = values(view.formula, point)[view.right]
-            if left.is_finite() and right.is_finite():
-                if abs(left - right) > exact(Fraction(1, 10**25)) * (1 + abs(left) + abs(right)):
-                    return [f"the sides differ at {_told(point)}"]
+            known = left.is_finite() and right.is_finite()
+            if known and differ(left, right):
+                return [f"the sides differ at {_told(point)}"]
     return []
 
 
@@ -213,8 +213,9 @@ def covers(view, rng):
     """The faces are mapped beyond the target's, the rest beside or through it."""
     cube = [(Fraction(-1), Fraction(1))] * len(view.local.source.centre)
     with flint.ctx.workprec(BITS):
-        for q in sampled(cube, rng, 8):
-            q = [exact(rng.choice((-1, 1))), *q[1:]] if rng.random() < 0.3 else q
+        for place in sampled(cube, rng, 8):
+            on_face = [exact(rng.choice((-1, 1))), *place[1:]]
+            q = on_face if rng.random() < 0.3 else place
             image = _local(view, q)
             beyond = abs(image[0]) > 1
             if abs(q[0]) == 1 and not view.orientation * q[0] * image[0] > 1:
@@ -278,9 +279,9 @@ def conjugacy(view, rng):
         with flint.ctx.workprec(BITS):
             for _ in range(6):
                 zero = newton(defect, [2 * rng.random() - 1 for _ in range(n * len(steps))])
-                if zero is not None and np.max(np.abs(zero)) < 1 - 1e-9:
-                    if all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
-                        found.append(zero)
+                inside = zero is not None and np.max(np.abs(zero)) < 1 - 1e-9
+                if inside and all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
+                    found.append(zero)
         if len(found) > 1:
             told.append(f"{len(found)} periodic orbits follow one path")
     return told

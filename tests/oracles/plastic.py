@@ -1,5 +1,6 @@
 """Judges of conclusions about the plastic map: points, slopes, branches, staying sets."""
 
+import itertools
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -200,7 +201,7 @@ def covering_graph(view, rng):
         told.append(f"log(growth) is {logarithm.str(15)}")
     size = len(view.branches)
     ends = [(float(b.cuts[0]), float(b.cuts[-1])) for b in view.branches]
-    if any(b[0] <= a[1] for a, b in zip(ends, ends[1:], strict=False)):
+    if any(b[0] <= a[1] for a, b in itertools.pairwise(ends)):
         told.append("the branches overlap or are out of order")
     matrix = np.zeros((size, size))
     for i, one in enumerate(view.branches):
@@ -222,7 +223,7 @@ def staying_set(view, rng):
     """All phases whose orbits stay in the interval run through the cells, in order of phases."""
     told, cells = [], view.cells
     ends = [cell.phases for cell in cells]
-    if ends != sorted(ends) or any(b[0] < a[1] for a, b in zip(ends, ends[1:], strict=False)):
+    if ends != sorted(ends) or any(b[0] < a[1] for a, b in itertools.pairwise(ends)):
         told.append("the cells are not in the order of phases, or overlap")
     for cell in cells:
         told += _cell(view, cell, rng)
@@ -332,7 +333,7 @@ def _covered(images, interval):
 
 def itinerary(view, rng):
     """The orbit of a phase, and which of the sets it visits."""
-    sets, told, word, lift = view.sets, [], "", ball(view.phase)
+    sets, told, _word, lift = view.sets, [], "", ball(view.phase)
     if len(view.orbit) != len(view.word) + 1:
         return ["the lengths do not fit"]
     with flint.ctx.workprec(PRECISION):

@@ -49,7 +49,7 @@ def rebound(view, rng):
 
 def _map_faults(view, rng, phases, image):
     told = []
-    if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not 0 <= view.box[2][0]:
+    if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]
     for state in _states(view.box, phases, view.velocities, rng):
         found = _image(view, state)

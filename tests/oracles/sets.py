@@ -1,5 +1,6 @@
 """Judges of conclusions about Cantor sets and dimensions (section 3.2) and measures (A.2)."""
 
+import itertools
 from fractions import Fraction
 from math import inf
 
@@ -87,7 +88,7 @@ def repeller(view, rng):
     spans = sorted((min(y), max(y)) for y in images)
     if spans[0][0] < low - 1e-9 or spans[-1][1] > high + 1e-9:
         told.append("the inverse branches leave the hull")
-    if any(b[0] <= a[1] for a, b in zip(spans, spans[1:], strict=False)):
+    if any(b[0] <= a[1] for a, b in itertools.pairwise(spans)):
         told.append("the images of the inverse branches overlap")
     found = _dimension([y[2:] for y in images], [r[2:] for r in rates], nodes, (low, high))
     if not float(view.dimension[0]) - 1e-7 < found < float(view.dimension[1]) + 1e-7:

@@ -4,6 +4,7 @@
 `NEEDS` what it speaks of; `SENTENCES` are phrases with numbers, and what is checked about them.
 """
 
+import itertools
 import math
 import random
 import re
@@ -15,8 +16,19 @@ import flint
 
 from tests.oracles import circle, plastic, restitution
 from tests.oracles.adapter import parameters
-from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod, next_impact, orbit
-from tests.oracles.motion import separation, sticks, two_pi
+from tests.oracles.motion import (
+    TURN,
+    Impact,
+    ball,
+    flight,
+    inside,
+    inside_mod,
+    next_impact,
+    orbit,
+    separation,
+    sticks,
+    two_pi,
+)
 from tests.oracles.sets import _root
 from tests.oracles.single import contracting_but_none
 
@@ -72,7 +84,7 @@ def _arc(of):
 
 @lru_cache(maxsize=256)
 def _sticking_orbit(eta, nu):
-    """The impact and separation phases of the periodic motion that sticks; None if there is none."""
+    """The impact and separation phases of the periodic motion that sticks, or None."""
     away = separation(eta, nu)
     if away is None:
         return None
@@ -253,7 +265,7 @@ def _no_preimage(of, low, high, name):
 
 def _increasing_symbols(of, text):
     ends = [(Fraction(a), Fraction(b)) for a, b in re.findall(_PAIR, text)]
-    return all(a[1] < b[0] for a, b in zip(ends, ends[1:], strict=False))
+    return all(a[1] < b[0] for a, b in itertools.pairwise(ends))
 
 
 def _full_shift(of, low, high, symbols):
