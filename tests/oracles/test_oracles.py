@@ -328,7 +328,9 @@ FALSE_SENTENCES = (
 )
 
 
-@pytest.mark.parametrize(("sentence", "pattern"), list(zip(FALSE_SENTENCES, SENTENCES, strict=True))
+@pytest.mark.parametrize(
+    ("sentence", "pattern"), list(zip(FALSE_SENTENCES, SENTENCES, strict=True))
+)
 def test_false_sentences_are_found(sentence, pattern):
     """One for each pattern; few phases are attracted where the table hardly moves."""
     still = {"eta": F(9, 10), "nu": F(-1, 10)} if "attracts" in sentence else {}
