@@ -1,0 +1,229 @@
+"""Judges of conclusions about the whole circle (section 3.4): sticking, landing, coming to rest."""
+
+from fractions import Fraction
+from functools import lru_cache
+from math import pi, sqrt
+
+import flint
+
+from tests.oracles.motion import (
+    TURN,
+    Impact,
+    ball,
+    flight,
+    inside,
+    inside_mod,
+    next_impact,
+    separation,
+    sticks,
+)
+from tests.oracles.plastic import between, points
+
+_SAMPLE = 96
+_LONGEST = 2.0e6  # time for which a flight that never impacts is watched
+_LONG = 70_000.0  # the same, where many flights are followed
+
+
+def _released(view):
+    away = separation(view.eta, view.nu)
+    if away is None:
+        return None, None
+    return away, flight(view.eta, view.nu, away, released=True)
+
+
+def separation_arc(view, rng):
+    """The sticking arc (3 pi - phi_s, phi_s), and the flight from phi_s."""
+    away, found = _released(view)
+    if away is None:
+        return ["there is no separation phase"]
+    told = []
+    with flint.ctx.workprec(240):
+        start = 3 * flint.arb.pi() - away
+    if not inside(away, view.phase):
+        told.append(f"phi_s is {away.str(20)}")
+    if not inside_mod(start, view.start):
+        told.append(f"3 pi - phi_s is {start.str(20)}")
+    for k in range(24):
+        phase = TURN * k / 24
+        in_arc = float(view.start[0]) < phase < float(view.phase[1])
+        clear = min(abs(phase - float(view.start[0])), abs(phase - float(view.phase[0]))) > 1e-6
+        if clear and sticks(view.eta, view.nu, phase) != in_arc:
+            told.append(f"at {phase:.6g} the mass sticks, or not, otherwise")
+    if isinstance(found, Impact):
+        told += [] if inside(found.time, view.time) else [f"the flight takes {found.time.str(15)}"]
+        if not inside_mod(found.lifted, view.arrival):
+            told.append(f"the flight ends at {found.phase:.15g}")
+        if view.returns and not sticks(view.eta, view.nu, found.phase):
+            told.append("the flight does not end in the sticking arc")
+    elif found is not None:
+        told.append(f"the flight from phi_s: {found}")
+    return told
+
+
+def lands(view, rng):
+    """Launches that do not stick have their first impact where the mass sticks."""
+    told = []
+    for phase in points(view.phases, rng, 6):
+        if sticks(view.eta, view.nu, phase):
+            continue
+        found = flight(view.eta, view.nu, phase)
+        if isinstance(found, str):
+            told.append(f"the launch at {float(phase):.9g}: {found}")
+        if isinstance(found, Impact) and not sticks(view.eta, view.nu, found.phase):
+            told.append(f"the launch at {float(phase):.9g} lands at {found.phase:.9g}")
+    return told
+
+
+def never_impacts(view, rng, count=2):
+    """No zero of the gap before 2 pi q, on an interval of positive length."""
+    if view.phases[0] >= view.phases[1]:
+        return ["no interval: one phase at most"]
+    told, q = [], Fraction(view.eta).denominator
+    for phase in points(view.phases, rng, count):
+        if sticks(view.eta, view.nu, phase):
+            told.append(f"at {float(phase):.9g} the mass sticks")
+            continue
+        found = flight(view.eta, view.nu, phase, latest=min(_LONGEST, TURN * q - 0.01))
+        if isinstance(found, Impact):
+            told.append(f"the launch at {float(phase):.12g} has an impact at {found.time.str(12)}")
+    return told
+
+
+@lru_cache(maxsize=20_000)
+def impacts_before_rest(eta, nu, phase, most):
+    """How many impacts until one sticks, at most so many; None if it is not seen."""
+    for n in range(most + 1):
+        if sticks(eta, nu, phase):
+            return n
+        found = next_impact(eta, nu, Fraction(phase), _LONG)
+        if found == "touches":
+            return most + 1
+        if not isinstance(found, Impact):
+            return None
+        phase = found.phase
+    return most + 1
+
+
+@lru_cache(maxsize=256)
+def basin(eta, nu, most):
+    """Sorted numbers of impacts before sticking, for phases spread over the circle."""
+    phases = (TURN * ((k * 0.6180339887498949) % 1) for k in range(_SAMPLE))
+    return [impacts_before_rest(eta, nu, phase, most) for phase in phases]
+
+
+def absorption(view, rng):
+    """Bounds of the measure that is not absorbed after n impacts; intervals that are."""
+    told, most = [], len(view.rest) - 1
+    counts = [n for n in basin(view.eta, view.nu, min(most, 12)) if n is not None]
+    for n, bound in enumerate(view.rest[: min(most, 12) + 1]):
+        share = sum(one > n for one in counts) / max(1, len(counts))
+        error = 0.02 + 4 * sqrt(share * (1 - share) / max(1, len(counts)))
+        if share * TURN > float(bound) + TURN * error:
+            told.append(f"after {n} impacts about {share:.3g} of the circle is left")
+    away = separation(view.eta, view.nu)
+    if away is not None and float(view.rest[0]) < 3 * pi - 2 * float(away) + TURN - 1e-9:
+        told.append("less is left at first than the phases that do not stick")
+    chosen = view.within if len(view.within) < 6 else rng.sample(view.within, 6)
+    for bounds, steps in chosen:
+        for share in (0, rng.random(), rng.random(), 1):
+            phase = float(between(bounds, Fraction(share)))
+            if share in (0, 1):
+                phase += (1 - 2 * share) * 1e-9 * float(bounds[1] - bounds[0])
+            found = impacts_before_rest(view.eta, view.nu, phase, steps)
+            if found is not None and found > steps:
+                told.append(f"{phase:.12g} is not absorbed within {steps} impacts")
+    return told
+
+
+def separation_flight(view, rng):
+    """The flight from phi_s with relative velocity 0, at every epsilon."""
+    away, found = _released(view)
+    if away is None:
+        return ["there is no separation phase"]
+    told = [] if inside(away, view.separation) else [f"phi_s is {away.str(20)}"]
+    if not isinstance(found, Impact):
+        return told + (["the flight has no impact"] if found == "none" else [])
+    for name, own, given in (
+        ("time", found.time, view.flight),
+        ("phase", found.turned(view.turns), view.impact),
+        ("speed", found.speed, view.speed),
+    ):
+        if not inside(own, given):
+            told.append(f"the {name} of the impact is {own.str(15)}")
+    low, high = (float(away) - TURN, float(away))
+    if not low < float(found.turned(view.turns)) < high:
+        told.append("the impact is counted in another turn")
+    return told
+
+
+def chatter(view, rng):
+    """Impacts near that of the flight are followed by others that end before phi_s."""
+    after, told = view.after, separation_flight(_about(view.after, view), rng)
+    away = separation(view.eta, view.nu)
+    if away is None or not view.rest < after.separation[1] or not view.spread > 0:
+        return [*told, "no time to come to rest before phi_s"]
+    if not 0 <= view.epsilon[0] < view.epsilon[1] < 1:
+        told.append("no coefficients of restitution")
+    for phase, speed, share in ((0, 0, 1), (1, 1, 1), (rng.random(), rng.random(), rng.random())):
+        state = [
+            ball(between((low - view.spread, high + view.spread), Fraction(s)))
+            for (low, high), s in ((after.impact, phase), (after.speed, speed))
+        ]
+        if not state[1] > 0:
+            told.append("a speed that is not positive")
+            continue
+        epsilon = between(view.epsilon, Fraction(share))
+        told += _bounces(view, state, epsilon)
+    return told
+
+
+def _about(record, view):
+    record.eta, record.nu = view.eta, view.nu
+    return record
+
+
+def _bounces(view, state, epsilon):
+    """Follow impacts with a phase on the line and a relative speed, until they are tiny."""
+    phase, speed = state
+    side = 1 if view.nu > 0 else -1
+    for _ in range(60):
+        if phase > ball(view.rest):
+            return [f"an impact at {phase.str(12)}, after the phase of rest"]
+        if not sticks(view.eta, view.nu, phase):
+            return [f"at {phase.str(9)} the table does not push"]
+        if epsilon * Fraction(float(speed)) < Fraction(1, 10**9):
+            return []
+        # relative velocity before: X' - Z' = -side speed, X' = -eta gamma
+        gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
+        found = flight(view.eta, view.nu, phase, epsilon, gamma)
+        if not isinstance(found, Impact):
+            return [f"after a bounce: {found}"] if found == "none" else []
+        phase, speed = found.lifted, found.speed
+    return []
+
+
+def stable_pair(view, rng):
+    """F maps the first box of states into the second, and that back."""
+    told = []
+    for one, two in ((view.first, view.second), (view.second, view.first)):
+        for _ in range(4):
+            phi, gamma = (between(side, Fraction(rng.random())) for side in one)
+            found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
+            if isinstance(found, str):
+                told.append(f"a state of the pair: {found}")
+            elif found and not (
+                inside_mod(found.lifted, two[0]) and inside(found.velocity, two[1])
+            ):
+                told.append(f"F leads to ({found.phase:.9g}, {float(found.velocity):.9g})")
+    return told
+
+
+JUDGES = {
+    "separation": separation_arc,
+    "lands": lands,
+    "never_impacts": never_impacts,
+    "absorption": absorption,
+    "separation_flight": separation_flight,
+    "chatter": chatter,
+    "stable_pair": stable_pair,
+}

@@ -1,0 +1,24 @@
+"""`oracle(conclusion, rng, of)`: complaints about a conclusion, by what shares nothing with it."""
+
+from tests.oracles import circle, formulas, kernel, plastic, restitution, sets, single
+from tests.oracles.adapter import view
+
+JUDGES = {
+    **plastic.JUDGES,
+    **sets.JUDGES,
+    **circle.JUDGES,
+    **restitution.JUDGES,
+    **single.JUDGES,
+    **formulas.JUDGES,
+    **kernel.JUDGES,
+}
+
+
+def judge(record, rng):
+    """Complaints about a record that `adapter.view` made."""
+    return JUDGES[record.kind](record, rng)
+
+
+def oracle(conclusion, rng, of=None):
+    """Complaints about a conclusion; of: the document's parameters, if it carries none itself."""
+    return judge(view(conclusion, of), rng)

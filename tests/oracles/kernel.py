@@ -1,0 +1,312 @@
+"""Judges of the generic kernel's conclusions, from the texts of the formulas alone."""
+
+from fractions import Fraction
+from itertools import pairwise, product
+
+import flint
+import numpy as np
+
+from tests.oracles.formulas import BITS, STEP, compiled, differ, exact
+
+
+def values(formula, point):
+    """The components at a point (Arb numbers)."""
+    env = dict(zip(formula.variables, point, strict=True))
+    return [compiled(text)[0](env) for text in formula.texts]
+
+
+def partial(formula, point, *places):
+    """The partial derivatives of all components, by central differences."""
+    if not places:
+        return values(formula, point)
+    *before, place = places
+    step, sides = flint.arb(2) ** STEP, []
+    for sign in (1, -1):
+        moved = list(point)
+        moved[place] = moved[place] + sign * step
+        sides.append(partial(formula, moved, *before))
+    return [(up - down) / (2 * step) for up, down in zip(*sides, strict=True)]
+
+
+def quantity(of, point):
+    """A component, or its derivative, at a point."""
+    places = () if of.variable is None else (of.variable,)
+    return partial(of.formula, point, *places)[of.component]
+
+
+def sampled(box, rng, count=6):
+    """Some corners of a box and random points, as Arb numbers."""
+    yield from ([exact(x) for x in corner] for corner in list(product(*box))[:8])
+    for _ in range(count):
+        yield [exact(a + (b - a) * Fraction(rng.randint(0, 64), 64)) for a, b in box]
+
+
+def _wrong(kind, statement, q):
+    """Whether a value contradicts a statement about a quantity."""
+    if not q.is_finite():
+        return True
+    if kind == "within":
+        return bool(q < exact(statement.bounds[0]) or q > exact(statement.bounds[1]))
+    if kind == "expands":
+        return bool(abs(q) < exact(statement.bound))
+    small = 0 if kind == "sign" else exact(Fraction(1, 10**30))
+    return bool(statement.sign * q < -small or (kind == "sign" and q == 0))
+
+
+def inequality(view, rng):
+    """A sign, bounds, or monotony of a quantity on a box."""
+    with flint.ctx.workprec(BITS):
+        for point in sampled(view.box, rng):
+            q = quantity(view.quantity, point)
+            if _wrong(view.kind, view, q):
+                return [f"{q.str(9)} at {_told(point)}"]
+    return []
+
+
+def refuted(view, rng):
+    """The point is in the box, and contradicts the statement."""
+    inside = zip(view.point, view.statement.box, strict=True)
+    if not all(low <= x <= high for x, (low, high) in inside):
+        return ["the witness is not in the box"]
+    with flint.ctx.workprec(BITS):
+        q = quantity(view.statement.quantity, [exact(x) for x in view.point])
+        return (
+            [] if _wrong(view.statement.kind, view.statement, q) else [f"{q.str(9)} is no witness"]
+        )
+
+
+def _told(point):
+    return "(" + ", ".join(f"{float(x):.6g}" for x in point) + ")"
+
+
+# -- zeros -----------------------------------------------------------------------------------------
+
+
+def newton(function, start):
+    """A zero near a start, or None; function(point) gives values and the matrix, in floats."""
+    point = np.array([float(x) for x in start])
+    for _ in range(30):
+        found, matrix = function(point)
+        try:
+            step = np.linalg.solve(matrix, found)
+        except np.linalg.LinAlgError:
+            return None
+        point = point - step
+        if not np.all(np.isfinite(point)) or np.max(np.abs(point)) > 1e9:
+            return None
+        if np.max(np.abs(step)) < 1e-13:
+            return point
+    return None
+
+
+def _plain(formula):
+    def function(point):
+        balls = [exact(float(x)) for x in point]
+        columns = [partial(formula, balls, k) for k in range(len(balls))]
+        with np.errstate(all="ignore"):
+            return (
+                np.array([float(x) for x in values(formula, balls)]),
+                np.array([[float(x) for x in column] for column in columns]).T,
+            )
+
+    return function
+
+
+def zeros_in(formula, box, rng):
+    """The zeros that Newton's method finds clearly inside a box."""
+    found = []
+    with flint.ctx.workprec(BITS):
+        for start in list(sampled(box, rng, 5)):
+            zero = newton(_plain(formula), start)
+            if zero is None:
+                continue
+            inside = all(
+                float(a) + 1e-9 < x < float(b) - 1e-9 for x, (a, b) in zip(zero, box, strict=True)
+            )
+            if inside and all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
+                found.append(zero)
+    return found
+
+
+def no_zero(view, rng):
+    found = zeros_in(view.formula, view.box, rng)
+    return [f"a zero at {found[0]}"] if found else []
+
+
+def unique_zero(view, rng):
+    found = zeros_in(view.formula, view.box, rng)
+    return [] if len(found) == 1 else [f"{len(found)} zeros are found"]
+
+
+def _changes(of, interval):
+    """How often a quantity changes its sign on an interval, as sampled."""
+    low, high = interval
+    with flint.ctx.workprec(BITS):
+        signs = [quantity(of, [exact(low + (high - low) * k / 60)]) for k in range(61)]
+    signs = [x > 0 for x in signs if x > 0 or x < 0]
+    return sum(a != b for a, b in pairwise(signs))
+
+
+def zero(view, rng):
+    return [] if _changes(view.quantity, view.interval) else ["no change of sign is seen"]
+
+
+def root(view, rng):
+    """One zero in the interval, in the bracket."""
+    if not view.interval[0] <= view.bracket[0] <= view.bracket[1] <= view.interval[1]:
+        return ["the bracket leaves the interval"]
+    with flint.ctx.workprec(BITS):
+        low, high = (quantity(view.quantity, [exact(x)]) for x in view.bracket)
+    if not (low < 0 < high or high < 0 < low) or _changes(view.quantity, view.interval) != 1:
+        return ["not exactly one zero, or not in the bracket"]
+    return []
+
+
+def identity(view, rng):
+    """A derivative of one component is another one."""
+    with flint.ctx.workprec(BITS):
+        for _ in range(4):
+            point = [exact(Fraction(rng.randint(300, 2500), 997)) for _ in view.formula.variables]
+            left = partial(view.formula, point, *view.derivative)[view.left]
+            right = values(view.formula, point)[view.right]
+            known = left.is_finite() and right.is_finite()
+            if known and differ(left, right):
+                return [f"the sides differ at {_told(point)}"]
+    return []
+
+
+# -- symbolic dynamics -----------------------------------------------------------------------------
+
+
+def h_set(view, rng):
+    """The matrix is regular, and its inverse is the one given."""
+    n, total = len(view.centre), view.matrix
+    unit = [
+        [sum(total[i][k] * view.inverse[k][j] for k in range(n)) for j in range(n)]
+        for i in range(n)
+    ]
+    return [] if unit == [[int(i == j) for j in range(n)] for i in range(n)] else ["no inverse"]
+
+
+def _local(cover, q, derivative=False):
+    """f(q) = B^-1 (F^k(c + A q) - d) in Arb numbers; with the derivative, in floats."""
+    local, n = cover.local, len(q)
+    point = [
+        exact(c) + sum((exact(a) * x for a, x in zip(row, q, strict=True)), flint.arb(0))
+        for c, row in zip(local.source.centre, local.source.matrix, strict=True)
+    ]
+    product_ = np.array(local.source.matrix, float)
+    for _ in range(local.power):
+        if derivative:
+            columns = [partial(cover.formula, point, k) for k in range(n)]
+            product_ = np.array([[float(x) for x in column] for column in columns]).T @ product_
+        point = [x.mid() for x in values(cover.formula, point)]
+    moved = [x - exact(d) for x, d in zip(point, local.target.centre, strict=True)]
+    image = [
+        sum((exact(a) * x for a, x in zip(row, moved, strict=True)), flint.arb(0))
+        for row in local.target.inverse
+    ]
+    return (image, np.array(local.target.inverse, float) @ product_) if derivative else image
+
+
+def covers(view, rng):
+    """The faces are mapped beyond the target's, the rest beside or through it."""
+    cube = [(Fraction(-1), Fraction(1))] * len(view.local.source.centre)
+    with flint.ctx.workprec(BITS):
+        for place in sampled(cube, rng, 8):
+            on_face = [exact(rng.choice((-1, 1))), *place[1:]]
+            q = on_face if rng.random() < 0.3 else place
+            image = _local(view, q)
+            beyond = abs(image[0]) > 1
+            if abs(q[0]) == 1 and not view.orientation * q[0] * image[0] > 1:
+                return [f"a face is not mapped beyond the target, at {_told(q)}"]
+            if not beyond and any(abs(x) > 1 for x in image[1:]):
+                return [f"the image leaves the target through a side, at {_told(q)}"]
+    return []
+
+
+def graph(view, rng):
+    """The relations hold, are those of the arrows, and the sets are disjoint."""
+    told = [x for one in view.covers for x in covers(one, rng)]
+    for cover, (i, j) in zip(view.covers, view.edges, strict=True):
+        if (cover.local.source, cover.local.target) != (view.nodes[i], view.nodes[j]):
+            told.append("an arrow is about other sets")
+    for one, two in product(view.nodes, repeat=2):
+        for _ in range(40 if one != two else 0):
+            q = [rng.choice((-1, 1, 2 * rng.random() - 1)) for _ in one.centre]
+            place = np.array(one.centre, float) + np.array(one.matrix, float) @ q
+            back = np.array(two.inverse, float) @ (place - np.array(two.centre, float))
+            if np.max(np.abs(back)) < 1 - 1e-9:
+                return [*told, "two of the sets meet"]
+    return told
+
+
+def _adjacency(of):
+    matrix = np.zeros((len(of.nodes), len(of.nodes)))
+    for i, j in of.edges:
+        matrix[i, j] = 1
+    return matrix
+
+
+def entropy(view, rng):
+    """growth <= (spectral radius)^length."""
+    radius = max(abs(np.linalg.eigvals(_adjacency(view.graph))))
+    fits = float(view.growth) <= radius ** float(view.length) * (1 + 1e-9)
+    return graph(view.graph, rng) + ([] if fits else [f"the spectral radius is {radius:.9g} only"])
+
+
+def conjugacy(view, rng):
+    """Of a closed path only one periodic orbit is found, from several starts."""
+    told, of = graph(view.graph, rng), view.graph
+    by_edge = dict(zip(of.edges, of.covers, strict=True))
+    n = len(of.nodes[0].centre)
+    for path in _closed(of.edges, rng):
+        steps = [by_edge[edge] for edge in path]
+
+        def defect(point, steps=steps):
+            """q_(m+1) - f(q_m), cyclically, and its derivative."""
+            size = n * len(steps)
+            rest, matrix = np.zeros(size), np.zeros((size, size))
+            for m, step in enumerate(steps):
+                own, after = slice(n * m, n * m + n), n * ((m + 1) % len(steps))
+                image, slope = _local(step, [exact(float(x)) for x in point[own]], True)
+                rest[own] = point[after : after + n] - np.array([float(x) for x in image])
+                matrix[own, after : after + n] += np.eye(n)
+                matrix[own, own] -= slope
+            return rest, matrix
+
+        found = []
+        with flint.ctx.workprec(BITS):
+            for _ in range(6):
+                zero = newton(defect, [2 * rng.random() - 1 for _ in range(n * len(steps))])
+                inside = zero is not None and np.max(np.abs(zero)) < 1 - 1e-9
+                if inside and all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
+                    found.append(zero)
+        if len(found) > 1:
+            told.append(f"{len(found)} periodic orbits follow one path")
+    return told
+
+
+def _closed(edges, rng, most=2):
+    """Some closed paths of up to three arrows."""
+    paths = [(e,) for e in edges if e[0] == e[1]]
+    paths += [
+        (e, f) for e, f in product(edges, repeat=2) if e[1] == f[0] and f[1] == e[0] and e < f
+    ]
+    return rng.sample(paths, min(most, len(paths)))
+
+
+JUDGES = {
+    **dict.fromkeys(("sign", "monotone", "within", "expands"), inequality),
+    "refuted": refuted,
+    "zero": zero,
+    "root": root,
+    "no_zero": no_zero,
+    "unique_zero": unique_zero,
+    "identity": identity,
+    "h_set": h_set,
+    "covers": covers,
+    "graph": graph,
+    "entropy": entropy,
+    "conjugacy": conjugacy,
+}

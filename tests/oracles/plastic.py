@@ -1,0 +1,369 @@
+"""Judges of conclusions about the plastic map: points, slopes, branches, staying sets."""
+
+import itertools
+from fractions import Fraction
+from types import SimpleNamespace
+
+import flint
+import numpy as np
+
+from tests.oracles.motion import (
+    LATEST,
+    PRECISION,
+    TURN,
+    Impact,
+    ball,
+    flight,
+    inside,
+    inside_mod,
+    next_impact,
+    two_pi,
+)
+
+
+def between(bounds, share):
+    """A point of an interval."""
+    return bounds[0] + (bounds[1] - bounds[0]) * share
+
+
+def points(bounds, rng, count=3):
+    """The ends and the middle of an interval, and random points of it, in order."""
+    shares = [Fraction(rng.randint(0, 1 << 20), 1 << 20) for _ in range(count)]
+    return sorted({between(bounds, share) for share in (0, Fraction(1, 2), 1, *shares)})
+
+
+def _impact(view, phase, latest=LATEST):
+    return flight(view.eta, view.nu, phase, latest=latest)
+
+
+def first_impact(view, rng):
+    """Each launch has its first impact in one of the windows."""
+    told = []
+    if not view.windows:
+        return ["no window"]
+    if view.transversal and len(view.windows) != 1:
+        told.append("more windows than one, or none")
+    for phase in points(view.phases, rng):
+        found = _impact(view, phase, float(view.windows[-1][1]) + 1)
+        if found is None:
+            continue
+        if isinstance(found, str):
+            told.append(f"the launch at {float(phase):.9g}: {found}")
+        elif not any(inside(found.time, window) for window in view.windows):
+            told.append(f"the launch at {float(phase):.9g} has its impact at {found.time.str(9)}")
+    return told
+
+
+def point(view, rng):
+    """f' and f at a phase, mod 2 pi."""
+    return _at_point(view, view.phase, view.slope, view.image)
+
+
+def _at_point(view, phase, slope, image):
+    found = _impact(view, phase)
+    if found is None:
+        return []
+    if isinstance(found, str):
+        return [f"the launch at {float(phase):.9g}: {found}"]
+    told = []
+    if not inside(found.slope, slope):
+        told.append(f"f'({float(phase):.12g}) is {found.slope.str(15)}")
+    if not inside_mod(found.lifted, image):
+        told.append(f"f({float(phase):.12g}) is {found.phase:.15g}")
+    return told
+
+
+def slope_range(view, rng):
+    """f is C^1 from the first point to the last, f' in the bounds of the pieces."""
+    count = len(view.points)
+    if not count == len(view.slopes) == len(view.images) == len(view.pieces) + 1 >= 2:
+        return ["the lengths do not fit"]
+    if any(b <= a for a, b in zip(view.points, view.points[1:], strict=False)):
+        return ["the points do not increase"]
+    told, chosen = [], {0, count - 2, *(rng.randrange(count - 1) for _ in range(3))}
+    for k in sorted(chosen):
+        ends = view.points[k], view.points[k + 1]
+        before = None
+        for end in (k, k + 1):
+            told += _at_point(view, view.points[end], view.slopes[end], view.images[end])
+        for phase in points(ends, rng, 2):
+            found = _impact(view, phase)
+            if isinstance(found, str):
+                told.append(f"the launch at {float(phase):.9g}: {found}")
+            if not isinstance(found, Impact):
+                before = None
+                continue
+            if not inside(found.slope, view.pieces[k]):
+                told.append(f"f'({float(phase):.12g}) is {found.slope.str(15)}")
+            told += _jump(view, before, (phase, found.lifted), view.pieces[k])
+            before = phase, found.lifted
+    return told
+
+
+def _jump(view, before, now, bounds):
+    """What the mean value theorem forbids between two phases."""
+    if before is None or before[0] == now[0]:
+        return []
+    ratio = (now[1] - before[1]) / ball(now[0] - before[0])
+    if inside(ratio, bounds, 1e-9):
+        return []
+    return [f"f jumps, or is steeper, between {float(before[0]):.9g} and {float(now[0]):.9g}"]
+
+
+def lifted(view, phase, latest=LATEST):
+    """The phase of the first impact on the line, as a float; None where there is none."""
+    found = _impact(view, phase, latest)
+    return float(found.lifted) if isinstance(found, Impact) else None
+
+
+def lands_in(view, phase, target, slack=1e-12):
+    """Whether the first impact certainly is in the target, mod 2 pi."""
+    found = _impact(view, phase)
+    if not isinstance(found, Impact):
+        return False
+    low, high = (float(end) for end in target)
+    turns = (float(found.lifted) - low) // TURN
+    return low + slack < float(found.lifted) - turns * TURN < high - slack
+
+
+def avoids(view, rng, count=10):
+    """No first impact in the target; where two of them lie on both sides, look between."""
+    before = None
+    for phase in points(view.phases, rng, count):
+        now = lifted(view, phase)
+        if lands_in(view, phase, view.target):
+            return [f"the launch at {float(phase):.12g} lands in the target"]
+        hit = None if None in (before, now) else _between(view, (before, (phase, now)))
+        if hit is not None:
+            return [f"the launch at {float(hit):.12g} lands in the target"]
+        before = None if now is None else (phase, now)
+    return []
+
+
+def _between(view, ends):
+    """A phase between two that lands in the middle of the target, where F is continuous."""
+    (a, fa), (b, fb) = ends
+    middle = float(sum(view.target)) / 2
+    turns = (max(fa, fb) - middle) // TURN
+    goal = middle + turns * TURN
+    if abs(fa - fb) > TURN / 2 or not min(fa, fb) < goal < max(fa, fb):
+        return None
+    for _ in range(30):
+        c = (a + b) / 2
+        fc = lifted(view, c)
+        if fc is None:
+            return None
+        if lands_in(view, c, view.target):
+            return c
+        if (fc < goal) == (fa < goal):
+            a, fa = c, fc
+        else:
+            b, fb = c, fc
+    return None
+
+
+def branch(view, rng):
+    """On each piece gap > 0 up to `begin`, and then one transversal zero before the piece's end."""
+    told = []
+    if any(b <= a for a, b in zip(view.cuts, view.cuts[1:], strict=False)):
+        return ["the cuts do not increase"]
+    if len(view.ends) != len(view.cuts) - 1:
+        return ["the lengths do not fit"]
+    for k in {0, len(view.ends) - 1, rng.randrange(len(view.ends))}:
+        for phase in points((view.cuts[k], view.cuts[k + 1]), rng, 1):
+            found = _impact(view, phase, float(view.ends[k]) + 1)
+            if isinstance(found, str):
+                told.append(f"the launch at {float(phase):.9g}: {found}")
+            elif found is not None:
+                if not inside(found.time, (view.begin, view.ends[k])):
+                    told.append(f"the impact after {float(phase):.9g} is at {found.time.str(9)}")
+                around = (float(found.lifted) - TURN / 4) / TURN - view.turn
+                if abs(around) > 0.7:
+                    told.append(f"the impact after {float(phase):.9g} is not in turn {view.turn}")
+                fall = [
+                    float(found.gap.at(ball(between((view.begin, view.ends[k]), s)))[1])
+                    for s in (Fraction(1, 9), Fraction(1, 2), Fraction(8, 9))
+                ]
+                if max(fall) > 1e-12:
+                    told.append(f"the gap does not fall after {float(phase):.9g}")
+    return told
+
+
+def covering_graph(view, rng):
+    """log(growth) is enclosed; it is below an upper bound of the entropy on the branches.
+
+    f is monotone between the points examined: how often the arc between their images meets each
+    of the branches bounds the number of orbits that take different branches.
+    """
+    told = []
+    logarithm = ball(view.growth).log()
+    if not inside(logarithm, view.entropy):
+        told.append(f"log(growth) is {logarithm.str(15)}")
+    size = len(view.branches)
+    ends = [(float(b.cuts[0]), float(b.cuts[-1])) for b in view.branches]
+    if any(b[0] <= a[1] for a, b in itertools.pairwise(ends)):
+        told.append("the branches overlap or are out of order")
+    matrix = np.zeros((size, size))
+    for i, one in enumerate(view.branches):
+        cuts = (*one.cuts[:: max(1, len(one.cuts) // 3)], one.cuts[-1])
+        images = [lifted(view, phase, float(max(one.ends)) + 1) for phase in cuts]
+        if None in images:
+            return told
+        low, high = min(images) - 1e-6, max(images) + 1e-6
+        for j, (left, right) in enumerate(ends):
+            first, last = np.ceil((low - right) / TURN), np.floor((high - left) / TURN)
+            matrix[i, j] = max(0.0, last - first + 1)
+    radius = max(abs(np.linalg.eigvals(matrix)), default=0.0)
+    if float(view.growth) > radius * (1 + 1e-9):
+        told.append(f"growth above {radius:.6g}, all that the branches allow")
+    return told
+
+
+def staying_set(view, rng):
+    """All phases whose orbits stay in the interval run through the cells, in order of phases."""
+    told, cells = [], view.cells
+    ends = [cell.phases for cell in cells]
+    if ends != sorted(ends) or any(b[0] < a[1] for a, b in itertools.pairwise(ends)):
+        told.append("the cells are not in the order of phases, or overlap")
+    for cell in cells:
+        told += _cell(view, cell, rng)
+    for phase in points(view.interval, rng, 12):
+        if any(low <= phase <= high for low, high in ends):
+            continue
+        if lands_in(view, phase, view.interval):
+            told.append(f"f({float(phase):.12g}) stays, in no cell")
+    if view.full:
+        if len(cells) < 2 or any(
+            b[0] <= a[1] for a, b in zip(sorted(ends), sorted(ends)[1:], strict=False)
+        ):
+            told.append("no full shift: too few cells, or cells that are not disjoint")
+        told += [f"no full shift: {x}" for cell in cells for x in _short(view, cell, view.interval)]
+    path = view.cycle
+    for one, two in zip(path, (*path[1:], *path[:1]), strict=True):
+        told += [f"no cycle: {x}" for x in _short(view, one, two.phases)]
+    return told
+
+
+def _images(view, cell):
+    """The lifted images of a cell's ends, less the turns that put the lower one in [0, 2 pi)."""
+    found = [_impact(view, phase) for phase in cell.phases]
+    if not all(isinstance(one, Impact) for one in found):
+        return None
+    low, high = sorted(float(one.lifted) for one in found)
+    return low % TURN, high - (low // TURN) * TURN
+
+
+def _short(view, cell, target):
+    """Whether the image of a cell does not cover an interval of [0, 2 pi)."""
+    images = _images(view, cell)
+    if images is None:
+        return []
+    low, high = (float(end) for end in target)
+    covered = any(
+        images[0] <= low + k * TURN + 1e-9 and high + k * TURN <= images[1] + 1e-9 for k in (0, 1)
+    )
+    return [] if covered else [f"a cell is mapped to ({images[0]:.9g}, {images[1]:.9g}) only"]
+
+
+def _cell(view, cell, rng):
+    told = []
+    if min(map(abs, cell.slopes)) <= 1 or cell.slopes[0] * cell.slopes[1] <= 0:
+        told.append("f is not said to expand on a cell")
+    if not view.interval[0] <= cell.phases[0] < cell.phases[1] <= view.interval[1]:
+        told.append("a cell is empty, or leaves the interval")
+    before = None
+    for phase in points(cell.phases, rng, 1):
+        found = _impact(view, phase)
+        if not isinstance(found, Impact):
+            told += [f"the launch at {float(phase):.9g}: {found}"] if found else []
+            before = None
+            continue
+        if not inside(found.slope, cell.slopes):
+            told.append(f"f'({float(phase):.12g}) is {found.slope.str(12)}")
+        told += _jump(view, before, (phase, found.lifted), cell.slopes)
+        before = phase, found.lifted
+    ends = [_impact(view, phase) for phase in cell.phases]
+    for found, image in zip(ends if cell.slopes[0] > 0 else ends[::-1], cell.image, strict=True):
+        if isinstance(found, Impact) and not inside_mod(found.lifted, image):
+            told.append(f"an end of a cell is mapped to {found.phase:.15g}")
+    return told
+
+
+def horseshoe(view, rng):
+    """H1 to H6 hold at the sets, and the slopes are above 1."""
+    sets = view.sets
+    told = [] if sets.slopes[0] > 1 else ["the slopes do not expand"]
+    return told + horseshoe_faults(sets, rng)
+
+
+def horseshoe_faults(sets, rng):
+    """What is wrong with H1 to H6 at these numbers, each complaint beginning with its id."""
+    told = []
+    for part in (sets.left, sets.right):
+        images = []
+        for phase in points(part, rng, 2):
+            found = _impact(sets, phase)
+            if found == "none" or found is None:
+                continue
+            if isinstance(found, str):
+                told.append(f"H1 H2 H3 the launch at {float(phase):.9g}: {found}")
+                continue
+            slope, within = float(found.slope), part[0] < phase < part[1]
+            images.append(float(found.lifted))
+            if within and slope < float(sets.slopes[0]) - 1e-12:
+                told.append(f"H1 H6 f'({float(phase):.12g}) is {slope:.12g}")
+            if within and slope > float(sets.slopes[1]) + 1e-12:
+                told.append(f"H2 f'({float(phase):.12g}) is {slope:.12g}")
+            if slope < 0:
+                told.append(f"H3 f'({float(phase):.12g}) is {slope:.12g}")
+        if images and not _covered(images, sets.interval):
+            told.append("H5 an image of I0 or I1 does not cover I")
+    width = (sets.right[0] - sets.left[1]) / 10**6
+    gap = SimpleNamespace(eta=sets.eta, nu=sets.nu, target=sets.interval)
+    gap.phases = sets.left[1] + width, sets.right[0] - width
+    told += [f"H4 H5 {one}" for one in avoids(gap, rng)]
+    return told
+
+
+def _covered(images, interval):
+    low, high = (float(end) for end in interval)
+    first = np.ceil((min(images) - low - 1e-12) / TURN)
+    return max(images) >= high + first * TURN - 1e-12
+
+
+def itinerary(view, rng):
+    """The orbit of a phase, and which of the sets it visits."""
+    sets, told, _word, lift = view.sets, [], "", ball(view.phase)
+    if len(view.orbit) != len(view.word) + 1:
+        return ["the lengths do not fit"]
+    with flint.ctx.workprec(PRECISION):
+        for k, bounds in enumerate(view.orbit):
+            if not inside_mod(lift, bounds):
+                return [f"f^{k} of the phase is {float(lift) % TURN:.15g}"]
+            phase = lift - int(float(lift) // TURN) * two_pi()
+            where = [inside(phase, sets.left), inside(phase, sets.right)]
+            if k < len(view.word):
+                if not where[int(view.word[k])]:
+                    return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{view.word[k]}"]
+                found = next_impact(sets.eta, sets.nu, phase)
+                if not isinstance(found, Impact):
+                    return told
+                lift = found.lifted
+            else:
+                place = (phase > ball(sets.left[0])) + (phase > ball(sets.right[0]))
+                if any(where) or int(place) != view.leaves:
+                    told.append(f"f^{k} of the phase, {float(phase):.12g}, is elsewhere")
+        return told
+
+
+JUDGES = {
+    "first_impact": first_impact,
+    "point": point,
+    "slope_range": slope_range,
+    "avoids": avoids,
+    "branch": branch,
+    "covering_graph": covering_graph,
+    "staying_set": staying_set,
+    "horseshoe": horseshoe,
+    "itinerary": itinerary,
+}
