@@ -19,9 +19,9 @@ Rule = Callable[[Context, Reader], Conclusion]
 RULES: Mapping[str, str] = MappingProxyType(
     {
         "first-impact": "flights.first_impact",
-        "point": "flights.point",
-        "slope-range": "flights.slope_range",
-        "avoids": "flights.avoids",
+        "point": "slopes.point",
+        "slope-range": "slopes.slope_range",
+        "avoids": "slopes.avoids",
         "formula-equal": "kernel.derivation.equal",
         "formula-series": "kernel.derivation.series",
         "formula-value": "kernel.derivation.value",

@@ -73,8 +73,8 @@ def separation(context: Context, reader: Reader) -> Separation:
     leaves = arc[0] - (phase[1] - two[0])
     if not (0 < leaves < time[0] - _EARLIER and context.of.eta * leaves < _THREE):
         raise Unproved("the first time of the flight is not examined")
-    clear(motion, (leaves, time[0] - _EARLIER), time_of)
-    falls(motion, (time[0] - _EARLIER, time[1]), time_of)
+    clear(motion, (leaves, time[0] - _EARLIER))
+    falls(motion, (time[0] - _EARLIER, time[1]))
     fine = _motion(context.of, phase, bits)
     early, late = (fine.gap(fine.start(), (t, t)) for t in time)
     if not early.lo > 0 > late.hi:
@@ -126,7 +126,7 @@ def lands(context: Context, reader: Reader) -> Lands:
         if end[0] - high <= start[1] - low:
             raise Unproved("a piece is longer than the sticking arc")
         motion = _motion(context.of, (low, high))
-        clear(motion, (arc.start[0] - high, start[1] - low), reader)
+        clear(motion, (arc.start[0] - high, start[1] - low))
         if level(motion, end[0] - high)[1] >= 0:
             raise Unproved("the gap is not negative at the end of the sticking arc")
     return Lands((cuts[0], cuts[-1]))
