@@ -227,9 +227,9 @@ class NeverImpacts(Conclusion):
             "table, where it sticks): f is defined on [0, 2 pi) if a touch without relative "
             "velocity counts as an impact. After a launch at a phase of "
             f"{show_range(self.phases)}, {floor_text(100 * self.share)} percent of the circle or "
-            f"more, the mass stays off the table for these {turns} turns, then touches it at the phase of "
-            f"the launch, and so on forever: the motion has the period {2 * turns} pi, and there "
-            "is no impact, or f(phi) = phi if a touch counts as one."
+            f"more, the mass stays off the table for these {turns} turns, then touches it at the "
+            f"phase of the launch, and so on forever: the motion has the period {2 * turns} pi, "
+            "and there is no impact, or f(phi) = phi if a touch counts as one."
         )
 
     @property
