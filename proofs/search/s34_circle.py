@@ -37,7 +37,7 @@ CLAIMS = tuple(row.id for row in ROWS)
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6"}  # what rests on phases that never impact again
-_FOLLOWED = {"G3", "G4", "G6"}  # what rests on where all others lead
+_FOLLOWED = {"G4", "G6"}  # what rests on where all others lead
 _REPELLED = {"G4", "G6"}  # what rests on a fixed point
 _NARROW = 12  # decimal places
 _Found = TypeVar("_Found", bound=Conclusion)

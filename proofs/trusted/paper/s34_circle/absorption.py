@@ -17,13 +17,13 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, cells_met, in_order
 from proofs.trusted.paper.s34_circle.chaos import Branch
-from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, Separation, motion_at
+from proofs.trusted.paper.s34_circle.landing import Lands, Separation, motion_at
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.windows import BITS, level
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `absorption`
 _MOST_STEPS = 400
-_LENGTH_NAMED = Fraction(1, 20)
+_LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 
 
@@ -56,60 +56,35 @@ class Absorption(Conclusion):
         """The least share of the circle that reaches the arc."""
         return 1 - self.rest[-1] / TURN
 
-    @property
-    def joined(self) -> list[tuple[Range, int]]:
-        """The intervals, adjoining ones joined, with the larger number of impacts."""
-        joined: list[tuple[Range, int]] = []
-        for (low, high), steps in self.within:
-            adjoins = bool(joined) and joined[-1][0][1] == low
-            (start, _), most = joined.pop() if adjoins else ((low, high), steps)
-            joined.append(((start, high), max(most, steps)))
-        return joined
-
-    @property
-    def beyond(self) -> Fraction | None:
-        """Where phases from phi_s on stick next up to, plus 2 pi, if the flight from it returns."""
-        for (low, high), steps in self.within if self.arc.returns else ():
-            if steps == 1 and low + TURN_AT_MOST <= self.arc.phase[0] and high > 0:
-                return high
-        return None
+    def reaches(self, phases: Range) -> bool:
+        """Whether all of an interval of phases is proved to reach the arc."""
+        low, high = phases
+        for (first, last), _ in self.within:
+            low = max(low, last) if first <= low else low
+        return high <= low
 
     @property
     def sentence(self) -> str:
         """Return the theorem, with the longest intervals, rounded inward."""
         percents = [floor_text(100 * (1 - rest / TURN), 2) for rest in self.rest]
         table = ", ".join(f"{n}: {percents[n]}" for n in _TABLE if n < len(percents))
-        named = "".join(
-            f" Every phase of [{ceil_text(low)}, {floor_text(high)}] mod 2 pi does so within "
-            f"{steps} impact{'s' if steps > 1 else ''}."
-            for (low, high), steps in self.joined
+        named = ", ".join(
+            f"{steps} from [{ceil_text(low)}, {floor_text(high)}]"
+            for (low, high), steps in self.within
             if high - low > _LENGTH_NAMED
         )
-        joins = (
-            ", and so joins the periodic motion exactly, in finite time: a neighbourhood of the "
-            "whole orbit, both where separation counts as a step of f and where it does not. "
-            "Phases below phi_s join it a step ahead of those above."
-        )
         return (
-            f"within {len(self.rest) - 1} impacts {self._most} reach the arc where the mass sticks"
-            f"{' and moves periodically' if self.arc.returns else ''}; percentages by number of "
-            f"impacts, at least: {table}.{named}{self._next(joins)}"
+            f"{self.brief}; percentages by number of impacts, at least: {table}. The most impacts "
+            f"that it takes are, for every phase mod 2 pi of the longest intervals: {named}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the share, and what joins the periodic motion at once."""
-        return f"{self._most} come to stick.{self._next(': superstable')}"
-
-    @property
-    def _most(self) -> str:
-        return f"at least {floor_text(100 * self.share, 3)} percent of the circle"
-
-    def _next(self, following: str) -> str:
-        if self.beyond is None:
-            return ""
-        phases = f"{ceil_text(self.arc.start[1])} to 2 pi + {floor_text(self.beyond)}"
-        return f" Every phase from {phases} sticks at this impact or at the next one{following}"
+        """Return the share."""
+        return (
+            f"at least {floor_text(100 * self.share, 3)} percent of the circle come to the arc "
+            f"where the mass sticks, within {len(self.rest) - 1} impacts"
+        )
 
 
 def absorption(context: Context, reader: Reader) -> Absorption:

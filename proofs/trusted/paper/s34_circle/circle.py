@@ -142,11 +142,11 @@ def _periodic(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    """G3: a neighbourhood of the orbit sticks at this or at the next impact."""
-    known = found.first(Absorption)
-    if known is None or known.beyond is None:
-        return undecided("no neighbourhood of a periodic motion is proved to stick next")
-    return decided(Verdict.VERIFIED, known, corrected=[known.arc, known])
+    """G3: the flights from beside the separation phase end inside the arc."""
+    arc = found.first(Separation)
+    if arc is None or not arc.returns:
+        return undecided(_NO_ARC)
+    return decided(Verdict.VERIFIED, arc, corrected=[arc])
 
 
 def _attracts(of: Parameters, found: Found) -> Decision:
@@ -168,8 +168,7 @@ def _transient(of: Parameters, found: Found) -> Decision:
     if known is None:
         return undecided(_NOT_FOLLOWED)
     for fixed in found.all(FixedPoint):
-        beside = (fixed.first[0], fixed.domain[0])
-        if within(fixed.domain, LONG) and any(within(beside, each) for each, _ in known.joined):
+        if within(fixed.domain, LONG) and known.reaches((fixed.first[0], fixed.domain[0])):
             never = found.all(NeverImpacts)[:1]
             return decided(Verdict.VERIFIED, fixed, *never, corrected=[fixed, known, *never])
     return undecided("no fixed point in [1.1, 1.5] beside phases that reach the sticking arc")

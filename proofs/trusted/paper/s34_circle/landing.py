@@ -27,7 +27,7 @@ from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.windows import BITS, clear, falls, level
 
 Number = Any
-TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
+_TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
 _MAX_BITS = 2000
 _THREE = 3  # less than pi
 _EARLIER = Fraction(1, 4)
@@ -47,8 +47,8 @@ def motion_at(of: Parameters, phases: Range, bits: int = BITS) -> Motion:
 class Separation(Conclusion):
     """The mass sticks exactly on the arc [3 pi - phi_s, phi_s), until phi_s.
 
-    start encloses 3 pi - phi_s, phase phi_s. The flight from phi_s has its first impact, a
-    transversal one, after a time in `time`, at the phase in `arrival`.
+    start encloses 3 pi - phi_s, phase phi_s. The flights from phi_s to phase[1] have their first
+    impact, a transversal one, after a time in `time`, at a phase in `arrival`.
     """
 
     at: Place
@@ -64,7 +64,7 @@ class Separation(Conclusion):
 
     @property
     def returns(self) -> bool:
-        """Whether the flight from phi_s ends in the interior of the arc."""
+        """Whether these flights end in the interior of the arc."""
         return self.start[1] < self.arrival[0] and self.arrival[1] < self.phase[0]
 
     @property
@@ -74,7 +74,9 @@ class Separation(Conclusion):
             ", inside the arc: the motion is periodic, with one impact and one separation a "
             "period. If f maps a sticking phase to phi_s, (phi_1, phi_s) is an orbit of period 2 "
             "of f; if f maps it to the next impact phase, as section 2 defines f, phi_1 is a fixed "
-            "point, and phi_s is on no periodic orbit."
+            "point, and phi_s is on no periodic orbit. It is superstable: phases near phi_1 and "
+            "below phi_s stick at this impact, those a little above phi_s at the next one, and so "
+            "join it exactly."
         )
         return (
             "the mass sticks after a plastic impact exactly at the phases of the arc "
@@ -87,7 +89,7 @@ class Separation(Conclusion):
     @property
     def brief(self) -> str:
         """Return the phases, and how often f has to be applied."""
-        period = ": period 2 if separation counts as a step of f, else a fixed point"
+        period = ", superstable: period 2 if separation counts as a step of f, else 1"
         return (
             f"sticking from {ceil_text(self.start[1])} or less to {floor_text(self.phase[0])} or "
             f"more, then impact at {between(self.arrival, 6)}{period if self.returns else ''}"
@@ -113,8 +115,8 @@ def separation(context: Context, reader: Reader) -> Separation:
     Proof. A increases with sin(phi), and sin increases on (3 pi/2, 2 pi): there is one zero phi_s
     in (l, u), and on the circle A < 0 exactly where sin(phi) < sin(phi_s), on
     (3 pi - phi_s, phi_s); A falls through 0 at the start of that arc, so the mass sticks there too,
-    and rises through 0 at phi_s. After phi_s, A > 0 up to the phase 5 pi - phi_s, and so is the
-    gap, see `lands`; then it falls to its first zero, in (v, w).
+    and rises through 0 at phi_s. After a launch between phi_s and u, A > 0 up to the phase
+    5 pi - phi_s, and so is the gap, see `lands`; then it falls to its first zero, in (v, w).
     """
     phase_of, time_of = reader.fields("phase", "time")
     phase, time = phase_of.range(), time_of.range()
@@ -215,7 +217,7 @@ class NeverImpacts(Conclusion):
     @property
     def share(self) -> Fraction:
         """The least share of the circle that these phases are."""
-        return (self.phases[1] - self.phases[0]) / TURN_AT_MOST
+        return (self.phases[1] - self.phases[0]) / _TURN_AT_MOST
 
     @property
     def sentence(self) -> str:
