@@ -94,7 +94,7 @@ def absorbed(cells: Sequence[Cell], count: int) -> Absorbed:
     steps: list[int | None] = [None] * len(cells)
     bounds, rest = lengths, [sum(lengths)]
     for n in range(1, count + 1):
-        METER.get().spend(sum(1 + len(met or ()) for met in links))
+        METER.get().spend(sum(1 + len(met or ()) for met in links) >> 2)
         steps = [
             old or (n if met is not None and all(steps[j] for j, _ in met) else None)
             for old, met in zip(steps, links, strict=True)
