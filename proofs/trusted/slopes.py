@@ -12,6 +12,7 @@ from proofs.trusted.flights import (
     FirstImpact,
     bracketed,
     lifted,
+    mean_values,
     phase_after,
     read_phases,
     transversal_step,
@@ -242,15 +243,8 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
             raise points_of.fail("phases must increase")
         phases = (left.phase, right.phase)
         motion, time = bracketed(transversal_step(context, flight, phases), phases, time_of)
-        low, high = motion.curvature(time).range
-        width = right.phase - left.phase
-        fall, rise = min(Fraction(0), low) * width, max(Fraction(0), high) * width
-        pieces.append(
-            (
-                max(left.slope[0] + fall, right.slope[0] - rise),
-                min(left.slope[1] + rise, right.slope[1] - fall),
-            )
-        )
+        bend, width = motion.curvature(time).range, right.phase - left.phase
+        pieces.append(mean_values(left.slope, right.slope, bend, width))
     return SlopeRange(
         facts[0].at,
         tuple(fact.phase for fact in facts),
