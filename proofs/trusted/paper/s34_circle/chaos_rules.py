@@ -7,8 +7,8 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.arithmetic import Unproved, log, pi
+from proofs.trusted.flights import Motion, brackets, lifted
+from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s34_circle.chaos import Branch, CoveringGraph
@@ -47,7 +47,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     launched = leaves(whole)
     for low, high in meetings.before(int(turn)):
         if high > launched:
-            clear(whole, (max(low, launched), high), reader)
+            clear(whole, (max(low, launched), high))
     begin = meetings.window(int(turn))[0]
     if begin <= launched:
         raise Unproved("the last window starts at launch")
@@ -55,7 +55,7 @@ def branch(context: Context, reader: Reader) -> Branch:
         piece = Motion(-1, context.of.eta, context.of.nu, phases, BITS)
         if end <= begin:
             raise ends_of.fail("an end before the window")
-        falls(piece, (begin, end), reader)
+        falls(piece, (begin, end))
         if level(piece, end)[1] >= 0:
             raise Unproved("the gap is not proved negative at an end")
     return Branch(cuts, int(turn), begin, ends)
@@ -120,7 +120,6 @@ def _images(of: Parameters, branches: Sequence[Branch], reader: Reader) -> dict[
 
     On its branch the gap has one zero, falling: gap(s) > 0 > gap(e) brackets it.
     """
-    turn = (2 * pi(BITS)).range
     images: dict[Fraction, Range] = {}
     for entry in reader.items(1, 5000):
         phase_of, time_of = entry.fields("phase", "time")
@@ -129,10 +128,9 @@ def _images(of: Parameters, branches: Sequence[Branch], reader: Reader) -> dict[
         if time[0] < one.begin or time[1] > end:
             raise time_of.fail("the bracket leaves the window of the first impact")
         thin = Motion(-1, of.eta, of.nu, (phase, phase), BITS)
-        start = thin.start()
-        if not thin.gap(start, (time[0],) * 2).lo > 0 > thin.gap(start, (time[1],) * 2).hi:
+        if not brackets(thin.gap_of, time):
             raise Unproved("a bracket does not have the signs +, - at its ends")
-        images[phase] = (phase + time[0] - one.turn * turn[1], phase + time[1] - one.turn * turn[0])
+        images[phase] = lifted((phase + time[0], phase + time[1]), -one.turn, BITS)
     return images
 
 

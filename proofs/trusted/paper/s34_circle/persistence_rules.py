@@ -29,7 +29,6 @@ impacts the mass is at rest on the table, where a < 0: it sticks there, as long 
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import AT_LAUNCH, Launch, clock, gap, launch, launch_acceleration
@@ -39,7 +38,11 @@ from proofs.trusted.flights import (
     Motion,
     bits_for,
     bracketed,
+    brackets,
+    first_windows,
+    lifted,
     read_phases,
+    read_times,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
@@ -71,30 +74,27 @@ def separation_flight(context: Context, reader: Reader) -> SeparationFlight:
 
     Hypotheses: the launch acceleration is < 0 at l, > 0 at u, and increases on [l, u], so it
     vanishes at one phi_s there; for all launches in [l, u] with relative velocity 0,
-    gap''' > 0 on [0, t_1]; on [t_j, t_(j+1)], j <= n - 2, of width w, min(gap(t_j),
-    gap(t_(j+1))) > w^2/8 max(0, sup gap''); gap' < 0 on [t_(n-1), t_n]; `time` lies in there,
-    with gap > 0 at its lower, gap < 0 at its upper end. Conclusion: at phi_s gap, gap' and gap''
-    vanish, so that gap > 0 on (0, t_1], by linear interpolation up to t_(n-1), and the first
-    impact comes in `time`, after `turns` turns of the table less up to one.
+    gap''' > 0 on [0, t_1]; open pieces as in rule `first-impact`, one interval that ends at
+    t_n, with gap' < 0 on it; `time` lies in there, with gap > 0 at its lower, gap < 0 at its upper
+    end. Conclusion: at phi_s gap, gap' and gap'' vanish, so that gap > 0 on (0, t_1], by linear
+    interpolation up to the open pieces, and the first impact comes in `time`, after `turns` turns
+    of the table less up to one.
     """
     separation_of, times_of, time_of = reader.fields("separation", "times", "time")
-    separation, times = read_phases(separation_of), times_of.numbers(least=2)
+    separation, times = read_phases(separation_of), read_times(times_of)
     bits = bits_for(separation)
     motion = Motion(_side(context.of), context.of.eta, context.of.nu, separation, bits)
     _isolate(context.of, motion)
-    _exclude(motion, times, times_of)
-    window = (times[-2], times[-1])
-    if not motion.falls(motion.start(), window):
-        raise Unproved("the gap is not proved to fall in the last piece")
+    windows, transversal = first_windows(motion.gap_of, times, 3)
+    if not transversal:
+        raise Unproved("an earlier impact is not excluded, or the gap not proved to fall")
     inner, time = bracketed(
-        FirstImpact(context.of.place, motion, (window,), True), separation, time_of
+        FirstImpact(context.of.place, motion, windows, True), separation, time_of
     )
     speed = (-inner.gap(inner.start(), time, 1)).range
     arrival = (separation[0] + time[0], separation[1] + time[1])
     turns = int((arrival[1] - separation[0]) // whole_turns(1, bits)[0]) + 1
-    low, high = whole_turns(turns, bits)
-    impact = (arrival[0] - high, arrival[1] - low)
-    return SeparationFlight(separation, time, turns, impact, speed)
+    return SeparationFlight(separation, time, turns, lifted(arrival, -turns, bits), speed)
 
 
 def _isolate(of: Parameters, motion: Motion) -> None:
@@ -104,22 +104,6 @@ def _isolate(of: Parameters, motion: Motion) -> None:
     slope: Enclosure = gap(motion.start(), AT_LAUNCH, 3)
     if not (low[1] < 0 < high[0] and slope.lo > 0):
         raise Unproved("the separation phase is not isolated")
-
-
-def _exclude(motion: Motion, times: tuple[Fraction, ...], times_of: Reader) -> None:
-    """Prove gap > 0 on (0, t_(n-1)] for the launch at the separation phase."""
-    if any(now <= before for before, now in zip((_ZERO, *times), times, strict=False)):
-        raise times_of.fail("times must increase from 0")
-    start = motion.start()
-    if motion.gap(start, (_ZERO, times[0]), 3).lo <= 0:
-        raise Unproved("the mass is not proved to leave the table at the separation phase")
-    value = motion.gap(start, (times[0], times[0]))
-    for before, now in pairwise(times[:-1]):
-        following = motion.gap(start, (now, now))
-        bend = max(_ZERO, motion.gap(start, (before, now), 2).range[1])
-        if min(value.range[0], following.range[0]) <= bend * (now - before) ** 2 / 8:
-            raise Unproved("an earlier impact is not excluded")
-        value = following
 
 
 def chatter(context: Context, reader: Reader) -> Chatter:
@@ -173,7 +157,7 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, bracket: Reader) -> tup
         value: Enclosure = gap(start, now, order)
         return value
 
-    if not enclose((time[0], time[0]), 0).lo > 0 > enclose((time[1], time[1]), 0).hi:
+    if not brackets(enclose, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
     strong, weak = _accelerations(of, (phases[0], phases[1] + time[1]))
     if weak >= 0:
