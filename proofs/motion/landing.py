@@ -22,7 +22,7 @@ from proofs.motion.windows import BITS, level, prove_clear
 from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Cell
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Lands,
     NeverImpacts,

@@ -14,7 +14,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, cells_met, links, with_gaps
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Absorption,
     Lands,
