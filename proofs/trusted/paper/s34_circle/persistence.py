@@ -86,7 +86,7 @@ class SuperstableMotion(Conclusion):
             "let phi_s be the separation phase, in "
             f"{_bounds(self.separation)}. The mass that leaves the table there with relative "
             f"velocity 0 flies for a time t in {_bounds(self.flight)} and lands at the phase phi_1 "
-            f"= phi_s + t - 2 pi {self.turns} in {_bounds(self.impact)}, with a relative speed u "
+            f"= phi_s + t - 2 pi * {self.turns} in {_bounds(self.impact)}, with a relative speed u "
             f"in {_bounds(self.speed)}. All further impacts of this passage come at phases below "
             f"phi_s and up to {ceil_text(self.rest)}: none if epsilon = 0, infinitely many, at "
             "phases that increase to a limit below phi_s and with speeds that tend to 0, if "
