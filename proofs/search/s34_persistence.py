@@ -26,11 +26,8 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
-from proofs.trusted.paper.s34_circle.persistence import (
-    StablePair,
-    SuperstableMotion,
-    stable_pair,
-)
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
 from proofs.trusted.parameters import Parameters, Place
 
 CLAIMS = ("G7", "G8")
