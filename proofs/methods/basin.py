@@ -1,7 +1,7 @@
 """Candidates for a partition of the circle on which a map can be followed: floating point.
 
 Cuts are placed at preimages of cuts, so that most cells are mapped onto unions of cells, and the
-bookkeeping of `s34_circle.absorption` loses little. Nothing here is evidence.
+bookkeeping of `s34_circle.cells` loses little. Nothing here is evidence.
 """
 
 from __future__ import annotations

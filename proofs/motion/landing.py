@@ -1,5 +1,5 @@
 """Where flights land: on the sticking arc, nowhere, or in the images of cells. The theorems are
-those of the rules of `s34_circle.circle_rules`."""
+those of the rules of `s34_circle`."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ from proofs.motion.phase import phase_after, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
 from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import Cell
+from proofs.trusted.numbers import Phase, Phases, Range
+from proofs.trusted.paper.s34_circle.absorption import BRACKET
+from proofs.trusted.paper.s34_circle.cells import Cell
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Lands,
@@ -29,8 +30,7 @@ from proofs.trusted.paper.s34_circle.landing import (
     Separation,
     closest_approach,
 )
-
-BRACKET = Fraction(1, 2**26)  # the width of the time brackets of cells
+from proofs.trusted.parameters import Place
 
 
 def prove_separation(system: System, bits: int) -> Separation:
@@ -46,7 +46,11 @@ def prove_separation(system: System, bits: int) -> Separation:
     pi = Interval.pi(precision=bits + 20) * 3
     start = pi.inf - phase[1], pi.sup - phase[0]
     arrival = phase_after(phase[0], (time[0], time[1] + phase[1] - phase[0]), bits + 20)
-    return Separation(start, phase, time, arrival)
+    return Separation(_at(system), Phase(*start), Phase(*phase), time, Phase(*arrival))
+
+
+def _at(system: System) -> Place:
+    return Place.plastic(system.eta, system.nu)
 
 
 def lifted(ends: Range, turns: int) -> Range:
@@ -57,21 +61,14 @@ def lifted(ends: Range, turns: int) -> Range:
 
 def prove_lands(system: System, arc: Separation, cuts: Sequence[Fraction], turns: int) -> Lands:
     """Prove that the launches between the first and the last cut land on the sticking arc."""
-    if turns == 0:
-        if (
-            not Flight(system, (cuts[0], cuts[0]), BITS)
-            .gap(arc.phase[0] - cuts[0])
-            .certainly_negative()
-        ):
-            raise Undecided("the gap is not negative at the end of the sticking arc")
-        return Lands((cuts[0], cuts[-1]))
     start, end = lifted(arc.start, turns), lifted(arc.phase, turns)
-    for low, high in pairwise(cuts):
+    for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
         flight = Flight(system, (low, high), BITS)
-        prove_clear(flight, (arc.start[0] - high, start[1] - low))
+        if turns:
+            prove_clear(flight, (arc.start[0] - high, start[1] - low))
         if level(flight, end[0] - high)[1] >= 0:
             raise Undecided("the gap is not negative at the end of the sticking arc")
-    return Lands((cuts[0], cuts[-1]))
+    return Lands(arc.at, (cuts[0], cuts[-1]))
 
 
 def prove_never(system: System, phases: Range) -> NeverImpacts:
@@ -81,7 +78,7 @@ def prove_never(system: System, phases: Range) -> NeverImpacts:
     bounds = closest_approach(system.eta, nu, flight.start, flight.phi - half_turn / 2, half_turn)
     if not all(bound.certainly_positive() for bound in bounds):
         raise Undecided("an impact is not excluded")
-    return NeverImpacts(phases)
+    return NeverImpacts(_at(system), Phases(*phases))
 
 
 @dataclass(frozen=True)

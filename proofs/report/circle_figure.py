@@ -9,8 +9,10 @@ import io
 import math
 from typing import TYPE_CHECKING
 
-from proofs.trusted.certificate import parse
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,17 +25,14 @@ def proved(source: str) -> tuple[Bars, list[tuple[float, float]]]:
     never impact again; phases in [0, 2 pi)."""
     bars: Bars = []
     never: list[tuple[float, float]] = []
-    for _, step in dict(parse(source).entries())["steps"].members():
-        rule, witness = step.fields("rule", "witness")
-        if rule.string() == "absorption":
-            entries = dict(witness.entries())["within"].items()
-            for low, high, count in (entry.numbers(3, 3) for entry in entries):
-                bars += [(a, b, int(count)) for a, b in _on_circle((low, high))]
-        if rule.string() == "never-impacts":
-            never += _on_circle(witness.fields("phases")[0].range())
-        if rule.string() == "separation":
-            phase = witness.fields("phase", "time")[0].range()
-            bars.append((3 * math.pi - float(phase[0]), float(phase[0]), 0))
+    for step in premises(source).known.values():
+        if isinstance(step, Absorption):
+            for phases, count in step.within:
+                bars += [(low, high, count) for low, high in _on_circle(phases)]
+        if isinstance(step, NeverImpacts):
+            never += _on_circle(step.phases)
+        if isinstance(step, Separation):
+            bars.append((float(step.start[1]), float(step.phase[0]), 0))
     return sorted(bars), never
 
 

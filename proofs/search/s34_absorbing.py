@@ -17,13 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.methods.basin import Cuts, Sampled
 from proofs.motion.flight import Flight
 from proofs.motion.impact import first_impact
 from proofs.motion.kernel import float_clock, float_launch
 from proofs.motion.landing import (
-    BRACKET,
     Cutting,
     lifted,
     prove_cells,
@@ -33,14 +32,16 @@ from proofs.motion.landing import (
 )
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
+from proofs.search.evidence import FAILED
 from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, links, with_gaps
+from proofs.trusted.paper.s34_circle.absorption import BRACKET, Absorption
+from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.landing import Absorption, Separation
+from proofs.trusted.paper.s34_circle.landing import Separation
 
 _GRID = 2000
 _SAMPLES = 40
@@ -88,7 +89,7 @@ class Partition:
         for low, high in branches.candidates.runs(first, last, _GRID):
             try:
                 branches.prove(self.prover, low, high)
-            except (Undecided, DomainError):
+            except FAILED:
                 continue  # nothing is known there
         pieces = [
             (
@@ -159,7 +160,7 @@ class Partition:
         cutting = Cutting(cuts, times, self._after(branch))
         try:
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
-        except (Undecided, DomainError):
+        except FAILED:
             return
         witness = {"cuts": texts(cuts), "times": texts(times), "after": str(cutting.after)}
         self.entries["cells"].append({"branch": branches.names[index], **witness})
@@ -198,7 +199,7 @@ class Partition:
                 ends = Fraction(min(first, last) + slack), Fraction(max(first, last) - slack)
                 seen = tuple(reduced(ends, self.line[0]))
             cells.append(Cell(phases, seen))
-        found = absorbed(cells, links(cells), self.impacts)
+        found = absorbed(cells, self.impacts)
         steps = [self.impacts if n is None else n for n in found.steps]
         after = dict(zip(cuts.cuts, steps, strict=False))
         before = dict(zip(cuts.cuts[1:], steps, strict=True))
@@ -211,8 +212,8 @@ class Partition:
 
     def _conclude(self) -> tuple[str, Absorption]:
         """Follow all cells, and record what is found, a little rounded up."""
-        cells = with_gaps(sorted(self.cells, key=lambda cell: cell.phases))
-        found = absorbed(cells, links(cells), self.impacts)
+        cells = in_order(self.cells)
+        found = absorbed(cells, self.impacts)
         rest = tuple(Fraction(math.ceil(bound * 10**7) + 1, 10**7) for bound in found.rest)
         within = tuple(_runs_of_equal(cells, found.steps))
         witness = {
@@ -221,7 +222,7 @@ class Partition:
             "rest": texts(rest),
             "within": [texts([*phases, Fraction(steps)]) for phases, steps in within],
         }
-        return self.prover.add("absorption", witness), Absorption(rest, within)
+        return self.prover.add("absorption", witness), Absorption(self.arc[1], rest, within)
 
 
 def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tuple[Range, int]]:

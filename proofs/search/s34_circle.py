@@ -13,23 +13,29 @@ from fractions import Fraction
 from functools import partial
 from typing import TypeVar
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.landing import prove_never, prove_separation
 from proofs.motion.system import System
-from proofs.search.evidence import Evidence
+from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.s34_circle.circle import CLAIMS as STATED
-from proofs.trusted.paper.s34_circle.circle import LONG
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.circle import (
+    LONG,
+    ROWS,
+    FixedPoint,
+    repelling_fixed_point,
+)
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Parameters
 
-CLAIMS = tuple(claim.id for claim in STATED)
+CLAIMS = tuple(row.id for row in ROWS)
 
+_STICKS = {"G1", "G2", "G3", "G4", "G6"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6"}  # what rests on phases that never impact again
 _FOLLOWED = {"G3", "G4", "G6"}  # what rests on where all others lead
 _REPELLED = {"G4", "G6"}  # what rests on a fixed point
@@ -49,12 +55,11 @@ def prove(
     found = _Run(prover, Evidence(prover.steps, {claim: [] for claim in claims}), tell)
     if not -1 < of.nu < 0 < of.eta < 1:
         return found.evidence
-    arc = found.attempt("where the mass sticks", set(CLAIMS), partial(prove_arc, prover))
+    arc = found.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
     found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
     if arc is not None:
         found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc).prove)
-    for ends in fixed_points(prover.system) if _REPELLED & set(claims) else ():
-        found.attempt("a fixed point", _REPELLED, partial(prover.slopes, list(ends)))
+    found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))
     return found.evidence
 
 
@@ -77,7 +82,7 @@ class _Run:
         before = dict(self.prover.steps)
         try:
             found = make()
-        except (Undecided, DomainError):
+        except FAILED:
             self.prover.steps.clear()
             self.prover.steps.update(before)
             return None
@@ -105,7 +110,7 @@ def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
         try:
             prove_never(prover.system, around(middle))
             low = middle
-        except (Undecided, DomainError):
+        except FAILED:
             high = middle
     if low == 0:
         raise Undecided("no interval of phases without a next impact")
@@ -115,8 +120,18 @@ def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
     )
 
 
-def fixed_points(system: System) -> Iterator[tuple[Fraction, Fraction]]:
-    """Yield a wide and a narrow interval around a repelling fixed point, in floating point."""
+def prove_fixed_point(prover: Prover) -> tuple[str, FixedPoint]:
+    """Prove a repelling fixed point where transients are long (rule fixed-point)."""
+    candidate = next(fixed_points(prover.system), None)
+    if candidate is None:
+        raise Undecided("no repelling fixed point is seen")
+    (wide, known), (narrow, more) = (prover.slopes(list(ends)) for ends in candidate)
+    name = prover.add("fixed-point", {"wide": wide, "narrow": narrow})
+    return name, repelling_fixed_point(known, more)
+
+
+def fixed_points(system: System) -> Iterator[tuple[Range, Range]]:
+    """Yield wide and narrow intervals around repelling fixed points, in floating point."""
     unit, narrow = Fraction(1, 100), Fraction(1, 10**_NARROW)
     for index in range(int((LONG[1] - LONG[0]) / unit)):
         low = LONG[0] + index * unit
@@ -124,10 +139,8 @@ def fixed_points(system: System) -> Iterator[tuple[Fraction, Fraction]]:
         if first is None or last is None or min(first[2], last[2]) <= 1:
             continue
         if first[1] < low and low + unit < last[1]:
-            yield low, low + unit
             centre = round(Fraction(_fixed_point(system, float(low), float(low + unit))), _NARROW)
-            yield centre - narrow, centre + narrow
-            return
+            yield (low, low + unit), (centre - narrow, centre + narrow)
 
 
 def _fixed_point(system: System, low: float, high: float) -> float:

@@ -24,7 +24,7 @@ from proofs.trusted.certificate import (
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Row, Verdict
 
 PROVERS: Mapping[str, str] = MappingProxyType(
     {
@@ -143,10 +143,17 @@ def produce(
     return Made(lines, render(proved), page(next(iter(groups)), of, proved, lines))
 
 
-def wanted(file: str, claims: Iterable[str] | None = None) -> dict[str, tuple[str, ...]]:
-    """Return what is asked for of a file, by group; all of it without a choice."""
+def wanted(
+    file: str, of: Parameters, claims: Iterable[str] | None = None
+) -> dict[str, tuple[str, ...]]:
+    """Return what is asked for of a file, by group; without a choice all that is asked at `of`."""
     groups = {
-        group: tuple(x for x in ids if claims is None or x in claims)
+        group: tuple(x for x in ids if (_is_asked(x, of) if claims is None else x in claims))
         for group, ids in FILES[file].items()
     }
     return {group: ids for group, ids in groups.items() if ids}
+
+
+def _is_asked(claim: str, of: Parameters) -> bool:
+    row = find(claim)
+    return not isinstance(row, Row) or row.is_asked(of)

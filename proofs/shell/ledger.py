@@ -112,7 +112,7 @@ def settle(job: Job) -> Settled:
     there = None if job.fresh else _there(job)
     if there is not None:
         return Settled(job, Made([], there[0], ""), there[1], False, perf_counter() - began)
-    made = produce(wanted(job.name, job.claims), PAPER, digits=job.digits)
+    made = produce(wanted(job.name, PAPER, job.claims), PAPER, digits=job.digits)
     return Settled(job, made, check(made.certificate), True, perf_counter() - began)
 
 

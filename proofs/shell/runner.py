@@ -91,7 +91,9 @@ def run(
     more = {"horizon": options.horizon} if getattr(options, "horizon", None) else {}
     began = perf_counter()
     with counting(options.stats) as counts, progress() as tell:
-        asked = wanted(file, options.only)
+        asked = wanted(file, of, options.only)
+        if not asked:
+            parser.error("all its claims are about the paper's parameters: choose some by --only")
         made = produce(asked, of, digits=options.digits, tell=tell, **more)
     seconds = perf_counter() - began
     try:

@@ -1,13 +1,13 @@
-"""The inference rules: each turns a witness into a conclusion, or raises Unproved.
+"""Flights: which impact is the first, and when it comes.
 
-A rule's docstring is its theorem. Conclusions are recomputed from exact data by
-`proofs.trusted.kernel.arithmetic`; the equations are the shared ones.
+Exclusion of earlier impacts, bracket of the impact and fall of the gap to it stand here, for any
+`gap_of(interval of times, order)` that encloses the derivatives of the gaps of some flights.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -17,14 +17,82 @@ from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Phase, Phases, Range, show_range
+from proofs.trusted.numbers import TURN, Range, show_range
 from proofs.trusted.parameters import Place
-from proofs.trusted.slopes import Avoids, Impact, SlopeRange
 
 COVER_BITS = 64
 MAX_BITS = 4000
 LATEST = 10**6
 _ZERO = Fraction(0)
+Gap = Callable[[Range, int], Enclosure]
+
+
+# -- what excludes, brackets and falls -------------------------------------------------------------
+
+
+def stays_up(gap_of: Gap, time: Range, least: Fraction) -> bool:
+    """Whether gap > 0 on an interval of times, at whose ends it is `least` or more.
+
+    It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval.
+    """
+    bend = max(_ZERO, gap_of(time, 2).range[1])
+    return least > bend * (time[1] - time[0]) ** 2 / 8
+
+
+def brackets(gap_of: Gap, time: Range) -> bool:
+    """Whether gap > 0 at the lower end of an interval of times, gap < 0 at the upper one."""
+    low, high = (gap_of((end, end), 0) for end in time)
+    return low.lo > 0 > high.hi
+
+
+def fall(gap_of: Gap, time: Range) -> Enclosure:
+    """Enclose gap' on an interval of times: directly, and by the mean value theorem."""
+    direct, bend, width = gap_of(time, 1), gap_of(time, 2).range, time[1] - time[0]
+    down, up = min(bend[0], _ZERO) * width, max(bend[1], _ZERO) * width
+    first, last = (gap_of((end, end), 1).range for end in time)
+    low, high = max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
+    return direct.meet(Enclosure.of(low, high, direct.bits))
+
+
+def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
+    """Whether gap' < 0 on an interval of times, which may be halved again and again."""
+    if fall(gap_of, time).hi < 0:
+        return True
+    middle = (time[0] + time[1]) / 2
+    halves = (time[0], middle), (middle, time[1])
+    return halvings > 0 and all(falls(gap_of, half, halvings - 1) for half in halves)
+
+
+def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
+    """Return the runs of pieces [t_j, t_(j+1)] that do not stay up; gap < 0 must hold at t_n."""
+    windows: list[Range] = []
+    value = gap_of((times[0], times[0]), 0)
+    for before, now in pairwise(times):
+        following = gap_of((now, now), 0)
+        if not stays_up(gap_of, (before, now), min(value.range[0], following.range[0])):
+            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
+            windows.append((begin, now))
+        value = following
+    if value.hi >= 0:
+        raise Unproved("the gap is not proved negative at the last time")
+    return windows
+
+
+def first_windows(
+    gap_of: Gap, times: Sequence[Fraction], *orders: int
+) -> tuple[tuple[Range, ...], bool]:
+    """Return the windows of the first impact, and whether it is transversal: rule `first-impact`.
+
+    For an order k of `orders`: gap^(k) > 0 on [0, t_1], lower derivatives are >= 0 at launch.
+    """
+    if all(gap_of((_ZERO, times[0]), order).lo <= 0 for order in orders):
+        raise Unproved("the launches are not proved to leave the table")
+    windows = open_windows(gap_of, times)
+    single = len(windows) == 1 and windows[0][1] == times[-1]
+    return tuple(windows), single and falls(gap_of, windows[0])
+
+
+# -- plastic impacts -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -53,28 +121,28 @@ class Motion:
 
     def gap(self, start: Launch, time: Range, order: int = 0) -> Enclosure:
         """Enclose a time derivative of the gap."""
-        value = gap(start, self.clock(time), order)
-        return value if isinstance(value, Enclosure) else rational(Fraction(value), self.bits)
+        value: Enclosure = gap(start, self.clock(time), order)
+        return value
+
+    @property
+    def gap_of(self) -> Gap:
+        """The gap as a function of time and order."""
+        return partial(self.gap, self.start())
 
     def falls(self, start: Launch, time: Range) -> bool:
         """Whether gap' < 0 on an interval of times."""
         return falls(partial(self.gap, start), time)
 
-    def _fall(self, start: Launch, time: Range) -> Enclosure:
-        """Enclose gap' on an interval of times, directly and by the mean value theorem."""
-        direct = self.gap(start, time, 1)
-        return direct.meet(Enclosure.of(*fall(partial(self.gap, start), time), self.bits))
-
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
         start = self.start()
-        value: Enclosure = slope(start, self.clock(time), self._fall(start, time))
+        value: Enclosure = slope(start, self.clock(time), fall(partial(self.gap, start), time))
         return value
 
     def curvature(self, time: Range) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
         start, now = self.start(), self.clock(time)
-        one, down = rational(Fraction(1), self.bits), self._fall(start, time)
+        one, down = rational(Fraction(1), self.bits), fall(partial(self.gap, start), time)
         faster = slope(start, now, down) - 1
         moved = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
         change = gap(moved, now, 1).derivative + self.gap(start, time, 2) * faster
@@ -103,15 +171,20 @@ class FirstImpact(Conclusion):
         )
 
 
-Gap = Callable[[Range, int], Enclosure]
-
-
 def read_phases(reader: Reader) -> Range:
     """Read an interval of phases from 0 to 2 pi, one phase as well."""
     low, high = reader.range()
     if low < 0 or high > TURN:
         raise reader.fail("phases lie between 0 and 2 pi")
     return low, high
+
+
+def read_times(reader: Reader) -> tuple[Fraction, ...]:
+    """Read times 0 < t_1 < ... < t_n, n >= 2."""
+    times = reader.numbers(least=2)
+    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
+        raise reader.fail(f"times must increase from 0, to at most {LATEST}")
+    return times
 
 
 def first_impact(context: Context, reader: Reader) -> FirstImpact:
@@ -125,56 +198,10 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     at t_n, with gap' < 0 on it.
     """
     phases_of, times_of = reader.fields("phases", "times")
-    times = times_of.numbers(least=2)
-    if times[-1] > LATEST:
-        raise times_of.fail(f"times beyond {LATEST} are not examined")
-    if any(now <= before for before, now in zip((_ZERO, *times), times, strict=False)):
-        raise times_of.fail("times must increase from 0")
-    # a piece of width w has gaps of the order w^2: as many bits again as the shortest needs
-    shortest = min(now - before for before, now in zip((_ZERO, *times), times, strict=False))
-    bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-    of = context.of
-    motion = Motion(1 if of.nu > 0 else -1, of.eta, of.nu, read_phases(phases_of), bits)
-    start = motion.start()
-    gap_of = partial(motion.gap, start)
-    if gap_of((_ZERO, times[0]), 2).lo <= 0:
-        raise Unproved("the launches are not proved to leave the table")
-    windows = open_windows(gap_of, times)
-    single = len(windows) == 1 and windows[0][1] == times[-1]
-    transversal = single and motion.falls(start, windows[0])
-    return FirstImpact(of.place, motion, tuple(windows), transversal)
-
-
-def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
-    """Return the runs of open pieces of [times[0], times[-1]]; gap < 0 must hold at the end.
-
-    gap_of(interval of times, order) encloses derivatives of the gap of the flights in question.
-    """
-    windows: list[Range] = []
-    value = gap_of((times[0], times[0]), 0)
-    for before, now in pairwise(times):
-        following = gap_of((now, now), 0)
-        bend = max(_ZERO, gap_of((before, now), 2).range[1]) * (now - before) ** 2 / 8
-        if min(value.range[0], following.range[0]) <= bend:
-            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
-            windows.append((begin, now))
-        value = following
-    if value.hi >= 0:
-        raise Unproved("the gap is not proved negative at the last time")
-    return windows
-
-
-def fall(gap_of: Gap, time: Range) -> Range:
-    """Enclose gap' on an interval of times: mean value theorem from either end."""
-    width, bend = time[1] - time[0], gap_of(time, 2).range
-    down, up = min(bend[0], _ZERO) * width, max(bend[1], _ZERO) * width
-    first, last = (gap_of((t, t), 1).range for t in time)
-    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
-
-
-def falls(gap_of: Gap, time: Range) -> bool:
-    """Whether gap' < 0 on an interval of times."""
-    return fall(gap_of, time)[1] < 0
+    times, of = read_times(times_of), context.of
+    side = 1 if of.nu > 0 else -1
+    motion = Motion(side, of.eta, of.nu, read_phases(phases_of), bits_for_pieces(times))
+    return FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 2))
 
 
 def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpact:
@@ -195,6 +222,12 @@ def bits_for(time: Range) -> int:
     return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
 
 
+def bits_for_pieces(times: Sequence[Fraction]) -> int:
+    """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
+    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
+    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+
+
 def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
     """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
 
@@ -206,13 +239,13 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
         raise Unproved("a bracket leaves the window of the first impact")
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
-        precision = min(factor * bits, MAX_BITS)
-        inner = Motion(motion.side, motion.eta, motion.nu, phases, precision)
-        start = inner.start()
-        low, high = (inner.gap(start, (t, t)) for t in time)
-        if low.lo > 0 > high.hi:
+        inner = replace(motion, phases=phases, bits=min(factor * bits, MAX_BITS))
+        if brackets(inner.gap_of, time):
             return inner, time
     raise Unproved("a bracket does not have the signs +, - at its ends")
+
+
+# -- phases ----------------------------------------------------------------------------------------
 
 
 def whole_turns(count: int, bits: int) -> Range:
@@ -220,101 +253,19 @@ def whole_turns(count: int, bits: int) -> Range:
     return (pi(bits) * (2 * count)).range
 
 
+def lifted(phases: Range, turns: int, bits: int) -> Range:
+    """Enclose phases + 2 pi turns."""
+    low, high = whole_turns(turns, bits)
+    return phases[0] + low, phases[1] + high
+
+
 def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
     """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi).
 
-    The upper end may lie beyond 2 pi.
+    The upper end may lie beyond 2 pi: what is compared with phases is made a `Phase` first.
     """
     total = phase + time[0]
     count = total // whole_turns(1, bits)[0]
     if total < whole_turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
         count -= 1
-    low, high = whole_turns(count, bits)
-    return total - high, phase + time[1] - low
-
-
-def point(context: Context, reader: Reader) -> Impact:
-    """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
-
-    Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
-    """
-    flight, phase_of, time_of = reader.fields("flight", "phase", "time")
-    phase = phase_of.number()
-    step = transversal_step(context, flight, (phase, phase))
-    motion, time = bracketed(step, (phase, phase), time_of)
-    image = Phase(*phase_after(phase, time, motion.bits))
-    return Impact(step.at, phase, motion.slope(time).range, image)
-
-
-def slope_range(context: Context, reader: Reader) -> SlopeRange:
-    """Rule `slope-range`: {points: [{flight, phase, time}], pieces: [{flight, time}]}.
-
-    Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
-    first-impact step that contains it, and a bracket for all its launches. Conclusion: f is C^1
-    on each piece, hence on [x_0, x_n] (at a shared end the first impact is the same), and with
-    f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0, w] and
-    f'(x_(i+1)) - f'' [0, w] (mean value theorem).
-    """
-    points_of, pieces_of = reader.fields("points", "pieces")
-    entries = points_of.items(least=2)
-    facts = [point(context, entry) for entry in entries]
-    pieces = []
-    for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
-        flight, time_of = entry.fields("flight", "time")
-        left, right = facts[index], facts[index + 1]
-        if left.phase >= right.phase:
-            raise points_of.fail("phases must increase")
-        phases = (left.phase, right.phase)
-        motion, time = bracketed(transversal_step(context, flight, phases), phases, time_of)
-        low, high = motion.curvature(time).range
-        width = right.phase - left.phase
-        fall, rise = min(_ZERO, low) * width, max(_ZERO, high) * width
-        pieces.append(
-            (
-                max(left.slope[0] + fall, right.slope[0] - rise),
-                min(left.slope[1] + rise, right.slope[1] - fall),
-            )
-        )
-    return SlopeRange(
-        facts[0].at,
-        tuple(fact.phase for fact in facts),
-        tuple(fact.slope for fact in facts),
-        tuple(fact.image for fact in facts),
-        tuple(pieces),
-    )
-
-
-def avoids(context: Context, reader: Reader) -> Avoids:
-    """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
-
-    Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
-    for every k. Conclusion: no phase of the union has its first impact in the target.
-    """
-    flights_of, target_of = reader.fields("flights", "target")
-    target = read_phases(target_of)
-    steps: list[FirstImpact] = []
-    for name in flights_of.items(least=1):
-        step = context.step(name, FirstImpact)
-        if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
-            raise name.fail("its phases do not continue those of the step before")
-        steps.append(step)
-        for window in step.windows:
-            if _meets(step.motion.phases, window, target):
-                raise Unproved(f"a window of {name.string()} is not proved to miss the target")
-    phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
-    return Avoids(steps[0].at, phases, Phases(*target))
-
-
-def _meets(phases: Range, time: Range, target: Range) -> bool:
-    """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
-    arrival = (phases[0] + time[0], phases[1] + time[1])
-    count = (
-        arrival[0] // whole_turns(1, COVER_BITS)[0] - 1
-    )  # target + 2 pi k for lower k lies before
-    while True:
-        low, high = whole_turns(count, COVER_BITS)
-        if arrival[1] < low + target[0]:
-            return False
-        if arrival[0] <= high + target[1]:
-            return True
-        count += 1
+    return lifted((total, phase + time[1]), -count, bits)

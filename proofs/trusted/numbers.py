@@ -81,6 +81,11 @@ def ceil_text(value: Fraction, places: int = 6) -> str:
     return show(-Fraction(-value * 10**places // 1, 10**places))
 
 
+def between(bounds: Range, places: int = 6) -> str:
+    """Write an enclosure, rounded outward."""
+    return f"[{floor_text(bounds[0], places)}, {ceil_text(bounds[1], places)}]"
+
+
 def within(inner: Range, outer: Range) -> bool:
     """Whether one range contains another."""
     return outer[0] <= inner[0] and inner[1] <= outer[1]

@@ -1,4 +1,4 @@
-"""What is proved about the plastic impact map on intervals of phases."""
+"""The plastic impact map f on intervals of phases: slopes, images, what it avoids."""
 
 from __future__ import annotations
 
@@ -6,8 +6,20 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
+from proofs.trusted.certificate import Reader
+from proofs.trusted.flights import (
+    COVER_BITS,
+    FirstImpact,
+    bracketed,
+    lifted,
+    phase_after,
+    read_phases,
+    transversal_step,
+    whole_turns,
+)
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import (
     TURN,
     Phase,
@@ -192,3 +204,91 @@ class Avoids(Conclusion):
         """Return the statement."""
         phases, target = show_range(self.phases), show_range(self.target)
         return f"no phase of {phases} has its first impact in {target}."
+
+
+# -- the rules ------------------------------------------------------------------------------------
+
+
+def point(context: Context, reader: Reader) -> Impact:
+    """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
+
+    Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
+    """
+    flight, phase_of, time_of = reader.fields("flight", "phase", "time")
+    phase = phase_of.number()
+    step = transversal_step(context, flight, (phase, phase))
+    motion, time = bracketed(step, (phase, phase), time_of)
+    image = Phase(*phase_after(phase, time, motion.bits))
+    return Impact(step.at, phase, motion.slope(time).range, image)
+
+
+def slope_range(context: Context, reader: Reader) -> SlopeRange:
+    """Rule `slope-range`: {points: [{flight, phase, time}], pieces: [{flight, time}]}.
+
+    Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
+    first-impact step that contains it, and a bracket for all its launches. Conclusion: f is C^1
+    on each piece, hence on [x_0, x_n] (at a shared end the first impact is the same), and with
+    f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0, w] and
+    f'(x_(i+1)) - f'' [0, w] (mean value theorem).
+    """
+    points_of, pieces_of = reader.fields("points", "pieces")
+    entries = points_of.items(least=2)
+    facts = [point(context, entry) for entry in entries]
+    pieces = []
+    for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
+        flight, time_of = entry.fields("flight", "time")
+        left, right = facts[index], facts[index + 1]
+        if left.phase >= right.phase:
+            raise points_of.fail("phases must increase")
+        phases = (left.phase, right.phase)
+        motion, time = bracketed(transversal_step(context, flight, phases), phases, time_of)
+        low, high = motion.curvature(time).range
+        width = right.phase - left.phase
+        fall, rise = min(Fraction(0), low) * width, max(Fraction(0), high) * width
+        pieces.append(
+            (
+                max(left.slope[0] + fall, right.slope[0] - rise),
+                min(left.slope[1] + rise, right.slope[1] - fall),
+            )
+        )
+    return SlopeRange(
+        facts[0].at,
+        tuple(fact.phase for fact in facts),
+        tuple(fact.slope for fact in facts),
+        tuple(fact.image for fact in facts),
+        tuple(pieces),
+    )
+
+
+def avoids(context: Context, reader: Reader) -> Avoids:
+    """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
+
+    Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
+    for every k. Conclusion: no phase of the union has its first impact in the target.
+    """
+    flights_of, target_of = reader.fields("flights", "target")
+    target = read_phases(target_of)
+    steps: list[FirstImpact] = []
+    for name in flights_of.items(least=1):
+        step = context.step(name, FirstImpact)
+        if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
+            raise name.fail("its phases do not continue those of the step before")
+        steps.append(step)
+        for window in step.windows:
+            if _meets(step.motion.phases, window, target):
+                raise Unproved(f"a window of {name.string()} is not proved to miss the target")
+    phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
+    return Avoids(steps[0].at, phases, Phases(*target))
+
+
+def _meets(phases: Range, time: Range, target: Range) -> bool:
+    """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
+    early, late = phases[0] + time[0], phases[1] + time[1]
+    count = early // whole_turns(1, COVER_BITS)[0] - 1  # for lower k, target + 2 pi k lies before
+    while True:
+        low, high = lifted(target, count, COVER_BITS)
+        if late < low:
+            return False
+        if early <= high:
+            return True
+        count += 1

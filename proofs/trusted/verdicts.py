@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
 from itertools import groupby
@@ -144,8 +144,16 @@ class Row:
         """Return the claim in words at the given numbers."""
         return of.fill(self.reading)
 
+    def is_asked(self, of: Parameters) -> bool:
+        """Whether the claim is asked about these numbers."""
+        return self.printed_at is None or self.printed_at.holds(of)
+
     def decide(self, of: Parameters, conclusions: Sequence[Conclusion]) -> Decision:
-        """Decide the claim by what is proved."""
-        if self.printed_at is not None and not self.printed_at.holds(of):
-            return undecided(f"the printed numbers are about {self.printed_at}: not asked here")
-        return self.decide_by(of, Found(of, conclusions))
+        """Decide the claim by what is proved; where it is not asked, tell what is true instead."""
+        decision = self.decide_by(of, Found(of, conclusions))
+        if self.is_asked(of):
+            return decision
+        missing = f"the printed numbers are about {self.printed_at}: not asked here"
+        return replace(
+            decision, verdict=Verdict.UNDECIDED, because=(), margin=None, missing=missing
+        )

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, gap, launch
-from proofs.trusted.flights import Motion
+from proofs.trusted.flights import Motion, stays_up
+from proofs.trusted.flights import falls as gap_falls
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.numbers import Range
 
@@ -146,35 +146,24 @@ def level(motion: Motion, time: Fraction) -> Range:
     return min(bottom for bottom, _ in ends), max(top for _, top in ends)
 
 
-def clear(motion: Motion, times: Range, reader: Reader) -> None:
-    """Prove gap > 0 for all launches on an interval of times, or raise Unproved.
-
-    The gap is above its chord less w^2/8 max(0, sup gap''); the interval is halved as needed.
-    """
-    _clear(motion, times, [level(motion, time)[0] for time in times], reader, 0)
+def clear(motion: Motion, times: Range) -> None:
+    """Prove gap > 0 for all launches on an interval of times, halving it, or raise Unproved."""
+    _clear(motion, times, [level(motion, time)[0] for time in times], 0)
 
 
-def _clear(
-    motion: Motion, times: Range, least: Sequence[Fraction], reader: Reader, depth: int
-) -> None:
+def _clear(motion: Motion, times: Range, least: Sequence[Fraction], depth: int) -> None:
     """Do `clear`, lower bounds of the gap at the ends of the interval being known."""
     if min(least) <= 0 or depth == _DEEPEST:
         raise Unproved("an earlier impact is not excluded")
-    bend = motion.gap(motion.start(), times, 2).range[1]
-    if min(least) > max(_ZERO, bend) * (times[1] - times[0]) ** 2 / 8:
+    if stays_up(motion.gap_of, times, min(least)):
         return
     middle = (times[0] + times[1]) / 2
     between = level(motion, middle)[0]
-    _clear(motion, (times[0], middle), (least[0], between), reader, depth + 1)
-    _clear(motion, (middle, times[1]), (between, least[1]), reader, depth + 1)
+    _clear(motion, (times[0], middle), (least[0], between), depth + 1)
+    _clear(motion, (middle, times[1]), (between, least[1]), depth + 1)
 
 
-def falls(motion: Motion, times: Range, reader: Reader, depth: int = 0) -> None:
+def falls(motion: Motion, times: Range) -> None:
     """Prove gap' < 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    if motion.falls(motion.start(), times):
-        return
-    if depth == _DEEPEST:
+    if not gap_falls(motion.gap_of, times, _DEEPEST):
         raise Unproved("the gap is not proved to fall to the impact")
-    middle = (times[0] + times[1]) / 2
-    falls(motion, (times[0], middle), reader, depth + 1)
-    falls(motion, (middle, times[1]), reader, depth + 1)

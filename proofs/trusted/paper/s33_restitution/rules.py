@@ -19,12 +19,12 @@ from proofs.trusted.equations import (
 )
 from proofs.trusted.flights import (
     COVER_BITS,
-    LATEST,
     MAX_BITS,
-    Gap,
-    falls,
-    open_windows,
+    brackets,
+    first_windows,
+    lifted,
     read_phases,
+    read_times,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
@@ -81,9 +81,7 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     if eta[0] <= 0 or nu[0] <= 0 <= nu[1] or not 0 <= epsilon[0] <= epsilon[1] <= 1:
         raise reader.fail("the model has eta > 0, nu != 0 and epsilon in [0, 1]")
     phases, velocities, impact = read_phases(box_of[3]), box_of[4].range(), impact_of.range()
-    times = times_of.numbers(least=2)
-    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
-        raise times_of.fail(f"times must increase from 0, to at most {LATEST}")
+    times = read_times(times_of)
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
     narrowest = impact[1] - impact[0]
     if narrowest == 0:
@@ -93,11 +91,13 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     flights = _flights((eta, nu, epsilon, phases, velocities), bits)
     if flights.closing_speed.lo < 0:
         raise Unproved("the states are not proved possible: the mass would come from the table")
-    window = _window(flights.gap, times)
+    windows, transversal = first_windows(flights.gap, times, 2, 1)
+    if not transversal:
+        raise Unproved("the first impact is not transversal")
+    window = windows[0]
     if not window[0] <= impact[0] < impact[1] <= window[1]:
         raise Unproved("the bracket leaves the window of the first impact")
-    low, high = (flights.gap((time, time)) for time in impact)
-    if not low.lo > 0 > high.hi:
+    if not brackets(flights.gap, impact):
         raise Unproved("the bracket does not have the signs +, - at its ends")
     now = clock(flights.start.eta, Enclosure.of(*impact, bits))
     (p, q), (r, s) = return_map_derivative(flights.start, now, flights.epsilon)
@@ -116,22 +116,11 @@ def _flights(box: Sequence[Range], bits: int) -> _Flights:
     return _Flights(start, epsilon, side * closing(start, gamma))
 
 
-def _window(gap_of: Gap, times: Sequence[Fraction]) -> Range:
-    """Return the one interval of open pieces, where all first impacts are and gap' < 0."""
-    first = (_ZERO, times[0])
-    if gap_of(first, 2).lo <= 0 and gap_of(first, 1).lo <= 0:
-        raise Unproved("the flights are not proved to leave the table")
-    windows = open_windows(gap_of, times)
-    if len(windows) != 1 or windows[0][1] != times[-1] or not falls(gap_of, windows[0]):
-        raise Unproved("the first impact is not transversal")
-    return windows[0]
-
-
 def _after(phases: Range, time: Range, bits: int) -> tuple[int, Range]:
     """Return a count and phases + time less 2 pi times it, the lower end about in [0, 2 pi)."""
-    count = (phases[0] + time[0]) // whole_turns(1, bits)[0]
-    low, high = whole_turns(count, bits)
-    return count, (phases[0] + time[0] - high, phases[1] + time[1] - low)
+    total = phases[0] + time[0], phases[1] + time[1]
+    count = total[0] // whole_turns(1, bits)[0]
+    return count, lifted(total, -count, bits)
 
 
 def _rebounds(context: Context, names: Reader) -> list[Rebound]:

@@ -1,307 +1,230 @@
-"""The plastic map on the whole circle (sections 2 and 3.4): sticking, and the orbit that attracts.
+"""The plastic map on the whole circle: M6 of section 2, G1 to G4 and G6 of section 3.4.
 
-Impacts can be counted in two ways after sticking. In section 2 f takes a sticking phase to the
+Impacts can be counted in two ways after sticking: in section 2 f takes a sticking phase to the
 next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separation phase.
-Trusted, and shared by prover and checker.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, show, show_range
-from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.paper.s34_circle.landing import (
-    Absorption,
-    NeverImpacts,
-    Separation,
-    fixed_point,
-    repelling,
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import (
+    Phase,
+    Phases,
+    Range,
+    between,
+    floor_text,
+    show,
+    show_range,
+    within,
 )
-from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.parameters import PAPER, Parameters, Place
+from proofs.trusted.slopes import SlopeRange, image_arc
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 CONSTANT = (Fraction("3.38"), Fraction("6.04"))  # where f' = 0, as printed
 ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printed
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
-_TURN_MORE = TURN + Fraction(1, 10**9)  # a little more than 2 pi
-_LENGTH_NAMED = Fraction(1, 20)
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
-
-
-# -- what the conclusions decide -----------------------------------------------------------------
-
-
 _NO_ARC = "no proof where the mass sticks, and where it lands then"
+_NOT_FOLLOWED = "no proof which phases reach the sticking arc"
 
 
-def _separation(found: Sequence[object]) -> Separation | None:
-    return next((step for step in found if isinstance(step, Separation)), None)
+# -- a repelling fixed point -----------------------------------------------------------------------
 
 
-def _absorption(found: Sequence[object]) -> Absorption | None:
-    return next((step for step in found if isinstance(step, Absorption)), None)
+@dataclass(frozen=True)
+class FixedPoint(Conclusion):
+    """f, C^1 on `domain` with f' >= least > 1, has one fixed point there, in `bracket`.
 
+    first: the image of the lower end of `domain`, below it.
+    """
 
-def _never(found: Sequence[object]) -> NeverImpacts | None:
-    """Return the longest interval of phases that never impact."""
-    steps = [step for step in found if isinstance(step, NeverImpacts)]
-    return max(steps, key=lambda step: step.phases[1] - step.phases[0], default=None)
+    at: Place
+    domain: Phases
+    least: Fraction
+    first: Phase
+    bracket: Phase
 
-
-def _between(values: Range, places: int) -> str:
-    return f"[{floor_text(values[0], places)}, {ceil_text(values[1], places)}]"
-
-
-def _arc(of: Parameters, step: Separation) -> str:
-    return (
-        f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}) the mass sticks after a plastic impact "
-        f"exactly at the phases of the arc (3 pi - phi_s, phi_s), 3 pi - phi_s in "
-        f"{_between(step.start, 20)}, phi_s in {_between(step.phase, 20)}"
-    )
-
-
-def _constant(of: Parameters, found: Sequence[object]) -> Decision:
-    step = _separation(found)
-    if step is None:
-        return undecided(_NO_ARC)
-    low, high = CONSTANT
-    ends = {"arc_start": step.start, "separation_phase": step.phase}
-    if not (step.start[1] <= low and high <= step.phase[0]):
-        return Decision(
-            Verdict.UNDECIDED,
-            f"the sticking arc is ({ceil_text(step.start[1])}, {floor_text(step.phase[0])})",
-            quantities=ends,
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        low = show(self.domain[0])
+        return (
+            f"f is continuously differentiable on {show_range(self.domain)} with f' >= "
+            f"{floor_text(self.least)}, maps it across itself, and has exactly one fixed point p "
+            f"there, in {between(self.bracket, 20)}. It repels, and the mass does not stick there: "
+            "for every n, all phases near enough to p need more than n impacts to reach the arc "
+            f"where the mass sticks. From {low} up to p, p aside, all have an iterate in "
+            f"[{floor_text(self.first[0])}, {low}]."
         )
-    return Decision(
-        Verdict.VERIFIED,
-        f"f is constant on the sticking arc, which reaches from {ceil_text(step.start[1])} or "
-        f"less to {floor_text(step.phase[0])} or more",
-        corrected=f"{_arc(of, step)}; f is constant there, whether it maps to the separation phase "
-        "or on to the next impact.",
-        quantities=ends,
-    )
+
+    @property
+    def brief(self) -> str:
+        """Return the enclosure."""
+        return f"a repelling fixed point in {between(self.bracket, 9)}"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        """Return the enclosure."""
+        return {"fixed_point": self.bracket}
 
 
-def _periodic(of: Parameters, found: Sequence[object]) -> Decision:
-    step = _separation(found)
-    if step is None:
-        return undecided(_NO_ARC)
-    quantities = {"impact_phase": step.arrival, "separation_phase": step.phase}
-    printed = zip(ORBIT, (step.arrival, step.phase), strict=True)
-    rounded = all(x - _HALF < low and high < x + _HALF for x, (low, high) in printed)
-    if not (step.returns and rounded):
-        return Decision(
-            Verdict.UNDECIDED,
-            f"the flight from phi_s ends in {_between(step.arrival, 6)}",
-            quantities=quantities,
-        )
-    impact, leave = _between(step.arrival, 20), _between(step.phase, 20)
-    return Decision(
-        Verdict.CONDITIONAL,
-        f"impact at {_between(step.arrival, 6)}, separation at {_between(step.phase, 6)}: period "
-        "2 if separation counts as a step of f, else the impact phase is a fixed point",
-        witness=f"Let phi_1 in {impact} be the phase of the impact, phi_s in {leave} that of the "
-        "separation. If f maps a sticking phase to phi_s, then f(phi_1) = phi_s and f(phi_s) = "
-        "phi_1: period 2. If f maps it to the next impact phase, as section 2 defines f, then "
-        f"f(phi_1) = phi_1 is a fixed point, f(phi_s) = phi_1 too, and phi_s is on no periodic "
-        "orbit. 4.64 and 6.05 are the two phases rounded to two places.",
-        corrected=f"{_arc(of, step)}; the flight from phi_s ends at the phase phi_1 in {impact}, "
-        "mod 2 pi, inside that arc, so that the motion is periodic, with one impact and one "
-        "separation a period. With sticking phases mapped to phi_s, (phi_1, phi_s) is an orbit of "
-        "period 2; with sticking phases mapped to the next impact, phi_1 is a fixed point.",
-        quantities=quantities,
-    )
+def repelling_fixed_point(wide: SlopeRange, narrow: SlopeRange) -> FixedPoint:
+    """Theorem. Let f be C^1 with f' > 1 on two intervals, the narrow one in the wide one, and map
+    each across itself, onto an arc shorter than the circle that begins before it and ends behind
+    it, both at phases in [0, 2 pi). Then f has one fixed point p in the wide one, and it is in the
+    narrow one, [a, b]: p - a = (a - f(a)) / (f'(x) - 1) for an x in there. See also `FixedPoint`.
+
+    Proof. (1) Such an arc does not pass phase 0, so f is a real function there; f(x) - x increases
+    strictly, from below 0 to above 0; then the mean value theorem for it. (2) f is continuous at
+    p = f(p), where the mass leaves the table: phases near p stay near it for n impacts. (3) Below p
+    f(x) < x: iterates decrease, to no other fixed point, until one is in [f(a), a].
+    """
+    for part in (wide, narrow):
+        arc = image_arc(part)
+        if part.minimum[0] <= 1:
+            raise Unproved("f' > 1 is not proved")
+        if not (arc.low[1] < part.domain[0] and part.domain[1] < arc.high[0]):
+            raise Unproved("f is not proved to map an interval across itself")
+    if wide.at != narrow.at or not within(narrow.domain, wide.domain):
+        raise Unproved("the second interval does not lie in the first")
+    start, (low, high) = narrow.domain[0], narrow.images[0]
+    least, most = narrow.minimum[0] - 1, narrow.maximum[1] - 1
+    bracket = Phase(start + (start - high) / most, start + (start - low) / least)
+    return FixedPoint(wide.at, wide.domain, wide.minimum[0], wide.images[0], bracket)
 
 
-def _right_of(step: Separation, known: Absorption) -> Fraction | None:
-    """Return c such that all phases from phi_s to c + 2 pi stick at the next impact."""
-    for (low, high), steps in known.within:
-        if steps == 1 and low + _TURN_MORE <= step.phase[0] and high >= 0:
-            return high
-    return None
+def fixed_point(context: Context, reader: Reader) -> FixedPoint:
+    """Rule `fixed-point`: {wide, narrow: slope-range steps}. Theorem: `repelling_fixed_point`."""
+    wide, narrow = (context.step(name, SlopeRange) for name in reader.fields("wide", "narrow"))
+    return repelling_fixed_point(wide, narrow)
 
 
-def _stable(of: Parameters, found: Sequence[object]) -> Decision:
-    step, known = _separation(found), _absorption(found)
-    if step is None or known is None or not step.returns:
-        return undecided(_NO_ARC)
-    beyond = _right_of(step, known)
-    if beyond is None:
-        return undecided("no neighbourhood of the separation phase is proved to stick next")
-    whole = f"Every phase from {ceil_text(step.start[1])} to 2 pi + {floor_text(beyond)}"
-    return Decision(
-        Verdict.VERIFIED,
-        f"superstable: {whole[0].lower()}{whole[1:]} sticks at this or at the next impact",
-        corrected=f"{_arc(of, step)}. {whole} sticks at this impact or at the next one, and so "
-        "joins the periodic motion exactly, in finite time: a neighbourhood of the whole "
-        "orbit, both where separation counts as a step of f and where it does not. The phases "
-        "below phi_s join it a step ahead of those above.",
-    )
+# -- the rows --------------------------------------------------------------------------------------
 
 
-def _attracts(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide G4: an interval of phases that never impact again refutes "almost every"."""
-    step, known, never = _separation(found), _absorption(found), _never(found)
-    if step is None or known is None or not step.returns:
-        return undecided("no proof which phases reach the sticking arc")
-    least = 1 - known.rest[-1] / TURN
-    lost = Fraction(0) if never is None else never.phases[1] - never.phases[0]
-    quantities = {"basin_fraction": (least, 1 - lost / _TURN_MORE)}
-    share = f"at least {floor_text(100 * least, 3)} percent of the circle"
-    most = f"at most {ceil_text(100 * quantities['basin_fraction'][1], 5)} percent"
-    table = ", ".join(
-        f"{n}: {floor_text(100 * (1 - rest / TURN), 2)}"
-        for n, rest in enumerate(known.rest)
-        if n in (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
-    )
+def _determined(of: Parameters, found: Found) -> Decision:
+    """M6: the gap has a first zero after every phase; after some it is but a touch."""
+    never = found.first(NeverImpacts)
     if never is None:
-        return Decision(
-            Verdict.UNDECIDED,
-            f"{share} is attracted, of the rest nothing is known",
-            quantities=quantities,
-        )
-    return Decision(
-        Verdict.REFUTED,
-        f"{share}, but no phase of {show_range(never.phases)}",
-        witness=f"no phase of {show_range(never.phases)}, an interval of length {show(lost)}, is "
-        f"attracted. {_flies(of)}",
-        corrected=f"{_arc(of, step)}. The periodic motion that sticks there attracts {share}: so "
-        f"many phases reach the arc within {len(known.rest) - 1} impacts; percentages by number of "
-        f"impacts, at least: {table}. {_intervals(known)}It does not attract the phases of "
-        f"{show_range(never.phases)}, so {most} of the circle. {_flies(of)}{_nor_fixed(found)}",
-        quantities=quantities,
-    )
-
-
-def _joined(known: Absorption) -> list[tuple[Range, int]]:
-    """Join adjoining intervals of phases that reach the arc; with the larger number of impacts."""
-    joined: list[tuple[Range, int]] = []
-    for (low, high), steps in sorted(known.within):
-        if joined and joined[-1][0][1] == low:
-            (first, _), before = joined.pop()
-            joined.append(((first, high), max(steps, before)))
-        else:
-            joined.append(((low, high), steps))
-    return joined
-
-
-def _intervals(known: Absorption) -> str:
-    """Name the longest intervals of phases that reach the arc, rounded inward."""
-    return "".join(
-        f"Every phase of [{ceil_text(low)}, {floor_text(high)}] mod 2 pi reaches the arc within "
-        f"{steps} impact{'s' if steps > 1 else ''}. "
-        for (low, high), steps in _joined(known)
-        if high - low > _LENGTH_NAMED
-    )
-
-
-def _nor_fixed(found: Sequence[object]) -> str:
-    """Name a fixed point elsewhere, which is not attracted either."""
-    fixed = repelling(found, LONG)
-    if not fixed:
-        return ""
-    return f" Nor does it attract the repelling fixed point in {_between(fixed_point(fixed), 20)}."
-
-
-def _flies(of: Parameters) -> str:
-    """Say what the flights of `NeverImpacts` do."""
-    turns = of.eta.denominator
-    return (
-        f"After a launch there the mass stays off the table for {turns} turns of it and then "
-        "touches it at the phase of the launch with relative velocity 0, and so on forever: the "
-        f"motion has the period {2 * turns} pi, and there is no impact, or f(phi) = phi if a touch "
-        "counts as one."
-    )
-
-
-def _transient(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide G6 by a fixed point in [1.1, 1.5] and what surrounds it."""
-    step, known = _separation(found), _absorption(found)
-    if step is None or known is None:
-        return undecided("no proof which phases reach the sticking arc")
-    fixed = repelling(found, LONG)
-    if not fixed:
-        return undecided("no repelling fixed point in [1.1, 1.5]")
-    (low, high), image = (fixed[0].points[0], fixed[0].points[-1]), fixed[0].images[0][0]
-    least = min(bottom for bottom, _ in fixed[0].pieces)
-    if not any(a <= image and low <= b for (a, b), _ in _joined(known)):
-        return undecided("the phases beside the fixed point are not proved to reach the arc")
-    point = fixed_point(fixed)
-    never = _never(found)
-    outside = never is not None and not LONG[0] <= never.phases[0] <= LONG[1]
-    return Decision(
-        Verdict.VERIFIED,
-        f"unbounded at the repelling fixed point in {_between(point, 9)}"
-        + (f"; infinite on {show_range(never.phases)}" if never is not None and outside else ""),
-        corrected=f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}) f is continuously "
-        f"differentiable on {show_range((low, high))} with f' >= {floor_text(least)}, and has a "
-        f"fixed point p in {_between(point, 20)}. For every n, all phases near enough to p need "
-        f"more than n impacts to reach the sticking arc; those from {show(low)} up to p do reach "
-        f"it. {_intervals(known)}"
-        + (
-            f"Transients are not long in [1.1, 1.5] only: no phase of {show_range(never.phases)} "
-            "ever reaches the arc."
-            if never is not None and outside
-            else "Nothing is said about the phases between."
-        ),
-        quantities={"fixed_point": point},
-    )
-
-
-def _determined(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide M6: does every phase have a next impact?"""
-    step, never = _separation(found), _never(found)
-    if step is None or never is None:
         return undecided("no phase is proved to have no next impact, and none to have one")
-    where, turns = show_range(never.phases), of.eta.denominator
-    first = (
-        f"For every phase the gap returns to 0 by the time {2 * turns} pi, at which mass and table "
-        "are where they were, since eta is rational; so its first zero after the launch (after "
-        "phi_s, where the mass sticks) is determined"
-    )
-    return Decision(
-        Verdict.CONDITIONAL,
-        "true if a touch without relative velocity counts as an impact; else the phases of "
-        f"{where} have no next impact",
-        witness=f"{first}: f is defined on the whole circle if a touch counts as an impact. If it "
-        "does not, as in the algorithm of the appendix, which looks for a change of sign, then f "
-        f"is not defined on {where}. {_flies(of)}",
-        corrected=f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}): {first[0].lower()}{first[1:]}, "
-        f"and with touches counted f maps [0, 2 pi) into itself. On {where} f is then the "
-        f"identity, and without touches it is not defined. {_flies(of)}",
-    )
+    return decided(Verdict.CONDITIONAL, never, corrected=[never])
+
+
+def _constant(of: Parameters, found: Found) -> Decision:
+    """G1: the printed interval lies in the sticking arc."""
+    arc = found.first(Separation)
+    if arc is None:
+        return undecided(_NO_ARC)
+    if not within(CONSTANT, (arc.start[1], arc.phase[0])):
+        return undecided(arc.brief, arc.quantities)
+    return decided(Verdict.VERIFIED, arc, corrected=[arc])
+
+
+def _periodic(of: Parameters, found: Found) -> Decision:
+    """G2: impact and separation are at the printed phases; what period that is depends on f."""
+    arc = found.first(Separation)
+    if arc is None:
+        return undecided(_NO_ARC)
+    printed = zip(ORBIT, (arc.arrival, arc.phase), strict=True)
+    rounded = all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
+    if not (arc.returns and rounded):
+        return undecided(arc.brief, arc.quantities)
+    return decided(Verdict.CONDITIONAL, arc, corrected=[arc])
+
+
+def _stable(of: Parameters, found: Found) -> Decision:
+    """G3: a neighbourhood of the orbit sticks at this or at the next impact."""
+    known = found.first(Absorption)
+    if known is None or known.beyond is None:
+        return undecided("no neighbourhood of a periodic motion is proved to stick next")
+    return decided(Verdict.VERIFIED, known, corrected=[known.arc, known])
+
+
+def _attracts(of: Parameters, found: Found) -> Decision:
+    """G4: an interval of phases that never impact again refutes "almost every"."""
+    known, never = found.first(Absorption), found.first(NeverImpacts)
+    if known is None or not known.arc.returns:
+        return undecided(_NOT_FOLLOWED)
+    most = Fraction(1) if never is None else 1 - never.share
+    basin = {"basin_fraction": (known.share, most)}
+    if never is None:
+        return undecided(f"{known.brief}; of the rest nothing is known", basin)
+    nearby = [known.arc, known, never, *found.all(FixedPoint)[:1]]
+    return decided(Verdict.REFUTED, known, never, corrected=nearby, known=basin)
+
+
+def _transient(of: Parameters, found: Found) -> Decision:
+    """G6: by a fixed point in [1.1, 1.5] and what surrounds it."""
+    known = found.first(Absorption)
+    if known is None:
+        return undecided(_NOT_FOLLOWED)
+    for fixed in found.all(FixedPoint):
+        beside = (fixed.first[0], fixed.domain[0])
+        if within(fixed.domain, LONG) and any(within(beside, each) for each, _ in known.joined):
+            never = found.all(NeverImpacts)[:1]
+            return decided(Verdict.VERIFIED, fixed, *never, corrected=[fixed, known, *never])
+    return undecided("no fixed point in [1.1, 1.5] beside phases that reach the sticking arc")
 
 
 _AT = "At (eta, nu) = ({eta}, {nu}): "
-
-CLAIMS = (
-    Claim(
+ROWS = (
+    Row(
         "M6",
+        "2, after (10)",
+        "given an impact phase, the next phase at which impact occurs is uniquely determined",
         _AT + "for every impact phase the next impact phase is uniquely determined, so that f maps "
         "[0, 2 pi) into itself.",
         _determined,
     ),
-    Claim("G1", _AT + "f' = 0 on (3.38, 6.04).", _constant),
-    Claim(
+    Row(
+        "G1",
+        "3.4, Figure 5",
+        "= 0 for all phi in (3.38, 6.04)",
+        _AT + "f' = 0 on (3.38, 6.04).",
+        _constant,
+        PAPER.place,
+    ),
+    Row(
         "G2",
+        "3.4, Figure 5",
+        "(phi_1, phi_2) = (4.64, 6.05) are on 2-periodic orbit",
         _AT + "(4.64, 6.05), to the places printed, is an orbit of period 2 of f.",
         _periodic,
+        PAPER.place,
     ),
-    Claim(
-        "G3", _AT + "the periodic orbit that sticks, (4.64, 6.05) as printed, is stable.", _stable
+    Row(
+        "G3",
+        "3.4, Figure 6",
+        "stable 2-periodic orbit",
+        _AT + "the periodic orbit that sticks, (4.64, 6.05) as printed, is stable.",
+        _stable,
+        PAPER.place,
     ),
-    Claim(
+    Row(
         "G4",
+        "3.4",
+        "this 2-periodic orbit attracts all the initial conditions chosen",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) as printed, attracts almost every "
         "phase.",
         _attracts,
+        PAPER.place,
     ),
-    Claim(
+    Row(
         "G6",
+        "3.4, Figure 6",
+        "very high near the invariant sets (in [1.1, 1.5])",
         _AT + "the number of impacts before the periodic orbit that sticks is reached is high, "
         "without bound, near the invariant sets, in [1.1, 1.5].",
         _transient,
+        PAPER.place,
     ),
 )

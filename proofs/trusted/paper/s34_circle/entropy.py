@@ -9,7 +9,7 @@ from functools import cache
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, whole_turns
+from proofs.trusted.flights import Motion, brackets, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -86,14 +86,14 @@ def branch(context: Context, reader: Reader) -> Branch:
     meetings, launched = Meetings.of(whole), leaves(whole)
     for low, high in meetings.before(int(turn)):
         if high > launched:
-            clear(whole, (max(low, launched), high), reader)
+            clear(whole, (max(low, launched), high))
     begin = meetings.window(int(turn))[0]
     if begin <= launched:
         raise Unproved("the last window starts at launch")
     found = Branch(of.place, cuts, int(turn), begin, ends_of.numbers())
     for piece, end in zip(pairwise(cuts), found.ends, strict=True):
         motion = Motion(-1, of.eta, of.nu, piece, BITS)
-        falls(motion, (begin, end), reader)
+        falls(motion, (begin, end))
         if level(motion, end)[1] >= 0:
             raise Unproved("the gap is not proved negative at an end")
     return found
@@ -226,11 +226,9 @@ def _image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
     if time[0] < found.begin or time[1] > found.ends[piece]:
         raise time_of.fail("the bracket leaves the window of the first impact")
     motion = Motion(-1, found.at.eta[0], found.at.nu[0], (phase, phase), BITS)
-    start = motion.start()
-    if not motion.gap(start, (time[0],) * 2).lo > 0 > motion.gap(start, (time[1],) * 2).hi:
+    if not brackets(motion.gap_of, time):
         raise Unproved("a bracket does not have the signs +, - at its ends")
-    low, high = whole_turns(found.turn, BITS)
-    return phase, (phase + time[0] - high, phase + time[1] - low)
+    return phase, lifted((phase + time[0], phase + time[1]), -found.turn, BITS)
 
 
 # -- the row ---------------------------------------------------------------------------------------

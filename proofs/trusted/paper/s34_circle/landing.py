@@ -1,67 +1,258 @@
-"""Conclusions about where flights land: on the sticking arc, or nowhere. Trusted, and shared."""
+"""Where flights land (section 3.4): on the arc where the mass sticks, or nowhere."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
-from proofs.trusted.equations import Launch
+from proofs.trusted.certificate import Reader
+from proofs.trusted.equations import Launch, launch_acceleration
+from proofs.trusted.flights import Motion, brackets, lifted, phase_after, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import (
+    TURN,
+    Phase,
+    Phases,
+    Range,
+    between,
+    ceil_text,
+    floor_text,
+    show_range,
+)
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.windows import BITS, clear, falls, level
 
 Number = Any
+TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
+_MAX_BITS = 2000
+_THREE = 3  # less than pi
+_EARLIER = Fraction(1, 4)
+
+
+def motion_at(of: Parameters, phases: Range, bits: int = BITS) -> Motion:
+    """Return the flights from some phases, for -1 < nu < 0 and eta < 1."""
+    if not (-1 < of.nu < 0 < of.eta < 1):
+        raise Unproved("sticking is examined for -1 < nu < 0 and eta < 1 only")
+    return Motion(-1, of.eta, of.nu, phases, bits)
+
+
+# -- the sticking arc ------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Separation(Conclusion):
-    """The launch acceleration is < 0 exactly on the arc from a to phi_s, mod 2 pi: there the mass
-    sticks, until phi_s. The flight from phi_s has its first impact, a transversal one, after a
-    time in `time`, at the phase in `arrival`, mod 2 pi.
+    """The mass sticks exactly on the arc [3 pi - phi_s, phi_s), until phi_s.
 
-    start encloses a = 3 pi - phi_s, phase encloses phi_s, both in (0, 2 pi).
+    start encloses 3 pi - phi_s, phase phi_s. The flight from phi_s has its first impact, a
+    transversal one, after a time in `time`, at the phase in `arrival`.
     """
 
-    start: Range
-    phase: Range
+    at: Place
+    start: Phase
+    phase: Phase
     time: Range
-    arrival: Range
+    arrival: Phase
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the ends of the arc are told apart."""
+        if self.start[1] >= self.phase[0]:
+            raise Unproved("no arc where the mass sticks")
 
     @property
     def returns(self) -> bool:
-        """Whether the flight from phi_s ends in the interior of the sticking arc."""
+        """Whether the flight from phi_s ends in the interior of the arc."""
         return self.start[1] < self.arrival[0] and self.arrival[1] < self.phase[0]
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        periodic = (
+            ", inside the arc: the motion is periodic, with one impact and one separation a "
+            "period. If f maps a sticking phase to phi_s, (phi_1, phi_s) is an orbit of period 2 "
+            "of f; if f maps it to the next impact phase, as section 2 defines f, phi_1 is a fixed "
+            "point, and phi_s is on no periodic orbit."
+        )
+        return (
+            "the mass sticks after a plastic impact exactly at the phases of the arc "
+            f"[3 pi - phi_s, phi_s), 3 pi - phi_s in {between(self.start, 20)}, phi_s in "
+            f"{between(self.phase, 20)}; f is constant there, whether it maps to phi_s or on to "
+            f"the next impact. The flight from phi_s ends at a phase phi_1 in "
+            f"{between(self.arrival, 20)}{periodic if self.returns else '.'}"
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the phases, and how often f has to be applied."""
+        period = ": period 2 if separation counts as a step of f, else a fixed point"
+        return (
+            f"sticking from {ceil_text(self.start[1])} or less to {floor_text(self.phase[0])} or "
+            f"more, then impact at {between(self.arrival, 6)}{period if self.returns else ''}"
+        )
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        """Return the phases."""
+        return {
+            "arc_start": self.start,
+            "separation_phase": self.phase,
+            "impact_phase": self.arrival,
+        }
+
+
+def separation(context: Context, reader: Reader) -> Separation:
+    """Rule `separation`: {phase: [l, u], time: [v, w]}, for -1 < nu < 0 and eta < 1.
+
+    Hypotheses: 3 pi/2 < l, u < 2 pi; the launch acceleration A is < 0 at l, > 0 at u. After every
+    launch in [l, u] gap > 0 from the time 5 pi - 2 u to v - 1/4, gap' < 0 from there to w, and
+    gap > 0 at v, < 0 at w. Conclusion: `Separation`.
+
+    Proof. A increases with sin(phi), and sin increases on (3 pi/2, 2 pi): there is one zero phi_s
+    in (l, u), and on the circle A < 0 exactly where sin(phi) < sin(phi_s), on
+    (3 pi - phi_s, phi_s); A falls through 0 at the start of that arc, so the mass sticks there too,
+    and rises through 0 at phi_s. After phi_s, A > 0 up to the phase 5 pi - phi_s, and so is the
+    gap, see `lands`; then it falls to its first zero, in (v, w).
+    """
+    phase_of, time_of = reader.fields("phase", "time")
+    phase, time = phase_of.range(), time_of.range()
+    width = min(phase[1] - phase[0], time[1] - time[0])
+    if width <= 0:
+        raise Unproved("an empty bracket")
+    bits = min(_MAX_BITS, max(BITS, 2 * (1 / width).__ceil__().bit_length() + 40))
+    half, turn = (pi(bits) * 3).range, whole_turns(1, bits)
+    if not (half[1] < 2 * phase[0] and phase[1] < turn[0]):
+        raise Unproved("the separation phase is sought between 3 pi/2 and 2 pi")
+    first, last = (launch_acceleration(motion_at(context.of, (x, x), bits).start()) for x in phase)
+    if not first.hi < 0 < last.lo:
+        raise Unproved("the launch acceleration does not change sign in the bracket")
+    arc = half[0] - phase[1], half[1] - phase[0]
+    leaves = arc[0] - (phase[1] - turn[0])
+    if not (0 < leaves < time[0] - _EARLIER and context.of.eta * leaves < _THREE):
+        raise Unproved("the first time of the flight is not examined")
+    motion = motion_at(context.of, phase)
+    clear(motion, (leaves, time[0] - _EARLIER))
+    falls(motion, (time[0] - _EARLIER, time[1]))
+    if not brackets(motion_at(context.of, phase, bits).gap_of, time):
+        raise Unproved("the impact after separation is not bracketed")
+    arrival = phase_after(phase[0], (time[0], time[1] + phase[1] - phase[0]), bits)
+    return Separation(context.of.place, Phase(*arc), Phase(*phase), time, Phase(*arrival))
+
+
+# -- landing on it ---------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Lands(Conclusion):
     """The first impact of every launch in `phases`, mod 2 pi, that does not stick is in the arc."""
 
+    at: Place
     phases: Range
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        return (
+            f"every launch from a phase in {show_range(self.phases)}, mod 2 pi, sticks or has its "
+            "first impact at a phase where the mass sticks."
+        )
+
+
+def lands(context: Context, reader: Reader) -> Lands:
+    """Rule `lands`: {separation, cuts x_0 < ... < x_n, turns k >= 0}.
+
+    Let the sticking arc be (a, s). Hypotheses: eta (s - x_0) < pi. If k = 0, [x_0, x_n] lies in
+    (s - 2 pi, s), and gap < 0 at phase s after the launch at x_0. If k > 0, [x_0, x_n] lies in
+    (a - 2 pi, a), and after the launches in [x_(i-1), x_i] gap > 0 from the time a - x_i to
+    a + 2 pi k - x_(i-1), gap < 0 at the time s + 2 pi k - x_i. Conclusion: the first impact of
+    every launch in [x_0, x_n] that does not stick is in the sticking arc.
+
+    Proof. Let A be the launch acceleration. For the plastic gap, gap'' = A(phi + t) - eta^2 gap,
+    so gap(phi, t) is the integral of sin(eta (t - u)) / eta A(phi + u) over 0 < u < t. Where A > 0
+    on (phi, phi + t) and eta t < pi it is positive: no impact until phase a. Its derivative at
+    fixed phi + t is -sin(eta t) / eta A(phi), so for k = 0 the gap at phase s is largest at x_0.
+    The first zero is where A < 0: the mass sticks.
+    """
+    separation_of, cuts_of, turns_of = reader.fields("separation", "cuts", "turns")
+    arc, cuts = context.step(separation_of, Separation), cuts_of.numbers(2, 200)
+    turns = turns_of.number()
+    if turns.denominator != 1 or not 0 <= turns <= 1000:
+        raise turns_of.fail("a whole number from 0 to 1000 is expected")
+    if any(high <= low for low, high in pairwise(cuts)):
+        raise cuts_of.fail("phases must increase")
+    first = lifted(arc.phase if turns == 0 else arc.start, -1, BITS)[1]
+    last = arc.phase[0] if turns == 0 else arc.start[0]
+    if cuts[0] < first or cuts[-1] > last or context.of.eta * (arc.phase[1] - cuts[0]) >= _THREE:
+        raise Unproved("the launches are not proved to stay up until the sticking arc")
+    start, end = (lifted(each, int(turns), BITS) for each in (arc.start, arc.phase))
+    for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
+        motion = motion_at(context.of, (low, high))
+        if turns:
+            if end[0] - high <= start[1] - low:
+                raise Unproved("a piece is longer than the sticking arc")
+            clear(motion, (arc.start[0] - high, start[1] - low))
+        if level(motion, end[0] - high)[1] >= 0:
+            raise Unproved("the gap is not negative at the end of the sticking arc")
+    return Lands(context.of.place, (cuts[0], cuts[-1]))
+
+
+# -- landing nowhere -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class NeverImpacts(Conclusion):
     """After a launch in `phases` gap > 0 up to the time 2 pi q, where eta = p/q in lowest terms.
 
-    Then mass and table are exactly where they were at launch, and as fast: gap = gap' = 0.
+    At that time gap = gap' = 0 after every launch that does not stick: mass and table are exactly
+    where they were, and as fast. Such a gap is > 0 at first, so that it has a first zero.
     """
 
-    phases: Range
+    at: Place
+    phases: Phases
+
+    @property
+    def share(self) -> Fraction:
+        """The least share of the circle that these phases are."""
+        return (self.phases[1] - self.phases[0]) / TURN_AT_MOST
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        turns = self.at.eta[0].denominator
+        return (
+            f"since eta is rational, mass and table are where they were after {turns} turns of the "
+            "table. So the gap has a first zero after every phase (after the mass leaves the "
+            "table, where it sticks): f is defined on [0, 2 pi) if a touch without relative "
+            "velocity counts as an impact. After a launch at a phase of "
+            f"{show_range(self.phases)}, {floor_text(100 * self.share)} percent of the circle or "
+            f"more, the mass stays off the table for these {turns} turns, then touches it at the "
+            f"phase of the launch, and so on forever: the motion has the period {2 * turns} pi, "
+            "and there is no impact, or f(phi) = phi if a touch counts as one."
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the phases."""
+        return f"no impact ever after a launch in {show_range(self.phases)}, unless touches count"
 
 
-@dataclass(frozen=True)
-class Absorption(Conclusion):
-    """Phases that reach the sticking arc.
+def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
+    """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q in lowest terms.
 
-    The phases that do not within n impacts have a measure of at most rest[n]. within: intervals
-    of phases, mod 2 pi, all of which do within that number of impacts.
+    Hypotheses: all phases are in (0, 3), and `closest_approach` gives positive numbers for them.
+    Conclusion: `NeverImpacts`.
     """
-
-    rest: tuple[Fraction, ...]
-    within: tuple[tuple[Range, int], ...]
+    (phases_of,) = reader.fields("phases")
+    phases = Phases(*phases_of.range())
+    if not 0 < phases[0] < phases[1] < _THREE:
+        raise phases_of.fail("phases between 0 and 3 are expected")
+    start, away = motion_at(context.of, phases).start(), Enclosure.of(*phases, BITS) - pi(BITS) / 2
+    bounds = closest_approach(context.of.eta, rational(context.of.nu, BITS), start, away, pi(BITS))
+    if any(bound.lo <= 0 for bound in bounds):
+        raise Unproved("an impact is not excluded")
+    return NeverImpacts(context.of.place, phases)
 
 
 def closest_approach(
@@ -98,41 +289,3 @@ def closest_approach(
     passes = turn * turn - 2 * (lag * lag + reach)
     convex = size * (1 - near - lag * lag) - (deepest + excess) * square
     return passes, convex, table, mass
-
-
-def repelling(found: Sequence[object], inside: Range) -> list[SlopeRange]:
-    """Return what is known around a fixed point p inside an interval, on the longest part first.
-
-    f maps each interval across itself, f' > 1, and no image is longer than the circle: so there is
-    one fixed point p, and it is the same for intervals inside the first. Phases near p stay near
-    it for as many impacts as one likes. A phase below p moves down until it lands between f(lower
-    end) and the lower end.
-    """
-    known = [
-        step
-        for step in found
-        if isinstance(step, SlopeRange)
-        and inside[0] <= step.points[0]
-        and step.points[-1] <= inside[1]
-        and step.images[0][1] < step.points[0]
-        and step.points[-1] < step.images[-1][0]
-        and min(low for low, _ in step.pieces) > 1
-        and max(high for _, high in step.pieces) * (step.points[-1] - step.points[0]) < TURN
-    ]
-    known.sort(key=lambda step: step.points[0] - step.points[-1])
-    return [
-        step
-        for step in known
-        if known[0].points[0] <= step.points[0] and step.points[-1] <= known[0].points[-1]
-    ]
-
-
-def fixed_point(known: Sequence[SlopeRange]) -> Range:
-    """Enclose the fixed point by Newton's method from the lower end a of the last interval.
-
-    p - a = (a - f(a)) / (f'(x) - 1) for an x between them.
-    """
-    start, (low, high) = known[-1].points[0], known[-1].images[0]
-    least = min(bottom for bottom, _ in known[-1].pieces) - 1
-    most = max(top for _, top in known[-1].pieces) - 1
-    return start + (start - high) / most, start + (start - low) / least

@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import AT_LAUNCH, gap, launch_acceleration
@@ -22,14 +21,17 @@ from proofs.trusted.flights import (
     Motion,
     bits_for,
     bracketed,
-    open_windows,
+    brackets,
+    first_windows,
+    lifted,
     read_phases,
+    read_times,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, ceil_text, floor_text, show
+from proofs.trusted.numbers import Range, between, ceil_text, show
 from proofs.trusted.paper.s34_circle.stable_pair import StablePair
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -44,10 +46,6 @@ def _motion(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Motion:
 def _acceleration(motion: Motion) -> Enclosure:
     value: Enclosure = launch_acceleration(motion.start())
     return value
-
-
-def _bounds(values: Range) -> str:
-    return f"[{floor_text(values[0], 12)}, {ceil_text(values[1], 12)}]"
 
 
 # -- the periodic motion ---------------------------------------------------------------------------
@@ -81,13 +79,14 @@ class SuperstableMotion(Conclusion):
     def sentence(self) -> str:
         """Return the theorem."""
         near, turns = show(self.spread), "turn" if self.turns == 1 else "turns"
+        enclosures = (self.separation, self.flight, self.impact, self.speed)
+        separation, flight, impact, speed = (between(each, 12) for each in enclosures)
         return (
-            "let phi_s be the separation phase, in "
-            f"{_bounds(self.separation)}. The mass that leaves the table there with relative "
-            f"velocity 0 flies for a time t in {_bounds(self.flight)} and lands at the phase phi_1 "
-            f"= phi_s + t - 2 pi * {self.turns} in {_bounds(self.impact)}, with a relative speed u "
-            f"in {_bounds(self.speed)}. All further impacts of this passage come at phases below "
-            f"phi_s and up to {ceil_text(self.rest)}: none if epsilon = 0, infinitely many, at "
+            f"let phi_s be the separation phase, in {separation}. The mass that leaves the table "
+            f"there with relative velocity 0 flies for a time t in {flight} and lands at the phase "
+            f"phi_1 = phi_s + t - 2 pi * {self.turns} in {impact}, with a relative speed u in "
+            f"{speed}. All further impacts of this passage come at phases below phi_s and up to "
+            f"{ceil_text(self.rest)}: none if epsilon = 0, infinitely many, at "
             "phases that increase to a limit below phi_s and with speeds that tend to 0, if "
             "epsilon > 0. Then the mass rests on the table until phi_s and leaves it as before: it "
             f"moves periodically, with period 2 pi * {self.turns}, {self.turns} {turns} of the "
@@ -164,28 +163,21 @@ def _flight(
     of: Parameters, separation: Range, times_of: Reader, time_of: Reader
 ) -> tuple[Range, int, Range, Range]:
     """Return time, turns, phase and speed of the impact: hypotheses 1 and 2."""
-    times, bits = times_of.numbers(least=2), bits_for(separation)
-    if any(now <= before for before, now in pairwise((_ZERO, *times))):
-        raise times_of.fail("times must increase from 0")
+    times, bits = read_times(times_of), bits_for(separation)
     low, high = (_acceleration(_motion(of, (end, end), bits)) for end in separation)
     motion = _motion(of, separation, bits)
-    start = motion.start()
     # at launch gap' = 0, so that gap''' is the derivative of the launch acceleration
-    slope: Enclosure = gap(start, AT_LAUNCH, 3)
+    slope: Enclosure = gap(motion.start(), AT_LAUNCH, 3)
     if not (low.hi < 0 < high.lo and slope.lo > 0):
         raise Unproved("the separation phase is not isolated")
-    if motion.gap(start, (_ZERO, times[0]), 3).lo <= 0:
-        raise Unproved("the mass is not proved to leave the table at the separation phase")
-    windows = open_windows(partial(motion.gap, start), times)
-    if len(windows) > 1 or windows[0][1] != times[-1] or not motion.falls(start, windows[0]):
+    step = FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 3))
+    if not step.transversal:
         raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
-    step = FirstImpact(of.place, motion, tuple(windows), True)
     inner, time = bracketed(step, separation, time_of)
     arrival = (separation[0] + time[0], separation[1] + time[1])
     turns = int((arrival[1] - separation[0]) // whole_turns(1, bits)[0]) + 1
-    less, more = whole_turns(turns, bits)
-    speed = (-inner.gap(inner.start(), time, 1)).range
-    return time, turns, (arrival[0] - more, arrival[1] - less), speed
+    speed = (-inner.gap_of(time, 1)).range
+    return time, turns, lifted(arrival, -turns, bits), speed
 
 
 def _cell(
@@ -224,7 +216,7 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
     motion = _motion(of, phases)
     kick = Enclosure.of(*kicks, COVER_BITS) * motion.side
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
-    if not gap_of((time[0], time[0]), 0).lo > 0 > gap_of((time[1], time[1]), 0).hi:
+    if not brackets(gap_of, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
     strong, weak = _acceleration(_motion(of, (phases[0], phases[1] + time[1]))).range
     if weak >= 0:

@@ -7,6 +7,7 @@ closed forms, and from brute force over flights in floating point.
 import copy
 import json
 import random
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -20,18 +21,24 @@ from proofs.motion.landing import prove_never
 from proofs.motion.system import System
 from proofs.report.circle_figure import proved
 from proofs.search import s34_circle as circle
+from proofs.search.evidence import Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
-from proofs.shell.groups import certificate, decide
+from proofs.shell.groups import certificate, decide, wanted
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, links
-from proofs.trusted.paper.s34_circle.circle_rules import RULES
-from proofs.trusted.paper.s34_circle.landing import Absorption, NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
+from proofs.trusted.paper.s34_circle.circle import FixedPoint, repelling_fixed_point
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.rules import find_rule
+from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check, find_rule
+from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
@@ -49,10 +56,10 @@ def test_what_is_left_of_the_middle_thirds():
     """x -> 3x mod 1, absorbed in the open middle third: (2/3)^(n + 1) is left after n steps."""
     whole = ((Fraction(0), Fraction(1)),)
     cells = [third(0, Fraction(1, 3), whole), third(Fraction(2, 3), 1, whole)]
-    found = absorbed(cells, links(cells), 12)
+    found = absorbed(cells, 12)
     for n, rest in enumerate(found.rest):
         assert 0 <= rest - Fraction(2, 3) ** (n + 1) < Fraction(1, 2**55)
-    assert found.steps == (None, None)
+    assert found.steps == [None, None]
 
 
 def test_absorbed_cells_one_after_the_other():
@@ -62,29 +69,36 @@ def test_absorbed_cells_one_after_the_other():
         for i, (a, b) in enumerate(pairwise(ends))
     ]
     # an image that only touches the next cell counts as meeting it
-    assert absorbed(cells, links(cells), 6).steps == (1, None, None, None)
+    assert absorbed(cells, 6).steps == [1, None, None, None]
     inner = [Cell(cells[0].phases, ())]
     quarter = Fraction(1, 4)
     inner += [
         Cell(cell.phases, ((cell.phases[0] - 3 * quarter, cell.phases[0] - quarter),))
         for cell in cells[1:]
     ]
-    found = absorbed(inner, links(inner), 6)
-    assert found.steps == (1, 2, 3, 4)
-    assert found.rest == (4, 3, 2, 1, 0, 0, 0)
+    found = absorbed(inner, 6)
+    assert found.steps == [1, 2, 3, 4]
+    assert found.rest == [4, 3, 2, 1, 0, 0, 0]
 
 
 def test_an_unknown_cell_is_never_absorbed_and_blocks_others():
     unit = Fraction(1)
     cells = [Cell((0 * unit, unit)), Cell((unit, 2 * unit), ((unit / 4, unit / 2),), unit)]
-    found = absorbed(cells, links(cells), 3)
-    assert found.steps == (None, None)
+    found = absorbed(cells, 3)
+    assert found.steps == [None, None]
     assert found.rest[-1] >= Fraction(5, 4)  # the whole first cell, and a quarter of the second
 
 
-def test_overlapping_cells_are_refused():
-    with pytest.raises(ValueError, match="overlap"):
-        links([Cell((Fraction(0), Fraction(2))), Cell((Fraction(1), Fraction(3)))])
+def test_a_stretch_without_images_bounds_nothing():
+    cells = [Cell((Fraction(0), Fraction(1)), None, Fraction(1, 2))]
+    assert absorbed(cells, 3).rest == [1, 1, 1, 1]
+
+
+def test_cells_are_ordered_and_gaps_are_filled():
+    one, two = Cell((Fraction(0), Fraction(2)), ()), Cell((Fraction(3), Fraction(4)), ())
+    assert in_order([two, one]) == [one, Cell((Fraction(2), Fraction(3))), two]
+    with pytest.raises(Unproved, match="overlap"):
+        in_order([one, Cell((Fraction(1), Fraction(3)))])
 
 
 # -- separation ----------------------------------------------------------------------------------
@@ -114,7 +128,7 @@ def test_separation_against_fifty_digits(arc):
 
 
 def run(rule, witness, known=None, of=PAPER):
-    return RULES[rule](of, known or {}, Reader(copy.deepcopy(witness)))
+    return find_rule(rule)(Context(of, {}, known or {}), Reader(copy.deepcopy(witness)))
 
 
 def moved(values, by):
@@ -140,7 +154,7 @@ def test_a_phase_that_flies_is_no_separation():
 def test_separation_needs_a_soft_spring_and_a_table_above():
     witness = {"phase": ["6", "61/10"], "time": ["23", "24"]}
     for change in ({"eta": Fraction(3, 2)}, {"nu": Fraction(1, 5)}, {"nu": Fraction(-3, 2)}):
-        of = circle.Parameters(**{**vars(PAPER), **change})
+        of = replace(PAPER, **change)
         with pytest.raises(Unproved):
             run("separation", witness, of=of)
 
@@ -185,13 +199,21 @@ def test_the_motion_repeats_after_twenty_thousand_pi():
 def test_longer_intervals_are_refused(never):
     low, high = never[1].phases
     step = run("never-impacts", never[0])
-    assert step == NeverImpacts((low, high))
+    assert step == NeverImpacts(PAPER.place, Phases(low, high)) == never[1]
     further = Fraction(1, 10**7)
     for phases in ((low - further, high), (low, high + further), (Fraction(1), Fraction(2))):
         with pytest.raises(Unproved):
             run("never-impacts", {"phases": [str(x) for x in phases]})
         with pytest.raises(Undecided):
             prove_never(SYSTEM, phases)
+
+
+def test_one_phase_is_no_interval(never):
+    """It would be one of G4's "interval of phases" that is lost, and of M6's."""
+    with pytest.raises(Unproved, match="no interval"):
+        run("never-impacts", {"phases": ["15707/10000"] * 2})
+    with pytest.raises(Unproved, match="no interval"):
+        prove_never(SYSTEM, (Fraction("1.5707"), Fraction("1.5707")))
 
 
 @pytest.mark.parametrize("turns", [1, -1])
@@ -204,7 +226,7 @@ def test_the_interval_a_turn_later_is_refused(never, turns):
 
 def test_a_launch_that_sticks_is_no_flight():
     """At (eta, nu) = (1/2, -1/10) the launch acceleration at pi/2 is 0.075 - 0.25 < 0."""
-    of = circle.Parameters(**{**vars(PAPER), "eta": Fraction(1, 2), "nu": Fraction(-1, 10)})
+    of = replace(PAPER, eta=Fraction(1, 2), nu=Fraction(-1, 10))
     with pytest.raises(Unproved):
         run("never-impacts", {"phases": ["157/100", "1571/1000"]}, of=of)
     with pytest.raises(Undecided):
@@ -213,7 +235,7 @@ def test_a_launch_that_sticks_is_no_flight():
 
 def test_another_frequency_has_another_interval(never):
     """With eta = 2121/9999 = 7/33 the motion repeats after 33 turns: far more phases are free."""
-    of = circle.Parameters(**{**vars(PAPER), "eta": Fraction(2121, 9999)})
+    of = replace(PAPER, eta=Fraction(2121, 9999))
     wide = Prover(System(of.eta, of.nu), 30, HORIZON)
     _, found = circle.prove_longest(wide)
     assert found.phases[1] - found.phases[0] > 100 * (never[1].phases[1] - never[1].phases[0])
@@ -230,8 +252,10 @@ def coarse(arc):
     prover = Prover(SYSTEM, 30, HORIZON)
     separation = circle.prove_arc(prover)
     step = Partition(prover, separation, finest=1e-2, turns=25, impacts=12).prove()
-    proof = {"G3": [separation, step], "G4": [separation, circle.prove_longest(prover), step]}
-    entries = [decide(claim, PAPER, rests, 30)[1] for claim, rests in proof.items()]
+    never, fixed = circle.prove_longest(prover), circle.prove_fixed_point(prover)
+    proofs = {"G3": [step], "G4": [never, step, fixed]}
+    evidence = Evidence(prover.steps, proofs)
+    entries = [decide(claim, PAPER, evidence, 30)[1] for claim in proofs]
     return certificate(PAPER, prover.steps, entries), step[1]
 
 
@@ -308,7 +332,7 @@ def derive(steps, originals, known):
             result[name] = known[name]
         else:
             rule, witness = find_rule(step["rule"]), copy.deepcopy(step["witness"])
-            result[name] = rule(PAPER, result, Reader(witness))
+            result[name] = rule(Context(PAPER, {}, result), Reader(witness))
     return result
 
 
@@ -342,7 +366,7 @@ def _turning(steps):
 
 
 def _branch(steps, cell):
-    return prove_branch(PAPER, {}, Reader(steps[cell["branch"]]["witness"]))
+    return run("branch", steps[cell["branch"]]["witness"])
 
 
 def _late(steps, cell):
@@ -350,7 +374,6 @@ def _late(steps, cell):
     return (min(map(Fraction, cell["times"])) + min(_branch(steps, cell).ends)) / 2
 
 
-prove_branch = find_rule("branch")
 UNIT = Fraction(1, 10**7)
 EDITS = {
     "less is left": (
@@ -360,6 +383,14 @@ EDITS = {
     "less is left at first": (lambda s: _set(_absorption(s)["rest"], 0, -1), "more may be left"),
     "nothing is left later": (lambda s: _absorption(s)["rest"].append("0"), "more may be left"),
     "absorbed sooner": (lambda s: _set(_absorption(s)["within"][2], 2, -1), "so soon"),
+    "intervals out of order": (
+        lambda s: _absorption(s)["within"].reverse(),
+        "not in order",
+    ),
+    "an interval twice": (
+        lambda s: _absorption(s)["within"].insert(0, _absorption(s)["within"][0]),
+        "not in order",
+    ),
     "absorbed further": (
         lambda s: _absorption(s)["within"].append(["1", "3/2", "12"]),
         "so soon",
@@ -486,6 +517,88 @@ def test_the_figure_draws_what_is_proved(coarse):
     ]
 
 
+# -- a repelling fixed point ---------------------------------------------------------------------
+
+
+def slopes(domain, images, pieces=((2, 3),), at=PAPER.place):
+    ends = tuple(map(Fraction, domain))
+    phases = tuple(Phase(Fraction(low), Fraction(high)) for low, high in images)
+    ranges = tuple((Fraction(low), Fraction(high)) for low, high in pieces)
+    return SlopeRange(at, ends, (ranges[0], ranges[-1]), phases, ranges)
+
+
+WIDE = slopes(("1", "2"), (("0.5", "0.6"), ("2.9", "3")))
+NARROW = slopes(("1.2", "1.4"), (("1.1", "1.11"), ("1.6", "1.61")))
+
+
+def test_a_fixed_point_by_newtons_method():
+    """From 6/5, the image within [1.1, 1.11], slopes from 2 to 3: p - 6/5 in [0.09/2, 0.1]."""
+    found = repelling_fixed_point(WIDE, NARROW)
+    assert found.bracket == (Fraction("1.2") + Fraction("0.045"), Fraction("1.3"))
+    assert (found.domain, found.least, found.first) == (WIDE.domain, 2, WIDE.images[0])
+
+
+@pytest.mark.parametrize(
+    ("wide", "narrow", "reason"),
+    [
+        (slopes(("1", "2"), (("0.5", "1"), ("2.9", "3"))), NARROW, "across itself"),
+        (slopes(("1", "2"), (("0.5", "0.6"), ("2", "3"))), NARROW, "across itself"),
+        (slopes(("1", "2"), (("6", "6.1"), ("2.9", "3"))), NARROW, "across itself"),
+        (slopes(("1", "2"), (("0.5", "0.6"), ("0.1", "0.2"))), NARROW, "across itself"),
+        (slopes(("1", "2"), (("0.5", "0.6"), ("2.9", "3")), ((1, 3),)), NARROW, "f' > 1"),
+        (slopes(("1", "2"), (("0.5", "0.6"), ("2.9", "3")), ((2, 7),)), NARROW, "longer"),
+        (slopes(("1", "2"), (("2.9", "3"), ("0.5", "0.6")), ((-3, -2),)), NARROW, "f' > 1"),
+        (WIDE, slopes(("0.9", "1.4"), (("0.5", "0.6"), ("1.6", "1.7"))), "does not lie in"),
+        (WIDE, replace(NARROW, at=replace(PAPER.place, nu=(Fraction(-1), Fraction(-1)))), "in the"),
+    ],
+)
+def test_no_fixed_point_without_its_hypotheses(wide, narrow, reason):
+    with pytest.raises(Unproved, match=reason):
+        repelling_fixed_point(wide, narrow)
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "phases"),
+    [("5/22", "-0.95", ("1.228", "1.236")), ("1/6", "-0.45", ("1.246", "1.25"))],
+)
+def test_an_image_that_straddles_a_turn_is_none(eta, nu, phases):
+    """f takes both ends just beyond 0, below the interval. From a time before phase 0 on, the image
+    of the upper end is enclosed on both sides of 2 pi: not "beyond the right end", but refused."""
+    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
+    ends = [Fraction(x) for x in phases]
+    numbers = [mpf(x.numerator) / x.denominator for x in (of.eta, of.nu)]
+    flights = [reference.first_impact(*numbers, mpf(x)) for x in phases]
+    assert all(0 < image < 1 for _, image in flights)
+    hits = [Fraction(round(float(time) * 10**9), 10**9) for time, _ in flights]
+    early = hits[1] - Fraction(round((float(flights[1][1]) + 0.0004) * 10**6), 10**6)
+    thin, last = Fraction(1, 10**7), max(hits) + Fraction(1, 50)
+    grid = sorted({*(Fraction(3 * k, 100) for k in range(1, 17)), *_every(Fraction(1, 2), early)})
+    impact = run("first-impact", {"phases": texts(ends), "times": texts([*grid, last])}, of=of)
+    assert impact.transversal
+
+    def point(phase, low, high):
+        return {"flight": "wide", "phase": str(phase), "time": texts((low, high))}
+
+    brackets = [(hits[0] - thin, hits[0] + thin), (hits[1] - thin, hits[1] + thin)]
+    whole = texts((min(hits) - Fraction(1, 200), max(hits) + Fraction(1, 200)))
+    pieces = [{"flight": "wide", "time": whole}]
+    witness = {"points": [point(x, *b) for x, b in zip(ends, brackets, strict=True)]}
+    found = run("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
+    with pytest.raises(Unproved, match="across itself"):
+        repelling_fixed_point(found, found)
+    witness["points"][1] = point(ends[1], early, hits[1] + thin)
+    with pytest.raises(Unproved, match="straddles 2 pi"):
+        run("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
+
+
+def _every(low, high, unit=Fraction(1, 100)):
+    return [low + k * unit for k in range(int((high - low) / unit) - 9)]
+
+
+def texts(values):
+    return [str(value) for value in values]
+
+
 # -- decisions -----------------------------------------------------------------------------------
 
 
@@ -495,38 +608,81 @@ def test_nothing_is_decided_without_conclusions():
 
 
 def test_nothing_is_claimed_where_the_mass_does_not_stick_and_fly():
-    of = circle.Parameters(**{**vars(PAPER), "nu": Fraction(1, 5)})
+    of = replace(PAPER, nu=Fraction(1, 5))
     assert not any(circle.prove(of, circle.CLAIMS).proofs.values())
 
 
 def test_an_orbit_elsewhere_is_not_the_printed_one(arc):
     found = arc[2]
-    for other in (
-        Separation(found.start, found.phase, found.time, (Fraction(5), Fraction("5.1"))),
-        Separation(found.start, found.phase, found.time, (Fraction(1), Fraction("1.1"))),
-    ):
-        assert find("G2").decide(PAPER, [other]).verdict is Verdict.UNDECIDED
-    late = Separation((Fraction("3.4"), Fraction("3.5")), found.phase, found.time, found.arrival)
+    for other in (("5", "5.1"), ("1", "1.1")):
+        moved_ = replace(found, arrival=Phase(*map(Fraction, other)))
+        assert find("G2").decide(PAPER, [moved_]).verdict is Verdict.UNDECIDED
+    late = replace(found, start=Phase(Fraction("3.4"), Fraction("3.5")))
     assert find("G1").decide(PAPER, [late]).verdict is Verdict.UNDECIDED
 
 
+def followed(arc, rest, *within):
+    ranges = tuple(((Fraction(low), Fraction(high)), n) for low, high, n in within)
+    return Absorption(arc, tuple(map(Fraction, rest)), ranges)
+
+
 def test_without_free_phases_almost_every_is_open(arc):
-    step = Absorption((Fraction(4), Fraction(1, 1000)), (((Fraction(-1), Fraction(1)), 1),))
-    found = find("G4").decide(PAPER, [arc[2], step])
+    found = find("G4").decide(PAPER, [followed(arc[2], (4, "1/1000"), (-1, 1, 1))])
     assert found.verdict is Verdict.UNDECIDED
     assert found.quantities["basin_fraction"][0] > Fraction("0.999")
 
 
-def test_stability_needs_phases_beyond_the_separation(arc):
-    found = arc[2]
-    beyond = (Fraction(-1, 4), Fraction(1, 2))
-    for within, verdict in (
-        ((beyond, 1), Verdict.VERIFIED),
-        ((beyond, 2), Verdict.UNDECIDED),
-        (((Fraction(-1, 5), Fraction(1, 2)), 1), Verdict.UNDECIDED),
-    ):
-        step = Absorption((Fraction(4), Fraction(1)), (within,))
-        assert find("G3").decide(PAPER, [found, step]).verdict is verdict
+@pytest.mark.parametrize(
+    ("within", "arrival", "verdict"),
+    [
+        (("-1/4", "1/2", 1), None, Verdict.VERIFIED),
+        (("-1/4", "1/2", 2), None, Verdict.UNDECIDED),
+        (("-1/5", "1/2", 1), None, Verdict.UNDECIDED),
+        (("-1/4", "1/2", 1), ("1", "1.1"), Verdict.UNDECIDED),
+    ],
+)
+def test_stability_needs_phases_beyond_the_separation(arc, within, arrival, verdict):
+    found = arc[2] if arrival is None else replace(arc[2], arrival=Phase(*map(Fraction, arrival)))
+    step = followed(found, (4, 1), within)
+    assert find("G3").decide(PAPER, [step]).verdict is verdict
+
+
+@pytest.mark.parametrize(
+    ("within", "domain", "verdict"),
+    [
+        ([(0, "1.2", 3)], ("1.2", "1.3"), Verdict.VERIFIED),
+        ([(0, "1.1", 3), ("1.1", "1.2", 1)], ("1.2", "1.3"), Verdict.VERIFIED),
+        ([(0, "1.1", 3), ("1.11", "1.2", 1)], ("1.2", "1.3"), Verdict.UNDECIDED),
+        ([("1.01", "1.2", 3)], ("1.2", "1.3"), Verdict.UNDECIDED),
+        ([(0, "1.19", 3)], ("1.2", "1.3"), Verdict.UNDECIDED),
+        ([(0, "1.2", 3)], ("1.2", "1.6"), Verdict.UNDECIDED),
+    ],
+)
+def test_long_transients_need_phases_beside_the_fixed_point(arc, within, domain, verdict):
+    """They move from 1.2 down to f(1.2) in [1, 1.1] at the lowest, and must be absorbed there."""
+    ends = Phases(*map(Fraction, domain))
+    low = Phase(Fraction(1), Fraction("1.1"))
+    fixed = FixedPoint(PAPER.place, ends, Fraction(2), low, Phase(Fraction("1.25"), ends[1]))
+    known = followed(arc[2], (4, 1), *within)
+    assert find("G6").decide(PAPER, [fixed, known]).verdict is verdict
+
+
+def test_rows_about_printed_phases_are_not_asked_elsewhere():
+    """At (1/6, -0.45) a motion sticks too, at (5.17, 6.22): not at the phases printed."""
+    of = replace(PAPER, eta=Fraction(1, 6), nu=Fraction("-0.45"))
+    evidence = circle.prove(of, circle.CLAIMS)
+    lines = {claim: decide(claim, of, evidence, 30)[0] for claim in circle.CLAIMS}
+    printed = [claim for claim, line in lines.items() if "not asked here" in line.why]
+    assert printed == ["G1", "G2", "G3", "G4", "G6"]
+    assert {lines[claim].verdict for claim in printed} == {Verdict.UNDECIDED}
+    assert lines["M6"].verdict is Verdict.CONDITIONAL
+    assert "(eta, nu) = (1/6, -0.45)" in lines["G3"].corrected
+    impact, leave = (lines["G3"].quantities[f"{x}_phase"] for x in ("impact", "separation"))
+    assert Fraction("5.1728") < impact[0] < Fraction("5.1729")
+    assert Fraction("6.2196") < leave[0] < Fraction("6.2197")
+    assert wanted("circle", of) == {"circle": ("M6",)}
+    assert wanted("circle", of, ["G3"]) == {"circle": ("G3",)}
+    assert wanted("circle", PAPER)["circle"] == circle.CLAIMS
 
 
 # -- the command's own numbers -------------------------------------------------------------------
@@ -535,19 +691,16 @@ def test_stability_needs_phases_beyond_the_separation(arc):
 @pytest.mark.slow
 def test_all_claims_at_the_papers_numbers():
     evidence = circle.prove(PAPER, circle.CLAIMS)
-    verdicts = {}
-    for claim in circle.CLAIMS:
-        row, _ = decide(claim, PAPER, evidence.proofs[claim], 30)
-        verdicts[claim] = row
-    assert [verdicts[claim].verdict.value for claim in ("M6", "G1", "G2", "G3", "G4", "G6")] == [
-        "CONDITIONAL",
-        "VERIFIED",
-        "CONDITIONAL",
-        "VERIFIED",
-        "REFUTED",
-        "VERIFIED",
-    ]
-    low, high = verdicts["G4"].quantities["basin_fraction"]
+    lines = {claim: decide(claim, PAPER, evidence, 30)[0] for claim in circle.CLAIMS}
+    assert {claim: line.verdict.value for claim, line in lines.items()} == {
+        "M6": "CONDITIONAL",
+        "G1": "VERIFIED",
+        "G2": "CONDITIONAL",
+        "G3": "VERIFIED",
+        "G4": "REFUTED",
+        "G6": "VERIFIED",
+    }
+    low, high = lines["G4"].quantities["basin_fraction"]
     assert Fraction("0.9989") < low < high < Fraction("0.99993")
-    low, high = verdicts["G6"].quantities["fixed_point"]
+    low, high = lines["G6"].quantities["fixed_point"]
     assert low < Fraction("1.104775829127550847838252004") < high + Fraction(1, 10**27)
