@@ -177,13 +177,13 @@ def entropy_bound(
     @cache
     def best(one: Range, two: Range) -> Fraction:
         """Return the greatest weight of a state between two enclosed images."""
-        METER.get().spend(len(ranked))
+        METER.get().spend(2 * len(ranked))
         low, high = min(one[1], two[1]), max(one[0], two[0])
         inside = (weight for weight, state in ranked if low <= state[0] and state[1] <= high)
         return next(inside, Fraction(0))
 
     for (low, high), weight in zip(states, weights, strict=True):
-        METER.get().spend(len(branches))
+        METER.get().spend(4 * len(branches))
         parts = [(max(low, each.phases[0]), min(high, each.phases[1])) for each in branches]
         known = [(a, b) for a, b in parts if a < b and a in images and b in images]
         if sum(best(images[a], images[b]) for a, b in known) < growth * weight:
