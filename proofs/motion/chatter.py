@@ -1,6 +1,6 @@
 """Bounces on the arc of phases where the table pushes the mass, and the chatter that ends them.
 
-The lemmas, with their proofs, are those of `s34_circle.persistence_rules`: where the launch
+The lemmas, with their proofs, are those of `s34_circle.persistence`: where the launch
 acceleration is negative along a flight, the gap has one zero at most, the speed changes little
 (Lemma 1), and bounces that are weak enough add up to a rest (Lemma 2).
 """

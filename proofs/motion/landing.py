@@ -23,7 +23,7 @@ from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Phase, Phases, Range
 from proofs.trusted.paper.s34_circle.absorption import BRACKET
 from proofs.trusted.paper.s34_circle.cells import Cell
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Lands,
     NeverImpacts,

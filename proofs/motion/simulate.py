@@ -1,7 +1,7 @@
 """Motions with restitution in floating point: observations, never evidence.
 
 Impacts are located to rounding error. Chatter is cut off as Lemma 2 of
-`s34_circle.persistence_rules` allows: where the table pushes and a rebound is weaker than 1e-6, the
+`s34_circle.persistence` allows: where the table pushes and a rebound is weaker than 1e-6, the
 mass is at rest there, and leaves at the separation phase. From then on its motion is the stable one
 of claim G7.
 """

@@ -23,11 +23,13 @@ from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.parameters import Place
 
 BITS = 80
 _DEEPEST = 24
 _WHOLE = Fraction(4)  # more than pi: no window at all
+_Seen = tuple[float, int | None]  # a phase, and the window of its first impact
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,7 @@ def prove_branch(
 ) -> Branch:
     """Prove f C^1 on [cuts[0], cuts[-1]], impacts in window `turn` and before `ends`, or Undecided.
 
-    The theorem is rule `branch` of `s34_circle.chaos_rules`.
+    The theorem is rule `branch` of `s34_circle.entropy`.
     """
     whole = Flight(system, (cuts[0], cuts[-1]), BITS)
     windows = Windows.of(whole)
@@ -97,7 +99,8 @@ def prove_branch(
         prove_falls(piece, (begin, end))
         if level(piece, end)[1] >= 0:
             raise Undecided("the gap is not proved negative at an end")
-    return Branch(tuple(cuts), turn, begin, tuple(ends))
+    at = Place.plastic(system.eta, system.nu)
+    return Branch(at, tuple(cuts), turn, begin, tuple(ends))
 
 
 def _launched(flight: Flight) -> Fraction:
@@ -208,3 +211,34 @@ class Candidates:
                     return Candidate(int(turn), float(time), slope(start, now))
                 time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
         return None
+
+    def runs(self, low: float, high: float, count: int) -> Iterator[tuple[float, float]]:
+        """Yield the intervals, seen from a grid of count + 1 phases, where all launches have their
+        first impact in one window: up to where f jumps.
+        """
+        grid = [low + (high - low) * i / count for i in range(count + 1)]
+        points = [(phase, self._turn(phase)) for phase in grid]
+        begin = points[0]
+        for left, right in pairwise(points):
+            for before, after in self._jumps(left, right):
+                if begin[1] is not None:
+                    yield begin[0], before[0]
+                begin = after
+        if begin[1] is not None:
+            yield begin[0], high
+
+    def _turn(self, phase: float) -> int | None:
+        found = self.impact(phase)
+        return None if found is None else found.turn
+
+    def _jumps(self, left: _Seen, right: _Seen) -> Iterator[tuple[_Seen, _Seen]]:
+        """Yield neighbouring phases with impacts in different windows."""
+        if left[1] == right[1]:
+            return
+        middle = (left[0] + right[0]) / 2
+        if not left[0] < middle < right[0]:
+            yield left, right
+            return
+        between = middle, self._turn(middle)
+        yield from self._jumps(left, between)
+        yield from self._jumps(between, right)

@@ -40,7 +40,7 @@ from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import BRACKET, Absorption
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Separation
 
 _GRID = 2000
@@ -50,6 +50,7 @@ _EDGE = Fraction(1, 2**22)  # how far from grazing phases cells end
 _LEAN = 2e-8  # more than the brackets of images are wide
 _SHORT_FLIGHTS = Fraction(150)
 _CLOSE = Fraction(1, 2**40)
+_OUTSIDE = 1e-5  # how far outside of the line branches are looked for
 Turn = int | None
 
 
@@ -84,7 +85,8 @@ class Partition:
         """Prove how much of the circle is absorbed by the sticking arc (rule absorption)."""
         between = self._prove_lands()
         branches = Branches(self.system, Candidates(self.system, self.turns))
-        for low, high in _runs(branches.candidates, between):
+        first, last = float(between[0]) - _OUTSIDE, float(between[1]) + _OUTSIDE
+        for low, high in branches.candidates.runs(first, last, _GRID):
             try:
                 branches.prove(self.prover, low, high)
             except FAILED:
@@ -232,37 +234,6 @@ def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tup
 
 
 # -- in floating point ---------------------------------------------------------------------------
-
-
-def _runs(candidates: Candidates, between: Range) -> Iterator[tuple[float, float]]:
-    """Yield the intervals between jumps of f, from a little before to a little after."""
-    low, high = float(between[0]) - 1e-5, float(between[1]) + 1e-5
-
-    def turn_of(phase: float) -> Turn:
-        found = candidates.impact(phase)
-        return None if found is None else found.turn
-
-    def jumps(a: float, at_a: Turn, b: float, at_b: Turn) -> Iterator[tuple[float, float, Turn]]:
-        middle = (a + b) / 2
-        if at_a == at_b:
-            return
-        if not a < middle < b:
-            yield a, b, at_b
-            return
-        at = turn_of(middle)
-        yield from jumps(a, at_a, middle, at)
-        yield from jumps(middle, at, b, at_b)
-
-    grid = [low + (high - low) * i / _GRID for i in range(_GRID + 1)]
-    points = [(phase, turn_of(phase)) for phase in grid]
-    begin, inside = points[0]
-    for left, right in pairwise(points):
-        for before, after, following in jumps(*left, *right):
-            if inside is not None:
-                yield begin, before
-            begin, inside = after, following
-    if inside is not None:
-        yield begin, high
 
 
 def _sampled(candidates: Candidates, low: Fraction, high: Fraction) -> Sampled:

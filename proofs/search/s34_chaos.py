@@ -6,23 +6,24 @@ bound on the topological entropy, from all branches of f near the phase pi/2.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
-from intervals import DomainError, Interval, Undecided, log
+from intervals import DomainError, Undecided
 from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates, bracket, prove_branch
-from proofs.search.evidence import Evidence
+from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.chaos import PRINTED, Branch, CoveringGraph
+from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound, entropy_bound
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
 
 CLAIMS = ("G5", "G9")
@@ -70,48 +71,48 @@ def prove_entropy(
     if not -1 < prover.system.nu < 0:
         return []
     found = Branches(prover.system, Candidates(prover.system, most_turns))
-    for low, high in found.runs():
-        found.prove(prover, low, high)
+    for low, high in found.candidates.runs(*_DOMAIN, _GRID):
+        if high - low > _NARROWEST:
+            found.prove(prover, low, high)
     pieces = [branch.phases for branch in found.branches]
     try:
         states = tower(pieces, found.image, depth, _PLACES)
         subshift = largest_subshift(pieces, found.image, states)
-    except Undecided:
+        return [] if subshift is None else [_record(prover, found, subshift)]
+    except FAILED:
         return []
-    if subshift is None or subshift.growth < 1:
-        return []
-    return [_record(prover, found, subshift)]
 
 
-def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, CoveringGraph]:
+def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, EntropyBound]:
     """Record the step `covering-graph`, the growth rounded down."""
     growth = subshift.growth * 10**4 // 1 / Fraction(10**4)
-    used = [
+    used = {
         (index, end)
         for low, high in subshift.states
         for index, (first, last) in enumerate(branch.phases for branch in found.branches)
         if low < last and first < high
         for end in (max(low, first), min(high, last))
-    ]
+    }
     kept = sorted({index for index, _ in used})
+    bound = entropy_bound(
+        [found.branches[index] for index in kept],
+        {phase: found.image(index, phase) for index, phase in used},
+        subshift.states,
+        [Fraction(weight) for weight in subshift.vector],
+        growth,
+    )
     images = [
         {"phase": str(phase), "time": texts(found.times[index, phase])}
-        for index, phase in sorted(set(used))
+        for index, phase in sorted(used)
     ]
-    name = prover.add(
-        "covering-graph",
-        {
-            "branches": [found.names[index] for index in kept],
-            "images": images,
-            "states": [texts(state) for state in subshift.states],
-            "vector": list(map(str, subshift.vector)),
-            "growth": str(growth),
-        },
-    )
-    bound = log(Interval(growth, precision=200))
-    branches = tuple(found.branches[index] for index in kept)
-    graph = CoveringGraph(branches, len(subshift.states), growth, (bound.inf, bound.sup))
-    return name, graph
+    witness = {
+        "branches": [found.names[index] for index in kept],
+        "images": images,
+        "states": [texts(state) for state in subshift.states],
+        "weights": list(map(str, subshift.vector)),
+        "growth": str(growth),
+    }
+    return prover.add("covering-graph", witness), bound
 
 
 @dataclass
@@ -124,38 +125,6 @@ class Branches:
     names: list[str] = field(default_factory=list)
     times: dict[tuple[int, Fraction], Range] = field(default_factory=dict)
     _images: dict[tuple[int, Fraction], Range] = field(default_factory=dict)
-
-    def runs(self) -> Iterator[tuple[float, float]]:
-        """Yield the branches in the domain, in floating point, each up to where f jumps."""
-        low, high = _DOMAIN
-        grid = [low + (high - low) * i / _GRID for i in range(_GRID + 1)]
-        points = [(x, self._turn(x)) for x in grid]
-        begin = points[0]
-        for left, right in pairwise(points):
-            for before, after in self._jumps(left, right):
-                if begin[1] is not None and before[0] - begin[0] > _NARROWEST:
-                    yield begin[0], before[0]
-                begin = after
-        if begin[1] is not None:
-            yield begin[0], points[-1][0]
-
-    def _turn(self, phase: float) -> int | None:
-        found = self.candidates.impact(phase)
-        return None if found is None else found.turn
-
-    def _jumps(
-        self, left: tuple[float, int | None], right: tuple[float, int | None]
-    ) -> Iterator[tuple[tuple[float, int | None], tuple[float, int | None]]]:
-        """Yield neighbouring phases with impacts in different windows."""
-        if left[1] == right[1]:
-            return
-        middle = (left[0] + right[0]) / 2
-        if not left[0] < middle < right[0]:
-            yield left, right
-            return
-        between = middle, self._turn(middle)
-        yield from self._jumps(left, between)
-        yield from self._jumps(between, right)
 
     def prove(self, prover: Prover, low: float, high: float) -> None:
         """Prove a branch, a little inside where f jumps, and record the step `branch`."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 
 from intervals import DomainError, Undecided
@@ -19,15 +20,15 @@ from proofs.motion.impact import HORIZON, FirstImpact, impact_time, locate
 from proofs.motion.phase import turn
 from proofs.motion.simulate import late_state
 from proofs.motion.system import System
-from proofs.search.evidence import Evidence
+from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
-from proofs.trusted.paper.s34_circle.persistence import Chatter, SeparationFlight, stable_pair
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
+from proofs.trusted.parameters import Parameters, Place
 
 CLAIMS = ("G7", "G8")
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
@@ -53,21 +54,17 @@ def prove(
     """Prove what the claims asked for rest on; G8 is an observation and rests on nothing."""
     prover, found = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
     if "G7" in claims:
-        try:
-            tell("the flight from the separation phase")
-            name, after = separation_flight(prover)
-            tell("bounces for ever larger epsilon")
-            found.proofs["G7"] = [chatter(prover, name, after)]
+        with suppress(*FAILED):  # what is not proved the claim does not say
+            tell("the flight from the separation phase, and bounces for ever larger epsilon")
+            found.proofs["G7"] = [superstable_motion(prover)]
             tell("another stable orbit")
             found.proofs["G7"] += another_orbit(of, prover)
-        except (Undecided, DomainError):
-            pass  # what is not proved the claim does not say
     found.steps = prover.steps
     return found
 
 
-def separation_flight(prover: Prover) -> tuple[str, SeparationFlight]:
-    """Prove when and how the mass that leaves at phi_s lands (rule separation-flight)."""
+def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
+    """Prove that the motion from phi_s comes to rest, for as many epsilon as can be."""
     system, bits = prover.system, prover.bits
     if system.sticking_arc != "some":
         raise Undecided("the mass sticks nowhere, or everywhere: there is no separation phase")
@@ -80,35 +77,11 @@ def separation_flight(prover: Prover) -> tuple[str, SeparationFlight]:
     turns = int((arrival[1] - leave[0]) // whole.inf) + 1
     impact = arrival[0] - turns * whole.sup, arrival[1] - turns * whole.inf
     speed = -flight.velocity(*time)
+    cells = _cells(Pushing(system, leave[0]), impact, (speed.inf, speed.sup))
     witness = {
         "separation": texts(leave),
         "times": texts(_times(found)),
         "time": texts(time),
-    }
-    name = prover.add("separation-flight", witness)
-    return name, SeparationFlight(leave, time, turns, impact, (speed.inf, speed.sup))
-
-
-def _times(found: FirstImpact) -> list[Fraction]:
-    """Return the times of the proof, the window of the impact being the last piece."""
-    return [time for time in found.times[1:] if time <= found.window[0]] + [found.window[1]]
-
-
-def chatter(prover: Prover, name: str, after: SeparationFlight) -> tuple[str, Chatter]:
-    """Prove for epsilon from 0 up to as much as can be that bounces end (rule chatter)."""
-    (low, high), (slow, fast) = after.impact, after.speed
-    states = (low - _SPREAD, high + _SPREAD), (slow - _SPREAD, fast + _SPREAD)
-    if states[1][0] <= 0:
-        raise Undecided("the impact after the separation phase is too slow")
-    pushing = Pushing(prover.system, after.separation[0])
-    arc = states[0][0], after.separation[0] - _SPREAD  # beyond it the acceleration increases to 0
-    if not pushing.accelerations(arc).certainly_negative():
-        raise Undecided("the impact after the separation phase is not on the sticking arc")
-    cells = _cells(pushing, *states)
-    if not cells:
-        raise Undecided("no epsilon > 0 is proved to let the mass come to rest")
-    witness = {
-        "flight": name,
         "spread": str(_SPREAD),
         "cells": [
             {
@@ -121,12 +94,29 @@ def chatter(prover: Prover, name: str, after: SeparationFlight) -> tuple[str, Ch
         ],
     }
     rest = max(settled.rest for _, settled in cells)
-    found = Chatter(after, (Fraction(0), cells[-1][0]), _SPREAD, rest)
-    return prover.add("chatter", witness), found
+    at = Place((system.eta, system.eta), (system.nu, system.nu), (Fraction(0), cells[-1][0]))
+    motion = SuperstableMotion(
+        at, leave, time, turns, impact, (speed.inf, speed.sup), _SPREAD, rest
+    )
+    return prover.add("superstable-motion", witness), motion
 
 
-def _cells(pushing: Pushing, phases: Range, speeds: Range) -> list[_Cell]:
-    """Cover epsilon from 0 upward, by steps and ever smaller ones, until the proof fails."""
+def _times(found: FirstImpact) -> list[Fraction]:
+    """Return the times of the proof, the window of the impact being the last piece."""
+    return [time for time in found.times[1:] if time <= found.window[0]] + [found.window[1]]
+
+
+def _cells(pushing: Pushing, impact: Range, speed: Range) -> list[_Cell]:
+    """Prove that bounces after impacts nearby end, for epsilon from 0 up to as much as can be.
+
+    By steps of epsilon and ever smaller ones, until the proof fails.
+    """
+    phases, speeds = ((low - _SPREAD, high + _SPREAD) for low, high in (impact, speed))
+    if speeds[0] <= 0:
+        raise Undecided("the impact after the separation phase is too slow")
+    arc = phases[0], pushing.last - _SPREAD  # beyond it the acceleration increases to 0
+    if not pushing.accelerations(arc).certainly_negative():
+        raise Undecided("the impact after the separation phase is not on the sticking arc")
     cells: list[_Cell] = []
     done = Fraction(0)
     for step in _STEPS:
@@ -137,6 +127,8 @@ def _cells(pushing: Pushing, phases: Range, speeds: Range) -> list[_Cell]:
             except (Undecided, DomainError):
                 break
             done += step
+    if not cells:
+        raise Undecided("no epsilon > 0 is proved to let the mass come to rest")
     return cells
 
 
@@ -156,7 +148,7 @@ def _halved(
     ]
 
 
-def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, Conclusion]]:
+def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, StablePair]]:
     """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found.
 
     The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
@@ -186,8 +178,10 @@ def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, Conclusion]
         around(state, (_rounded(half[0]), _rounded(half[1])))
         for state, half in zip(states, halves_of, strict=True)
     ]
-    proof: list[tuple[str, Conclusion]] = [boxes[0], centres[0], boxes[1], centres[1]]
-    return proof if stable_pair(of, [step for _, step in proof]) else []
+    names = ("first", "at_first", "second", "at_second")
+    steps = dict(zip(names, (boxes[0], centres[0], boxes[1], centres[1]), strict=True))
+    pair = stable_pair(**{name: rebound for name, (_, rebound) in steps.items()})
+    return [(prover.add("stable-pair", {name: step for name, (step, _) in steps.items()}), pair)]
 
 
 def _candidate(system: System) -> tuple[State, State] | None:

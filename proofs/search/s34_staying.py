@@ -1,4 +1,4 @@
-"""Which orbits stay in an interval: witnesses for the rule `staying-set`."""
+"""Which orbits stay in an interval: witnesses for the rules of `s34_circle.other_sets`."""
 
 from __future__ import annotations
 
@@ -6,19 +6,27 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import pairwise
+from typing import TypeVar
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import impact_time, locate
 from proofs.motion.phase import phase_after
+from proofs.search.evidence import FAILED
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.chaos import brackets
-from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
-from proofs.trusted.slopes import Impact, SlopeRange
+from proofs.trusted.numbers import Phases, Range, within
+from proofs.trusted.paper.s34_circle.other_sets import (
+    StayingOrbit,
+    StayingSet,
+    full_shift,
+    staying_orbit,
+)
+from proofs.trusted.slopes import Avoids, SlopeRange
 
+C = TypeVar("C", bound=Conclusion)
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
 _FINEST = Fraction(1, 10**4)
@@ -127,20 +135,28 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[s
     """
     sketcher = Sketcher(prover)
     whole = min(printed[0], around[0]), max(printed[1], around[1])
-    sketches = [sketcher.refined(sketcher.sketch(printed, _FINE))]
+    few = sketcher.refined(sketcher.sketch(printed, _FINE))
     shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
-    sketches += [one for one in shifts if one is not None]
+    sketches = [few, *(one for one in shifts if one is not None)]
     proofs = Pieces(prover, sketches)
     found: list[tuple[str, Conclusion]] = []
-    for sketch in sketches:
-        with suppress(Undecided, DomainError, ValueError):
-            found.append(proofs.prove(sketch))
-    for _, staying in list(found):
-        if isinstance(staying, StayingSet):
-            for cells in staying.orbits:
-                points = [x for _, x in found if isinstance(x, Impact)]
-                if not brackets(cells, points):
-                    found += periodic_orbit(prover, cells)
+    orbits: list[tuple[Phases, ...]] = []
+    with suppress(*FAILED):
+        name, orbit = proofs.prove(few, "staying-orbit", staying_orbit)
+        found.append((name, orbit))
+        orbits.append(orbit.cells)
+    for sketch in sketches[1:]:
+        with suppress(*FAILED):
+            name, shift = proofs.prove(sketch, "full-shift", full_shift)
+            found.append((name, shift))
+            orbits += [(shift.cells[0],), (shift.cells[-1],)]
+    known: list[tuple[Phases, ...]] = []
+    for cells in orbits:
+        if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
+            with suppress(*FAILED):
+                name, orbit = periodic_orbit(prover, cells)
+                found.append((name, orbit))
+                known.append(orbit.cells)
     return found
 
 
@@ -152,22 +168,16 @@ class Pieces:
     sketches: Sequence[Sketch]
     _known: list[tuple[str, SlopeRange]] = field(default_factory=list)
 
-    def prove(self, sketch: Sketch) -> tuple[str, StayingSet]:
-        """Record the step `staying-set` and those that it needs."""
+    def prove(self, sketch: Sketch, rule: str, theorem: Callable[[StayingSet], C]) -> tuple[str, C]:
+        """Record the step of a rule about the staying set, and those that it needs."""
         slopes = [self._slopes(piece) for piece in sketch.pieces]
-        gaps = [self.prover.avoids(gap, sketch.interval)[0] for gap in sketch.gaps]
-        pieces = list(zip(slopes, sketch.pieces, strict=True))
-        found = StayingSet.of(
-            sketch.interval,
-            [(known, cuts) for (_, known), cuts in pieces],
-            [(gap, sketch.interval) for gap in sketch.gaps],
-        )
-        witness = {
-            "interval": texts(sketch.interval),
-            "pieces": [{"slopes": name, "cuts": texts(cuts)} for (name, _), cuts in pieces],
-            "gaps": gaps,
-        }
-        return self.prover.add("staying-set", witness), found
+        gaps = [self.prover.avoids(gap, sketch.interval) for gap in sketch.gaps]
+        ends = [
+            (known, pair)
+            for known, cuts in zip(slopes, sketch.pieces, strict=True)
+            for pair in pairwise(cuts)
+        ]
+        return record(self.prover, rule, theorem, [sketch.interval], ends, gaps=gaps)
 
     def _slopes(self, piece: Sequence[Fraction]) -> tuple[str, SlopeRange]:
         for name, known in self._known:
@@ -182,34 +192,61 @@ class Pieces:
         return self._known[-1]
 
 
-def periodic_orbit(prover: Prover, cells: Sequence[Cell]) -> list[tuple[str, Impact]]:
-    """Bracket a periodic orbit with one point in each cell by phases on both sides of its points.
+def record(
+    prover: Prover,
+    rule: str,
+    theorem: Callable[[StayingSet], C],
+    region: Sequence[Range],
+    cells: Sequence[tuple[tuple[str, SlopeRange], Range]],
+    *,
+    gaps: Sequence[tuple[str, Avoids]] = (),
+) -> tuple[str, C]:
+    """Record the step of a rule about a staying set, with its conclusion by the theorem.
 
-    f expands, so it maps the interval between two of them over the one between the next two.
+    cells: each a slope-range step and two of its points.
+    """
+    parts = [known.over(ends) for (_, known), ends in cells]
+    found = theorem(
+        StayingSet(
+            tuple(Phases(*part) for part in region),
+            tuple(part for part in parts if part is not None),
+            tuple(gap for _, gap in gaps),
+        )
+    )
+    witness = {
+        "region": [texts(part) for part in region],
+        "cells": [{"slopes": name, "domain": texts(ends)} for (name, _), ends in cells],
+        "gaps": [name for name, _ in gaps],
+    }
+    return prover.add(rule, witness), found
+
+
+def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, StayingOrbit]:
+    """Bracket a periodic orbit with one point in each cell: it is all that stays in the brackets.
+
+    f expands, so it maps each bracket over the next one.
     """
     accuracy = Fraction(1, 10 ** max(6, prover.digits // 2))
-    try:
-        phase = _newton(prover, cells, accuracy)
-        found = []
-        for _ in cells:
-            ends = [(phase // accuracy + shift) * accuracy for shift in (-2, 3)]
-            found += [prover.point(end) for end in ends]
-            phase = _value(prover, phase)[0]
-        return found
-    except (Undecided, DomainError):
-        return []
+    phase = _newton(prover, cells, accuracy)
+    brackets = []
+    for _ in cells:
+        low, high = ((phase // accuracy + shift) * accuracy for shift in (-2, 3))
+        brackets.append((low, high))
+        phase = _value(prover, phase)[0]
+    parts = [(prover.slopes(list(ends)), ends) for ends in brackets]
+    return record(prover, "staying-orbit", staying_orbit, brackets, parts)
 
 
-def _newton(prover: Prover, cells: Sequence[Cell], accuracy: Fraction) -> Fraction:
+def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fraction:
     """Return about the point in the first cell of the orbit through cells, by Newton's method."""
-    phase = (cells[0].phases[0] + cells[0].phases[1]) / 2
+    low, high = cells[0]
+    phase = (low + high) / 2
     for _ in range(40):
         image, slope = phase, Fraction(1)
         for _ in cells:
             image, factor = _value(prover, image)
             slope *= factor
         step = (image - phase) / (1 - slope)
-        low, high = cells[0].phases
         phase = min(high, max(low, round((phase + step) / accuracy * 10**6) * accuracy / 10**6))
         if abs(step) < accuracy:
             return phase

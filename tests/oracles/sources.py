@@ -34,8 +34,9 @@ def certificates():
 
 def proved(group, eta, nu):
     """The parts of what the prover of a group finds at other parameters."""
-    from proofs.shell.groups import settle
     from proofs.trusted.facts import PAPER
+
+    from proofs.shell.groups import settle
 
     of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
     return _parts(settle(group, of, digits=20, tell=lambda stage: None)[1])

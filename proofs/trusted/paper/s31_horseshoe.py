@@ -11,6 +11,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,
     Range,
@@ -120,13 +121,19 @@ def prove_horseshoe(context: Context, reader: Reader) -> Horseshoe:
     """
     left, right, gap, slopes = reader.fields("left", "right", "gap", "slopes")
     return horseshoe(
-        _part(context, left), _part(context, right), [context.step(gap, Avoids)], slopes.range()
+        read_part(context, left),
+        read_part(context, right),
+        [context.step(gap, Avoids)],
+        slopes.range(),
     )
 
 
-def _part(context: Context, reader: Reader) -> SlopeRange:
+def read_part(context: Context, reader: Reader) -> SlopeRange:
+    """Read {slopes: a slope-range step, domain: two of its points}: what it says in between."""
     name, domain = reader.fields("slopes", "domain")
-    part = context.step(name, SlopeRange).over(domain.range())
+    step = context.step(name, SlopeRange)
+    METER.get().spend(len(step.points))
+    part = step.over(domain.range())
     if part is None:
         raise domain.fail("not two points of the step")
     return part

@@ -20,9 +20,9 @@ from proofs.motion.system import System
 from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.stress.grazing import graze
 from proofs.trusted.certificate import Reader
-from proofs.trusted.parameters import PAPER as FACTS
-from proofs.trusted.flights import first_impact
+from proofs.trusted import flights
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.parameters import PAPER as FACTS
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -276,7 +276,7 @@ def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side)
     assert list(found.times) == sorted(set(found.times)) and found.times[0] == 0
     witness = {"phases": in_json(found.flight.phases), "times": in_json(found.times[1:])}
     of = replace(FACTS, eta=eta, nu=nu)
-    derived = first_impact(Context(of), Reader(witness))
+    derived = flights.first_impact(Context(of), Reader(witness))
     assert derived.transversal and derived.windows == found.windows
 
 

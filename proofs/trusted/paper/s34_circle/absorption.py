@@ -16,7 +16,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, cells_met, in_order
-from proofs.trusted.paper.s34_circle.chaos import Branch
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Lands, Separation, motion_at
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.windows import BITS, level

@@ -13,27 +13,27 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.motion.chatter import Pushing
+from proofs.motion.simulate import Summary
 from proofs.motion.system import System
+from proofs.report import persistence_figure
+from proofs.search.evidence import Evidence
 from proofs.search.s34_persistence import prove
 from proofs.shell.groups import certificate, decide
-from proofs.trusted.certificate import Malformed, Reader, render, texts
+from proofs.trusted.certificate import SCHEMA, Malformed, Reader, parameters_to_json, render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
-from proofs.trusted.paper.s33_restitution.rules import RULES as REBOUND_RULES
-from proofs.trusted.paper.s34_circle.persistence import (
-    CLAIMS,
-    Chatter,
-    SeparationFlight,
-    stable_pair,
-)
-from proofs.trusted.paper.s34_circle.persistence_rules import RULES, _bounce
-from proofs.trusted.parameters import PAPER
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion, _bounce
+from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
+from proofs.trusted.parameters import PAPER, Place
+from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
-CLAIM = {claim.id: claim for claim in CLAIMS}
+MOTION, PAIR = "superstable-motion-1", "stable-pair-1"
 
 
 @cache
@@ -42,12 +42,11 @@ def evidence():
 
 
 def derive(steps, of=PAPER):
-    known = {}
+    context = Context(of)
     for name, step in steps.items():
-        known[name] = (RULES | REBOUND_RULES)[step["rule"]](
-            of, known, Reader(copy.deepcopy(step["witness"]))
-        )
-    return known
+        rule, witness = find_rule(step["rule"]), Reader(copy.deepcopy(step["witness"]))
+        context.known[name] = rule(context, witness)
+    return context.known
 
 
 @cache
@@ -68,7 +67,7 @@ def exact(value):
 
 @pytest.mark.slow
 def test_the_flight_from_the_separation_phase_is_enclosed():
-    found = derive(evidence().steps)["separation-flight-1"]
+    found = derive(short())[MOTION]
     bounds = (found.separation, found.flight, found.impact, found.speed)
     for (low, high), value in zip(bounds, truth(), strict=True):
         assert low - Fraction(1, 10**40) <= exact(value) <= high + Fraction(1, 10**40)
@@ -79,17 +78,13 @@ def test_the_flight_from_the_separation_phase_is_enclosed():
 @pytest.mark.slow
 def test_prover_and_checker_conclude_the_same():
     derived, own = derive(evidence().steps), dict(evidence().proofs["G7"])
-    name = "chatter-1"
-    chatter = own[name]
-    assert (chatter.epsilon, chatter.spread, chatter.rest) == (
-        derived[name].epsilon,
-        derived[name].spread,
-        derived[name].rest,
-    )
-    decisions = [CLAIM["G7"].decide(PAPER, [each[step] for step in own]) for each in (own, derived)]
-    assert "does not attract everything" in decisions[0].corrected
-    assert decisions[0].witness == decisions[1].witness
-    assert decisions[0].corrected == decisions[1].corrected
+    for field in ("at", "turns", "spread", "rest"):
+        assert getattr(own[MOTION], field) == getattr(derived[MOTION], field)
+    assert own[PAIR] == derived[PAIR]
+    found = [find("G7").decide(PAPER, [each[step] for step in own]) for each in (own, derived)]
+    assert "F^2 contracts the first box" in found[0].theorem
+    assert found[0].witness == found[1].witness
+    assert found[0].theorem == found[1].theorem
 
 
 def bounces(epsilon, phase, speed):
@@ -124,8 +119,8 @@ def bounces(epsilon, phase, speed):
 @pytest.mark.slow
 @pytest.mark.parametrize("epsilon", ["0.01", "0.355"])
 def test_bounces_by_the_printed_equation_stay_below_the_phase_of_rest(epsilon):
-    found = derive(evidence().steps)["chatter-1"]
-    assert 0 < Fraction(epsilon) <= found.epsilon[1] < Fraction("0.37")
+    found = derive({MOTION: evidence().steps[MOTION]})[MOTION]
+    assert 0 < Fraction(epsilon) <= found.largest < Fraction("0.37")
     leave, _, phase, speed = truth()
     phases = bounces(mpf(epsilon), phase, speed)
     assert len(phases) >= 2
@@ -135,7 +130,7 @@ def test_bounces_by_the_printed_equation_stay_below_the_phase_of_rest(epsilon):
 @pytest.mark.slow
 @pytest.mark.parametrize("epsilon", ["0.1", "0.25", "0.3", "0.345", "0.355"])
 def test_so_do_bounces_at_the_corners_of_the_states(epsilon):
-    found = derive(evidence().steps)["chatter-1"]
+    found = derive({MOTION: evidence().steps[MOTION]})[MOTION]
     _, _, phase, speed = truth()
     spread = mpf(found.spread.numerator) / found.spread.denominator
     for signs in ((1, 1), (1, -1), (-1, 1)):
@@ -147,12 +142,6 @@ def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
     leave, _, phase, speed = truth()
     *before, last = bounces(mpf("0.4"), phase, speed)
     assert len(before) == 2 and before[1] < leave < last
-
-
-def decided(steps, of=PAPER):
-    """Decide G7 by the steps that its proof names, re-derived."""
-    known = derive(steps, of)
-    return CLAIM["G7"].decide(of, [known[name] for name, _ in evidence().proofs["G7"]])
 
 
 # -- the other orbit -------------------------------------------------------------------------------
@@ -177,9 +166,8 @@ def next_state(epsilon, phi, gamma):
 
 
 def test_the_boxes_of_the_other_orbit_are_mapped_into_each_other_by_the_printed_equations():
-    steps = [step for _, step in evidence().proofs["G7"]]
-    pair = stable_pair(PAPER, steps)
-    assert pair.epsilon == Fraction("0.29")
+    pair = dict(evidence().proofs["G7"])[PAIR]
+    assert pair.at.epsilon == (Fraction("0.29"),) * 2
     for source, target in ((pair.first, pair.second), (pair.second, pair.first)):
         for corner in ((0, 0), (0, 1), (1, 1)):
             phi, gamma = (ends[k] for ends, k in zip(source, corner, strict=True))
@@ -192,11 +180,23 @@ def exact_number(value):
     return mpf(value.numerator) / value.denominator
 
 
-@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 3, 2), (0, 1, 3, 2), (0, 3, 2, 1)])
+@cache
+def rebounds():
+    """The four steps that the pair rests on, in the order of the theorem."""
+    known = derive({k: v for k, v in evidence().steps.items() if v["rule"] == "rebound"})
+    witness = evidence().steps[PAIR]["witness"]
+    return [known[witness[name]] for name in ("first", "at_first", "second", "at_second")]
+
+
+def no_pair(steps):
+    with pytest.raises(Unproved):
+        stable_pair(*steps)
+    return True
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 2), (1, 0, 3, 2), (0, 1, 3, 2), (0, 3, 2, 1)])
 def test_other_orders_of_its_steps_prove_no_pair(order):
-    rebounds = [step for _, step in evidence().proofs["G7"]][1:]
-    assert stable_pair(PAPER, [rebounds[k] for k in order]) is None
-    assert stable_pair(replace(PAPER, eta=Fraction("0.2122")), rebounds) is None
+    assert no_pair([rebounds()[k] for k in order])
 
 
 def widened(step, factor):
@@ -222,13 +222,15 @@ def test_a_pair_of_invented_boxes():
     low, high = (Fraction(1), Fraction(2)), (Fraction(3), Fraction(4))
     half, one = Fraction(1, 2), Fraction(1)
 
-    def pair(slope, second=high):
+    def steps(slope, second=high):
         to, back = sum(second) / 2, sum(low) / 2
-        return stable_pair(PAPER, [*box_of(low, slope, to), *box_of(second, slope, back)])
+        return [*box_of(low, slope, to), *box_of(second, slope, back)]
 
-    assert pair(half).second == (high, (-1, 0))
-    assert pair(one) is None, "an isometry contracts nothing"
-    assert pair(half, low) is None, "a fixed point is no 2-periodic orbit"
+    assert stable_pair(*steps(half)).second == (high, (-1, 0))
+    assert no_pair(steps(one)), "an isometry contracts nothing"
+    assert no_pair(steps(half, low)), "a fixed point is no 2-periodic orbit"
+    wide = ((PAPER.eta, PAPER.eta + 1), *steps(half)[0].box[1:])
+    assert no_pair([replace(x, box=wide) for x in steps(half)]), "not one oscillator"
 
 
 @pytest.mark.parametrize(
@@ -242,41 +244,42 @@ def test_a_pair_of_invented_boxes():
 )
 @pytest.mark.parametrize("index", [0, 2])
 def test_conclusions_that_do_not_contract_prove_no_pair(change, index):
-    rebounds = [step for _, step in evidence().proofs["G7"]][1:]
-    rebounds[index] = change(rebounds[index])
-    assert stable_pair(PAPER, rebounds) is None
+    steps = list(rebounds())
+    steps[index] = change(steps[index])
+    assert no_pair(steps)
 
 
-def test_the_pair_needs_the_chatter_and_an_epsilon_of_its_range():
-    found = [step for _, step in evidence().proofs["G7"]]
-    assert CLAIM["G7"].decide(PAPER, found[1:]).verdict is Verdict.UNDECIDED
-    short = replace(found[0], epsilon=(Fraction(0), Fraction("0.28")))
-    assert "attract everything" not in CLAIM["G7"].decide(PAPER, [short, *found[1:]]).corrected
+def test_the_pair_alone_decides_nothing():
+    motion, pair = (step for _, step in evidence().proofs["G7"])
+    assert isinstance(motion, SuperstableMotion) and isinstance(pair, StablePair)
+    assert find("G7").decide(PAPER, [pair]).verdict is Verdict.UNDECIDED
+    assert "F^2 contracts" not in find("G7").decide(PAPER, [motion]).theorem
 
 
 # -- the verdicts ----------------------------------------------------------------------------------
 
 
 def test_g7_is_refuted_and_corrected():
-    found = decided(evidence().steps)
+    found = find("G7").decide(PAPER, [step for _, step in evidence().proofs["G7"]])
     assert found.verdict is Verdict.REFUTED
-    assert "epsilon = 0.01" in found.witness and "infinitely many" in found.witness
-    assert "0 <= epsilon <= 0.35" in found.corrected and "4 turns" in found.corrected
+    assert "infinitely many" in found.witness and "none attracts this open set" in found.witness
+    assert "epsilon in [0, 0.35" in found.theorem and "4 turns" in found.theorem
     low, high = found.quantities["impact_phase"]
     assert low < exact(truth()[2]) < high
 
 
 def test_g8_is_simulated_and_rests_on_no_step():
-    found = CLAIM["G8"].decide(PAPER, list(derive(evidence().steps).values()))
-    assert found.verdict is Verdict.SIMULATED and found.corrected is None
+    found = find("G8").decide(PAPER, [step for _, step in evidence().proofs["G7"]])
+    assert found.verdict is Verdict.SIMULATED and found.theorem is None and found.witness is None
     assert not found.quantities and "G8" not in evidence().proofs
     assert prove(PAPER, ("G8",)).steps == {}
 
 
-def chatter(**changes):
-    flight = SeparationFlight((6, 6), (23, 23), 4, (4, 4), (1, 1))
-    return replace(
-        Chatter(flight, (Fraction(0), Fraction(1, 4)), Fraction(1, 100), Fraction(5)), **changes
+def motion(largest="1/4", eta=PAPER.eta):
+    at = Place((eta, eta), (PAPER.nu, PAPER.nu), (Fraction(0), Fraction(largest)))
+    bounds = [tuple(map(Fraction, (x, x))) for x in (6, 23, 4, 1)]
+    return SuperstableMotion(
+        at, *bounds[:2], 4, *bounds[2:], spread=Fraction(1, 100), rest=Fraction(5)
     )
 
 
@@ -284,16 +287,16 @@ def chatter(**changes):
     ("of", "found"),
     [
         (PAPER, []),
-        (PAPER, [chatter().after]),
-        (PAPER, [chatter(epsilon=(Fraction(0), Fraction(1, 200)))]),
-        (PAPER, [chatter(epsilon=(Fraction(1, 10), Fraction(1, 4)))]),
-        (replace(PAPER, epsilon=Fraction(0)), [chatter()]),
-        (replace(PAPER, epsilon=None), [chatter()]),
-        (replace(PAPER, epsilon=Fraction("0.3")), [chatter()]),
+        (PAPER, [motion("1/200")]),
+        (PAPER, [motion(eta=Fraction("0.2122"))]),
+        (replace(PAPER, epsilon=Fraction(0)), [motion()]),
+        (replace(PAPER, epsilon=None), [motion()]),
+        (replace(PAPER, epsilon=Fraction("0.3")), [motion()]),
     ],
 )
 def test_g7_is_undecided_without_what_it_rests_on(of, found):
-    assert CLAIM["G7"].decide(of, found).verdict is Verdict.UNDECIDED
+    assert find("G7").decide(of, found).verdict is Verdict.UNDECIDED
+    assert find("G7").decide(PAPER, [motion()]).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize(("eta", "nu"), [("0.2121", "0.02"), ("0.9", "-0.3"), ("3", "-2")])
@@ -301,7 +304,7 @@ def test_other_oscillators_are_undecided_or_proved(eta, nu):
     of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
     found = prove(of, ("G7",))
     known = derive(found.steps, of)
-    own = CLAIM["G7"].decide(of, [known[name] for name, _ in found.proofs.get("G7", [])])
+    own = find("G7").decide(of, [known[name] for name, _ in found.proofs.get("G7", [])])
     assert own.verdict is (Verdict.REFUTED if found.proofs else Verdict.UNDECIDED)
 
 
@@ -309,16 +312,16 @@ def test_other_oscillators_are_undecided_or_proved(eta, nu):
 
 
 def document(proof, steps):
-    entries = [decide("G7", PAPER, proof, 30)[1], decide("G8", PAPER, [], 30)[1]]
+    found = Evidence(steps, {"G7": proof})
+    entries = [decide(claim, PAPER, found, 30)[1] for claim in ("G7", "G8")]
     return render(certificate(PAPER, steps, entries))
 
 
 @cache
 def short():
-    """The flight and some cells of the chatter only, which a check takes little time for."""
-    steps = {name: evidence().steps[name] for name in ("separation-flight-1", "chatter-1")}
-    steps = copy.deepcopy(steps)
-    cells = steps["chatter-1"]["witness"]["cells"]
+    """The motion, for few epsilons only, which a check takes little time for."""
+    steps = {MOTION: copy.deepcopy(evidence().steps[MOTION])}
+    cells = steps[MOTION]["witness"]["cells"]
     del cells[1 + next(i for i, cell in enumerate(cells) if len(cell["bounces"]) > 2) :]
     return steps
 
@@ -349,12 +352,12 @@ def add(amount):
 
 
 def test_the_short_proof_is_one():
-    cells = short()["chatter-1"]["witness"]["cells"]
-    assert derive(short())["chatter-1"].epsilon[1] == Fraction(cells[-1]["epsilon"])
+    cells = short()[MOTION]["witness"]["cells"]
+    assert derive(short())[MOTION].largest == Fraction(cells[-1]["epsilon"])
     assert 3 <= len(cells) < 30
 
 
-FLIGHT, CHATTER = ("separation-flight-1", "witness"), ("chatter-1", "witness")
+FLIGHT = CHATTER = (MOTION, "witness")
 CELL = (*CHATTER, "cells", -1)
 
 
@@ -377,7 +380,6 @@ CELL = (*CHATTER, "cells", -1)
         ((*FLIGHT, "times"), lambda times: times[-2:]),
         ((*FLIGHT, "times"), lambda times: [times[-1]]),
         ((*FLIGHT, "times"), lambda times: list(reversed(times))),
-        ((*CHATTER, "flight"), lambda name: "chatter-1"),
         ((*CHATTER, "spread"), lambda text: "0"),
         ((*CHATTER, "spread"), lambda text: "-1/100000"),
         ((*CHATTER, "spread"), lambda text: "1/1000"),
@@ -415,16 +417,12 @@ def alone(**cell):
     spread = cell.pop("spread", "1/100000")
     steps = copy.deepcopy(short())
     cells = [{"epsilon": "1/100", "bounces": [], "ratio": "1/50", "rest": "5"} | cell]
-    steps["chatter-1"]["witness"] = {
-        "flight": "separation-flight-1",
-        "spread": spread,
-        "cells": cells,
-    }
-    return derive(steps)["chatter-1"]
+    steps[MOTION]["witness"].update(spread=spread, cells=cells)
+    return derive(steps)[MOTION]
 
 
 def test_one_cell_alone():
-    assert alone().epsilon == (0, Fraction(1, 100)) and alone().rest == 5
+    assert alone().at.epsilon == (0, Fraction(1, 100)) and alone().rest == 5
     with pytest.raises(Unproved, match="speed > 0"):
         alone(spread="3/20")
     with pytest.raises(Malformed, match="increase"):
@@ -435,7 +433,7 @@ def test_one_cell_alone():
 
 def test_the_kick_of_the_largest_epsilon_counts():
     """At 1/5 the first bounce, from the speed 0.1352, takes 0.37; the lemma grants 0.6 in all."""
-    assert alone(epsilon="1/5", ratio="23/100", rest="21/4").epsilon[1] == Fraction(1, 5)
+    assert alone(epsilon="1/5", ratio="23/100", rest="21/4").largest == Fraction(1, 5)
     with pytest.raises(Unproved, match="end by the phase of rest"):
         alone(epsilon="1/5", ratio="23/100", rest="5")
 
@@ -457,7 +455,7 @@ def test_the_checker_takes_the_prover_s_bracket_of_a_wide_box_of_bounces(width):
     kicks = Fraction("0.04") - reach / 5, Fraction("0.04") + reach / 5
     pushing = Pushing(System(PAPER.eta, PAPER.nu), Fraction("6.0454"))
     time, speeds = pushing.bounce(phases, kicks)
-    _, own = _bounce(PAPER, phases, kicks, Reader(texts(time)))
+    _, own = _bounce(PAPER, phases, kicks, time)
     for one, other in zip(speeds, own, strict=True):
         assert abs(one - other) < Fraction(1, 10**6)
 
@@ -489,7 +487,7 @@ def test_a_witness_for_another_oscillator_is_refused(of, changes):
     ],
 )
 def test_an_edited_entry_is_rejected(path, value):
-    found = json.loads(document([("chatter-1", derive(short())["chatter-1"])], short()))
+    found = json.loads(document([(MOTION, derive(short())[MOTION])], short()))
     *inner, last = path
     place = found
     for key in inner:
@@ -497,3 +495,24 @@ def test_an_edited_entry_is_rejected(path, value):
     place[last] = value
     with pytest.raises((Rejected, Malformed)):
         check(render(found))
+
+
+# -- the figure ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("0.2121", "-0.2"), ("1/6", "-0.45")])
+def test_the_figure_is_about_the_oscillator_of_its_certificate(monkeypatch, eta, nu):
+    pytest.importorskip("matplotlib")
+    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
+    asked = []
+
+    def transients(system):
+        asked.append((system.eta, system.nu))
+        return [Summary("0.1", 1.0, 2.0, 3.0, 4.0, 5.0)]
+
+    monkeypatch.setattr(persistence_figure, "transients", transients)
+    steps = short() if of == PAPER else {}
+    source = {"schema": SCHEMA, "parameters": parameters_to_json(of), "functions": {}}
+    drawn = persistence_figure.svg(render({**source, "steps": steps, "claims": []}))
+    assert asked == [(Fraction(eta), Fraction(nu))]
+    assert drawn.startswith("<?xml") and ("#2ca02c" in drawn) == bool(steps)

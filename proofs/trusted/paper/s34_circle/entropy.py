@@ -1,0 +1,257 @@
+"""How much chaos is there in all? Branches of f with long flights, their covering graph. Row G9."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.flights import Motion, brackets, lifted
+from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, show_range
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.windows import BITS, Meetings, clear, falls, leaves, level
+
+_MOST_TURNS = 20_000
+_LOG_BITS = 160
+
+
+# -- branches --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Branch(Conclusion):
+    """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
+
+    A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], gap' < 0 on [begin, ends[i]] and
+    gap < 0 at ends[i]: its first impact is the one zero between. Images are counted from
+    2 pi turn.
+    """
+
+    at: Place
+    cuts: tuple[Fraction, ...]
+    turn: int
+    begin: Fraction
+    ends: tuple[Fraction, ...]
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the cuts are phases in order, and the impacts come after begin."""
+        Phases(self.cuts[0], self.cuts[-1])
+        if any(low >= high for low, high in pairwise(self.cuts)):
+            raise Unproved("the cuts of a branch must increase")
+        if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
+            raise Unproved("a branch has an end after each piece's impacts, all after its begin")
+
+    @property
+    def phases(self) -> Phases:
+        """The closed interval of phases."""
+        return Phases(self.cuts[0], self.cuts[-1])
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        return (
+            f"f is C^1 on {show_range(self.phases)}, the first impact being transversal, after a "
+            f"time in {show_range((self.begin, max(self.ends)))}."
+        )
+
+
+def branch(context: Context, reader: Reader) -> Branch:
+    """Rule `branch`: {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}, for -1 < nu < 0.
+
+    Hypotheses: on phases [x_0, x_n], gap'' > 0 on [0, t_1]; gap > 0 after t_1 in each of the
+    windows of `Meetings` for the minima 0, ..., K - 1 of the table; window K starts at s > t_1.
+    On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and gap(e_i) < 0. Conclusion: `Branch`, begin = s.
+
+    Proof. gap = gap' = 0 at launch, so gap > 0 on (0, t_1]. No impact lies outside the windows,
+    none in the first K; and none at s, which is outside window K or its strict boundary: gap > 0
+    on (0, s]. Then the gap falls to a negative value: one zero, transversal, so f is C^1 on each
+    piece, and on the union since at a shared end the first impact is the same.
+    """
+    cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
+    cuts, turn = cuts_of.numbers(2, 200), turn_of.number()
+    if turn.denominator != 1 or not 1 <= turn <= _MOST_TURNS:
+        raise turn_of.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
+    of, phases = context.of, Phases(cuts[0], cuts[-1])
+    if not -1 < of.nu < 0:
+        raise Unproved("windows are known for -1 < nu < 0 only")
+    whole = Motion(-1, of.eta, of.nu, phases, BITS)
+    meetings, launched = Meetings.of(whole), leaves(whole)
+    for low, high in meetings.before(int(turn)):
+        if high > launched:
+            clear(whole, (max(low, launched), high))
+    begin = meetings.window(int(turn))[0]
+    if begin <= launched:
+        raise Unproved("the last window starts at launch")
+    found = Branch(of.place, cuts, int(turn), begin, ends_of.numbers())
+    for piece, end in zip(pairwise(cuts), found.ends, strict=True):
+        motion = Motion(-1, of.eta, of.nu, piece, BITS)
+        falls(motion, (begin, end))
+        if level(motion, end)[1] >= 0:
+            raise Unproved("the gap is not proved negative at an end")
+    return found
+
+
+# -- the covering graph ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EntropyBound(Conclusion):
+    """In the union of disjoint branches f has an invariant set with entropy >= log(growth).
+
+    By a covering graph on so many intervals, `states`; `entropy` encloses log(growth).
+    """
+
+    at: Place
+    branches: tuple[Branch, ...]
+    states: int
+    growth: Fraction
+    entropy: Range
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the branches are disjoint and in order."""
+        if any(one.phases[1] >= two.phases[0] for one, two in pairwise(self.branches)):
+            raise Unproved("branches must be disjoint and in order")
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        domain = show_range((self.branches[0].phases[0], self.branches[-1].phases[1]))
+        first = floor_text(min(each.begin for each in self.branches), 0)
+        last = ceil_text(max(end for each in self.branches for end in each.ends), 0)
+        return (
+            f"f has a compact set K in {domain}, f(K) in K, on which it is continuous and has "
+            f"topological entropy at least log {show(self.growth)} >= "
+            f"{floor_text(self.entropy[0])}. K lies in {len(self.branches)} disjoint intervals on "
+            f"each of which f is C^1, with flights over times from {first} to {last}."
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the bound."""
+        return (
+            f"entropy >= log {show(self.growth)} >= {floor_text(self.entropy[0])}, by a covering "
+            f"graph on {len(self.branches)} branches of f, {self.states} intervals"
+        )
+
+    @property
+    def quantities(self) -> Mapping[str, Range]:
+        """Return the logarithm."""
+        return {"entropy": self.entropy}
+
+
+def entropy_bound(
+    branches: Sequence[Branch],
+    images: Mapping[Fraction, Range],
+    states: Sequence[Range],
+    weights: Sequence[Fraction],
+    growth: Fraction,
+) -> EntropyBound:
+    """Theorem. Let Z_b be disjoint branches, in order, f of some of their phases lie in `images`,
+    D_i intervals, the states, and v_i >= 0 weights, not all 0. If the ends of the part X_ib that
+    D_i and Z_b have in common have known images, f(X_ib) contains the interval between these. For
+    each i let the sum over b of the greatest v_j with D_j in that interval, 0 if there is none, be
+    at least m v_i, m = growth >= 1. Then what `EntropyBound.sentence` says.
+
+    Proof. 1. Join i to such a j for each b: A v >= m v, so an i with v_i > 0 starts at least
+    c m^n paths of length n, c > 0, to states with v_j > 0 (Collatz and Wielandt); they all go on.
+    2. f is continuous on the union of the Z_b, and f(X_ib) contains D_j (intermediate values): each
+    finite path is followed by a phase, infinite ones by compactness. The phases that follow
+    infinite paths form a compact set K, f(K) in K. 3. Two paths from i part at some step, from one
+    state by different b: the phases are then in disjoint closed Z_b, a fixed distance apart. So for
+    one d > 0 and all n, K has (n, d)-separated sets of c m^n points (Bowen's definition).
+    """
+    if growth < 1 or min(weights) < 0 or not any(weights):
+        raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
+    if len(places := {each.at for each in branches}) != 1:
+        raise Unproved("the branches are about no oscillator, or about different ones")
+    ranked = sorted(zip(weights, states, strict=True), reverse=True)
+
+    @cache
+    def best(one: Range, two: Range) -> Fraction:
+        """Return the greatest weight of a state between two enclosed images."""
+        METER.get().spend(2 * len(ranked))
+        low, high = min(one[1], two[1]), max(one[0], two[0])
+        inside = (weight for weight, state in ranked if low <= state[0] and state[1] <= high)
+        return next(inside, Fraction(0))
+
+    for (low, high), weight in zip(states, weights, strict=True):
+        METER.get().spend(4 * len(branches))
+        parts = [(max(low, each.phases[0]), min(high, each.phases[1])) for each in branches]
+        known = [(a, b) for a, b in parts if a < b and a in images and b in images]
+        if sum(best(images[a], images[b]) for a, b in known) < growth * weight:
+            raise Unproved("the graph does not multiply the weights by the growth")
+    logarithm = log(growth, _LOG_BITS).range
+    return EntropyBound(places.pop(), tuple(branches), len(states), growth, logarithm)
+
+
+def covering_graph(context: Context, reader: Reader) -> EntropyBound:
+    """Rule `covering-graph`: {branches, images: [{phase, time}], states, weights, growth}.
+
+    [s, e] = time brackets the first impact after a phase by gap(s) > 0 > gap(e): on its branch the
+    gap has one zero, falling. Conclusion: `entropy_bound`.
+    """
+    branches_of, images, states, weights, growth = reader.fields(
+        "branches", "images", "states", "weights", "growth"
+    )
+    branches = [context.step(name, Branch) for name in branches_of.items(1, 1000)]
+    vector = weights.numbers(1, 2000)
+    return entropy_bound(
+        branches,
+        dict(_image(branches, entry) for entry in images.items(1, 5000)),
+        [state.range() for state in states.items(len(vector), len(vector))],
+        vector,
+        growth.number(),
+    )
+
+
+def _image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
+    """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
+    phase_of, time_of = entry.fields("phase", "time")
+    phase, time = phase_of.number(), time_of.range()
+    METER.get().spend(len(branches))
+    for found in branches:
+        if found.cuts[0] <= phase <= found.cuts[-1]:
+            break
+    else:
+        raise phase_of.fail("the phase lies on no branch")
+    piece = next(i for i, cut in enumerate(found.cuts[1:]) if phase <= cut)
+    if time[0] < found.begin or time[1] > found.ends[piece]:
+        raise time_of.fail("the bracket leaves the window of the first impact")
+    motion = Motion(-1, found.at.eta[0], found.at.nu[0], (phase, phase), BITS)
+    if not brackets(motion.gap_of, time):
+        raise Unproved("a bracket does not have the signs +, - at its ends")
+    return phase, lifted((phase + time[0], phase + time[1]), -found.turn, BITS)
+
+
+# -- the row ---------------------------------------------------------------------------------------
+
+
+def _entropy(of: Parameters, found: Found) -> Decision:
+    """G9: by the greatest bound."""
+    del of
+    bounds = sorted(found.all(EntropyBound), key=lambda bound: bound.growth)
+    if not bounds:
+        return undecided("no covering graph is proved")
+    if bounds[-1].growth < 2:
+        return undecided(f"{bounds[-1].brief}, only", bounds[-1].quantities)
+    return decided(Verdict.VERIFIED, bounds[-1], corrected=bounds[-1:])
+
+
+ROWS = (
+    Row(
+        "G9",
+        "3.1",
+        "",
+        "At (eta, nu) = ({eta}, {nu}): the topological entropy of f, the supremum over compact "
+        "invariant sets on which f is continuous, is at least log 2.",
+        _entropy,
+    ),
+)
