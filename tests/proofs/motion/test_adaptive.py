@@ -19,8 +19,8 @@ from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.motion.system import System
 from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.stress.grazing import graze
-from proofs.trusted.certificate import Reader
 from proofs.trusted import flights
+from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER as FACTS
 from tests.proofs.trusted.paper import reference
