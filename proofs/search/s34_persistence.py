@@ -27,7 +27,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.paper.s34_circle.persistence import Chatter, SeparationFlight, stable_pair
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.parameters import Parameters, Place
 
 CLAIMS = ("G7", "G8")
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
@@ -162,14 +162,14 @@ def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, Conclusion]
     The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
     evenly; those of the second are |DF| r, and a third of what there is to spare.
     """
-    box = ((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
+    at = Place((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
     states, rebounds = _candidate(prover.system), ReboundProver(of, prover)
     if states is None:
         return []
 
     def around(state: State, half: State) -> tuple[str, Rebound]:
         phases, velocities = ((x - r, x + r) for x, r in zip(state, half, strict=True))
-        return rebounds.rebound(box, phases, velocities)
+        return rebounds.rebound(at, phases, velocities)
 
     centres = [around(state, (Fraction(0), Fraction(0))) for state in states]
     (p, q, r, s), (t, u, v, w) = (

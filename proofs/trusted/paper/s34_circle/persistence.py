@@ -12,8 +12,8 @@ from fractions import Fraction
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, ceil_text, floor_text, show, show_range, within
 from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
+from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Verdict
 
 
@@ -75,9 +75,9 @@ def stable_pair(of: Parameters, found: Sequence[object]) -> StablePair | None:
     if len(steps) != 4:
         return None
     first, at_first, second, at_second = steps
-    epsilon = first.box[2][0]
-    box = ((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
-    if any(step.box != box for step in steps):
+    epsilon = restitution(first.at)[0]
+    at = Place((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
+    if any(step.at != at for step in steps):
         return None
     apart = first.phases[1] < second.phases[0] or second.phases[1] < first.phases[0]
     there, back = _maps_into(first, at_first, second), _maps_into(second, at_second, first)
