@@ -6,7 +6,7 @@ arithmetic and recorded for the checker.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -81,11 +81,12 @@ def _at_exact_numbers(
         return named, dict.fromkeys(claims, str(failure))
     if "N2" in named:
         named["N2"] = pair
+    common: list[str] = []
     if nearest == sets:
-        common = [*_attempt(lambda: prover.horseshoe(at, sets, cuts))]
+        common = _attempt(lambda: prover.horseshoe(at, sets, cuts))
     elif {"N1", "N3"} & set(claims):
         tell("which itineraries are missing")
-        common = [*_attempt(lambda: _never_repeats(prover, pair))]
+        common = _attempt(lambda: _never_repeats(prover, pair))
     for claim in {"N1", "N3"} & set(claims):
         named[claim] += common
     if "N1" in named and nearest != sets:
@@ -98,10 +99,12 @@ def _at_exact_numbers(
     return named, {}
 
 
-def _attempt(make: Callable[[], str]) -> Iterator[str]:
-    """Yield the name of the step made, if that succeeds."""
-    with suppress(Unproved):
-        yield make()
+def _attempt(make: Callable[[], str]) -> list[str]:
+    """Return the name of the step made, if that succeeds."""
+    try:
+        return [make()]
+    except Unproved:
+        return []
 
 
 def _never_repeats(prover: ReboundProver, pair: Sequence[str]) -> str:

@@ -1,34 +1,30 @@
-"""Section 3.3: from what F does on rectangles of states to symbolic dynamics, and its absence.
+"""Section 3.3: from what F does on rectangles of states to horseshoes, for boxes of oscillators.
 
 Each theorem is a rule: a function from conclusions of earlier steps, named in the witness.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import product
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     TURN,
+    Phases,
     Range,
     ceil_text,
     floor_text,
     hull,
     show,
     show_range,
-    within,
 )
 from proofs.trusted.paper.s33_restitution.rebounds import (
-    Rebound,
-    Rectangle,
     RectangleMap,
     restitution,
     size,
@@ -36,32 +32,31 @@ from proofs.trusted.paper.s33_restitution.rebounds import (
 from proofs.trusted.parameters import Place
 
 CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
-_LONGEST = 10  # symbols of a barred word
 Maps = tuple[RectangleMap, RectangleMap]
 
 
 @dataclass(frozen=True)
 class Strips:
-    """Two rectangles with the same velocities, V1 = left to the left of V2 = right."""
+    """Two rectangles of states, V1 = left x velocities to the left of V2 = right x velocities."""
 
-    left: Rectangle
-    right: Rectangle
+    left: Phases
+    right: Phases
+    velocities: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved where they are not."""
-        if self.left.velocities != self.right.velocities:
-            raise Unproved("the rectangles have different velocities")
-        if self.left.phases[1] >= self.right.phases[0]:
-            raise Unproved("the rectangles overlap")
+        """Raise Unproved where they overlap or have no width."""
+        if self.left[1] >= self.right[0] or self.velocities[0] >= self.velocities[1]:
+            raise Unproved("the rectangles overlap or have no width")
 
     @property
     def outer(self) -> Range:
         """The phases of the left edge of V1 and of the right edge of V2."""
-        return self.left.phases[0], self.right.phases[1]
+        return self.left[0], self.right[1]
 
     def __str__(self) -> str:
         """Write both."""
-        return f"V1 = {self.left}, V2 = {self.right} (closed, phases x velocities)"
+        left, right, gamma = map(show_range, (self.left, self.right, self.velocities))
+        return f"V1 = {left} x {gamma}, V2 = {right} x {gamma} (closed, phases x velocities)"
 
 
 def strips(maps: Maps) -> Strips:
@@ -71,9 +66,10 @@ def strips(maps: Maps) -> Strips:
     So only one of the values of a next phase modulo 2 pi can lie in a rectangle, as image phases
     are between those of the edges: the line replaces the circle.
     """
-    found = Strips(maps[0].rectangle, maps[1].rectangle)
-    if maps[0].at != maps[1].at:
-        raise Unproved("the rectangles are about different oscillators")
+    first, second = maps
+    found = Strips(first.phases, second.phases, first.velocities)
+    if (first.at, first.velocities) != (second.at, second.velocities):
+        raise Unproved("the rectangles are about different oscillators or velocities")
     for each in maps:
         if each.derivative[0][0][0] <= 0:
             raise Unproved("the next phase is not proved to increase with the phase")
@@ -214,8 +210,8 @@ def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Fra
     for each, targets in zip(maps, arrows, strict=True):
         low, high = hull([maps[target].phases for target in targets])
         margins += [low - each.left[1], each.right[0] - high]
-        velocities = each.rectangle.velocities
-        if not velocities[0] < each.velocity[0] <= each.velocity[1] < velocities[1]:
+        lowest, highest = each.velocities
+        if not lowest < each.velocity[0] <= each.velocity[1] < highest:
             raise Unproved("an image velocity is not in the interior of the velocities")
     if min(margins) <= 0:
         short = ceil_text(-min(margins))
@@ -250,9 +246,7 @@ class RectangleHorseshoe(Conclusion):
                 "entropy log 2."
             )
         if least == 0:
-            phases = " and ".join(
-                show_range(x.phases) for x in (self.strips.left, self.strips.right)
-            )
+            phases = f"{show_range(self.strips.left)} and {show_range(self.strips.right)}"
             text += (
                 f" {'If epsilon = 0, the' if most > 0 else 'The'} plastic map f is continuously "
                 f"differentiable on {phases}, with f' >= {floor_text(self.rates.expansion, 2)}; "
@@ -301,142 +295,3 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
             at = replace(at, **{name: hull([one, two])})
     margin = min(part.margin for part in parts)
     return RectangleHorseshoe(at, sets, margin, worst(part.rates for part in parts))
-
-
-# -- words that no orbit follows -------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class BarredWord(Conclusion):
-    """There is no orbit x_0, ..., x_n of F with x_k in V1 where word[k] = 0, in V2 where it is 1.
-
-    short: by how much the n-th image at least falls short of the last rectangle.
-    """
-
-    at: Place
-    strips: Strips
-    word: tuple[int, ...]
-    short: Fraction
-
-    @property
-    def brief(self) -> str:
-        """Return the word, and where."""
-        return f"{self._text}, at {self.at}"
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"{self._text}; {self.strips}."
-
-    @property
-    def _text(self) -> str:
-        names = [f"V{symbol + 1}" for symbol in self.word]
-        return (
-            f"no orbit of F follows {' '.join(names)}: the last impact misses {names[-1]} by at "
-            f"least {floor_text(self.short)}"
-        )
-
-
-def barred_word(context: Context, reader: Reader) -> BarredWord:
-    """Rule `barred-word`: {rectangles: two names, word of 0 and 1, images: rebound steps, from}.
-
-    from: "above" or "below". Hypotheses, from above: image k is about the states {b_k} x G_k at
-    least, b_k a phase of the rectangle word[k], G_0 its velocities, G_(k+1) the image velocities
-    of the rectangle word[k]; with e_0 the right end of word[0] and e_(k+1) the greatest phase of
-    image k, min(e_k, right end of word[k]) <= b_k; the last e_n is left of word[n]. From below:
-    with left for right and <= for >=. Conclusion: no orbit follows the word.
-    Proof. The next phase increases with phi (`strips`). So if phi_k <= b_k and gamma_k is in G_k,
-    then phi_(k+1) <= e_(k+1), and phi_(k+1) <= b_(k+1) if it is in the rectangle.
-    """
-    maps_of, word_of, images_of, side = reader.fields("rectangles", "word", "images", "from")
-    maps, word = read_maps(context, maps_of), word_of.string()
-    if side.string() not in ("above", "below"):
-        raise side.fail("above or below")
-    if not set(word) <= {"0", "1"} or not 2 <= len(word) <= _LONGEST:
-        raise word_of.fail(f"a word is 2 to {_LONGEST} symbols 0 and 1")
-    above, path = side.string() == "above", [maps[int(symbol)] for symbol in word]
-    end = 1 if above else 0
-    gammas, extreme = path[0].rectangle.velocities, path[0].phases[end]
-    for here, name in zip(path, images_of.items(len(word) - 1, len(word) - 1), strict=False):
-        image, (low, high) = context.step(name, Rebound), here.phases
-        bound = image.phases[0]
-        if bound != image.phases[1] or not low <= bound <= high:
-            raise Unproved("a bound is not a phase of the rectangle")
-        if (bound < min(extreme, high)) if above else (bound > max(extreme, low)):
-            raise Unproved("a phase beyond the bound is not excluded")
-        if (image.at, image.turns) != (here.at, here.turns):
-            raise Unproved("an image is about another oscillator, or whole turns apart")
-        if not within(gammas, image.velocities):
-            raise Unproved("an image is not about all velocities")
-        extreme, gammas = image.phase[end], here.velocity
-        if not within(gammas, here.rectangle.velocities):
-            raise Unproved("an image velocity leaves the rectangles")
-    low, high = path[-1].phases
-    short = low - extreme if above else extreme - high
-    if short <= 0:
-        raise Unproved("an orbit along the word is not excluded")
-    return BarredWord(maps[0].at, strips(maps), tuple(map(int, word)), short)
-
-
-@dataclass(frozen=True)
-class GoldenMean(Conclusion):
-    """Full orbits in V1 and V2 are those that never repeat V2: the golden mean shift."""
-
-    at: Place
-    strips: Strips
-    rates: Rates
-
-    @property
-    def sentence(self) -> str:
-        """Return the theorem."""
-        return (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), F is smooth "
-            "and one-to-one on V1 and V2. Let Lambda_2 be the set of all states whose full orbits "
-            "stay in V1 and V2. F on Lambda_2 is conjugate, by the itinerary, to the shift on all "
-            f"two-sided sequences of 1 and 2 without 22 (golden mean shift), and is {self.rates}. "
-            "Lambda_2 has topological entropy log((1 + sqrt 5)/2), periodic orbits of every "
-            "period, uncountably many nonperiodic orbits and a dense orbit."
-        )
-
-    @property
-    def brief(self) -> str:
-        """Return the point."""
-        return "F on Lambda_2 is conjugate to the two-sided shift on sequences without 22"
-
-
-def golden_mean(context: Context, reader: Reader) -> GoldenMean:
-    """Rule `golden-mean`: {rectangles: two names, part: a rectangle, words: barred-word steps}.
-
-    Hypotheses: epsilon > 0; every word of some length that ends in 11 (V2 twice) contains a barred
-    word; V1 and N = `part`, a part of V2 with the same left edge, have the arrows 0 -> 0, 0 -> 1,
-    1 -> 0. Conclusion: `GoldenMean.sentence`.
-    Proof. 1. V2 is never followed by V2 in a full orbit, thus by V1. 2. The right edge of N goes to
-    the right of V1 and the next phase increases on V2, so a state of V2 outside N does not go to
-    V1. So full orbits in V1 and V2 follow the arrows, and `crossing` describes those.
-    """
-    names, part_of, words_of = reader.fields("rectangles", "part", "words")
-    maps, part = read_maps(context, names), context.step(part_of, RectangleMap)
-    words = [context.step(name, BarredWord) for name in words_of.items(most=64)]
-    (first, second), found = maps, strips(maps)
-    if restitution(first.at)[0] <= 0:
-        raise Unproved("without restitution F is not one-to-one")
-    if any((word.at, word.strips) != (first.at, found) for word in words):
-        raise Unproved("words are about other rectangles or oscillators")
-    if not never_twice([word.word for word in words]):
-        raise Unproved("V2 is not proved never to be repeated")
-    same = part.turns == second.turns and part.phases[0] == second.phases[0]
-    if not same or part.phases[1] > second.phases[1]:
-        raise Unproved("N is no part of V2 with the same left edge")
-    strips((first, part))
-    crossing((first, part), ((0, 1), (0,)))
-    return GoldenMean(first.at, found, worst([rates(first), rates(part)]))
-
-
-def never_twice(words: Sequence[tuple[int, ...]]) -> bool:
-    """Whether every word of some length that ends in 11 contains one of these."""
-    longest = max(map(len, words), default=0)
-    METER.get().spend(len(words) << longest)
-    return longest > 0 and all(
-        any((*start, 1, 1)[k : k + len(word)] == word for word in words for k in range(longest))
-        for start in product((0, 1), repeat=longest - 2)
-    )

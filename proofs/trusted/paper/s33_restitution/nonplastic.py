@@ -10,13 +10,12 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range, floor_text, show, within
 from proofs.trusted.paper.s33_restitution.horseshoes import (
-    BarredWord,
-    GoldenMean,
     RectangleHorseshoe,
     Strips,
     hyperbolic,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, Rectangle, RectangleMap, outward
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, outward
+from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -36,9 +35,9 @@ class EdgeImage(Conclusion):
     @property
     def edge(self) -> tuple[str, int]:
         """The side and the number of the rectangle."""
-        number = 1 if self.phase in self.strips.left.phases else 2
-        ends = (self.strips.left if number == 1 else self.strips.right).phases
-        return "left" if self.phase == ends[0] else "right", number
+        number = 1 if self.phase in self.strips.left else 2
+        lefts = self.strips.left[0], self.strips.right[0]
+        return "left" if self.phase in lefts else "right", number
 
     @property
     def short(self) -> Fraction:
@@ -71,11 +70,11 @@ class EdgeImage(Conclusion):
 
 def edge_images(strips: Strips, found: Sequence[Rebound]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
-    ends = (*strips.left.phases, *strips.right.phases)
+    ends = (*strips.left, *strips.right)
     images = []
     for each in found:
         (phase, high), (velocity, top) = each.phases, each.velocities
-        if phase == high in ends and velocity == top in strips.left.velocities:
+        if phase == high in ends and velocity == top in strips.velocities:
             images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
     return images
 
@@ -84,28 +83,47 @@ def printed(of: Parameters) -> Strips | None:
     """Return V1 and V2 as the statement has them; None without velocities or epsilon."""
     if of.velocities is None or of.epsilon is None:
         return None
-    left, right = (Rectangle(Phases(*phases), of.velocities) for phases in (of.left, of.right))
-    return Strips(left, right)
+    return Strips(Phases(*of.left), Phases(*of.right), of.velocities)
 
 
 def _crosses(of: Parameters, found: Found) -> Decision:
-    """N1: a horseshoe, or a word without orbit, or edges that fall short."""
+    """N1: F maps V1 and V2 across both, at a point, so that edges that fall short refute it."""
+    if of.epsilon is None:
+        return undecided(_NO_RECTANGLES)
+    point = Place((of.eta, of.eta), (of.nu, of.nu), (of.epsilon, of.epsilon))
+    return _full(of, found, point, edges_refute=True)
+
+
+def _on_box(of: Parameters, found: Found) -> Decision:
+    """N4: all words are followed, for the whole box."""
+    if of.box is None:
+        return undecided(_NO_RECTANGLES)
+    return _full(of, found, Place(*of.box), edges_refute=False)
+
+
+def _full(of: Parameters, found: Found, box: Place, *, edges_refute: bool) -> Decision:
+    """Decide by a horseshoe for a whole box, or by a point of it at which a word has no orbit."""
     sets = printed(of)
     if sets is None:
         return undecided(_NO_RECTANGLES)
-    edges = edge_images(sets, found.all(Rebound))
-    known = {f"image_of_{x.edge[0]}_edge_of_V{x.edge[1]}": x.image for x in edges}
-    proved = found.all(RectangleHorseshoe)
-    whole = [each for each in proved if each.strips == sets]
+    nearby = found.all(RectangleHorseshoe)
+    whole = [each for each in nearby if each.strips == sets and inside(box, each.at)]
     if whole:
-        return decided(Verdict.VERIFIED, whole[0], known=known)
+        return decided(Verdict.VERIFIED, whole[0], corrected=whole[:1])
+    words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and inside(x.at, box)]
+    edges = edge_images(sets, [x for x in found.elsewhere(Rebound) if inside(x.at, box)])
     short = [each for each in edges if each.short > 0]
-    reasons = [*shortest([x for x in found.all(BarredWord) if x.strips == sets]), *short]
-    if not reasons:
-        missing = ["no proof about F on V1 and V2", *(each.brief for each in edges)]
-        return undecided("; ".join(missing), known)
-    nearby = [*found.all(GoldenMean), *proved]
-    return decided(Verdict.REFUTED, *reasons, corrected=nearby, known=known)
+    corrected = (*found.all(GoldenMean), *nearby)
+    if words or (short and edges_refute):
+        reasons = (*shortest(words), *short)
+        return Decision(Verdict.REFUTED, reasons, corrected, quantities=_images(edges, box))
+    missing = "; ".join(["no proof about F on V1 and V2", *(each.brief for each in edges)])
+    return Decision(Verdict.UNDECIDED, (), corrected, None, missing, _images(edges, box))
+
+
+def _images(edges: Sequence[EdgeImage], at: Place) -> dict[str, Range]:
+    named = [(each.edge, each.image) for each in edges if each.at == at]
+    return {f"image_of_{side}_edge_of_V{number}": image for (side, number), image in named}
 
 
 def shortest(words: Sequence[BarredWord]) -> list[BarredWord]:
@@ -117,7 +135,8 @@ def _hyperbolic(of: Parameters, found: Found) -> Decision:
     sets = printed(of)
     if sets is None or not of.epsilon:
         return undecided(_NO_RECTANGLES)
-    known = {each.rectangle: each for each in found.all(RectangleMap)}
+    maps = [x for x in found.all(RectangleMap) if x.velocities == sets.velocities]
+    known = {each.phases: each for each in maps}
     if sets.left not in known or sets.right not in known:
         return undecided("no proof about F on V1 and V2")
     try:
@@ -141,26 +160,6 @@ def _orbits(of: Parameters, found: Found) -> Decision:
     states = found.elsewhere(Rebound)
     edges = [x for each in wide[:1] for x in edge_images(each.strips, states) if x.short > 0]
     return decided(Verdict.VERIFIED, own[0], corrected=[*own, *wide, *edges])
-
-
-def _on_box(of: Parameters, found: Found) -> Decision:
-    """N4: a horseshoe for the whole box, or a point of it at which a word has no orbit."""
-    sets = printed(of)
-    if sets is None or of.box is None:
-        return undecided(_NO_RECTANGLES)
-    box = Place(*of.box)
-    proved = [each for each in found.all(RectangleHorseshoe) if inside(box, each.at)]
-    whole = [each for each in proved if each.strips == sets]
-    if whole:
-        return decided(Verdict.VERIFIED, whole[0], corrected=whole[:1])
-    words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and inside(x.at, box)]
-    states = [each for each in found.elsewhere(Rebound) if inside(each.at, box)]
-    edges = [each for each in edge_images(sets, states) if each.short > 0]
-    nearby = found.all(RectangleHorseshoe)
-    if words:
-        return decided(Verdict.REFUTED, *shortest(words), *edges, corrected=nearby)
-    missing = ["no proof about F on V1 and V2 for all of them", *(each.brief for each in edges)]
-    return Decision(Verdict.UNDECIDED, corrected=tuple(nearby), missing="; ".join(missing))
 
 
 def inside(one: Place, two: Place) -> bool:

@@ -84,32 +84,16 @@ class Rebound(Conclusion):
 
 
 @dataclass(frozen=True)
-class Rectangle:
-    """Phases x velocities, a set of states: both sides of positive width."""
-
-    phases: Phases
-    velocities: Range
-
-    def __post_init__(self) -> None:
-        """Raise Unproved where the velocities have no width."""
-        if self.velocities[0] >= self.velocities[1]:
-            raise Unproved("a rectangle without width")
-
-    def __str__(self) -> str:
-        """Write the sides."""
-        return f"{show_range(self.phases)} x {show_range(self.velocities)}"
-
-
-@dataclass(frozen=True)
 class RectangleMap(Conclusion):
-    """All states of a rectangle are possible, and F is smooth on it.
+    """All states of the rectangle phases x velocities are possible, and F is smooth on it.
 
     Phases of images are less `turns` turns. left, right: enclosures of those of the left and of
     the right edge; velocity: of all image velocities; derivative: of DF.
     """
 
     at: Place
-    rectangle: Rectangle
+    phases: Phases
+    velocities: Range
     turns: int
     left: Range
     right: Range
@@ -117,18 +101,13 @@ class RectangleMap(Conclusion):
     derivative: Entries
 
     @property
-    def phases(self) -> Phases:
-        """The phases of the rectangle."""
-        return self.rectangle.phases
-
-    @property
     def sentence(self) -> str:
         """Return the statement."""
         return (
-            f"all states of {self.rectangle} are physically possible (gap' <= 0), and F is smooth "
-            f"there: it maps the left edge to phases in {outward(self.left)}, the right one in "
-            f"{outward(self.right)} (less {self.turns} turns), all to velocities in "
-            f"{outward(self.velocity)}."
+            f"all states of {show_range(self.phases)} x {show_range(self.velocities)} are "
+            "physically possible (gap' <= 0), and F is smooth there: it maps the left edge to "
+            f"phases in {outward(self.left)}, the right one in {outward(self.right)} (less "
+            f"{self.turns} turns), all to velocities in {outward(self.velocity)}."
         )
 
 
@@ -232,7 +211,13 @@ def rectangle(context: Context, reader: Reader) -> RectangleMap:
         [hull([part.derivative[row][column] for part in parts]) for column in (0, 1)]
         for row in (0, 1)
     )
-    velocity = hull([part.velocity for part in parts])
-    found = Rectangle(Phases(low, high), left.velocities)
-    images = left.phase, right.phase
-    return RectangleMap(left.at, found, left.turns, *images, velocity, ((p, q), (r, s)))
+    return RectangleMap(
+        left.at,
+        Phases(low, high),
+        left.velocities,
+        left.turns,
+        left.phase,
+        right.phase,
+        hull([part.velocity for part in parts]),
+        ((p, q), (r, s)),
+    )
