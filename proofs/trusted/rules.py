@@ -61,10 +61,10 @@ RULES: Mapping[str, str] = MappingProxyType(
         "staying-set": "paper.s34_circle.chaos_rules.staying_set",
         "separation-flight": "paper.s34_circle.persistence_rules.separation_flight",
         "chatter": "paper.s34_circle.persistence_rules.chatter",
-        "single-solution": "paper.s4_single.rules.single_solution",
-        "single-orbit": "paper.s4_single.rules.single_orbit",
-        "single-eta-windows": "paper.s4_single.rules.eta_windows",
-        "single-nu-windows": "paper.s4_single.rules.nu_windows",
+        "single-solution": "paper.s4_single.orbits.single_solution",
+        "single-orbit": "paper.s4_single.orbits.single_orbit",
+        "single-eta-windows": "paper.s4_single.orbits.eta_windows",
+        "single-nu-windows": "paper.s4_single.orbits.nu_windows",
         "method-one": "paper.s7_appendix.rules.method_one",
     }
 )
