@@ -19,13 +19,18 @@ from proofs.trusted.equations import (
     launch_with_restitution,
 )
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebounds import Box
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.parameters import Parameters, Place
 
 Sets = tuple[Range, Range]
 Images = Callable[[Fraction], tuple[float, float] | None]
 _MOST_UNITS = 2
 _HALVINGS = 30
+
+
+def sides(at: Place) -> tuple[Range, Range, Range]:
+    """Return the ranges of eta, nu and epsilon."""
+    return at.eta, at.nu, restitution(at)
 
 
 def state_after(
@@ -76,11 +81,11 @@ def image_phases(of: Parameters) -> Images:
     return images
 
 
-def images_over(of: Parameters, box: Box) -> Images:
+def images_over(of: Parameters, at: Place) -> Images:
     """Return such a function for all oscillators of a box, as its corners have it."""
     corners = [
         image_phases(replace(of, eta=eta, nu=nu, epsilon=epsilon, reach=None))
-        for eta, nu, epsilon in product(*(sorted(set(side)) for side in box))
+        for eta, nu, epsilon in product(*(sorted(set(side)) for side in sides(at)))
     ]
 
     @cache
@@ -117,9 +122,9 @@ def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
     return any(ends[0] < low and high < ends[3] for low, high in known)
 
 
-def stays(of: Parameters, box: Box, sets: Sets) -> bool:
+def stays(of: Parameters, at: Place, sets: Sets) -> bool:
     """Whether image velocities seem to stay in the rectangles, for the middle of a box."""
-    eta, nu, epsilon = (float(low + high) / 2 for low, high in box)
+    eta, nu, epsilon = (float(low + high) / 2 for low, high in sides(at))
     low, high = map(float, of.velocities or (0, 0))
     images = [
         state_after(eta, nu, epsilon, (float(phi), gamma))

@@ -12,27 +12,33 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
-from intervals import DomainError, Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
 from proofs.search.s33_boxes import on_box
-from proofs.search.s33_rectangles import Sets, image_phases, narrowed, nearest_rectangles, widened
+from proofs.search.s33_rectangles import (
+    Sets,
+    image_phases,
+    narrowed,
+    nearest_rectangles,
+    sides,
+    widened,
+)
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebound_facts import oscillator
-from proofs.trusted.paper.s33_restitution.rebounds import Box, Unjoined
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper import GROUPS
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.parameters import Parameters, Place
 
-CLAIMS = ("N1", "N2", "N3", "N4")
 _ATTEMPTS = 12  # with widened rectangles
 
 
 def prove(
     of: Parameters,
-    claims: Sequence[str],
+    claims: Sequence[str] = GROUPS["nonplastic"],
     *,
     digits: int = 30,
     tell: Callable[[str], None] = lambda stage: None,
@@ -41,101 +47,101 @@ def prove(
 
     What cannot be proved leaves no step; the claim is then undecided for want of it.
     """
-    box = oscillator(of)
-    if box is None or of.velocities is None:
+    if of.box is None or of.epsilon is None or of.velocities is None:
         return Evidence()
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
+    at = Place((of.eta, of.eta), (of.nu, of.nu), (of.epsilon, of.epsilon))
     exact = [claim for claim in claims if claim != "N4"]
-    named = _at_exact_numbers(prover, box, exact, tell) if exact else {}
+    named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
     if "N4" in claims:
         tell("the box of parameters")
-        named["N4"] = on_box(prover)
-    found = {**prover.rebounds, **prover.rectangles, **prover.words}
+        named["N4"], notes["N4"] = on_box(prover, Place(*of.box))
     proofs = {
-        claim: [(name, found[name]) for name in dict.fromkeys(names)]
+        claim: [(name, prover.known[name]) for name in dict.fromkeys(names)]
         for claim, names in named.items()
     }
-    return Evidence(prover.steps, proofs)
+    return Evidence(prover.steps, proofs, notes)
 
 
 def _at_exact_numbers(
-    prover: ReboundProver, box: Box, claims: Sequence[str], tell: Callable[[str], None]
-) -> dict[str, list[str]]:
-    """Return the names of steps for N1, N2 and N3."""
+    prover: ReboundProver, at: Place, claims: Sequence[str], tell: Callable[[str], None]
+) -> tuple[dict[str, list[str]], dict[str, str]]:
+    """Return the names of steps for N1, N2 and N3, and why there are no more."""
     of = prover.of
     images, sets = image_phases(of), (of.left, of.right)
     nearest = next(nearest_rectangles(of, images), None)
     cuts = sorted({end for pair in (sets, nearest or sets) for ends in pair for end in ends})
     tell("impacts on V1 and V2")
+    named: dict[str, list[str]] = {claim: [] for claim in claims}
     try:
-        pair = prover.pair(box, sets, cuts)
-    except (Undecided, DomainError, Unjoined):
-        return {"N1": prover.corners(box, sets)} if "N1" in claims else {}
-    named = {claim: list(pair) for claim in claims}
-    if nearest != sets and {"N1", "N3"} & set(claims):
+        pair = prover.pair(at, sets, cuts)
+    except Unproved as failure:
+        if "N1" in named:
+            named["N1"] = prover.corners(at, sets)
+        return named, dict.fromkeys(claims, str(failure))
+    if "N2" in named:
+        named["N2"] = pair
+    common: list[str] = []
+    if nearest == sets:
+        common = _attempt(lambda: prover.horseshoe(at, sets, cuts))
+    elif {"N1", "N3"} & set(claims):
         tell("which itineraries are missing")
-        golden = _attempt(prover, lambda: _restricted(prover, pair, narrowed(of, images)))
-        for claim in {"N1", "N3"} & set(claims):
-            named[claim] += golden
-        if "N1" in claims:
-            named["N1"] += _refutation(prover, pair, sets)
-            if nearest is not None:
-                repaired = nearest
-                named["N1"] += _attempt(prover, lambda: prover.horseshoe(box, repaired, cuts))
-    if "N3" in claims and nearest is not None:
+        common = _attempt(lambda: _never_repeats(prover, pair))
+    for claim in {"N1", "N3"} & set(claims):
+        named[claim] += common
+    if "N1" in named and nearest != sets:
+        named["N1"] += [*_attempt(lambda: prover.constant_word(pair)), *prover.corners(at, sets)]
+        if nearest is not None:
+            named["N1"] += _attempt(lambda: prover.horseshoe(at, nearest, cuts))
+    if "N3" in named and nearest is not None:
         tell("ranges of parameters")
-        named["N3"] += _ranges(prover, nearest)
-    return named
+        named["N3"] += _ranges(prover, at, nearest)
+    return named, {}
 
 
-def _attempt(prover: ReboundProver, make: Callable[[], list[str]]) -> list[str]:
-    """Return the names of the steps made; none of an attempt that fails."""
-    before = dict(prover.steps)
+def _attempt(make: Callable[[], str]) -> list[str]:
+    """Return the name of the step made, if that succeeds."""
     try:
-        return make()
-    except (Undecided, DomainError, Unjoined):
-        prover.forget(before)
+        return [make()]
+    except Unproved:
         return []
 
 
-def _refutation(prover: ReboundProver, pair: Sequence[str], sets: Sets) -> list[str]:
-    """Prove a word without orbit, and states on edges whose images fall short."""
-    box = prover.rectangles[pair[0]].box
-    word = _attempt(prover, lambda: [prover.constant_word(pair)])
-    return word + prover.corners(box, sets)
+def _never_repeats(prover: ReboundProver, pair: Sequence[str]) -> str:
+    ends = narrowed(prover.of, image_phases(prover.of))
+    if ends is None:
+        raise Unproved("no part of V2 has an edge beyond V1 and within the images of V1")
+    third = (ends[1] - ends[0]) / 3
+    end = short_decimal(ends[0] + third, ends[1] - third)
+    return prover.never_repeats(pair, (prover.of.right[0], end))
 
 
-def _restricted(prover: ReboundProver, pair: Sequence[str], right_ends: Range | None) -> list[str]:
-    if right_ends is None:
-        raise Unjoined("no part of V2 has an edge beyond V1 and within the images of V1")
-    low, high = right_ends
-    third = (high - low) / 3
-    return prover.never_repeats(
-        pair, (prover.of.right[0], short_decimal(low + third, high - third))
-    )
-
-
-def _ranges(prover: ReboundProver, nearest: Sets) -> list[str]:
+def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
     """Prove the theorem for all eta and epsilon that print as given, and as many nu as go.
 
-    Then, at eta and nu as given, for larger epsilon. All start from epsilon = 0 if that is as near
-    as the printed place. The rectangles are the first widened ones with which it succeeds.
+    Then, at eta and nu as given, for larger epsilon; and where edges fail beyond. All start from
+    epsilon = 0 if that is as near as the printed place. The rectangles are the first widened ones
+    with which it succeeds.
     """
-    of, exact = prover.of, oscillator(prover.of)
-    if exact is None:
-        return []
-    eta, nu, epsilon = (low for low, _ in exact)
+    of = prover.of
+    eta, nu, epsilon = (low for low, _ in sides(exact))
     half, unit = _half_unit(epsilon), _half_unit(nu) / 50
-    etas = (eta - _half_unit(eta), eta + _half_unit(eta))
-    epsilons = (max(Fraction(0), epsilon - 2 * half), epsilon + half)
+    etas = eta - _half_unit(eta), eta + _half_unit(eta)
+    epsilons = max(Fraction(0), epsilon - 2 * half), epsilon + half
     corners = [replace(of, eta=x, epsilon=y, reach=None) for x, y in product(etas, epsilons)]
-    box = (etas, (nu - unit, nu + unit), epsilons)
+    box = Place(etas, (nu - unit, nu + unit), epsilons)
     for sets in islice(widened(of, nearest, corners), _ATTEMPTS):
-        with suppress(Unjoined):
-            names = prover.horseshoe(box, sets)
-            for step in (2 * unit, -2 * unit):
-                names += prover.ranges(box, sets, 1, step)
-            return names + prover.ranges((exact[0], exact[1], epsilons), sets, 2, half)
+        with suppress(Unproved):
+            parts = [prover.horseshoe(box, sets)]
+            parts += prover.slabs(box, sets, "nu", 2 * unit)
+            parts += prover.slabs(box, sets, "nu", -2 * unit)
+            more = prover.slabs(replace(exact, epsilon=epsilons), sets, "epsilon", half)
+            names = [prover.derive("horseshoe-union", parts=each) for each in (parts, more) if each]
+            wide, most = (prover.get(names[k], RectangleHorseshoe).at for k in (0, -1))
+            names += prover.beyond(exact, sets, "nu", wide.nu[1], 2 * unit)
+            names += prover.beyond(exact, sets, "nu", wide.nu[0], -2 * unit)
+            names += prover.beyond(exact, sets, "epsilon", restitution(most)[1], half)
+            return names
     return []
 
 

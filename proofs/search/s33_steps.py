@@ -1,38 +1,34 @@
 """Proof steps of the map with restitution: each proves something and records its witness.
 
-The steps are those of `s33_restitution.rules`, by the same names.
+Impacts are proved by interval arithmetic; what follows from them, by the theorems of
+`s33_restitution` themselves, applied to the conclusions reached here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise, product
-from typing import Any
+from typing import Any, TypeVar
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.motion.restitution import Rebounds, next_impact
 from proofs.motion.system import System
-from proofs.search.s33_rectangles import Sets, state_after
+from proofs.search.evidence import FAILED
+from proofs.search.s33_rectangles import Sets, sides, state_after
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
+from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebound_boxes import with_side
-from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, oscillator
-from proofs.trusted.paper.s33_restitution.rebounds import (
-    BarredWord,
-    Box,
-    Rebound,
-    Rectangle,
-    Unjoined,
-    barred,
-    horseshoe,
-    rectangle,
-)
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.rules import find_rule
 
+C = TypeVar("C", bound=Conclusion)
 _WIDEST = Fraction(1, 32)  # of a part of a rectangle, in phase
 _NARROWEST = Fraction(1, 256)
 _LONGEST = 8  # symbols of a barred word
@@ -46,9 +42,7 @@ class ReboundProver:
 
     of: Parameters
     plain: Prover
-    rebounds: dict[str, Rebound] = field(default_factory=dict)
-    rectangles: dict[str, Rectangle] = field(default_factory=dict)
-    words: dict[str, BarredWord] = field(default_factory=dict)
+    known: dict[str, Conclusion] = field(default_factory=dict)
 
     @property
     def steps(self) -> dict[str, dict[str, Any]]:
@@ -62,38 +56,94 @@ class ReboundProver:
             raise Undecided("no range of velocities is given")
         return self.of.velocities
 
+    def all(self, kind: type[C], at: Place) -> list[tuple[str, C]]:
+        """Return the conclusions of a kind about these oscillators, with their names."""
+        return [(k, x) for k, x in self.known.items() if isinstance(x, kind) and x.place == at]
+
+    def get(self, name: str, kind: type[C]) -> C:
+        """Return a conclusion by its name."""
+        found = self.known[name]
+        if not isinstance(found, kind):
+            raise TypeError(f"{name} is no {kind.__name__}")
+        return found
+
+    @contextmanager
+    def attempt(self) -> Iterator[None]:
+        """Do something; nothing is recorded of it if it fails, and failures are Unproved."""
+        steps, known = dict(self.steps), dict(self.known)
+        try:
+            yield
+        except FAILED as failure:
+            self.plain.steps, self.known = steps, known
+            raise Unproved(str(failure)) from None
+
     # -- steps ---------------------------------------------------------------------------------
 
-    def rebound(self, box: Box, phases: Range, velocities: Range) -> tuple[str, Rebound]:
+    def rebound(self, at: Place, phases: Range, velocities: Range) -> tuple[str, Rebound]:
         """Prove the next impact of all states of a box (rule rebound), once."""
-        for name, known in self.rebounds.items():
-            if (known.box, known.phases, known.velocities) == (box, phases, velocities):
+        for name, known in self.all(Rebound, at):
+            if (known.phases, known.velocities) == (phases, velocities):
                 return name, known
-        eta, nu = ((low + high) / 2 for low, high in box[:2])
+        etas, nus, epsilons = sides(at)
+        eta, nu = ((low + high) / 2 for low, high in (etas, nus))
         flight = Rebounds(
             System(eta, nu),
             phases,
             velocities=velocities,
-            epsilon=box[2],
-            eta_reach=box[0][1] - eta,
-            nu_reach=box[1][1] - nu,
+            epsilon=epsilons,
+            eta_reach=etas[1] - eta,
+            nu_reach=nus[1] - nu,
         )
         found = next_impact(flight, bits=self.plain.bits, horizon=self.plain.horizon)
-        name = self.plain.add(
-            "rebound",
-            {
-                **_box(box, phases, velocities),
-                "times": texts(found.found.times[1:]),
-                "impact": texts(found.flight),
-            },
-        )
-        known = Rebound(
-            box, phases, velocities, found.turns, found.phase, found.velocity, found.derivative
-        )
-        self.rebounds[name] = known
-        return name, known
+        witness = {
+            **{name: texts(getattr(at, name)) for name in ("eta", "nu", "epsilon")},
+            "phases": texts(phases),
+            "velocities": texts(velocities),
+            "times": texts(found.found.times[1:]),
+            "impact": texts(found.flight),
+        }
+        name = self.plain.add("rebound", witness)
+        image = found.turns, found.phase, found.velocity, found.derivative
+        self.known[name] = conclusion = Rebound(at, phases, velocities, *image)
+        return name, conclusion
 
-    def parts(self, box: Box, cuts: Sequence[Fraction]) -> list[str]:
+    def derive(self, rule: str, **witness: Any) -> str:
+        """Prove a step from earlier ones, by the theorem itself; once."""
+        step = {"rule": rule, "witness": witness}
+        for name, known in self.steps.items():
+            if known == step:
+                return name
+        theorem = find_rule(rule)
+        if theorem is None:
+            raise ValueError(f"there is no rule {rule}")
+        conclusion = theorem(Context(self.of, {}, self.known), Reader(witness))
+        name = self.plain.add(rule, witness)
+        self.known[name] = conclusion
+        return name
+
+    def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction]) -> str:
+        """Prove what F does on a rectangle, from parts that are known, or else between the cuts."""
+        for name, known in self.all(RectangleMap, at):
+            if known.phases == phases:
+                return name
+        edges = [self.rebound(at, (end, end), self.velocities)[0] for end in phases]
+        inner = (cut for cut in cuts if phases[0] < cut < phases[1])
+        parts = self._chain(at, phases) or self._parts(at, [phases[0], *inner, phases[1]])
+        return self.derive("rectangle", parts=parts, edges=edges)
+
+    def _chain(self, at: Place, phases: Range) -> list[str]:
+        """Return known parts, one after the other, that cover the phases; or none."""
+        names, reach = [], phases[0]
+        wide = [(k, x) for k, x in self.all(Rebound, at) if x.velocities == self.velocities]
+        while reach < phases[1]:
+            onward = [(x.phases[1], k) for k, x in wide if x.phases[0] <= reach < x.phases[1]]
+            if not onward:
+                return []
+            reach, name = max(onward)
+            names.append(name)
+        return names
+
+    def _parts(self, at: Place, cuts: Sequence[Fraction]) -> list[str]:
         """Prove impacts on parts between cuts, in order, each halved while it must be."""
         names, rest = [], list(reversed(list(pairwise(cuts))))
         while rest:
@@ -101,142 +151,104 @@ class ReboundProver:
             try:
                 if high - low > _WIDEST:
                     raise Undecided("wider than it is worth to try")
-                names.append(self._part(box, (low, high)))
-            except (Undecided, DomainError):
+                with self.attempt():
+                    names.append(self._part(at, (low, high)))
+            except FAILED:
                 if high - low <= _NARROWEST:
                     raise
                 middle = (low + high) / 2
                 rest += [(middle, high), (low, middle)]
         return names
 
-    def _part(self, box: Box, phases: Range) -> str:
+    def _part(self, at: Place, phases: Range) -> str:
         """Prove the impacts of a part; Undecided also where its images leave the velocities."""
-        steps = dict(self.plain.steps)
-        name, found = self.rebound(box, phases, self.velocities)
+        name, found = self.rebound(at, phases, self.velocities)
         if not self.velocities[0] < found.velocity[0] <= found.velocity[1] < self.velocities[1]:
-            self.plain.steps = steps
-            del self.rebounds[name]
             raise Undecided("an image velocity may leave the rectangles")
         return name
 
-    def rectangle(self, box: Box, phases: Range, cuts: Sequence[Fraction]) -> str:
-        """Prove what F does on a rectangle (rule rectangle), from parts between the cuts, once."""
-        (low, high), velocities = phases, self.velocities
-        for name, known in self.rectangles.items():
-            if (known.box, known.phases) == (box, phases):
-                return name
-        edges = [self.rebound(box, (end, end), velocities)[0] for end in phases]
-        names = edges + [
-            name
-            for name, one in self.rebounds.items()
-            if (one.box, one.velocities) == (box, velocities)
-            and max(low, one.phases[0]) < min(high, one.phases[1])
-        ]
-        try:
-            joined = rectangle(self.named(names), box, phases, velocities)
-        except Unjoined:
-            inner = (cut for cut in cuts if low < cut < high)
-            names = edges + self.parts(box, [low, *inner, high])
-            joined = rectangle(self.named(names), box, phases, velocities)
-        witness = {"impacts": names, **_box(box, phases, self.velocities)}
-        name = self.plain.add("rectangle", witness)
-        self.rectangles[name] = joined
-        return name
+    def pair(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> list[str]:
+        """Prove what F does on two rectangles."""
+        with self.attempt():
+            return [self.rectangle(at, phases, cuts) for phases in sets]
 
-    def pair(self, box: Box, sets: tuple[Range, Range], cuts: Sequence[Fraction]) -> list[str]:
-        """Prove what F does on two rectangles; nothing is recorded of an attempt that fails."""
-        before = dict(self.plain.steps)
-        try:
-            return [self.rectangle(box, phases, cuts) for phases in sets]
-        except (Undecided, DomainError, Unjoined):
-            self.forget(before)
-            raise
+    def horseshoe(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> str:
+        """Prove that F maps both rectangles across both."""
+        with self.attempt():
+            for ends in sets:
+                low, high = (self.rebound(at, (end, end), self.velocities)[1].phase for end in ends)
+                short = max(low[1] - sets[0][0], sets[1][1] - high[0])
+                if short >= 0:
+                    raise Unproved(f"an edge may fall short by up to {float(short):.6g}")
+            return self.derive("rectangle-horseshoe", rectangles=self.pair(at, sets, cuts))
 
-    def forget(self, steps: dict[str, dict[str, Any]]) -> None:
-        """Go back to earlier steps."""
-        self.plain.steps = steps
-        for known in (self.rebounds, self.rectangles, self.words):
-            for name in [name for name in known if name not in steps]:
-                del known[name]
+    # -- words ---------------------------------------------------------------------------------
 
-    def named(self, names: Sequence[str]) -> list[Rebound]:
-        """Return conclusions by their names."""
-        return [self.rebounds[name] for name in names]
-
-    # -- the printed rectangles ----------------------------------------------------------------
-
-    def bar(self, pair: Sequence[str], word: tuple[int, ...], sign: int) -> str:
-        """Prove that no orbit follows a word (rule barred-word); Unjoined if one seems to."""
-        rectangles = (self.rectangles[pair[0]], self.rectangles[pair[1]])
-        about = rectangles[0].box, tuple(one.phases for one in rectangles), word
-        for name, known in self.words.items():
-            if (known.box, known.sets, known.word) == about:
-                return name
-        before = dict(self.plain.steps)
-        far = 1 if sign > 0 else 0
-        extreme, gammas = rectangles[word[0]].phases[far], self.velocities
-        names, bounds = [], []
-        for symbol in word[:-1]:
-            here = rectangles[symbol]
-            end = here.phases[far]
-            bounds.append(sign * min(sign * end, sign * _outward(extreme, sign)))
-            try:
-                name, image = self.rebound(here.box, (bounds[-1], bounds[-1]), gammas)
-            except (Undecided, DomainError) as failure:
-                self.forget(before)
-                raise Unjoined(str(failure)) from None
-            names.append(name)
-            extreme = image.phase[far]
-            gammas = _outward(here.velocity[0], -1), _outward(here.velocity[1], 1)
-        names = list(dict.fromkeys(names))
-        try:
-            found = barred(self.named(names), rectangles, word, bounds, sign)
-        except Unjoined:
-            self.forget(before)
-            raise
-        witness = {
-            "impacts": names,
-            "rectangles": list(pair),
-            "word": "".join(map(str, word)),
-            "bounds": texts(bounds),
-            "from": "above" if sign > 0 else "below",
-        }
-        name = self.plain.add("barred-word", witness)
-        self.words[name] = found
-        return name
+    def bar(self, pair: Sequence[str], word: Sequence[int], above: bool) -> str:
+        """Prove that no orbit follows a word, bounds rounded outward to four places."""
+        maps = [self.get(name, RectangleMap) for name in pair]
+        extreme, gammas, images = maps[word[0]].phases[above], self.velocities, []
+        with self.attempt():
+            for symbol in word[:-1]:
+                here = maps[symbol]
+                low, high = here.phases
+                bound = min(high, _up(extreme)) if above else max(low, -_up(-extreme))
+                name, image = self.rebound(here.at, (bound, bound), gammas)
+                images.append(name)
+                extreme = image.phase[above]
+                gammas = -_up(-here.velocity[0]), _up(here.velocity[1])
+            return self.derive(
+                "barred-word",
+                rectangles=list(pair),
+                word="".join(map(str, word)),
+                images=images,
+                **{"from": "above" if above else "below"},
+            )
 
     def constant_word(self, pair: Sequence[str], symbols: Sequence[int] = (0, 1)) -> str:
         """Prove that no orbit follows some word of one symbol, the shortest that will do."""
-        for length, symbol, sign in product(range(2, _LONGEST + 1), symbols, (1, -1)):
-            with suppress(Unjoined):
-                return self.bar(pair, (symbol,) * length, sign)
-        raise Unjoined("no word of one symbol is excluded")
+        for length, symbol, above in product(range(2, _LONGEST + 1), symbols, (True, False)):
+            with suppress(Unproved):
+                return self.bar(pair, (symbol,) * length, above)
+        raise Unproved("no word of one symbol is excluded")
 
     def missing_word(self, pair: Sequence[str]) -> str:
         """Prove that no orbit follows some word of one symbol, but perhaps for the first."""
-        with suppress(Unjoined):
+        with suppress(Unproved):
             return self.constant_word(pair)
         for length, start in product(range(2, _LONGEST + 1), (0, 1)):
-            with suppress(Unjoined):
-                return self.bar(pair, (start,) + (1 - start,) * (length - 1), 1 - 2 * start)
-        raise Unjoined("no word is excluded")
+            with suppress(Unproved):
+                return self.bar(pair, (start,) + (1 - start,) * (length - 1), start == 0)
+        raise Unproved("no word is excluded")
 
-    def corners(self, box: Box, sets: Sets) -> list[str]:
+    def never_repeats(self, pair: Sequence[str], right: Range) -> str:
+        """Prove that full orbits do not repeat V2, by what F does on a part N of V2."""
+        with self.attempt():
+            part = self.rectangle(self.get(pair[0], RectangleMap).at, right, ())
+            words = [
+                self.bar(pair, word, True) for word in ((0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1))
+            ]
+            words.append(self.constant_word(pair, (1,)))
+            return self.derive("golden-mean", rectangles=list(pair), part=part, words=words)
+
+    # -- states on edges -----------------------------------------------------------------------
+
+    def corners(self, at: Place, sets: Sets) -> list[str]:
         """Prove impacts of the corners that decide whether the edges go beyond both sets."""
         low, high = self.velocities
         names = []
         for phi, gamma in (state for a, b in sets for state in ((a, high), (b, low))):
-            with suppress(Undecided, DomainError):
-                names.append(self.rebound(box, (phi, phi), (gamma, gamma))[0])
+            with suppress(*FAILED):
+                names.append(self.rebound(at, (phi, phi), (gamma, gamma))[0])
         return names
 
-    def refuting_states(self, box: Box, sets: Sets) -> list[str]:
+    def refuting_states(self, at: Place, sets: Sets) -> list[str]:
         """Prove impacts of corners of rectangles whose images seem to be between the outer edges.
 
         One corner of each edge that has such, with the velocity that makes it fail most.
         """
         names = []
-        eta, nu, epsilon = (float(low) for low, _ in box)
+        eta, nu, epsilon = (float(low) for low, _ in sides(at))
         for ends in sets:
             for end, wanted in zip(ends, (max, min), strict=True):
                 images = {
@@ -246,66 +258,39 @@ class ReboundProver:
                 }
                 if images and sets[0][0] < wanted(images) < sets[1][1]:
                     gamma = images[wanted(images)]
-                    names.append(self.rebound(box, (end, end), (gamma, gamma))[0])
+                    names.append(self.rebound(at, (end, end), (gamma, gamma))[0])
         return names
-
-    def never_repeats(self, pair: Sequence[str], right: Range) -> list[str]:
-        """Prove that full orbits do not repeat V2, and what F does on the part N of V2."""
-        box = self.rectangles[pair[0]].box
-        part = self.rectangle(box, right, ())
-        words = [self.bar(pair, word, 1) for word in ((0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1))]
-        return [*pair, part, *words, self.constant_word(pair, (1,))]
 
     # -- ranges of parameters ------------------------------------------------------------------
 
-    def horseshoe(self, box: Box, sets: Sets, cuts: Sequence[Fraction] = ()) -> list[str]:
-        """Prove that F maps both rectangles across both; nothing is left of a failed attempt."""
-        before = dict(self.plain.steps)
-        try:
-            for ends in sets:
-                low, high = (
-                    self.rebound(box, (end, end), self.velocities)[1].phase for end in ends
-                )
-                if low[1] >= sets[0][0] or high[0] <= sets[1][1]:
-                    raise Unjoined("an edge is not mapped beyond the rectangles")
-            names = [self.rectangle(box, phases, cuts) for phases in sets]
-            horseshoe((self.rectangles[names[0]], self.rectangles[names[1]]), FULL)
-        except (Undecided, DomainError, Unjoined) as failure:
-            self.forget(before)
-            raise Unjoined(str(failure)) from None
-        return names
-
-    def ranges(self, box: Box, sets: Sets, side: int, step: Fraction) -> list[str]:
-        """Extend a side of a box in steps while horseshoes are proved, then in smaller ones.
-
-        side: 1 (nu) or 2 (epsilon). Beyond, at the exact parameters but for that side, states are
-        looked for and proved with which the theorem fails.
-        """
+    def slabs(self, at: Place, sets: Sets, side: str, step: Fraction) -> list[str]:
+        """Prove horseshoes beyond a side of a box in steps, then in smaller ones, while it goes."""
         names: list[str] = []
-        reach, size = box[side][0] if step < 0 else box[side][1], step
+        low, high = getattr(at, side)
+        size = step
         while abs(size) >= abs(step) / _FINEST and len(names) < _MOST_SLABS:
-            low, high = sorted((reach, reach + size))
+            slab = (high, high + size) if step > 0 else (low + size, low)
             try:
-                names += self.horseshoe(with_side(box, side, (low, high)), sets)
-                reach += size
-            except (Unjoined, ValueError):
+                names.append(self.horseshoe(replace(at, **{side: slab}), sets))
+            except (Unproved, ValueError):
                 size /= 2
-        exact = oscillator(self.of)
-        for count in range(1, _MOST_SLABS):
-            value = reach + count * step / _FINEST
-            if exact is not None and abs(value) < 1:
-                states = self.refuting_states(with_side(exact, side, (value, value)), sets)
-                if states:
-                    return names + states
+            else:
+                low, high = min(low, slab[0]), max(high, slab[1])
         return names
 
+    def beyond(
+        self, at: Place, sets: Sets, side: str, begin: Fraction, step: Fraction
+    ) -> list[str]:
+        """Prove states with which the horseshoe fails, at the first parameters that have such."""
+        for count in range(1, _MOST_SLABS):
+            value = begin + count * step / _FINEST
+            if abs(value) < 1:
+                states = self.refuting_states(replace(at, **{side: (value, value)}), sets)
+                if states:
+                    return states
+        return []
 
-def _outward(value: Fraction, sign: int) -> Fraction:
-    """Round up (sign 1) or down to four decimal places."""
-    return sign * -Fraction(-sign * value * 10**4 // 1, 10**4)
 
-
-def _box(box: Box, phases: Range, velocities: Range) -> dict[str, list[str]]:
-    sides = (*box, phases, velocities)
-    names = ("eta", "nu", "epsilon", "phases", "velocities")
-    return {name: texts(side) for name, side in zip(names, sides, strict=True)}
+def _up(value: Fraction) -> Fraction:
+    """Round up to four decimal places."""
+    return -Fraction(-value * 10**4 // 1, 10**4)

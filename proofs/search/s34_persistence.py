@@ -154,14 +154,14 @@ def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, StablePair]
     The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
     evenly; those of the second are |DF| r, and a third of what there is to spare.
     """
-    box = ((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
+    at = Place((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
     states, rebounds = _candidate(prover.system), ReboundProver(of, prover)
     if states is None:
         return []
 
     def around(state: State, half: State) -> tuple[str, Rebound]:
         phases, velocities = ((x - r, x + r) for x, r in zip(state, half, strict=True))
-        return rebounds.rebound(box, phases, velocities)
+        return rebounds.rebound(at, phases, velocities)
 
     centres = [around(state, (Fraction(0), Fraction(0))) for state in states]
     (p, q, r, s), (t, u, v, w) = (

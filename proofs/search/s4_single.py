@@ -30,23 +30,12 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.equations import clock, launch_acceleration, slope
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.paper.formulas import Asked, Lemma
-from proofs.trusted.paper.s4_single import displayed as eq
+from proofs.trusted.paper import GROUPS
+from proofs.trusted.paper.formulas import DerivedRow
 from proofs.trusted.paper.s4_single import single as claims
-from proofs.trusted.paper.s4_single.single_facts import (
-    FLIP,
-    SADDLE,
-    STICK,
-    EtaWindows,
-    NuWindows,
-    Orbit,
-    Solution,
-    Window,
-    records,
-)
-from proofs.trusted.parameters import PAPER, Parameters
-
-CLAIMS = ("P1", "P2", "P3", "P4", "P5", "P6")
+from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution, Window
+from proofs.trusted.paper.s4_single.single_facts import FLIP, SADDLE, STICK, records
+from proofs.trusted.parameters import PAPER, Parameters, Place
 
 _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
@@ -81,8 +70,9 @@ class Single:
                 "early": None if time is None else str(time),
             },
         )
+        at = Place.plastic(system.eta, system.nu)
         bounds = (factor.inf, factor.sup), (push.inf, push.sup)
-        self.found[name] = Solution(system.eta, system.nu, of.n, phase, *bounds, time)
+        self.found[name] = Solution(at, of.n, phase, *bounds, time)
         return name
 
     def orbit(self, of: SingleImpact) -> str:
@@ -93,7 +83,7 @@ class Single:
             raise TypeError("a solution was recorded")
         flight = self.prover.add_impact(locate(self.prover.system, conclusion.phase))
         name = self.prover.add("single-orbit", {"solution": solution, "flight": flight})
-        self.found[name] = Orbit(conclusion)
+        self.found[name] = Orbit(conclusion.at, conclusion)
         return name
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
@@ -211,34 +201,30 @@ def _figure_b(steps: Single) -> list[str]:
     ]
 
 
+_FIND = {"P4": _stability, "P5": _figure_a, "P6": _figure_b}
+
+
 def prove(
     of: Parameters,
-    asked: Sequence[str],
+    asked: Sequence[str] = GROUPS["single"],
     *,
     digits: int = 30,
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
-    """Prove what the claims asked for rest on."""
+    """Prove what the claims asked for rest on: formulas, and for P4 to P6 orbits."""
     formulas = Steps(digits)
     prover = Prover(System(of.eta, of.nu), digits, HORIZON, formulas.steps)
     single, evidence = Single(prover), Evidence(formulas.steps)
-
-    def lemmas(wanted: Sequence[Lemma | Asked]) -> list[tuple[str, Conclusion]]:
-        proved = [formulas.prove(each) for each in wanted]
-        return [each for each in proved if each is not None]
-
-    for formula in claims.FORMULAS:
-        if formula.id in asked:
-            tell(f"formulas of {formula.id}")
-            evidence.proofs[formula.id] = lemmas(formula.lemmas)
-    for claim, find, values in (
-        ("P4", _stability, ()),
-        ("P5", _figure_a, claims.VALUES),
-        ("P6", _figure_b, ()),
-    ):
-        if claim in asked:
-            tell(f"orbits of {claim}")
-            names = find(single)
-            rest = lemmas((*eq.LEMMAS, *values))
-            evidence.proofs[claim] = [*rest, *((name, single.found[name]) for name in names)]
+    for row in claims.ROWS:
+        if row.id not in asked:
+            continue
+        tell(f"formulas and orbits of {row.id}")
+        if isinstance(row, DerivedRow):
+            needs, names = row.needs, []
+        else:
+            needs = tuple(need for each in claims.THEOREMS[row.id] for need in each.needs)
+            names = _FIND[row.id](single)
+        proved = [formulas.prove(need) for need in dict.fromkeys(needs)]
+        rest = [each for each in proved if each is not None]
+        evidence.proofs[row.id] = [*rest, *((name, single.found[name]) for name in names)]
     return evidence

@@ -12,7 +12,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range, within
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
 from proofs.trusted.parameters import Place
 
 
@@ -46,9 +46,9 @@ def stable_pair(
     Proof. By the mean value theorem F(B1) lies in B2 and F(B2) in B1, and F^2 contracts the convex
     B1 in the norm max |x_i| / r_i: it has one fixed point there, by Banach, which attracts B1.
     """
-    if len({step.box for step in (first, at_first, second, at_second)}) > 1:
+    if len({step.at for step in (first, at_first, second, at_second)}) > 1:
         raise Unproved("the steps are about different oscillators")
-    if any(low < high for low, high in first.box):
+    if any(low < high for low, high in (first.at.eta, first.at.nu, restitution(first.at))):
         raise Unproved("the steps are about more than one oscillator")
     if not (first.phases[1] < second.phases[0] or second.phases[1] < first.phases[0]):
         raise Unproved("the boxes are not apart")
@@ -67,7 +67,7 @@ def stable_pair(
     if not all(map(lt, _moved(second, _moved(first, sides)), sides)):
         raise Unproved("F^2 is not proved to contract the first box")
     return StablePair(
-        Place(*first.box), (first.phases, first.velocities), (second.phases, second.velocities)
+        first.at, (first.phases, first.velocities), (second.phases, second.velocities)
     )
 
 

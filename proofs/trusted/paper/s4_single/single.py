@@ -1,305 +1,277 @@
-"""Section 4: single-impact periodic orbits, as printed and as they are. Trusted, and shared."""
+"""Section 4: single-impact periodic orbits, as printed and as they are. Claims P1 to P6.
+
+In formulas a, b stand for psi_k, psi_(k+1), delta for their difference, n for the number of table
+periods, theta for the angle of (17). E10 is the left side of (10) and so on; (18) is
+TOP18/BOTTOM18.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
-from itertools import pairwise
 
-from proofs.trusted.numbers import Range, ceil_text, floor_text, show
-from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.paper.formulas import Derivation, Equal, Value, at
-from proofs.trusted.paper.s4_single import displayed as eq
-from proofs.trusted.paper.s4_single.single_facts import (
-    EtaWindows,
-    NuWindows,
-    Orbit,
-    Solution,
-    Window,
-)
+from proofs.trusted.numbers import show
+from proofs.trusted.paper.formulas import Derived, Equal, Theorem, at, derived_row, theorem
+from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 FIGURE_NU, FIGURE_ETAS = Fraction("0.2"), (Fraction("0.01"), Fraction(14))
 FIGURE_ETA, FIGURE_NUS = Fraction("0.237"), (Fraction("-0.9"), Fraction("0.9"))
+STIFF = Fraction("2.3")
 
-_FINE = Fraction(1, 10**9)
-_STIFF = Fraction("2.3")
-_STIFFNESS = (
+X = "(pi*n*eta)"
+E10 = "(1 + nu*sin(a))*cos(eta*delta) + nu/eta*cos(a)*sin(eta*delta) - 1 - nu*sin(b)"
+E16 = "(1 + nu*sin(phi))*cos(2*pi*n*eta) + nu/eta*cos(phi)*sin(2*pi*n*eta) - 1 - nu*sin(phi)"
+ALPHA, BETA = "eta*(1 - cos(2*pi*n*eta))", "sin(2*pi*n*eta)"
+LINEAR = "alpha*sin(phi) - beta*cos(phi) + alpha/nu"
+E17 = "sin(phi - theta) + cos(theta)/nu"
+TOP18 = "nu/eta*sin(phi)*sin(2*pi*n*eta) - eta*(1 + nu*sin(phi))*sin(2*pi*n*eta)"
+BOTTOM18 = "-eta*(1 + nu*sin(phi))*sin(2*pi*n*eta) + nu*cos(phi)*cos(2*pi*n*eta) - nu*cos(phi)"
+DEFECT = f"(nu*cos(phi)*cos{X} - eta*(1 + nu*sin(phi))*sin{X})"
+LAUNCH = "(nu*sin(phi) - eta**2*(1 + nu*sin(phi)))"
+_HEIGHT = "(eta**2*(1 + nu*sin(phi)))"
+_AT = "a=phi, b=phi, delta=2*pi*n"
+
+NECESSARY = (
+    Equal(f"at({E10}, {_AT})", E16),
+    Equal(E16, f"2/eta*sin{X}*{DEFECT}"),
+)
+ANGLE = (
+    Equal(E16, f"-nu/eta*at({LINEAR}, alpha={ALPHA}, beta={BETA})"),
+    Equal(f"at({LINEAR}, alpha=r*cos(theta), beta=r*sin(theta))", f"r*({E17})"),
+    Equal(f"({BETA})/({ALPHA})", f"cos{X}/(eta*sin{X})"),
+)
+SLOPE = (
+    Equal(f"at(-D({E10}, a) + D({E10}, delta), {_AT})", TOP18),
+    Equal(f"at(D({E10}, b) + D({E10}, delta), {_AT})", BOTTOM18),
+    Equal(BOTTOM18, f"-2*nu*cos(phi) + 2*cos{X}*{DEFECT}"),
+    Equal(
+        f"({TOP18}) - 2*nu*cos(phi)*cos{X}**2*{LAUNCH}/{_HEIGHT}",
+        f"-2*cos{X}*{LAUNCH}/{_HEIGHT}*{DEFECT}",
+    ),
+)
+FLIGHT = (
+    Equal(
+        "cos(2*eta*y) - 1 + tan*sin(2*eta*y) + eta**2*(1 - cos(2*y)) - eta*tan*sin(2*y)",
+        "2*(tan*(sin(eta*y)*cos(eta*y) - eta*sin(y)*cos(y)) - sin(eta*y)**2 + eta**2*sin(y)**2)",
+    ),
+)
+LEMMAS = (*NECESSARY, *ANGLE, *SLOPE, *FLIGHT)
+STIFFNESS = (
     at("cos(x) - nu", 1, x="1.369", nu="1/5"),
     at("eta*x - pi", 1, eta="23/10", x="1.369"),
 )
 
-_SOLVED = (
-    "Let |nu| < 1, n >= 1, n eta no integer and theta in (-pi/2, pi/2), tan(theta) = cot(pi n eta)"
-    "/eta. If cos(theta) > |nu| no phase solves (16), else phi_1 = theta - asin(cos(theta)/nu) and "
-    "phi_2 = theta + pi + asin(cos(theta)/nu) do (mod 2 pi), and no others; they coincide if "
-    "cos(theta) = |nu|. If n eta is an integer, all phases do."
+
+# -- theorems --------------------------------------------------------------------------------------
+
+
+@theorem(*NECESSARY)
+def necessary() -> str:
+    """NECESSARY: (16) is (10) with b = a = phi, delta = 2 pi n, and its factors."""
+    return (
+        "(10) with psi_(k+1) = psi_k + 2 pi n is (16), which is necessary for an orbit with an "
+        "impact every n table periods. With x = pi n eta it is (2/eta) sin(x) (nu cos(phi) cos(x) "
+        "- eta (1 + nu sin(phi)) sin(x)) = 0: all phases satisfy it if n eta is an integer."
+    )
+
+
+@theorem(
+    *NECESSARY,
+    *ANGLE,
+    short="(17) is (16) unless n eta is an integer: then alpha = beta = 0, theta is not defined, "
+    "and all phases solve (16)",
 )
+def solved() -> str:
+    """1. alpha = 2 eta sin(pi n eta)^2 > 0 unless n eta is an integer; then alpha = r cos(theta),
+    beta = r sin(theta) with r > 0 and cos(theta) > 0, tan(theta) = beta/alpha, and by ANGLE (16) is
+    -(nu/eta) r times (17). 2. (17) says that sin(phi - theta) = -cos(theta)/nu, which two phases
+    solve, one, or none. 3. At an integer n eta the factor sin(pi n eta) of (16) is 0 (NECESSARY),
+    and so are alpha and beta.
+    """
+    return (
+        "Let n >= 1. If n eta is an integer, for example eta = n = 1, alpha = beta = 0, so that "
+        "theta is not defined, while every phase satisfies (16). Else, with theta in (-pi/2, "
+        "pi/2), tan(theta) = cot(pi n eta)/eta, (17) is equivalent to (16). If cos(theta) > |nu| "
+        "no phase solves it, else phi_1 = theta - asin(cos(theta)/nu) and phi_2 = theta + pi + "
+        "asin(cos(theta)/nu) do (mod 2 pi), and no others; they coincide if cos(theta) = |nu|."
+    )
+
+
 _TRUE_SLOPE = "cos^2(pi n eta) (1 - nu sin(phi)/(eta^2 (1 + nu sin(phi))))"
-_ORBITS = (
-    "Let beta > 0, so nu > 0 if p < 0 (for beta < 0 replace nu, phi by -nu, phi + pi). An orbit "
-    "that leaves the table at phi, its relative acceleration being > 0, with its first impact, a "
-    "transversal one, 2 pi n later, exists exactly if phi solves (16), n eta is no integer, "
-    "side (nu (1 - eta^2) sin(phi) - eta^2) > 0, side the sign of nu, and nothing is hit before. "
-    "The last is so for nu > 0 if n eta < 1/2, and only then; for nu < 0 if 1/2 < n eta < 1, and "
-    "only if {n eta} > 1/2 and 0 < {l eta} < {n eta} for 0 < l < n, {} being fractional parts. "
-    "The slope is M = "
-    f"{_TRUE_SLOPE}, < 0 for nu > 0 and > 0 for nu < 0; the orbit is stable if |M| < 1, unstable "
-    "if |M| > 1, and only phi = theta - asin(cos(theta)/nu) can be stable: with e = (eta tan(pi n "
-    "eta))^2, A(p) = (p^2 + e)/(1 - p)^2 and q = eta^2 (1 + 1/cos^2(pi n eta)), if n eta < 1/2, nu "
-    "> 0, it is exactly if A(eta^2) < nu^2 and nu^2 (1 - q)^2 < q^2 + e; if 1/2 < n eta < 1, nu < "
-    "0, exactly if e/(1 + e) < nu^2 < A(eta^2)."
+
+
+@theorem(
+    *SLOPE,
+    short=f"(18) is the implicit derivative of (10) for launches that leave at once; where (16) "
+    f"holds its denominator is -2 nu cos(phi) and it is {_TRUE_SLOPE}",
 )
-
-
-def _undecided(missing: str) -> Decision:
-    return undecided(f"not proved: {missing}")
-
-
-def _missing(found: Sequence[object], lemmas: Sequence[Equal] = eq.LEMMAS) -> Decision | None:
-    count = sum(lemma not in found for lemma in lemmas)
-    return _undecided(f"{count} of {len(lemmas)} identities") if count else None
-
-
-def _within(values: Range, places: int = 6) -> str:
-    return f"[{floor_text(values[0], places)}, {ceil_text(values[1], places)}]"
-
-
-def _place(one: Solution) -> str:
-    return f"(eta, nu, n) = ({show(one.eta)}, {show(one.nu)}, {one.n})"
-
-
-def _necessary() -> Decision:
-    return Decision(
-        Verdict.VERIFIED,
-        "(10) with psi_(k+1) - psi_k = 2 pi n is (16), which is (2/eta) sin(pi n eta) K(phi)",
-        corrected="The impact equation (10) with psi_(k+1) = psi_k + 2 pi n is (16): it is "
-        "necessary for an orbit with an impact every n table periods. With x = pi n eta it is "
-        "(2/eta) sin(x) (nu cos(phi) cos(x) - eta (1 + nu sin(phi)) sin(x)) = 0, so all phases "
-        "satisfy it if n eta is an integer, and it is not sufficient (claim P4).",
+def slope() -> str:
+    """1. A mass that leaves the table at once flies by (10) for all launches nearby, and where the
+    first impact is transversal, the implicit function theorem gives db/da = (D_delta - D_a) /
+    (D_delta + D_b) of (10): SLOPE, first and second. 2. Where K = 0, the third and the fourth.
+    """
+    return (
+        "Where the mass leaves the table at once (launch acceleration > 0) and the first impact "
+        "after phi is 2 pi n later and transversal, f'(phi) is (18). If (16) holds and n eta is no "
+        "integer, the denominator of (18) is -2 nu cos(phi), and where that and 1 + nu sin(phi) "
+        f"are not 0, (18) equals {_TRUE_SLOPE}."
     )
 
 
-def _explicit() -> Decision:
-    return Decision(
-        Verdict.CONDITIONAL,
-        "(16) is -(nu/eta) sqrt(alpha^2 + beta^2) (sin(phi - theta) + cos(theta)/nu), theta in "
-        "(-pi/2, pi/2); it says nothing where n eta is an integer: alpha = beta = 0",
-        witness="If n eta is not an integer, alpha > 0, and with theta in (-pi/2, pi/2) (17) is "
-        "equivalent to (16). At eta = n = 1, any nu, alpha = beta = 0: theta is not defined, "
-        "while every phase satisfies (16).",
-        corrected=_SOLVED,
+@theorem(*LEMMAS)
+def orbits() -> str:
+    """Lemmas 1 to 3 of `single_facts`: 1. (16), the multiplier M and where it is 1, 0, -1 (lemma
+    1). 2. Which n are possible (lemma 2), and that for the others stated nothing is hit before
+    (lemma 3). 3. Leaving at once is side (p - eta^2) > 0, which gives the sign of M; on p > -e,
+    A(p) = nu^2 grows, so that M < 1, the launch and M > -1 are bounds on nu^2.
+    """
+    return (
+        "Let 0 < |nu| < 1, and beta > 0, so nu > 0 if p < 0 (for beta < 0 replace nu, phi by -nu, "
+        "phi + pi). An orbit that leaves the table at once, at phi, with launch acceleration > 0, "
+        "with its first impact, a transversal one, 2 pi n later, exists exactly if phi solves "
+        "(16), n eta is no integer, side (nu (1 - eta^2) sin(phi) - eta^2) > 0, side the sign of "
+        "nu, and nothing is hit before. The last is so for nu > 0 if n eta < 1/2, and only then; "
+        "for nu < 0 if 1/2 < n eta < 1, and only if {n eta} > 1/2 and 0 < {l eta} < {n eta} for "
+        "0 < l < n, {} being fractional parts. The slope is M = "
+        f"{_TRUE_SLOPE}, < 0 for nu > 0 and > 0 for nu < 0; the orbit is stable if |M| < 1, "
+        "unstable if |M| > 1, and only phi = theta - asin(cos(theta)/nu), tan(theta) = "
+        "cot(pi n eta)/eta, can be stable: with e = (eta tan(pi n eta))^2, A(p) = (p^2 + e)/"
+        "(1 - p)^2 and q = eta^2 (1 + 1/cos^2(pi n eta)), if n eta < 1/2, nu > 0, it is exactly if "
+        "A(eta^2) < nu^2 and nu^2 (1 - q)^2 < q^2 + e; if 1/2 < n eta < 1, nu < 0, exactly if "
+        "e/(1 + e) < nu^2 < A(eta^2)."
     )
 
 
-def _slope() -> Decision:
-    return Decision(
-        Verdict.VERIFIED,
-        "(18) is the implicit derivative of (10); where (16) holds its denominator is -2 nu cos("
-        f"phi) and it is {_TRUE_SLOPE}",
-        corrected="Where the first impact after phi is 2 pi n later and transversal, f'(phi) is "
-        "(18). If (16) holds and n eta is no integer, the denominator of (18) is -2 nu cos(phi), "
-        f"and where that is not 0, (18) equals {_TRUE_SLOPE}.",
+@theorem(*LEMMAS, values=STIFFNESS)
+def stiff(cosine: str, product: str) -> str:
+    """1. For p < 0, nu > 0, the launch acceleration is nu (1 - eta^2) sin(phi) - eta^2, at most
+    nu - (1 + nu) eta^2 if eta <= 1, and nu (eta^2 - 1) - eta^2 < 0 beyond. 2. For p > 0, lemma 6:
+    the first of STIFFNESS says that acos 0.2 > 1.369, the second that 2.3 * 1.369 > pi.
+    """
+    del cosine, product
+    return (
+        f"Let |nu| = {show(FIGURE_NU)}, impacts plastic. For p < 0 and eta >= "
+        "sqrt(|nu|/(1 + |nu|)) the mass never leaves the table at once. For p > 0 and eta >= "
+        f"{show(STIFF)} no orbit that leaves at once, with its first impact, a transversal one, "
+        "n table periods later, has |f'| < 1."
     )
 
 
-def _stability(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide P4: two solutions with |slope| < 1 that are no orbits, two orbits that are."""
-    hits = [x for x in found if isinstance(x, Solution) and x.contracts and x.early is not None]
-    hits = [x for x in hits if x.acceleration[0] > 0]
-    stuck = [x for x in found if isinstance(x, Solution) and x.contracts and x.acceleration[1] < 0]
-    lacking = _missing(found)
-    if lacking is not None or not hits or not stuck:
-        return lacking or _undecided("a solution with an earlier impact, and one that sticks")
-    hit, one = hits[0], stuck[0]
-    why = (
-        f"at {_place(hit)} the slope is in {_within(hit.multiplier)}, but an impact is earlier; at "
-        f"{_place(one)} it is in {_within(one.multiplier)}, but the mass sticks"
-    )
-    orbits = [x.solution for x in found if isinstance(x, Orbit)]
-    examples = "".join(
-        f" At {_place(x)} the phase in {_within(x.phase, 20)} is one, with slope in "
-        f"{_within(x.multiplier, 12)}."
-        for x in orbits
-    )
-    return Decision(
-        Verdict.CONDITIONAL,
-        why,
-        witness="It decides where the mass leaves the table and the impact after n periods is the "
-        f"first. At {_place(hit)} the phase in {_within(hit.phase, 20)} solves (16), the "
-        f"slope is in {_within(hit.multiplier)}, the launch acceleration in "
-        f"{_within(hit.acceleration)}, but the mass would be inside the table at time "
-        f"{show(hit.early or Fraction(0))} < 2 pi n. At {_place(one)}, phase in "
-        f"{_within(one.phase, 20)}, the slope is in {_within(one.multiplier)} and the launch "
-        f"acceleration in {_within(one.acceleration)} < 0: the mass sticks.",
-        corrected=f"{_SOLVED} {_ORBITS}{examples}",
-        quantities={"slope_no_orbit": hit.multiplier, "slope_sticking": one.multiplier},
-    )
+# -- rows ------------------------------------------------------------------------------------------
+
+THEOREMS: dict[str, tuple[Derived, ...]] = {
+    "P4": (solved, orbits),
+    "P5": (orbits, stiff),
+    "P6": (orbits,),
+}
+_NO_ORBITS = "not proved: solutions of (16) that are no orbits"
 
 
-# -- the figures ---------------------------------------------------------------------------------
+def _proved(claim: str, found: Found) -> list[Theorem]:
+    """Return the theorems of a claim; none if one is not proved."""
+    proved = [each.prove(found) for each in THEOREMS[claim]]
+    known = [each for each in proved if each is not None]
+    return known if len(known) == len(proved) else []
 
 
-def _counterexamples(found: Sequence[object]) -> tuple[Solution, Solution] | None:
-    """Return solutions for p < 0 that stick and for p > 0 that impact earlier, eta >= 2.3."""
-    last = FIGURE_ETAS[1]
-    all_of = [x for x in found if isinstance(x, Solution) and x.contracts]
-    all_of = [x for x in all_of if _STIFF <= x.eta < last and abs(x.nu) == FIGURE_NU]
-    stuck = [x for x in all_of if x.nu > 0 and x.acceleration[1] < 0]
-    early = [x for x in all_of if x.nu < 0 < x.acceleration[0] and x.early is not None]
-    return (stuck[0], early[0]) if stuck and early else None
+def _counterexamples(found: Found) -> list[Solution]:
+    return [each for each in found.elsewhere(Solution) if each.contracts]
 
 
-def _stiffness(found: Sequence[object]) -> bool:
-    values = [x for x in found if isinstance(x, Value)]
-    return all(any(wanted.met_by(x) for x in values) for wanted in _STIFFNESS)
+def _stability(of: Parameters, found: Found) -> Decision:
+    """P4: two solutions with |slope| < 1 that are no orbits; orbits that are."""
+    del of
+    known = _proved("P4", found)
+    hits = [each for each in _counterexamples(found) if each.hits]
+    stuck = [each for each in _counterexamples(found) if each.sticks]
+    if not (known and hits and stuck):
+        return undecided(_NO_ORBITS)
+    bounds = {"slope_no_orbit": hits[0].multiplier, "slope_sticking": stuck[0].multiplier}
+    nearby = [*known, *found.all(Orbit)]
+    return decided(Verdict.CONDITIONAL, hits[0], stuck[0], corrected=nearby, known=bounds)
 
 
-def _figure_a(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide P5."""
-    windows = [
-        x
-        for x in found
-        if isinstance(x, EtaWindows) and x.nu == FIGURE_NU and x.low == FIGURE_ETAS[0]
-    ]
-    counter, lacking = _counterexamples(found), _missing(found)
-    if lacking is not None or not windows or counter is None or not _stiffness(found):
-        return lacking or _undecided("the windows, or solutions that are no orbits")
-    ends, (stuck, early) = windows[0].ends, counter
-    if not all(later[1][1] < flip[0] for (flip, _), later in pairwise(ends)):
-        return _undecided("that the windows are disjoint")
-    if any(high - low > _FINE for pair in ends for low, high in pair):
-        return _undecided("the ends of the windows to nine places")
-    inside = [(max(flip[1], FIGURE_ETAS[0]), stick[0]) for flip, stick in ends]
-    listed = ", ".join(
-        f"{n}: ({ceil_text(a, 8)}, {floor_text(b, 8)})" for n, (a, b) in enumerate(inside, start=1)
-    )
-    latest = ends[0][1]
-    quantities = {
-        f"eta_{name}_{n}": bounds
-        for n, pair in enumerate(ends, start=1)
-        for name, bounds in zip(("flip", "stick"), pair, strict=True)
-    }
-    return Decision(
-        Verdict.REFUTED,
-        f"for p < 0 there are {len(ends)} windows of stable orbits in (0.01, 14), all below "
-        f"{ceil_text(latest[1])}; for p > 0 there are none above {show(_STIFF)}",
-        witness=f"At {_place(stuck)} the phase in {_within(stuck.phase, 20)} solves (16) with a "
-        f"slope in {_within(stuck.multiplier)}, but the launch acceleration is in "
-        f"{_within(stuck.acceleration)} < 0: the mass sticks, and at no phase it separates. For p "
-        f"> 0 and beta < 0, that is {_place(early)} and the phase shifted by pi, the slope is in "
-        f"{_within(early.multiplier)}, but the mass would be inside the table at time "
-        f"{show(early.early or Fraction(0))} < 2 pi n.",
-        corrected=f"Plastic impacts, |nu| = {show(FIGURE_NU)}. {_ORBITS} So for p < 0 and eta in "
-        "(0.01, 14), such an orbit with |M| < 1 exists exactly if eta is "
-        f"in one of {len(ends)} disjoint open intervals, one for each n = 1, ..., {len(ends)}. "
-        "They lie in (0, 1/(2 n)) between the root of A(q) = nu^2 with q < 1, where the slope is "
-        "-1 (flip), and that of A(eta^2) = nu^2, where it is 0 (sticking), but for eta > 0.01. "
-        "They contain these, with ends off by less "
-        f"than 2e-8: {listed}. For eta > sqrt(|nu|/(1 + |nu|)) the mass never leaves the table. "
-        "For p > 0 no such orbit is stable if eta >= pi/acos |nu|, which is below "
-        f"{show(_STIFF)}.",
-        quantities=quantities,
-    )
+def _figure_a(of: Parameters, found: Found) -> Decision:
+    """P5: solutions above all windows, for p < 0 one that sticks, for p > 0 one that hits."""
+    del of
+    known = _proved("P5", found)
+    asked = FIGURE_NU, FIGURE_ETAS[0]
+    windows = [each for each in found.all(EtaWindows) if (each.nu, each.low) == asked]
+    above = [x for x in _counterexamples(found) if STIFF <= x.at.eta[0] < FIGURE_ETAS[1]]
+    stuck = [x for x in above if x.sticks and x.at.nu[0] == FIGURE_NU]
+    hits = [x for x in above if x.hits and x.at.nu[0] == -FIGURE_NU]
+    if not (known and windows and stuck and hits):
+        return undecided(_NO_ORBITS)
+    return decided(Verdict.REFUTED, stuck[0], hits[0], corrected=[*known, windows[0]])
 
 
-def _listed(windows: Sequence[Window]) -> str:
-    if not windows:
-        return "none"
-    return ", ".join(
-        f"n = {n} from {_within(first, 15)} to {_within(last, 15)}" for n, first, last in windows
-    )
+def _figure_b(of: Parameters, found: Found) -> Decision:
+    """P6: the windows, all below |nu| = 0.9, and a solution that is no orbit."""
+    del of
+    known = _proved("P6", found)
+    windows = [each for each in found.all(NuWindows) if each.eta == FIGURE_ETA]
+    low, high = FIGURE_NUS
+    solutions = [x for x in _counterexamples(found) if x.at.eta[0] == FIGURE_ETA]
+    hits = [each for each in solutions if each.hits and low < each.at.nu[0] < high]
+    if not (known and windows and hits):
+        return undecided(_NO_ORBITS)
+    if any(last[1] >= high for _, _, last in (*windows[0].above, *windows[0].below)):
+        return undecided("not proved: that the windows end before |nu| = 0.9")
+    return decided(Verdict.CONDITIONAL, hits[0], corrected=[*known, windows[0]])
 
 
-def _figure_b(of: Parameters, found: Sequence[object]) -> Decision:
-    """Decide P6."""
-    windows = [x for x in found if isinstance(x, NuWindows) and x.eta == FIGURE_ETA]
-    no_orbits = [
-        x
-        for x in found
-        if isinstance(x, Solution)
-        and x.contracts
-        and x.eta == FIGURE_ETA
-        and FIGURE_NUS[0] < x.nu < FIGURE_NUS[1]
-        and x.acceleration[0] > 0
-        and x.early is not None
-    ]
-    lacking = _missing(found)
-    if lacking is not None or not windows or not no_orbits:
-        return lacking or _undecided("the windows, or a solution that is no orbit")
-    step, one = windows[0], no_orbits[0]
-    sides = (("below", step.below, ("saddle", "stick")), ("above", step.above, ("stick", "flip")))
-    if any(last[1] >= FIGURE_NUS[1] for _, side, _ in sides for _, _, last in side):
-        return _undecided("that the windows end before |nu| = 0.9")
-    quantities = {
-        f"nu_{name}_{n}": bounds
-        for _, side, names in sides
-        for n, *both in side
-        for name, bounds in zip(names, both, strict=True)
-    }
-    return Decision(
-        Verdict.CONDITIONAL,
-        f"stable orbits: for p > 0 |nu| {_brief(step.below)}; for p < 0 |nu| {_brief(step.above)}; "
-        f"at {_place(one)} a solution with |slope| < 1 is none",
-        witness="A stable n-periodic orbit exists exactly for p > 0 with |nu| in the intervals "
-        f"{_listed(step.below)}; for p < 0 with |nu| in {_listed(step.above)}. At {_place(one)} "
-        f"the phase in {_within(one.phase, 20)} solves (16), with slope in "
-        f"{_within(one.multiplier)} and launch acceleration in {_within(one.acceleration)}, but "
-        f"the mass would be inside the table at time {show(one.early or Fraction(0))} < 2 pi n.",
-        corrected=f"Plastic impacts, eta = {show(FIGURE_ETA)}, 0 < |nu| < 1. {_ORBITS} Such an "
-        "orbit with |M| < 1 exists exactly, for p > 0, with |nu| in the open intervals "
-        f"{_listed(step.below)}, from a saddle-node (slope 1) to sticking (slope 0); for p < 0: "
-        f"{_listed(step.above)}, from sticking (slope 0) to a flip (slope -1): where nu^2 is "
-        "e/(1 + e), A(eta^2), A(q). For p > 0 n = "
-        f"{', '.join(map(str, step.early))} pass the condition on fractional parts, but all their "
-        "solutions with |slope| < 1 have an earlier impact.",
-        quantities=quantities,
-    )
-
-
-def _brief(windows: Sequence[Window]) -> str:
-    each = (
-        f"in ({ceil_text(first[1])}, {floor_text(last[0])}) (n = {n})" for n, first, last in windows
-    )
-    return " or ".join(each) or "nowhere"
-
-
-FORMULAS = (
-    Derivation(
+ROWS = (
+    derived_row(
         "P1",
+        "4, (16)",
+        "of the map is given by",
         "The fixed points with n table periods between impacts satisfy (16), which is (10) with "
         "psi_(k+1) - psi_k = 2 pi n.",
-        eq.NECESSARY,
-        _necessary,
+        Verdict.VERIFIED,
+        necessary,
+        corrected=(necessary,),
     ),
-    Derivation(
+    derived_row(
         "P2",
+        "4, (17)",
+        "Equation (16) can be rewritten as",
         "(16) can be rewritten as (17), sin(phi - theta) + cos(theta)/nu = 0, with theta = "
         "atan(beta/alpha), alpha = eta (1 - cos(2 pi n eta)), beta = sin(2 pi n eta).",
-        (*eq.NECESSARY, *eq.ANGLE),
-        _explicit,
+        Verdict.CONDITIONAL,
+        solved,
+        corrected=(solved,),
     ),
-    Derivation("P3", "At these fixed points the slope of f is (18).", eq.SLOPE, _slope),
-)
-LEMMAS, VALUES = eq.LEMMAS, _STIFFNESS
-CLAIMS = (
-    *(formula.claim for formula in FORMULAS),
-    Claim(
+    derived_row(
+        "P3",
+        "4, (18)",
+        "The slope is given by",
+        "At these fixed points, where the mass leaves the table at once, the slope of f is (18).",
+        Verdict.VERIFIED,
+        slope,
+        corrected=(slope,),
+    ),
+    Row(
         "P4",
+        "4, after (17)",
+        "stability of these fixed points can be determined",
         "A fixed point given by (17), with a launch that does not stick, is stable if |slope| < 1.",
         _stability,
     ),
-    Claim(
+    Row(
         "P5",
+        "4, Figure 7a",
+        "the various stable n-periodic fixed points",
         "Figure 7a: for nu = 0.2 the solutions of (16) with |slope| < 1 are stable n-periodic "
-        "fixed points over eta in (0.01, 14).",
+        "fixed points that leave the table at once, over eta in (0.01, 14).",
         _figure_a,
     ),
-    Claim(
+    Row(
         "P6",
+        "4, Figure 7b",
+        "fixed points vary as we change",
         "Figure 7b: for eta = 0.237 the solutions of (16) with |slope| < 1 are stable n-periodic "
-        "fixed points over nu in (-0.9, 0.9).",
+        "fixed points that leave the table at once, over nu in (-0.9, 0.9).",
         _figure_b,
     ),
 )

@@ -1,8 +1,7 @@
-"""Single-impact orbits of section 4: their equations, and what is proved about them.
+"""Single-impact orbits of section 4: their equations, and six lemmas about them.
 
 Plastic impacts, 0 < |nu| < 1. T = 2 pi n, x = pi n eta, n eta no integer; s, c = sin x, cos x;
 side = sign(nu); h = 1 + nu sin(phi) > 0. Numbers are of any type, as in `proofs.trusted.equations`.
-Trusted, and shared.
 
 Lemma 1 (solutions). (16) is (2/eta) s K = 0 with K = nu cos(phi) c - eta h s. Where K = 0, let
 p = nu sin(phi)/h and e = (eta tan x)^2: then h = 1/(1 - p), nu cos(phi) = eta h tan x and nu^2 =
@@ -50,19 +49,15 @@ is at its highest, h/|c| > h, and (mass - table)/h > tau sin t - tau^2 (1 - cos 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from proofs.trusted.equations import Clock
-from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range
 
 Number = Any
 Pair = tuple[Number, Number]
 
 SADDLE, STICK, FLIP = 1, 0, -1  # the multiplier at the ends of windows
-MOST_PERIODS = 10**6
 
 
 def defect(eta: Number, nu: Number, phase: Pair, turn: Pair) -> Number:
@@ -106,64 +101,3 @@ def records(eta: Fraction, most: int) -> Iterator[int]:
             highest = part
             if part > Fraction(1, 2):
                 yield n
-
-
-@dataclass(frozen=True)
-class Solution(Conclusion):
-    """(16) has exactly one solution phi in `phase` for these eta, nu, n, n eta being no integer.
-
-    multiplier encloses the slope (18) there, acceleration the relative one at launch, < 0 where
-    the mass sticks. If `early` is not None, it is a time in (0, 2 pi n) at which gap < 0.
-    """
-
-    eta: Fraction
-    nu: Fraction
-    n: int
-    phase: Range
-    multiplier: Range
-    acceleration: Range
-    early: Fraction | None
-
-    @property
-    def contracts(self) -> bool:
-        """Whether |slope| < 1."""
-        return self.multiplier[0] > -1 and self.multiplier[1] < 1
-
-
-@dataclass(frozen=True)
-class Orbit(Conclusion):
-    """After a launch at the solution's phase the first impact is at 2 pi n, and transversal."""
-
-    solution: Solution
-
-
-@dataclass(frozen=True)
-class EtaWindows(Conclusion):
-    """Where stable orbits are at fixed nu in (0, 1), for all eta >= low.
-
-    An orbit over n table periods that leaves at once, launch acceleration > 0, with its first
-    impact, transversal, after them and |slope| < 1, exists exactly for n = 1, ..., len(ends) and
-    eta between the two values that ends[n - 1] = (flip, stick) enclose: there the slope is -1, 0.
-    """
-
-    nu: Fraction
-    low: Fraction
-    ends: tuple[tuple[Range, Range], ...]
-
-
-Window = tuple[int, Range, Range]
-
-
-@dataclass(frozen=True)
-class NuWindows(Conclusion):
-    """Where such stable orbits are at fixed eta, for 0 < |nu| < 1: n and enclosures of the ends.
-
-    above: for nu > 0, from the nu where the slope is 0 to that where it is -1 (or 1 if that is
-    larger). below: for nu < 0, from the |nu| where it is 1 to that where it is 0 (or 1). There
-    are no others; early are those n > 1/eta that need an earlier impact to be excluded.
-    """
-
-    eta: Fraction
-    above: tuple[Window, ...]
-    below: tuple[Window, ...]
-    early: tuple[int, ...]
