@@ -1,6 +1,7 @@
 """Judges of conclusions about Cantor sets and dimensions (section 3.2) and measures (A.2)."""
 
 from fractions import Fraction
+from itertools import pairwise
 from math import inf
 
 import flint

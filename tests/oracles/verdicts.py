@@ -9,6 +9,7 @@ import random
 import re
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from types import SimpleNamespace
 
 import flint
