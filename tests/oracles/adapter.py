@@ -5,7 +5,6 @@ the judges use, and the parameters eta, nu, ... that it is about: its own if it 
 of the document, `of`. Where a class or a field is renamed, or moved, this file is all that changes.
 """
 
-from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from types import SimpleNamespace
@@ -16,13 +15,19 @@ CLASSES = {
         "first_impact",
         "eta=motion.eta nu=motion.nu phases=motion.phases windows transversal",
     ),
-    "PointFact": ("point", "phase slope image"),
+    "Impact": ("point", "phase slope image"),
     "SlopeRange": ("slope_range", "points slopes images pieces"),
     "Avoids": ("avoids", "phases target"),
+    "ImageArc": ("image_arc", "domain low high"),
+    "Missed": ("missed", "domain=arc.domain target=missed"),
     "MoranRoot": ("moran_root", "ratios root"),
+    "NoGap": ("no_gap", "ratios"),
+    "GapFunction": ("gap_function", "ratios"),
+    "Unlike": ("unlike", "slope given"),
+    "Digits": ("digits", "printed given exact readings"),
     "LinearSet": ("linear_set", "ratios root measure"),
     "Excess": ("excess", "ratios epsilon word excess"),
-    "Horseshoe": ("horseshoe", "sets"),
+    "Horseshoe": ("horseshoe", "left right slopes interval"),
     "Itinerary": ("itinerary", "sets phase word leaves orbit"),
     "Repeller": ("repeller", "hull domains words slopes dimension"),
     "Branch": ("branch", "cuts turn begin ends"),
@@ -46,6 +51,7 @@ CLASSES = {
     "Equal": ("equal", "left right"),
     "Series": ("series", "function variable coefficients nonzero"),
     "Value": ("value", "function box bounds"),
+    "Theorem": ("theorem", "text"),
     "MethodOne": ("method_one", "points sets values outer"),
     "Sign": ("sign", "quantity box sign"),
     "Monotone": ("monotone", "quantity box sign"),
@@ -64,7 +70,6 @@ CLASSES = {
     "Conjugacy": ("conjugacy", "graph forward"),
 }  # fmt: skip
 _BLIND = {"tape", "roots", "map", "work"}  # the checker's machinery inside of conclusions
-_ENDS = (("low", "high"), ("lower", "upper"), ("lo", "hi"), ("inf", "sup"))
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",
     "velocities", "reach",
@@ -83,34 +88,38 @@ def plain(value):
         return value
     if isinstance(value, list | tuple):
         return tuple(plain(part) for part in value)
-    if isinstance(value, Mapping):
-        return {key: plain(part) for key, part in value.items()}
-    for low, high in _ENDS:
-        if hasattr(value, low) and hasattr(value, high):
-            return plain(getattr(value, low)), plain(getattr(value, high))
     if is_dataclass(value):
-        record = {
-            f.name: plain(getattr(value, f.name)) for f in fields(value) if f.name not in _BLIND
-        }
-        return SimpleNamespace(kind=CLASSES.get(name_of(value), (None,))[0], **record)
+        names = [f.name for f in fields(value) if f.name not in _BLIND]
+        names += [name for name in ("interval",) if hasattr(value, name) and name not in names]
+        record = {name: plain(getattr(value, name)) for name in names}
+        kind = CLASSES.get(name_of(value), (None,))[0]
+        return SimpleNamespace(**{**place(record.pop("at", None)), **record, "kind": kind})
     raise TypeError(f"nothing is known about {type(value).__name__}")
+
+
+def place(about, share=0):
+    """eta and nu of the oscillators that something is about; a point of them, if they are many."""
+    if about is None:
+        return {}
+    pairs = ((name, plain(getattr(about, name))) for name in ("eta", "nu"))
+    return {
+        name: x if isinstance(x, Fraction) else x[0] + (x[1] - x[0]) * share for name, x in pairs
+    }
 
 
 def parameters(of):
     """The numbers of a statement; `ratios` are those printed, or 1/slopes."""
     record = {name: plain(getattr(of, name, None)) for name in _PARAMETERS}
-    if record["slopes"]:
-        record["reciprocals"] = 1 / record["slopes"][1], 1 / record["slopes"][0]
-        record["ratios"] = record["ratios"] or record["reciprocals"]
+    record["reciprocals"] = 1 / record["slopes"][1], 1 / record["slopes"][0]
+    record["ratios"] = record["ratios"] or record["reciprocals"]
     return SimpleNamespace(**record)
 
 
-def view(conclusion, of=None):
-    """A plain record of a conclusion."""
+def view(conclusion, of=None, share=0):
+    """A plain record of a conclusion; of: the numbers of the document, where it has some."""
     kind, wanted = CLASSES[name_of(conclusion)]
-    about = getattr(conclusion, "at", None) or of
-    record = dict(vars(parameters(about))) if about is not None else {}
-    record = {name: record.get(name) for name in ("eta", "nu", "interval")}
+    record = {"interval": plain(getattr(of, "interval", None))}
+    record |= place(getattr(conclusion, "at", None) or of, share)
     for part in wanted.split():
         name, _, path = part.partition("=")
         value = conclusion

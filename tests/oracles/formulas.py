@@ -157,4 +157,9 @@ def _told(env):
     return ", ".join(f"{name} = {float(x):.6g}" for name, x in env.items())
 
 
-JUDGES = {"equal": equal, "series": series, "value": value}
+def theorem(view, rng):
+    """A text that follows from formulas, which are judged themselves: nothing to sample."""
+    return [] if view.text else ["no text"]
+
+
+JUDGES = {"equal": equal, "series": series, "value": value, "theorem": theorem}

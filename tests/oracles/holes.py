@@ -90,13 +90,13 @@ def no_linear_set():
     sets = {"left": ["1/10", "1"], "right": ["5", "31/5"], "interval": ["1/10", "31/5"]}
     made = _with(slopes=["6/5", "3/2"], ratios=None, printed_s0=None, **sets)
     made["steps"] = {
-        "root": {
+        "lone": {
             "rule": "moran-root",
             "witness": {"ratios": ["2/3", "5/6"], "root": _moran("2/3", "5/6")},
         },
         "more": {
             "rule": "excess",
-            "witness": {"root": "root", "epsilon": "1/10", "word": "11"},
+            "witness": {"root": "lone", "epsilon": "1/10", "word": "11"},
         },
     }
     return {**made, "proofs": {"H14": ["more"]}}

@@ -1,5 +1,7 @@
 """`oracle(conclusion, rng, of)`: complaints about a conclusion, by what shares nothing with it."""
 
+from fractions import Fraction
+
 from tests.oracles import circle, formulas, kernel, plastic, restitution, sets, single
 from tests.oracles.adapter import view
 
@@ -21,4 +23,4 @@ def judge(record, rng):
 
 def oracle(conclusion, rng, of=None):
     """Complaints about a conclusion; of: the document's parameters, if it carries none itself."""
-    return judge(view(conclusion, of), rng)
+    return judge(view(conclusion, of, rng.choice((0, 1, Fraction(1, 3)))), rng)

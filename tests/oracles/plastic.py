@@ -1,7 +1,7 @@
 """Judges of conclusions about the plastic map: points, slopes, branches, staying sets."""
 
-import itertools
 from fractions import Fraction
+from itertools import pairwise
 from types import SimpleNamespace
 
 import flint
@@ -201,7 +201,7 @@ def covering_graph(view, rng):
         told.append(f"log(growth) is {logarithm.str(15)}")
     size = len(view.branches)
     ends = [(float(b.cuts[0]), float(b.cuts[-1])) for b in view.branches]
-    if any(b[0] <= a[1] for a, b in itertools.pairwise(ends)):
+    if any(b[0] <= a[1] for a, b in pairwise(ends)):
         told.append("the branches overlap or are out of order")
     matrix = np.zeros((size, size))
     for i, one in enumerate(view.branches):
@@ -223,7 +223,7 @@ def staying_set(view, rng):
     """All phases whose orbits stay in the interval run through the cells, in order of phases."""
     told, cells = [], view.cells
     ends = [cell.phases for cell in cells]
-    if ends != sorted(ends) or any(b[0] < a[1] for a, b in itertools.pairwise(ends)):
+    if ends != sorted(ends) or any(b[0] < a[1] for a, b in pairwise(ends)):
         told.append("the cells are not in the order of phases, or overlap")
     for cell in cells:
         told += _cell(view, cell, rng)
@@ -291,9 +291,29 @@ def _cell(view, cell, rng):
 
 def horseshoe(view, rng):
     """H1 to H6 hold at the sets, and the slopes are above 1."""
-    sets = view.sets
-    told = [] if sets.slopes[0] > 1 else ["the slopes do not expand"]
-    return told + horseshoe_faults(sets, rng)
+    told = [] if view.slopes[0] > 1 else ["the slopes do not expand"]
+    return told + horseshoe_faults(view, rng)
+
+
+def image_arc(view, rng):
+    """f is continuous and monotone on the domain, onto the arc between its ends' images."""
+    at = [lifted(view, phase) for phase in points(view.domain, rng, 4)]
+    if None in at:
+        return []
+    rises = [b > a for a, b in pairwise(at)]
+    told = [] if len(set(rises)) == 1 else ["f is not monotone"]
+    if max(at) - min(at) >= TURN:
+        told.append("the arc is longer than the circle")
+    for given, end in ((view.low, min(at)), (view.high, max(at))):
+        if not inside_mod(ball(end), given, 1e-9):
+            told.append(f"an end of the arc is {end % TURN:.12g}")
+    return told
+
+
+def missed(view, rng):
+    """No phase of the domain lands in the target."""
+    view.phases = view.domain
+    return avoids(view, rng)
 
 
 def horseshoe_faults(sets, rng):
@@ -364,6 +384,8 @@ JUDGES = {
     "branch": branch,
     "covering_graph": covering_graph,
     "staying_set": staying_set,
+    "image_arc": image_arc,
+    "missed": missed,
     "horseshoe": horseshoe,
     "itinerary": itinerary,
 }

@@ -1,7 +1,7 @@
 """Judges of conclusions about Cantor sets and dimensions (section 3.2) and measures (A.2)."""
 
-import itertools
 from fractions import Fraction
+from itertools import pairwise
 from math import inf
 
 import flint
@@ -51,6 +51,50 @@ def linear_set(view, rng):
     return told
 
 
+def no_gap(view, rng):
+    """The ratios leave no gap."""
+    return [] if min(view.ratios) > 0 and sum(view.ratios) >= 1 else ["there is a gap"]
+
+
+def gap_function(view, rng):
+    """q(x) = ((1 - r1)/r0 + x)^s - 1 - x^s decreases and vanishes at r1/r0."""
+    first, second = view.ratios
+    if not 0 < min(view.ratios) <= max(view.ratios) < 1:
+        return ["a ratio is not between 0 and 1"]
+    with flint.ctx.workprec(200):
+        s = _root(view.ratios)
+        places = [ball(second / first), *(ball(Fraction(k, 7)) for k in (1, 5, 30))]
+        q = [(ball((1 - second) / first) + x) ** s - 1 - x**s for x in places]
+        falls = q[1] > q[2] > q[3]
+    return [] if falls and abs(q[0]) < 1e-30 else ["q does not decrease, or does not vanish"]
+
+
+def _unit(printed):
+    return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
+
+
+def unlike(view, rng):
+    """1/slope is not the decimal that is given, rounded."""
+    places = 0
+    while view.given * 10**places % 1 and places < 60:
+        places += 1
+    exact = places == 60
+    near = abs(1 / view.slope - view.given) < (0 if exact else Fraction(1, 2 * 10**places))
+    return ["it is that, rounded"] if near or 1 / view.slope == view.given else []
+
+
+def digits(view, rng):
+    """Which readings of printed digits hold, for both roots."""
+    told, printed, unit = moran_root(view.given, rng) + moran_root(view.exact, rng), 0, 0
+    printed, unit = ball(Fraction(view.printed)), _unit(view.printed)
+    for each, given in zip((view.given, view.exact), view.readings, strict=True):
+        s = _root(each.ratios)
+        own = (abs(s - printed) < ball(unit / 2), bool(s >= printed) and s < printed + ball(unit))
+        if any(x is not None and bool(y) != x for x, y in zip(given, own, strict=True)):
+            told.append(f"s_0 is {s.str(12)}")
+    return told
+
+
 def excess(view, rng):
     """(|L| + d)^s - |L|^s - d for an interval L of the linear set."""
     if not all(0 < ratio < 1 for ratio in view.ratios) or sum(view.ratios) >= 1:
@@ -88,7 +132,7 @@ def repeller(view, rng):
     spans = sorted((min(y), max(y)) for y in images)
     if spans[0][0] < low - 1e-9 or spans[-1][1] > high + 1e-9:
         told.append("the inverse branches leave the hull")
-    if any(b[0] <= a[1] for a, b in itertools.pairwise(spans)):
+    if any(b[0] <= a[1] for a, b in pairwise(spans)):
         told.append("the images of the inverse branches overlap")
     found = _dimension([y[2:] for y in images], [r[2:] for r in rates], nodes, (low, high))
     if not float(view.dimension[0]) - 1e-7 < found < float(view.dimension[1]) + 1e-7:
@@ -163,6 +207,10 @@ def method_one(view, rng):
 
 JUDGES = {
     "moran_root": moran_root,
+    "no_gap": no_gap,
+    "gap_function": gap_function,
+    "unlike": unlike,
+    "digits": digits,
     "linear_set": linear_set,
     "excess": excess,
     "repeller": repeller,

@@ -6,8 +6,9 @@ The only part of these tests, beside the names in `adapter`, that touches the pr
 import importlib
 import json
 import pkgutil
-from dataclasses import is_dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 REPORTS = Path(__file__).parents[2] / "reports"
@@ -34,94 +35,86 @@ def certificates():
 
 def proved(group, eta, nu):
     """The parts of what the prover of a group finds at other parameters."""
-    from proofs.trusted.facts import PAPER
-
-    from proofs.shell.groups import settle
+    from proofs.shell.groups import produce
+    from proofs.trusted.paper import GROUPS
+    from proofs.trusted.parameters import PAPER
 
     of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
-    return _parts(settle(group, of, digits=20, tell=lambda stage: None)[1])
+    return _parts(json.loads(produce({group: GROUPS[group]}, of, digits=20).certificate))
 
 
 def conclusions(made):
     """The parameters and the conclusions of all steps by name, as the checker derives them."""
     from proofs.trusted import verify
     from proofs.trusted.certificate import Reader, parameters_from_json
+    from proofs.trusted.kernel.context import Context
 
-    of = parameters_from_json(Reader(made["parameters"]))
-    return of, verify._derive_steps(of, Reader(made["steps"]))
+    context = Context(parameters_from_json(Reader(made["parameters"])))
+    verify.derive(context, Reader(made["steps"]))
+    return context.of, context.known
 
 
-def rows(made, claims):
-    """For each claim (id, verdict, texts): what the checker's own functions say about it."""
+@cache
+def committed_conclusions(name):
+    """The same of a committed certificate."""
+    return conclusions(committed(name))
+
+
+def rows(made, claims, of, known):
+    """For each claim (id, verdict, texts, the conclusions that decide it or correct it)."""
     from proofs.trusted import paper
 
-    of, known = conclusions(made)
     for claim in claims:
         row = paper.find(claim)
         found = row.decide(of, [known[name] for name in made["proofs"][claim]])
-        texts = (row.says(of), found.why, found.witness, found.corrected)
-        yield claim, found.verdict.value, [text for text in texts if text]
+        texts = (row.says(of), found.why, found.witness, found.theorem)
+        shown = (*found.because, *found.corrected) if hasattr(found, "because") else ()
+        yield claim, found.verdict.value, [text for text in texts if text], shown
 
 
 def reported(name):
     """The parameters and (id, verdict, texts) of the claims of a committed certificate."""
-    from proofs.trusted import verify
-
-    report = verify.check((REPORTS / f"{name}.json").read_text())
     document = json.loads((REPORTS / f"{name}.json").read_text())
-    for own, entry in zip(report.claims, document["claims"], strict=True):
-        texts = (own.statement, own.why, own.corrected, str(entry["witness"]), entry["corrected"])
-        yield report.parameters, own.id, own.verdict.value, [text for text in texts if text]
+    for entry in document["claims"]:
+        texts = (entry[key] for key in ("statement", "why", "witness", "corrected"))
+        told = [text for text in texts if text]
+        yield committed_conclusions(name)[0], entry["id"], entry["verdict"], told
 
 
-def joined(made):
-    """Conclusions that claims draw from others: crossed rectangles, stable pairs."""
+def joined(name):
+    """Conclusions that the rows of a committed certificate draw from those of its steps."""
     from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, horseshoes
+
     from proofs.trusted.paper.s34_circle.persistence import stable_pair
 
-    of, known = conclusions(made)
-    found = list(known.values())
+    made, (of, known) = committed(name), committed_conclusions(name)
+    for _, _, _, shown in rows(made, made["proofs"], of, known):
+        yield from shown
+        yield from (one.arc for one in shown if hasattr(one, "arc"))
+    yield from list(horseshoes(of, list(known.values()), FULL))[:2]
     pair = stable_pair(of, [known[name] for name in made["proofs"].get("G7", ())])
-    return [*list(horseshoes(of, found, FULL))[:2], *([pair] if pair else [])]
+    yield from [pair] if pair else []
 
 
 def lemmas():
     """The conclusions of the lemma examples, by example and step."""
-    from proofs.trusted.certificate import parse
-    from proofs.trusted.kernel import lemma
-    from proofs.trusted.kernel.context import Context
-    from proofs.trusted.kernel.formula import read_formula
+    from proofs.trusted.verify import premises
     from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
     for name in EXAMPLES:
-        functions, steps, _ = lemma._read(parse(text(name)))
-        context = Context({key: read_formula(key, part) for key, part in functions.members()})
-        lemma._derive(context, steps)
-        yield from ((f"{name}.{key}", found) for key, found in context.known.items())
-
-
-# frozen dataclasses of the trusted part that conclude nothing by themselves
-OTHERS = {
-    "Parameters", "Motion", "Checked", "Report", "Decision", "Claim", "Statement",
-    "Derivation", "Asked", "Marching", "Cell", "Absorbed", "Subshift", "Meetings",
-    "Inequality", "Quantity", "Formula", "LocalMap", "LemmaReport", "Enclosure", "Dual",
-    "Quotient", "ManifestReport", "Components",
-}  # fmt: skip
+        yield from ((f"{name}.{key}", x) for key, x in premises(text(name)).known.items())
 
 
 def classes():
-    """The names of all classes of conclusions: by a common base, or all frozen dataclasses."""
+    """The names of all classes of conclusions, the innermost ones."""
     import proofs.trusted
+    from proofs.trusted.kernel.conclusion import Conclusion
 
-    found = {}
     for info in pkgutil.walk_packages(proofs.trusted.__path__, "proofs.trusted."):
-        for value in vars(importlib.import_module(info.name)).values():
-            if isinstance(value, type) and value.__module__.startswith("proofs.trusted"):
-                found[f"{value.__module__}.{value.__qualname__}"] = value
-    bases = [c for c in found.values() if c.__name__ == "Conclusion"]
-    bases = [c for c in bases if not getattr(c, "_is_protocol", False)]
-    if bases:
-        own = [c for c in found.values() if issubclass(c, tuple(bases)) and c not in bases]
-        return {c.__name__ for c in own if not c.__subclasses__()}
-    frozen = [c for c in found.values() if is_dataclass(c) and c.__dataclass_params__.frozen]
-    return {c.__name__ for c in frozen if not c.__name__.startswith("_")} - OTHERS
+        importlib.import_module(info.name)
+    found, waiting = set(), [Conclusion]
+    while waiting:
+        inner = waiting.pop().__subclasses__()
+        found |= {one.__name__ for one in inner if not one.__subclasses__()}
+        waiting += inner
+    return found

@@ -4,12 +4,12 @@
 `NEEDS` what it speaks of; `SENTENCES` are phrases with numbers, and what is checked about them.
 """
 
-import itertools
 import math
 import random
 import re
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from types import SimpleNamespace
 
 import flint
@@ -265,7 +265,7 @@ def _no_preimage(of, low, high, name):
 
 def _increasing_symbols(of, text):
     ends = [(Fraction(a), Fraction(b)) for a, b in re.findall(_PAIR, text)]
-    return all(a[1] < b[0] for a, b in itertools.pairwise(ends))
+    return all(a[1] < b[0] for a, b in pairwise(ends))
 
 
 def _full_shift(of, low, high, symbols):
@@ -305,7 +305,7 @@ SENTENCES = (
     (rf"3 pi - phi_s in {_PAIR}", _arc_from),
     (rf"phi_1 in {_PAIR}", _lands_at),
     (rf"fixed point(?: p)? in {_PAIR}", _fixed),
-    (rf"(?:no phase of|not defined on|that impact never on) {_PAIR}", _never),
+    (rf"(?:no phase of|not defined on) {_PAIR}(?! has its)", _never),
     (rf"Every phase of {_PAIR} mod 2 pi reaches the arc within ({_N}) impact", _reach),
     (rf"attracts at least ({_N}) percent", _share_least),
     (rf"f'\(({_N})\) (<=|>=) ({_N})", _slope_at),
