@@ -36,6 +36,8 @@ from proofs.trusted.parameters import Place
 def prove_separation(system: System, bits: int) -> Separation:
     """Enclose the ends of the sticking arc, and the flight from it, to about 2^-bits."""
     unit = Fraction(1, 2**bits)
+    if system.sticking_arc != "some":
+        raise Undecided("the mass never sticks, or never leaves: there is no separation phase")
     centre = round(separation_phase(system, bits + 20)[0] / unit) * unit
     phase = centre - unit, centre + unit
     ends = [launch_acceleration(Flight(system, (x, x), bits + 40).start) for x in phase]

@@ -1,9 +1,7 @@
-"""Flights over thousands of turns: the windows of time in which mass and table can meet at all.
+"""Flights over thousands of turns, for -1 < nu < 0.
 
-For -1 < nu < 0, as in `proofs.trusted.windows`: the mass is at X = A cos(eta t - delta), the table
-at Z = 1 - |nu| cos s, s = phi + t - pi/2, so at an impact X = Z both are within [1 - |nu|, A]:
-|s - 2 pi k| <= sigma = acos((1 - A) / |nu|) and |eta t - delta - 2 pi m| <= tau =
-acos((1 - |nu|) / A).
+Mass and table can meet in windows of time only, those of `proofs.trusted.windows.Meetings`: what
+the checker has to exclude is what is excluded here, by intervals.
 """
 
 from __future__ import annotations
@@ -22,60 +20,15 @@ from proofs.motion.flight import Flight
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.parameters import Place
+from proofs.trusted.windows import Meetings
 
 BITS = 80
 _DEEPEST = 24
-_WHOLE = Fraction(4)  # more than pi: no window at all
 _Seen = tuple[float, int | None]  # a phase, and the window of its first impact
-
-
-@dataclass(frozen=True)
-class Windows:
-    """The times at which some flights can meet the table; see above."""
-
-    flight: Flight
-    delta: Interval
-    sigma: Fraction
-    tau: Fraction
-
-    @classmethod
-    def of(cls, flight: Flight) -> Windows:
-        """Enclose delta, and bound sigma and tau from above."""
-        start, nu = flight.start, flight.system.nu
-        along, across = start.lift + 1, start.rate / start.eta
-        amplitude = along.hypot(across)
-        if not -1 < nu < 0 or amplitude.sup < 1 + nu:
-            raise Undecided("no impact, or nu is not in (-1, 0)")
-        ratio = Interval((1 - amplitude.sup) / -nu, precision=flight.precision)
-        least = Interval((1 + nu) / amplitude.sup, precision=flight.precision)
-        return cls(flight, across.atan2(along), _acos(ratio), _acos(least))
-
-    def window(self, turn: int) -> Range:
-        """Return the times of all launches with |s - 2 pi turn| <= sigma."""
-        low, high = self.flight.phases
-        middle = full_turn(BITS) * Fraction(4 * turn + 1, 4)
-        return middle.inf - self.sigma - high, middle.sup + self.sigma - low
-
-    def before(self, count: int) -> Iterator[Range]:
-        """Yield the windows 0, ..., count - 1 in which |eta t - delta - 2 pi m| <= tau can be."""
-        eta = self.flight.system.eta
-        first = Interval(*self.window(0), precision=BITS)
-        share = (first * eta - self.delta).widen(self.tau) / full_turn(BITS)
-        for turn in range(count):
-            if math.floor(share.sup + eta * turn) >= math.ceil(share.inf + eta * turn):
-                yield self.window(turn)
-
-
-def _acos(cosine: Interval) -> Fraction:
-    """Return a number above acos of all numbers >= the cosine, 4 where that is -1 or less."""
-    if cosine.inf <= -1:
-        return _WHOLE
-    if cosine.sup >= 1:
-        raise Undecided("the mass only just reaches the table")
-    return (1 - cosine.sqr()).sqrt().atan2(cosine).sup + Fraction(1, 2**40)
 
 
 def prove_branch(
@@ -86,7 +39,7 @@ def prove_branch(
     The theorem is rule `branch` of `s34_circle.entropy`.
     """
     whole = Flight(system, (cuts[0], cuts[-1]), BITS)
-    windows = Windows.of(whole)
+    windows = Meetings.of(Motion(-1, system.eta, system.nu, whole.phases, BITS))
     launched = _launched(whole)
     for low, high in windows.before(turn):
         if high > launched:
