@@ -63,6 +63,8 @@ def lifted(ends: Range, turns: int) -> Range:
 
 def prove_lands(system: System, arc: Separation, cuts: Sequence[Fraction], turns: int) -> Lands:
     """Prove that the launches between the first and the last cut land on the sticking arc."""
+    if cuts[0] >= cuts[-1]:
+        raise Undecided("no phases in this order land there")
     start, end = lifted(arc.start, turns), lifted(arc.phase, turns)
     for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
         flight = Flight(system, (low, high), BITS)
