@@ -1,6 +1,6 @@
 """Claims about formulas: find the proof of whatever they follow from.
 
-A group of claims is a tuple of `Derivation`s. Equalities and power series are found with sympy,
+Equalities and power series are found with sympy,
 values with the package `intervals`; the checker derives each again by exact normal forms and
 enclosures of its own.
 """
@@ -30,6 +30,7 @@ from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import Asked, Derivation, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
 _COARSE_DIGITS = 3
@@ -124,22 +125,22 @@ class Steps:
         self.names[wanted] = (name, found)
 
 
-def prove_derivations(
-    derivations: Sequence[Derivation | DerivedRow],
+def prove_rows(
+    rows: Sequence[Derivation | Row],
     claims: Sequence[str],
     digits: int,
     tell: Callable[[str], None],
 ) -> Evidence:
-    """Prove what the claims asked for follow from, each lemma once."""
+    """Prove what the rows asked for follow from, each lemma once."""
     steps, evidence = Steps(digits), Evidence()
-    for derivation in derivations:
-        if derivation.id in claims:
-            tell(f"formulas of {derivation.id}")
-            if isinstance(derivation, DerivedRow):
-                needs = derivation.needs
+    for row in rows:
+        if row.id in claims:
+            tell(f"formulas of {row.id}")
+            if isinstance(row, Derivation):
+                needs: Sequence[Lemma | Asked] = (*row.lemmas, *row.values)
             else:
-                needs = (*derivation.lemmas, *derivation.values)
+                needs = row.needs if isinstance(row, DerivedRow) else ()
             proved = [steps.prove(each) for each in needs]
-            evidence.proofs[derivation.id] = [each for each in proved if each is not None]
+            evidence.proofs[row.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps
     return evidence

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from proofs.search.derivations import prove_derivations
+from proofs.search.derivations import prove_rows
 from proofs.search.evidence import Evidence
 from proofs.trusted.paper.s5_soft.soft import DERIVATIONS
 from proofs.trusted.parameters import Parameters
@@ -20,4 +20,4 @@ def prove(
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
     """Prove what the claims asked for follow from; they are about all values of the parameters."""
-    return prove_derivations(DERIVATIONS, claims, digits, tell)
+    return prove_rows(DERIVATIONS, claims, digits, tell)

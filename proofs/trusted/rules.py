@@ -62,7 +62,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-orbit": "paper.s4_single.rules.single_orbit",
         "single-eta-windows": "paper.s4_single.rules.eta_windows",
         "single-nu-windows": "paper.s4_single.rules.nu_windows",
-        "method-one": "paper.s7_appendix.rules.method_one",
     }
 )
 

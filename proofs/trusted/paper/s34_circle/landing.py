@@ -9,7 +9,7 @@ from typing import Any
 
 from proofs.trusted.equations import Launch
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.numbers import TURN, Range, show_range
 from proofs.trusted.slopes import SlopeRange
 
 Number = Any
@@ -50,6 +50,11 @@ class NeverImpacts(Conclusion):
     """
 
     phases: Range
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        return f"after a launch in {show_range(self.phases)} the mass never impacts again."
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import Decision
 from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, between, differ
+from proofs.trusted.paper.s2_foundations import HEIGHT4, RESTITUTION, SPEED5
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft.soft_stability import STABILITY
 from proofs.trusted.verdicts import Verdict
@@ -15,12 +16,9 @@ _FLIGHT = (
     Equal(f"D({eq.X20}, t)", eq.V21),
     Equal(f"at({eq.V21}, t=t0)", "v0"),
 )
-_RESTITUTION = Equal(f"-(({eq.SPEED5}) - beta*omega*cos(a))/(v - beta*omega*cos(a))", "epsilon")
 _IMPACT = (
-    Equal(
-        f"at({eq.X20}, t=t0 + tau, x0={eq.HEIGHT4}, v0={eq.SPEED5}) - (-p + beta*sin(b))", eq.S22
-    ),
-    Equal(f"at({eq.V21}, t=t0 + tau, x0={eq.HEIGHT4}, v0={eq.SPEED5})", eq.S23),
+    Equal(f"at({eq.X20}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5}) - (-p + beta*sin(b))", eq.S22),
+    Equal(f"at({eq.V21}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5})", eq.S23),
     Equal(f"at({eq.S22}, a=psi, b=psi1, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S24),
     Equal(f"at({eq.S23}, a=psi, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S25),
 )
@@ -136,7 +134,7 @@ BEFORE = (
         "S2",
         "The impact relations (22) and (23), and (24) and (25) in the phase psi, follow from (20), "
         "(21) and the rule of restitution.",
-        (*_FLIGHT, _RESTITUTION, *_IMPACT),
+        (*_FLIGHT, RESTITUTION, *_IMPACT),
         lambda: _verified(
             "(22), (23) are (20) minus the table and (21) after a launch by (4), (5); (24), (25) "
             "are these with omega t = psi + 2 pi m"

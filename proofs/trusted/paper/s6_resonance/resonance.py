@@ -26,8 +26,8 @@ def closed_form() -> str:
     return (
         "At eta = 1 the gap at time t after an impact is 2 sign(nu) sin(t/2) (K_k cos(t/2) - "
         "sin(t/2)), in units of |p|, K_k = epsilon c_k, c_k = gamma_k + nu cos(phi_k), phi_k and "
-        "gamma_k being phase and velocity before the impact. So let nu be not 0, 0 <= epsilon <= "
-        "1, and nu c_k >= 0, as the mass comes from outside the table. If K_k is not 0, the next "
+        "gamma_k being phase and velocity before the impact. Let beta > 0, nu not 0, 0 <= epsilon "
+        "<= 1; nu c_k >= 0, as the mass comes from outside the table. If K_k is not 0, the next "
         "impact is at phi_(k+1) = phi_k + 2 arctan(K_k) mod 2 pi, after the time 2 arctan(K_k) for "
         "nu > 0 and 2 pi + 2 arctan(K_k) for nu < 0, and c_(k+1) = epsilon c_k. If K_k = 0: for nu "
         "< 0 the mass touches the table again after 2 pi, at the same phase, with c_(k+1) = 0; for "
