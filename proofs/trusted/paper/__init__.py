@@ -45,7 +45,8 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s34_circle.circle": GROUPS["circle"],
         "s34_circle.persistence": GROUPS["persistence"],
         "s4_single.single": GROUPS["single"],
-        "s5_soft.soft": GROUPS["soft"],
+        "s5_soft.soft": GROUPS["soft"][:10],
+        "s5_soft.stability": GROUPS["soft"][10:],
         "s6_resonance.resonance": GROUPS["resonance"],
         "s7_appendix": ("A1", "A2"),
     }
