@@ -29,7 +29,7 @@ from proofs.trusted.kernel.derivation import Formulas
 from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Asked, Derivation, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
@@ -126,21 +126,14 @@ class Steps:
 
 
 def prove_rows(
-    rows: Sequence[Derivation | Row],
-    claims: Sequence[str],
-    digits: int,
-    tell: Callable[[str], None],
+    rows: Sequence[Row], claims: Sequence[str], digits: int, tell: Callable[[str], None]
 ) -> Evidence:
     """Prove what the rows asked for follow from, each lemma once."""
     steps, evidence = Steps(digits), Evidence()
     for row in rows:
-        if row.id in claims:
+        if row.id in claims and isinstance(row, DerivedRow):
             tell(f"formulas of {row.id}")
-            if isinstance(row, Derivation):
-                needs: Sequence[Lemma | Asked] = (*row.lemmas, *row.values)
-            else:
-                needs = row.needs if isinstance(row, DerivedRow) else ()
-            proved = [steps.prove(each) for each in needs]
+            proved = [steps.prove(each) for each in row.needs]
             evidence.proofs[row.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps
     return evidence

@@ -7,16 +7,13 @@ in the places of x and y at once. Every other name is a real variable.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, ceil_text, floor_text, show_range
-from proofs.trusted.paper import Claim
-from proofs.trusted.paper import Decision as OldDecision
-from proofs.trusted.paper import undecided as not_yet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -251,39 +248,3 @@ def derived_row(
 
     needs = dict.fromkeys(need for each in (*because, *corrected) for need in each.needs)
     return DerivedRow(*passage, reading, decide, needs=tuple(needs))
-
-
-# -- of the sections that are not yet rows ---------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Derivation:
-    """A claim that follows from lemmas and from values.
-
-    decision: what follows, given bounds on the values in their order.
-    """
-
-    id: str
-    text: str
-    lemmas: tuple[Lemma, ...]
-    decision: Callable[..., OldDecision]
-    values: tuple[Asked, ...] = ()
-
-    def decide(self, of: Parameters, found: Sequence[object]) -> OldDecision:
-        """Decide the claim: UNDECIDED if something that it follows from is not proved."""
-        missing: list[Lemma | Asked] = [lemma for lemma in self.lemmas if lemma not in found]
-        bounds = []
-        for value in self.values:
-            proved = [one.bounds for one in found if isinstance(one, Value) and value.met_by(one)]
-            bounds.append(min(proved, key=lambda ends: ends[1] - ends[0]) if proved else None)
-            if not proved:
-                missing.append(value)
-        if missing:
-            count = f"{len(missing)} of {len(self.lemmas) + len(self.values)}"
-            return not_yet(f"not proved: {count} of what it follows from")
-        return self.decision(*bounds)
-
-    @property
-    def claim(self) -> Claim:
-        """The claim, as the catalogue has it."""
-        return Claim(self.id, self.text, self.decide)

@@ -8,8 +8,9 @@ from itertools import pairwise
 
 from proofs.trusted.numbers import Range, ceil_text, floor_text, show
 from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.paper.formulas import Derivation, Equal, Value, at
+from proofs.trusted.paper.formulas import Equal, Value, at
 from proofs.trusted.paper.s4_single import displayed as eq
+from proofs.trusted.paper.s4_single.derivation import Derivation
 from proofs.trusted.paper.s4_single.single_facts import (
     EtaWindows,
     NuWindows,
