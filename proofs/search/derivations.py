@@ -1,6 +1,6 @@
 """Claims about formulas: find the proof of whatever they follow from.
 
-A group of claims is a tuple of `Derivation`s. Equalities and power series are found with sympy,
+Equalities and power series are found with sympy,
 values with the package `intervals`; the checker derives each again by exact normal forms and
 enclosures of its own.
 """
@@ -29,7 +29,8 @@ from proofs.trusted.kernel.derivation import Formulas
 from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Asked, Derivation, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
 _COARSE_DIGITS = 3
@@ -124,22 +125,15 @@ class Steps:
         self.names[wanted] = (name, found)
 
 
-def prove_derivations(
-    derivations: Sequence[Derivation | DerivedRow],
-    claims: Sequence[str],
-    digits: int,
-    tell: Callable[[str], None],
+def prove_rows(
+    rows: Sequence[Row], claims: Sequence[str], digits: int, tell: Callable[[str], None]
 ) -> Evidence:
-    """Prove what the claims asked for follow from, each lemma once."""
+    """Prove what the rows asked for follow from, each lemma once."""
     steps, evidence = Steps(digits), Evidence()
-    for derivation in derivations:
-        if derivation.id in claims:
-            tell(f"formulas of {derivation.id}")
-            if isinstance(derivation, DerivedRow):
-                needs = derivation.needs
-            else:
-                needs = (*derivation.lemmas, *derivation.values)
-            proved = [steps.prove(each) for each in needs]
-            evidence.proofs[derivation.id] = [each for each in proved if each is not None]
+    for row in rows:
+        if row.id in claims and isinstance(row, DerivedRow):
+            tell(f"formulas of {row.id}")
+            proved = [steps.prove(each) for each in row.needs]
+            evidence.proofs[row.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps
     return evidence

@@ -12,17 +12,12 @@ from typing import Any
 from intervals import DomainError, Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.derivations import prove_derivations
+from proofs.search.derivations import prove_rows
 from proofs.search.evidence import Evidence
 from proofs.search.s34_circle import prove_longest
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
-from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS
-from proofs.trusted.paper.s7_appendix.appendix import NEGATIVE
-from proofs.trusted.paper.s7_appendix.rules import method_one
+from proofs.trusted.paper import GROUPS, s2_foundations, s7_appendix
 from proofs.trusted.parameters import Parameters
 
 CLAIMS = GROUPS["foundations"]
@@ -36,14 +31,11 @@ def prove(
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
     """Prove what the claims asked for follow from."""
-    evidence = prove_derivations(DERIVATIONS, claims, digits, tell)
+    rows = (*s2_foundations.ROWS, *s7_appendix.ROWS)
+    evidence = prove_rows(rows, claims, digits, tell)
     if "A1" in claims:
         tell("phases without a next impact")
         evidence.proofs["A1"] += unending(of, evidence.steps)
-    if "A2" in claims:
-        name, witness = "method-one-1", counterexample()
-        evidence.steps[name] = {"rule": "method-one", "witness": witness}
-        evidence.proofs["A2"] = [(name, method_one(Context(of), Reader(witness)))]
     return evidence
 
 
@@ -55,13 +47,3 @@ def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> list[tuple[str
         return [prove_longest(Prover(System(of.eta, of.nu), 0, HORIZON, steps))]
     except (Undecided, DomainError):
         return []
-
-
-def counterexample() -> dict[str, Any]:
-    """Return the witness of a premeasure from which Method I makes no outer measure."""
-    points, sets, values = NEGATIVE
-    return {
-        "points": str(points),
-        "sets": [[str(point) for point in sorted(each)] for each in sets],
-        "values": texts(values),
-    }

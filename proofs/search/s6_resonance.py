@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from proofs.search.derivations import prove_derivations
+from proofs.search.derivations import prove_rows
 from proofs.search.evidence import Evidence
-from proofs.trusted.paper.s6_resonance.resonance import DERIVATIONS
+from proofs.trusted.paper.s6_resonance.resonance import ROWS
 from proofs.trusted.parameters import Parameters
 
-CLAIMS = tuple(derivation.id for derivation in DERIVATIONS)
+CLAIMS = tuple(row.id for row in ROWS)
 
 
 def prove(
@@ -20,4 +20,4 @@ def prove(
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
     """Prove what the claims asked for follow from; they are about eta = 1 and all nu, epsilon."""
-    return prove_derivations(DERIVATIONS, claims, digits, tell)
+    return prove_rows(ROWS, claims, digits, tell)

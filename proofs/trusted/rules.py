@@ -67,7 +67,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-orbit": "paper.s4_single.orbits.single_orbit",
         "single-eta-windows": "paper.s4_single.orbits.eta_windows",
         "single-nu-windows": "paper.s4_single.orbits.nu_windows",
-        "method-one": "paper.s7_appendix.rules.method_one",
     }
 )
 

@@ -37,7 +37,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "s31_horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6"),
         "s32_sets.moran": ("H11", "H16"),
-        "s2_foundations.relations": GROUPS["foundations"],
+        "s2_foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9"),
         "s33_restitution.nonplastic": GROUPS["nonplastic"],
         "s32_sets.sets": GROUPS["sets"],
         "s32_sets.dimension": GROUPS["dimension"],
@@ -46,8 +46,10 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s34_circle.circle": GROUPS["circle"],
         "s34_circle.persistence": GROUPS["persistence"],
         "s4_single.single": GROUPS["single"],
-        "s5_soft.soft": GROUPS["soft"],
+        "s5_soft.soft": GROUPS["soft"][:10],
+        "s5_soft.stability": GROUPS["soft"][10:],
         "s6_resonance.resonance": GROUPS["resonance"],
+        "s7_appendix": ("A1", "A2"),
     }
 )
 

@@ -7,17 +7,15 @@ in the places of x and y at once. Every other name is a real variable.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, ceil_text, floor_text, show_range
-from proofs.trusted.paper import Claim, Decision, undecided
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Decision as RowDecision
-from proofs.trusted.verdicts import Found, Row, Verdict, decided
-from proofs.trusted.verdicts import undecided as row_undecided
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 
 @dataclass(frozen=True)
@@ -76,22 +74,22 @@ class Value(Conclusion):
 
 @dataclass(frozen=True)
 class Asked:
-    """What a claim asks about a formula on a box: bounds; with a sign, which is to be proved."""
+    """What a theorem asks about a formula on a box: bounds; with a sign, which is to be proved."""
 
     function: str
     box: tuple[tuple[str, Range], ...]
     signs: tuple[int, ...] = (-1, 0, 1)
 
-    def met_by(self, found: object) -> bool:
+    def met_by(self, found: Conclusion) -> bool:
         """Whether a conclusion bounds the values, with one of the signs asked for."""
         if not isinstance(found, Value) or (found.function, found.box) != (self.function, self.box):
             return False
         low, high = found.bounds
         return 0 in self.signs or (1 in self.signs and low > 0) or (-1 in self.signs and high < 0)
 
-    def best(self, found: Sequence[Value]) -> Range | None:
-        """Return the narrowest bounds among conclusions, None if there are none."""
-        met = [value.bounds for value in found if self.met_by(value)]
+    def best(self, found: Found) -> Range | None:
+        """Return the narrowest bounds that are proved, None if there are none."""
+        met = [value.bounds for value in found.all(Value) if self.met_by(value)]
         return min(met, key=lambda ends: ends[1] - ends[0], default=None)
 
 
@@ -121,52 +119,16 @@ def between(bounds: Range, places: int = 6) -> str:
     return low if low == high else f"[{low}, {high}]"
 
 
-Lemma = Equal | Series
-
-
-@dataclass(frozen=True)
-class Derivation:
-    """A claim that follows from lemmas and from values.
-
-    decision: what follows, given bounds on the values in their order.
-    """
-
-    id: str
-    text: str
-    lemmas: tuple[Lemma, ...]
-    decision: Callable[..., Decision]
-    values: tuple[Asked, ...] = ()
-
-    def decide(self, of: Parameters, found: Sequence[object]) -> Decision:
-        """Decide the claim: UNDECIDED if something that it follows from is not proved."""
-        missing: list[Lemma | Asked] = [lemma for lemma in self.lemmas if lemma not in found]
-        bounds = []
-        for value in self.values:
-            proved = [one.bounds for one in found if isinstance(one, Value) and value.met_by(one)]
-            bounds.append(min(proved, key=lambda ends: ends[1] - ends[0]) if proved else None)
-            if not proved:
-                missing.append(value)
-        if missing:
-            count = f"{len(missing)} of {len(self.lemmas) + len(self.values)}"
-            return undecided(f"not proved: {count} of what it follows from")
-        return self.decision(*bounds)
-
-    @property
-    def claim(self) -> Claim:
-        """The claim, as the catalogue has it."""
-        return Claim(self.id, self.text, self.decide)
-
-
 # -- theorems that follow from formulas ------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Theorem(Conclusion):
-    """A theorem that follows from proved formulas: its text and, in a line, its point."""
+    """A theorem that follows from proved formulas; the first sentence of its text is its point."""
 
     text: str
-    short: str
-    tex: str
+    tex: str = ""
+    reported: tuple[tuple[str, Range], ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -176,88 +138,113 @@ class Theorem(Conclusion):
     @property
     def brief(self) -> str:
         """Return its point."""
-        return self.short or self.text
+        return self.text.rstrip(".").partition(". ")[0]
 
     @property
     def latex(self) -> str:
         """Return it as a formula."""
         return self.tex
 
+    @property
+    def quantities(self) -> Mapping[str, Range]:
+        """Return the values that it reports."""
+        return dict(self.reported)
+
+
+Lemma = Equal | Series
+Need = Lemma | Asked
+
 
 @dataclass(frozen=True)
 class Derived:
-    """How a theorem follows: what it needs, and its text given bounds on the values in order.
+    """How a theorem follows: all that has to be proved; its text, given bounds on its values.
 
-    The docstring of `text` is the proof, in steps that name what they use.
+    The docstring of `text` is the proof, in steps that name the lemmas and the theorems they use.
     """
 
     text: Callable[..., str]
-    lemmas: tuple[Lemma, ...]
+    needs: tuple[Need, ...]
     values: tuple[Asked, ...]
-    short: str
     tex: str
-
-    @property
-    def needs(self) -> tuple[Lemma | Asked, ...]:
-        """All that has to be proved."""
-        return (*self.lemmas, *self.values)
+    reports: tuple[str, ...]
 
     def prove(self, found: Found) -> Theorem | None:
         """Return the theorem, None if something that it needs is not proved."""
-        known = set(found.all(Equal)) | set(found.all(Series))
-        bounds = [value.best(found.all(Value)) for value in self.values]
-        if not set(self.lemmas) <= known or None in bounds:
+        known = {*found.all(Equal), *found.all(Series)}
+        asked = [need for need in self.needs if isinstance(need, Asked)]
+        if not known.issuperset(need for need in self.needs if need not in asked):
             return None
-        shown = [between(each) for each in bounds if each is not None]
-        return Theorem(self.text(*shown), self.short.format(*shown), self.tex)
+        if any(value.best(found) is None for value in asked):
+            return None
+        bounds = [each for value in self.values if (each := value.best(found)) is not None]
+        shown = [between(each) for each in bounds]
+        reported = tuple(zip(self.reports, bounds, strict=False))
+        return Theorem(self.text(*shown), self.tex, reported)
 
 
 def theorem(
-    *lemmas: Lemma, values: tuple[Asked, ...] = (), short: str = "", tex: str = ""
+    *premises: Lemma | Derived,
+    values: tuple[Asked, ...] = (),
+    tex: str = "",
+    reports: tuple[str, ...] = (),
 ) -> Callable[[Callable[..., str]], Derived]:
-    """Make a theorem of the function that returns its text; bounds of values are its arguments."""
-    return lambda text: Derived(text, lemmas, values, short, tex)
+    """Make a theorem of the function that returns its text.
+
+    premises: lemmas, and theorems, that its proof uses. values: bounds on them are the arguments of
+    the function; the first ones are reported by these names.
+    """
+    needs: list[Need] = []
+    for each in premises:
+        needs += each.needs if isinstance(each, Derived) else [each]
+    whole = tuple(dict.fromkeys((*needs, *values)))
+    return lambda text: Derived(text, whole, values, tex, reports)
+
+
+def corollary(
+    text: str,
+    *premises: Lemma | Derived,
+    values: tuple[Asked, ...] = (),
+    tex: str = "",
+    reports: tuple[str, ...] = (),
+) -> Derived:
+    """Return a theorem that says of itself why it holds; {0}, {1} in its text are the bounds."""
+    return theorem(*premises, values=values, tex=tex, reports=reports)(text.format)
+
+
+class Passage(NamedTuple):
+    """Where the paper makes a claim: the claim's id, the place, a few of the paper's words."""
+
+    id: str
+    where: str
+    words: str
 
 
 @dataclass(frozen=True)
 class DerivedRow(Row):
-    """A claim that is decided once its theorems are proved, whatever the parameters.
+    """A claim that is decided once its theorems are proved, whatever the parameters."""
 
-    because: the theorems that verify, refute or condition it. corrected: those that hold nearby.
-    """
-
-    verdict: Verdict = Verdict.UNDECIDED
-    because: tuple[Derived, ...] = ()
-    corrected: tuple[Derived, ...] = ()
-
-    @property
-    def needs(self) -> tuple[Lemma | Asked, ...]:
-        """All that has to be proved, once each."""
-        parts = (*self.because, *self.corrected)
-        return tuple(dict.fromkeys(need for part in parts for need in part.needs))
+    needs: tuple[Need, ...] = ()
 
 
 def derived_row(
-    claim: str,
-    where: str,
-    words: str,
+    passage: Passage,
     reading: str,
     verdict: Verdict,
     *because: Derived,
     corrected: tuple[Derived, ...] = (),
 ) -> DerivedRow:
-    """Return the row of a claim that follows from formulas."""
+    """Return the row of a claim that follows from formulas.
 
-    def decide(of: Parameters, found: Found) -> RowDecision:
-        reasons = [each.prove(found) for each in because]
-        nearby = [each.prove(found) for each in corrected]
-        if None in reasons or None in nearby:
-            missing = sum(each is None for each in (*reasons, *nearby))
-            return row_undecided(f"{missing} of the theorems that decide it are not proved")
-        return decided(
-            verdict,
-            *(each for each in reasons if each is not None),
-            corrected=[each for each in nearby if each is not None],
-        )
+    because: the theorems that verify, refute or condition it. corrected: those that hold nearby.
+    """
 
-    return DerivedRow(claim, where, words, reading, decide, None, verdict, because, corrected)
+    def decide(of: Parameters, found: Found) -> Decision:
+        reasons = [proved for each in because if (proved := each.prove(found)) is not None]
+        nearby = [proved for each in corrected if (proved := each.prove(found)) is not None]
+        missing = len(because) + len(corrected) - len(reasons) - len(nearby)
+        if missing:
+            return undecided(f"{missing} of the theorems that decide it are not proved")
+        return decided(verdict, *reasons, corrected=nearby)
+
+    needs = dict.fromkeys(need for each in (*because, *corrected) for need in each.needs)
+    return DerivedRow(*passage, reading, decide, needs=tuple(needs))

@@ -10,7 +10,15 @@ from __future__ import annotations
 from fractions import Fraction
 
 from proofs.trusted.numbers import show
-from proofs.trusted.paper.formulas import Derived, Equal, Theorem, at, derived_row, theorem
+from proofs.trusted.paper.formulas import (
+    Derived,
+    Equal,
+    Passage,
+    Theorem,
+    at,
+    derived_row,
+    theorem,
+)
 from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -79,8 +87,6 @@ def necessary() -> str:
 @theorem(
     *NECESSARY,
     *ANGLE,
-    short="(17) is (16) unless n eta is an integer: then alpha = beta = 0, theta is not defined, "
-    "and all phases solve (16)",
 )
 def solved() -> str:
     """1. alpha = 2 eta sin(pi n eta)^2 > 0 unless n eta is an integer; then alpha = r cos(theta),
@@ -90,9 +96,10 @@ def solved() -> str:
     and so are alpha and beta.
     """
     return (
-        "Let n >= 1. If n eta is an integer, for example eta = n = 1, alpha = beta = 0, so that "
-        "theta is not defined, while every phase satisfies (16). Else, with theta in (-pi/2, "
-        "pi/2), tan(theta) = cot(pi n eta)/eta, (17) is equivalent to (16). If cos(theta) > |nu| "
+        "(17) is (16) unless n eta is an integer, n >= 1: then, for example at eta = n = 1, alpha "
+        "= beta = 0, so that theta is not defined, while every phase satisfies (16). Else, with "
+        "theta in (-pi/2, pi/2), tan(theta) = cot(pi n eta)/eta, (17) is equivalent to (16). If "
+        "cos(theta) > |nu| "
         "no phase solves it, else phi_1 = theta - asin(cos(theta)/nu) and phi_2 = theta + pi + "
         "asin(cos(theta)/nu) do (mod 2 pi), and no others; they coincide if cos(theta) = |nu|."
     )
@@ -103,8 +110,6 @@ _TRUE_SLOPE = "cos^2(pi n eta) (1 - nu sin(phi)/(eta^2 (1 + nu sin(phi))))"
 
 @theorem(
     *SLOPE,
-    short=f"(18) is the implicit derivative of (10) for launches that leave at once; where (16) "
-    f"holds its denominator is -2 nu cos(phi) and it is {_TRUE_SLOPE}",
 )
 def slope() -> str:
     """1. A mass that leaves the table at once flies by (10) for all launches nearby, and where the
@@ -223,9 +228,7 @@ def _figure_b(of: Parameters, found: Found) -> Decision:
 
 ROWS = (
     derived_row(
-        "P1",
-        "4, (16)",
-        "of the map is given by",
+        Passage("P1", "4, (16)", "of the map is given by"),
         "The fixed points with n table periods between impacts satisfy (16), which is (10) with "
         "psi_(k+1) - psi_k = 2 pi n.",
         Verdict.VERIFIED,
@@ -233,9 +236,7 @@ ROWS = (
         corrected=(necessary,),
     ),
     derived_row(
-        "P2",
-        "4, (17)",
-        "Equation (16) can be rewritten as",
+        Passage("P2", "4, (17)", "Equation (16) can be rewritten as"),
         "(16) can be rewritten as (17), sin(phi - theta) + cos(theta)/nu = 0, with theta = "
         "atan(beta/alpha), alpha = eta (1 - cos(2 pi n eta)), beta = sin(2 pi n eta).",
         Verdict.CONDITIONAL,
@@ -243,9 +244,7 @@ ROWS = (
         corrected=(solved,),
     ),
     derived_row(
-        "P3",
-        "4, (18)",
-        "The slope is given by",
+        Passage("P3", "4, (18)", "The slope is given by"),
         "At these fixed points, where the mass leaves the table at once, the slope of f is (18).",
         Verdict.VERIFIED,
         slope,

@@ -13,8 +13,6 @@ from __future__ import annotations
 
 X20 = "(x0 + g/omega_n**2)*cos(omega_n*(t - t0)) + v0/omega_n*sin(omega_n*(t - t0)) - g/omega_n**2"
 V21 = "v0*cos(omega_n*(t - t0)) - omega_n*(x0 + g/omega_n**2)*sin(omega_n*(t - t0))"
-HEIGHT4 = "-p + beta*sin(a)"
-SPEED5 = "-epsilon*v + (1 + epsilon)*beta*omega*cos(a)"
 
 S22 = (
     "(-p + beta*sin(a))*cos(omega_n*tau)"

@@ -1,4 +1,4 @@
-"""The equations of section 6, resonance, as printed, and the ones derived. Trusted, and shared.
+"""The equations of section 6, resonance, as printed, and what is proved about them.
 
 Names: phi, gamma phase and velocity of an impact, phi1 the next phase, d = phi1 - phi or the time
 of the flight; alpha, theta amplitude and angle. Derived: kick K = epsilon (gamma + nu cos phi), and
@@ -7,59 +7,43 @@ t for half a time of flight, so that no arctan is needed.
 
 from __future__ import annotations
 
-# -- the relations, (30)-(31) ----------------------------------------------------------------------
+from proofs.trusted.paper.formulas import Equal, differ
+
+# -- the relations, (14), (15), (30), (31) ---------------------------------------------------------
 
 HEIGHT = "(1 + nu*sin(phi))"
 SPEED = "(epsilon*gamma + nu*(1 + epsilon)*cos(phi))"
 S14 = f"{HEIGHT}*cos(d) + {SPEED}*sin(d) - 1 - nu*sin(phi1)"  # = 0
 S15 = f"{HEIGHT}*sin(d) - {SPEED}*cos(d)"  # = gamma_(k+1)
-S30 = "alpha*sin(theta + d)"  # = alpha_(k+1) sin(theta_(k+1)), alpha sin(theta) being HEIGHT
-S31 = "-alpha*cos(theta + d)"
-POLAR = "h=alpha*sin(theta), w=alpha*cos(theta)"
+AMPLITUDES = tuple(  # (30), alpha sin(theta) being HEIGHT, and (31)
+    Equal(f"at({form}, h=alpha*sin(theta), w=alpha*cos(theta))", polar)
+    for form, polar in (
+        ("h*cos(d) + w*sin(d)", "alpha*sin(theta + d)"),
+        ("h*sin(d) - w*cos(d)", "-alpha*cos(theta + d)"),
+    )
+)
 
 # The model itself: the mass after an impact, the table, and the rule of restitution.
-MASS = f"({HEIGHT}*cos(t) + {SPEED}*sin(t))"
-TABLE = "(1 + nu*sin(phi + t))"
-
-# -- in closed form --------------------------------------------------------------------------------
+_MASS = f"({HEIGHT}*cos(t) + {SPEED}*sin(t))"
+_TABLE = "(1 + nu*sin(phi + t))"
+MODEL = (
+    Equal(f"D({_MASS}, t, t) + {_MASS}", "0"),
+    Equal(f"at({_MASS}, t=0)", f"at({_TABLE}, t=0)"),
+    Equal(f"at(D({_MASS}, t), t=0)", SPEED),
+    Equal(f"-({SPEED} - nu*cos(phi))/(-gamma - nu*cos(phi))", "epsilon"),
+    Equal(f"{_MASS} - {_TABLE}", f"at({S14}, d=t, phi1=phi + t)"),
+    Equal(f"-D({_MASS}, t)", f"at({S15}, d=t)"),
+)
 
 KICK = "(epsilon*(gamma + nu*cos(phi)))"
 CLOSING = f"({S15} + nu*cos(phi + d))"  # gamma + nu cos(phi) at the next impact
-FIXED = "gamma=-nu*cos(phi)"
-ROOT = "gamma=sin(t)/cos(t)/epsilon - nu*cos(phi), phi1=phi + 2*t"  # K = tan t: the other zero
-
-# DF by the closed form, where next = phi + 2 arctan K has the derivative d phi + 2 dK/(1 + K^2).
-_TURN = tuple(f"2*D({KICK}, {x})/(1 + {KICK}**2)" for x in ("phi", "gamma"))
-_LIFT = "nu*sin(phi + 2*t)"
-CLOSED_JACOBIAN = (
-    f"(1 + {_TURN[0]})",
-    f"({_TURN[1]})",
-    f"(D({KICK}, phi) + {_LIFT}*(1 + {_TURN[0]}))",
-    f"(D({KICK}, gamma) + {_LIFT}*{_TURN[1]})",
-)
-FIXED_JACOBIAN = (
-    "(1 - 2*epsilon*nu*sin(phi))",
-    "(2*epsilon)",
-    "(nu*sin(phi)*(1 - epsilon - 2*epsilon*nu*sin(phi)))",
-    "(epsilon*(1 + 2*nu*sin(phi)))",
+ROOTS = (
+    Equal(f"at({S14}, d=2*t, phi1=phi + 2*t)", f"2*sin(t)*({KICK}*cos(t) - sin(t))"),
+    Equal(f"at({CLOSING}, d=2*t)", f"sin(2*t) - {KICK}*cos(2*t)"),
+    Equal("sin(2*t) - sin(t)/cos(t)*cos(2*t)", "sin(t)/cos(t)"),
 )
 
-# -- 6.1, single impacts ---------------------------------------------------------------------------
-
-PRINTED_JACOBIAN = (
-    "(1 - epsilon*nu*sin(phi))",
-    "(-epsilon)",
-    "(nu*sin(phi)*(1 - epsilon*nu*sin(phi)))",
-    "(-epsilon*nu*sin(phi))",
-)
-# What a11, a12, the derived a21, and a22 are where gamma = -nu cos(phi), for every phi1.
-OFF_THE_MAP = (
-    "(1 - epsilon*nu*sin(phi))",
-    "(epsilon)",
-    "(nu*sin(phi1)*(1 - epsilon*nu*sin(phi)))",
-    "(epsilon*nu*sin(phi1))",
-)
-PRINTED_EIGENVALUE = "(1 - 2*epsilon*nu*sin(phi))"
+# -- the Jacobian ----------------------------------------------------------------------------------
 
 
 def trace(matrix: tuple[str, ...]) -> str:
@@ -72,11 +56,80 @@ def determinant(matrix: tuple[str, ...]) -> str:
     return f"{matrix[0]}*{matrix[3]} - {matrix[1]}*{matrix[2]}"
 
 
+# The entries as printed, at an impact at phi1 after one at (phi, gamma); a21 as derived, too.
+_D = "(phi1 - phi)"
+_BELOW = f"(-{HEIGHT}*sin{_D} + {SPEED}*cos{_D} - nu*cos(phi1))"
+_A11 = f"(1 + (nu*cos(phi1) - nu*cos(phi)*cos{_D} + nu*(1 + epsilon)*sin(phi)*sin{_D})/{_BELOW})"
+_A12 = f"(-epsilon*sin{_D}/{_BELOW})"
+A21, TRUE_A21 = (
+    f"({HEIGHT}*cos{_D}*({_A11} - 1) + nu*cos(phi)*sin{_D} + {SPEED}*sin{_D}*({_A11} - 1)"
+    f" {sign} nu*(1 + epsilon)*sin(phi)*cos{_D})"
+    for sign in "-+"
+)
+_A22 = f"({HEIGHT}*{_A12}*cos{_D} + {SPEED}*sin{_D}*{_A12} - epsilon*cos{_D})"
+JACOBIAN = (_A11, _A12, TRUE_A21, _A22)
+
+# The same by implicit differentiation of (14), (15).
+_IMPACT, _VELOCITY = (f"at({side}, d=phi1 - phi)" for side in (S14, S15))
+_PHASE = tuple(f"(-D({_IMPACT}, {x})/D({_IMPACT}, phi1))" for x in ("phi", "gamma"))
+DERIVED_JACOBIAN = (
+    *_PHASE,
+    f"(D({_VELOCITY}, phi) + D({_VELOCITY}, phi1)*{_PHASE[0]})",
+    f"(D({_VELOCITY}, gamma) + D({_VELOCITY}, phi1)*{_PHASE[1]})",
+)
+ENTRIES = tuple(map(Equal, DERIVED_JACOBIAN, JACOBIAN))
+SIGN_OF_A21 = Equal(f"{A21} - {TRUE_A21}", "-2*nu*(1 + epsilon)*sin(phi)*cos(phi1 - phi)")
+_ROOT = "gamma=sin(t)/cos(t)/epsilon - nu*cos(phi), phi1=phi + 2*t"  # K = tan t
+A21_DIFFERS = differ(
+    f"at({A21}, {_ROOT})", f"at({TRUE_A21}, {_ROOT})", nu="-1/5", epsilon="1/2", phi="1", t="-1/4"
+)
+
+# At K = 0: F near it, but for O(K^3), and DF there; what is printed; and the entries at any phi1.
+_FIXED = "gamma=-nu*cos(phi)"
+_NEAR_FIXED = (f"(phi + 2*{KICK})", f"({KICK} - nu*cos(phi + 2*{KICK}))")
+FIXED_JACOBIAN = (
+    "(1 - 2*epsilon*nu*sin(phi))",
+    "(2*epsilon)",
+    "(nu*sin(phi)*(1 - epsilon - 2*epsilon*nu*sin(phi)))",
+    "(epsilon*(1 + 2*nu*sin(phi)))",
+)
+AT_REST = (
+    *(
+        Equal(f"at(D({part}, {x}), {_FIXED})", FIXED_JACOBIAN[2 * row + column])
+        for row, part in enumerate(_NEAR_FIXED)
+        for column, x in enumerate(("phi", "gamma"))
+    ),
+    Equal(trace(FIXED_JACOBIAN), "1 + epsilon"),
+    Equal(determinant(FIXED_JACOBIAN), "epsilon"),
+)
+PRINTED_JACOBIAN = (
+    "(1 - epsilon*nu*sin(phi))",
+    "(-epsilon)",
+    "(nu*sin(phi)*(1 - epsilon*nu*sin(phi)))",
+    "(-epsilon*nu*sin(phi))",
+)
+PRINTED = (
+    Equal(trace(PRINTED_JACOBIAN), "1 - 2*epsilon*nu*sin(phi)"),
+    Equal(determinant(PRINTED_JACOBIAN), "0"),
+)
+_OFF_THE_MAP = (
+    "1 - epsilon*nu*sin(phi)",
+    "epsilon",
+    "nu*sin(phi1)*(1 - epsilon*nu*sin(phi))",
+    "epsilon*nu*sin(phi1)",
+)
+OFF_THE_MAP = tuple(map(Equal, (f"at({each}, {_FIXED})" for each in JACOBIAN), _OFF_THE_MAP))
+
 # -- 6.2, double impacts ---------------------------------------------------------------------------
 
-AMPLITUDE_SQUARE = f"({HEIGHT}**2 + {SPEED}**2)"
-ALPHA_ZERO_PRINTED = "-(1 + 1/epsilon)*cos(phi)"
-ALPHA_ZERO = "-(1 + 1/epsilon)*nu*cos(phi)"
+PRODUCT = Equal("sin(a + d)*sin(b - d) - sin(a)*sin(b)", "sin(d)*sin(b - a - d)")
+ALPHA_TURNS = Equal(
+    f"at(D({HEIGHT}**2 + {SPEED}**2, phi)/2, {_FIXED})", "nu*cos(phi)*(1 - epsilon*nu*sin(phi))"
+)
+ALPHA_ZERO = (
+    Equal(f"at({SPEED}, gamma=-(1 + 1/epsilon)*nu*cos(phi))", "0"),
+    Equal(f"at({SPEED}, gamma=-(1 + 1/epsilon)*cos(phi))", "-(1 + epsilon)*(1 - nu)*cos(phi)"),
+)
 
 # Case 1.2.2: (gamma_o, gamma_1) over nu cos(phi_o), and the signs (s_o, s_1) of their equations.
 VECTORS = {
@@ -86,37 +139,25 @@ VECTORS = {
     ("(1 + epsilon)/(1 - epsilon)", "-(1 + epsilon)/(1 - epsilon)"): (-1, -1),
 }
 # The left side of (14) from phi to pi - phi, sin(phi) = -1/nu: there d = pi - 2 phi.
-ACROSS14 = f"at(-{HEIGHT}*cos(2*phi) + {SPEED}*sin(2*phi) - 1 - nu*sin(phi), nu=-1/sin(phi))"
-
-# The entries of DF at an impact at phi1 after one at (phi, gamma).
-_D = "(phi1 - phi)"
-BELOW = f"(-{HEIGHT}*sin{_D} + {SPEED}*cos{_D} - nu*cos(phi1))"
-A11 = f"(1 + (nu*cos(phi1) - nu*cos(phi)*cos{_D} + nu*(1 + epsilon)*sin(phi)*sin{_D})/{BELOW})"
-A12 = f"(-epsilon*sin{_D}/{BELOW})"
-
-
-def _a21(sign: str) -> str:
-    return (
-        f"({HEIGHT}*cos{_D}*({A11} - 1) + nu*cos(phi)*sin{_D} + {SPEED}*sin{_D}*({A11} - 1)"
-        f" {sign} nu*(1 + epsilon)*sin(phi)*cos{_D})"
+_ACROSS = f"at(-{HEIGHT}*cos(2*phi) + {SPEED}*sin(2*phi) - 1 - nu*sin(phi), nu=-1/sin(phi))"
+SOLUTIONS = tuple(
+    lemma
+    for (first, second), (s_o, s_1) in VECTORS.items()
+    for lemma in (
+        Equal(first, f"{s_o}*(epsilon*({second}) - (1 + epsilon))"),
+        Equal(second, f"{s_1}*(epsilon*({first}) + (1 + epsilon))"),
+        Equal(
+            f"at({_ACROSS}, gamma=-({first})*cos(phi)/sin(phi))",
+            f"-{s_1}*({second})*cos(phi)/sin(phi)*sin(2*phi)",
+        ),
     )
-
-
-A21, TRUE_A21 = _a21("-"), _a21("+")
-A22 = f"({HEIGHT}*{A12}*cos{_D} + {SPEED}*sin{_D}*{A12} - epsilon*cos{_D})"
-
-# The same by implicit differentiation of (14), (15).
-_IMPACT, _VELOCITY = (f"at({side}, d=phi1 - phi)" for side in (S14, S15))
-_PHASE = tuple(f"(-D({_IMPACT}, {x})/D({_IMPACT}, phi1))" for x in ("phi", "gamma"))
-DERIVED_JACOBIAN = (
-    *_PHASE,
-    *(
-        f"(D({_VELOCITY}, {x}) + D({_VELOCITY}, phi1)*{turn})"
-        for x, turn in zip(("phi", "gamma"), _PHASE, strict=True)
-    ),
 )
-JACOBIAN = (A11, A12, TRUE_A21, A22)
 
 STICKING = f"{HEIGHT}*sin(d) - {SPEED}*cos(d) + nu*cos(phi)"  # printed: < 0 where it does not stick
 # The same with x, y = sin, cos of phi and u, v = sin, cos of d, for points with rational sines.
-STICKING_SINES = "(1 + nu*x)*u - (epsilon*gamma + (1 + epsilon)*nu*y)*v + nu*y"
+_SINES = "(1 + nu*x)*u - (epsilon*gamma + (1 + epsilon)*nu*y)*v + nu*y"
+TEST = (
+    Equal(f"at({_SINES}, x=sin(phi), y=cos(phi), u=sin(d), v=cos(d))", STICKING),
+    Equal(f"{STICKING} + nu*cos(phi + d) - nu*cos(phi)", CLOSING),
+    Equal(f"at({_SINES}, nu=-5/2, epsilon=1/2, x=4/5, y=3/5, gamma=5/6, u=-3/5, v=4/5)", "17/30"),
+)

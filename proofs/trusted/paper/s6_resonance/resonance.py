@@ -2,277 +2,295 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper import Decision
-from proofs.trusted.paper.formulas import Derivation, Equal, between, differ
+from proofs.trusted.paper.formulas import Passage, corollary, derived_row, theorem
 from proofs.trusted.paper.s6_resonance import displayed as eq
-from proofs.trusted.paper.s6_resonance.resonance_lemmas import (
-    ALPHA_TURNS,
-    ALPHA_ZERO,
-    AMPLITUDES,
-    DIFFERENTIABLE,
-    MAP,
-    MODEL,
-    OFF_THE_MAP,
-    PRODUCT,
-    TEST,
-    VECTORS,
-)
-from proofs.trusted.paper.s6_resonance.resonance_theorems import (
-    CLOSED,
-    JACOBIAN,
-    NO_DOUBLE,
-    SINGLE,
-    STABILITY,
-    STICKING,
-    SUBHARMONICS,
-)
 from proofs.trusted.verdicts import Verdict
 
-
-def _verified(why: str, corrected: str | None = None) -> Decision:
-    return Decision(Verdict.VERIFIED, why, corrected=corrected)
+# -- theorems --------------------------------------------------------------------------------------
 
 
-def _none(verdict: Verdict, why: str, witness: str, corrected: str) -> Callable[[], Decision]:
-    """Return a decision that depends on no value."""
-    return partial(Decision, verdict, why, witness, corrected)
-
-
-def _misprint21(difference: Range) -> Decision:
-    return Decision(
-        Verdict.REFUTED,
-        f"the last term of a21 has the wrong sign: off by {between(difference)} at a point",
-        witness="at nu = -1/5, epsilon = 1/2, phi_o = 1, gamma_o = cos(1)/5 - 2 tan(1/4), where "
-        "the next impact is at phi_1 = phi_o - 1/2 mod 2 pi, printed a21 minus the derived one is "
-        f"{between(difference)}; always it is -2 nu (1 + epsilon) sin(phi_o) cos(phi_1 - phi_o)",
-        corrected="a21 = d gamma_1/d phi_o = (1 + nu sin phi_o) cos(phi_1 - phi_o) (a11 - 1) + nu "
-        "cos(phi_o) sin(phi_1 - phi_o) + (epsilon gamma_o + nu (1 + epsilon) cos phi_o) sin(phi_1 "
-        "- phi_o) (a11 - 1) + nu (1 + epsilon) sin(phi_o) cos(phi_1 - phi_o). " + JACOBIAN,
+@theorem(
+    *eq.MODEL,
+    *eq.ROOTS,
+    tex=r"\phi_{k+1} = \phi_k + 2 \arctan(\varepsilon c_k), \quad c_{k+1} = \varepsilon c_k",
+)
+def closed_form() -> str:
+    """Proof. 1. (14), (15) are the motion of the mass and the rule of restitution: eq.MODEL.
+    2. The gap is sign(nu) times (14), which eq.ROOTS factors, t standing for t/2 there.
+    3. For nu > 0, K > 0 both factors are positive for 0 < t/2 < arctan K. For nu < 0 the gap is
+    2 sqrt(1 + K^2) sin(t/2) sin(t/2 + arctan|K|), positive for 0 < t/2 < pi - arctan|K|. Both zeros
+    are simple, and c = sin t - K cos t = K there, by eq.ROOTS.
+    4. On the table the mass has the relative acceleration -1 in scaled units: for nu > 0 it is
+    pressed on, always.
+    """
+    return (
+        "At eta = 1 the gap at time t after an impact is 2 sign(nu) sin(t/2) (K_k cos(t/2) - "
+        "sin(t/2)), in units of |p|, K_k = epsilon c_k, c_k = gamma_k + nu cos(phi_k), phi_k and "
+        "gamma_k being phase and velocity before the impact. Let beta > 0, nu not 0, 0 <= epsilon "
+        "<= 1; nu c_k >= 0, as the mass comes from outside the table. If K_k is not 0, the next "
+        "impact is at phi_(k+1) = phi_k + 2 arctan(K_k) mod 2 pi, after the time 2 arctan(K_k) for "
+        "nu > 0 and 2 pi + 2 arctan(K_k) for nu < 0, and c_(k+1) = epsilon c_k. If K_k = 0: for nu "
+        "< 0 the mass touches the table again after 2 pi, at the same phase, with c_(k+1) = 0; for "
+        "nu > 0 it rests on the table for ever. For nu < 0 no impact sticks, even a plastic one."
     )
 
 
-_REFUTED, _CONDITIONAL = Verdict.REFUTED, Verdict.CONDITIONAL
+iterates = corollary(
+    "At eta = 1, for 0 <= epsilon < 1 and c = gamma + nu cos(phi), c_n = epsilon^n c_0, and the "
+    "phases converge: phi_n = phi_0 + 2 arctan(epsilon c_0) + ... + 2 arctan(epsilon^n c_0) mod 2 "
+    "pi, |phi_n - phi_limit| <= 2 epsilon^(n+1) |c_0|/(1 - epsilon) on the line. For nu < 0 every "
+    "motion tends to a grazing orbit gamma = -nu cos(phi); for nu > 0 every motion comes to rest "
+    "in finite time, after infinitely many impacts if epsilon c_0 is not 0.",
+    closed_form,
+)
 
-DERIVATIONS = (
-    Derivation(
-        "R1",
+
+@theorem(
+    closed_form,
+    *eq.ENTRIES,
+    *eq.AT_REST,
+    tex=r"\begin{pmatrix} 1 - 2 \varepsilon s & 2 \varepsilon \\ s (1 - \varepsilon - 2 \varepsilon"
+    r" s) & \varepsilon (1 + 2 s) \end{pmatrix}, \quad s = \nu \sin\phi",
+)
+def jacobian() -> str:
+    """Proof. 1. Implicit differentiation of (14), (15): eq.ENTRIES. 2. By `closed_form` F is, in
+    phi and c, (phi + 2 arctan(epsilon c), epsilon c), with the determinant epsilon, and the change
+    from gamma to c has determinant 1. 3. At K = 0, as arctan K = K + O(K^3): eq.AT_REST.
+    """
+    return (
+        "At eta = 1 the displayed a11, a12, a22, and a21 with +nu (1 + epsilon) sin(phi_o) "
+        "cos(phi_1 - phi_o) as its last term, are DF where phi_1 = phi_o + 2 arctan K, K = epsilon "
+        "(gamma_o + nu cos phi_o) not 0. F(phi, gamma) = (phi + 2 arctan K, K - nu cos(phi + 2 "
+        "arctan K)) is analytic, also up to the states with K = 0 for nu < 0, which graze; det DF "
+        "= epsilon. At gamma = -nu cos(phi), s = nu sin(phi), DF has the rows (1 - 2 epsilon s, 2 "
+        "epsilon) and (s (1 - epsilon - 2 epsilon s), epsilon (1 + 2 s)), and the eigenvalues 1 "
+        "and epsilon."
+    )
+
+
+stability = corollary(
+    "At eta = 1, for nu < 0 and 0 <= epsilon < 1, the grazing orbit gamma = -nu cos(phi_o) of each "
+    "phase phi_o is stable, none asymptotically. With c = gamma + nu cos(phi), phi_n stays within "
+    "|phi_0 - phi_o| + 2 epsilon |c_0|/(1 - epsilon), |c_n| <= |c_0|; all phases next to it have "
+    "such orbits, and their family attracts every motion, with the factor epsilon from impact to "
+    "impact.",
+    iterates,
+)
+no_double = corollary(
+    "At eta = 1, for 0 <= epsilon < 1 and any nu, all periodic solutions of (14), (15), that is of "
+    "(30), (31) with polar angles, first impacts or not, have period one and gamma = -nu cos(phi): "
+    "there are no two-impact orbits. The zeros of (14) are phi_(k+1) = phi_k, with c_(k+1) = "
+    "-epsilon c_k, and phi_(k+1) = phi_k + 2 arctan(epsilon c_k) mod 2 pi, with c_(k+1) = epsilon "
+    "c_k, c_k = gamma_k + nu cos(phi_k): so c_k = 0 on a periodic solution, and the phase is "
+    "constant. For epsilon = 1 the map is (phi, c) -> (phi + 2 arctan c, c): period n > 1 exactly "
+    "if arctan|c| = pi j/n, j and n coprime, 1 <= j < n/2, so n >= 3: none of period two either.",
+    closed_form,
+)
+rebound = corollary(
+    "At eta = 1 the condition for the rebound at phi_1 is nu epsilon K_o > 0, K_o = epsilon "
+    "(gamma_o + nu cos phi_o). The launch from (phi_1, gamma_1) has the relative velocity epsilon "
+    "(gamma_1 + nu cos phi_1) = epsilon K_o in scaled units, with cos(phi_1) and not cos(phi_o). "
+    "As printed the expression is K_o - nu (cos phi_1 - cos phi_o). Where K_o = 0 it is 0, so that "
+    "it does not stick where it is < 0 is true, but no test; for |nu| <= 1/2 it has the sign of "
+    "K_o, as |cos phi_1 - cos phi_o| <= 2 |sin(arctan K_o)| = 2 |K_o|/sqrt(1 + K_o^2).",
+    closed_form,
+    *eq.TEST,
+)
+no_subharmonic = corollary(
+    "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu "
+    "(an observation, simulated by proofs.report.resonance_figure): the steady motion is a sine of "
+    "the frequency of the table (nu < 0), or rest on it (nu > 0). For epsilon = 1 all flights of a "
+    "motion with c = gamma + nu cos(phi) not 0, which is constant, last T = 2 pi - 2 arctan|c| for "
+    "nu < 0, T = 2 arctan|c| for nu > 0, so the displacement, table plus gap, has only the "
+    "frequency of the table and multiples of 2 pi/T times it, larger ones. It repeats after n "
+    "impacts in n - j periods of the table if nu < 0 and |c| = tan(pi j/n), j and n coprime, 1 <= "
+    "j < n/2 (nine in eight for tan(pi/9)); such motions attract nothing.",
+    iterates,
+)
+
+# -- the rows --------------------------------------------------------------------------------------
+
+ROWS = (
+    derived_row(
+        Passage("R1", "6, (30)-(31)", "These equations can be rewritten as"),
         "At eta = 1 the relations between impacts are (30) and (31), with alpha_k and "
         "tan(theta_k) as displayed.",
-        (*MODEL, *AMPLITUDES),
-        _none(
-            _CONDITIONAL,
-            "true if theta_k is the polar angle of (V_k, 1 + nu sin phi_k); its tangent leaves it "
-            "open by pi",
-            "condition: alpha_k sin(theta_k) = 1 + nu sin(phi_k) and alpha_k cos(theta_k) = V_k = "
-            "epsilon gamma_k + nu (1 + epsilon) cos(phi_k). Without it: nu = -1/5, phi_k = phi_"
-            "(k+1) = 0, gamma_k = gamma_(k+1) = 1/5 satisfies (14), (15) for every epsilon; "
-            "theta_k = arctan(-5) has the displayed tangent and a positive cosine, alpha_k > 0, "
-            "and (31) gives gamma_(k+1) < 0",
-            "At eta = 1, with Delta = phi_(k+1) - phi_k and V_k = epsilon gamma_k + nu (1 + "
-            "epsilon) cos(phi_k), (14) and (15) are alpha_k sin(theta_k + Delta) = alpha_(k+1) "
-            "sin(theta_(k+1)) and gamma_(k+1) = -alpha_k cos(theta_k + Delta), alpha_k >= 0 and "
-            "theta_k being polar coordinates: alpha_k cos(theta_k) = V_k, alpha_k sin(theta_k) = "
-            "1 + nu sin(phi_k). " + CLOSED,
+        Verdict.CONDITIONAL,
+        corollary(
+            "At eta = 1 (14), (15) are (30), (31) if alpha_k >= 0 and theta_k are the polar "
+            "coordinates of (V_k, 1 + nu sin phi_k), V_k = epsilon gamma_k + nu (1 + epsilon) cos "
+            "phi_k; the tangent leaves theta_k open by pi. nu = -1/5, phi_k = phi_(k+1) = 0, "
+            "gamma_k = gamma_(k+1) = 1/5 satisfies (14), (15) for every epsilon; theta_k = "
+            "arctan(-5) has the displayed tangent and a positive cosine, alpha_k > 0, and (31) "
+            "gives gamma_(k+1) < 0.",
+            *eq.MODEL,
+            *eq.AMPLITUDES,
         ),
+        corrected=(closed_form,),
     ),
-    Derivation(
-        "R2",
+    derived_row(
+        Passage("R2", "6.1", "can lead to a periodic orbit"),
         "Every phase phi_o gives a single-impact periodic orbit, with gamma_o = -nu cos(phi_o), "
         "and there are no others.",
-        MAP,
-        _none(
-            _CONDITIONAL,
-            "true for p > 0 (nu < 0), as a touch without impact; for p < 0 (nu > 0) the mass rests "
-            "on the table for ever",
-            "condition: nu < 0. Then the gap after the touch is 1 - cos t. For nu > 0 the "
-            "relations hold too, but the gap of the flight would be cos t - 1 < 0",
-            SINGLE,
+        Verdict.CONDITIONAL,
+        corollary(
+            "At eta = 1, true for p > 0 (nu < 0), as a touch without relative velocity, once a "
+            "period of the table: a grazing orbit; for p < 0 (nu > 0) the gap of the flight would "
+            "be cos t - 1 < 0, and the mass rests on the table for ever. For 0 <= epsilon <= 1 the "
+            "solutions of (14), (15) with phi_(k+1) = phi_k, gamma_(k+1) = gamma_k are exactly the "
+            "states with c = gamma + nu cos(phi) = 0, as c_(k+1) = -epsilon c_k after 2 pi n.",
+            closed_form,
         ),
+        corrected=(closed_form,),
     ),
-    Derivation(
-        "R3",
+    derived_row(
+        Passage("R3", "6.1", "the Jacobian of this map at these values"),
         "The Jacobian of F at (phi_o, gamma_o) is the displayed matrix.",
-        (*DIFFERENTIABLE, *OFF_THE_MAP),
-        _none(
-            _REFUTED,
-            "its (1,2) entry is 2 epsilon, not -epsilon; its determinant epsilon, not 0",
-            "for every nu < 0, epsilon > 0 and phi_o the (1,2) entry, d phi_(k+1)/d gamma_k, is 2 "
-            "epsilon, and -epsilon is printed",
-            JACOBIAN,
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, for nu < 0 and every phi_o, its (1,2) entry d phi_(k+1)/d gamma_k is 2 "
+            "epsilon, not -epsilon, and its determinant epsilon, not 0. With gamma_o and a phi_1 "
+            "that is not the next phase a11, a12, a21 (corrected), a22 are 1 - epsilon s, epsilon, "
+            "(1 - epsilon s) nu sin(phi_1), epsilon nu sin(phi_1), s = nu sin(phi_o): their limit "
+            "as phi_1 -> phi_o, with the signs of a12 and a22 changed, is the printed matrix.",
+            jacobian,
+            *eq.OFF_THE_MAP,
         ),
+        corrected=(jacobian,),
     ),
-    Derivation(
-        "R4",
+    derived_row(
+        Passage("R4", "6.1", "the periodic orbits are stable as long as"),
         "The eigenvalues there are 0 and 1 - 2 epsilon nu sin(phi_o), and the orbits are stable "
         "as long as the second lies in (-1, 1).",
-        (
-            *DIFFERENTIABLE,
-            *OFF_THE_MAP,
-            Equal(eq.trace(eq.PRINTED_JACOBIAN), eq.PRINTED_EIGENVALUE),
-            Equal(eq.determinant(eq.PRINTED_JACOBIAN), "0"),
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, nu = -1/5, epsilon = 1/100, phi_o = pi/2, gamma_o = 0 the printed "
+            "eigenvalue is 1.004 > 1, the true ones are 1 and 1/100, and the orbit is stable. The "
+            "printed ones are those of the printed matrix.",
+            jacobian,
+            *eq.PRINTED,
         ),
-        _none(
-            _REFUTED,
-            "they are 1 and epsilon at every phase; each such orbit is stable, none asymptotically",
-            "nu = -1/5, epsilon = 1/100, phi_o = pi/2, gamma_o = 0: the printed eigenvalue is "
-            "1.004 > 1, the true ones are 1 and 1/100, and the orbit is stable. The printed ones "
-            "are those of the printed matrix",
-            STABILITY,
-        ),
+        corrected=(jacobian, stability),
     ),
-    Derivation(
-        "R5",
+    derived_row(
+        Passage("R5", "6.2, Case 1", "to find the double impact periodic points"),
         "In Case 1, sin(theta_(k+2)) = sin(theta_k), theta_(k+1) = theta_k + Delta + n pi.",
-        (*MAP, *AMPLITUDES, PRODUCT),
-        _none(
-            _CONDITIONAL,
-            "true if alpha_k and alpha_(k+1) are not 0; the displayed quotients also need sin "
-            "Delta not 0",
-            "conditions: alpha_k, alpha_(k+1) not 0 (else no angle is defined, Case 1.2.1), theta "
-            "polar angles, and 0 <= epsilon < 1 where sin(Delta) = 0, by which is divided",
-            "Let (phi_k, gamma_k) and (phi_(k+1), gamma_(k+1)) follow each other under (30), (31) "
-            "with period two, alpha_k, alpha_(k+1) not 0, theta the polar angles. Then sin(Delta) "
-            "sin(theta_(k+1) - theta_k - Delta) = 0, since sin(a + d) sin(b - d) - sin a sin b = "
-            "sin(d) sin(b - a - d). Delta is not pi mod 2 pi, where (30) reads -(1 + nu sin "
-            "phi_k) = 1 - nu sin(phi_k). If Delta = 0 mod 2 pi and 0 <= epsilon < 1, the two "
-            "states are the same (below), and theta_(k+1) = theta_k. So theta_(k+1) = theta_k + "
-            "Delta + n pi. " + NO_DOUBLE,
+        Verdict.CONDITIONAL,
+        corollary(
+            "At eta = 1, for 0 <= epsilon < 1, true if alpha_k and alpha_(k+1) are not 0 (else no "
+            "angle is defined, Case 1.2.1) and theta are the polar angles. For states of period "
+            "two (30) gives sin(Delta) sin(theta_(k+1) - theta_k - Delta) = 0. Delta is not pi mod "
+            "2 pi, where (30) reads -(1 + nu sin phi_k) = 1 - nu sin(phi_k); where sin(Delta), "
+            "which is divided by, is 0, the two states are the same.",
+            no_double,
+            *eq.AMPLITUDES,
+            eq.PRODUCT,
         ),
+        corrected=(no_double,),
     ),
-    Derivation(
-        "R6",
+    derived_row(
+        Passage("R6", "6.2, Case 1.1", "are two impact periodic if"),
         "Case 1.1: (phi_o, gamma_o) is two-impact periodic, not of period one, if gamma_o = -nu "
         "cos(phi_o) and 1 - epsilon nu sin(phi_o) = 0; this is equivalent to d alpha_k/d phi_k = "
         "0.",
-        (*MAP, ALPHA_TURNS),
-        _none(
-            _REFUTED,
-            "with gamma_o = -nu cos(phi_o) every next impact is at the same phase and velocity",
-            "nu = -2, epsilon = 1/2, phi_o = 3 pi/2, gamma_o = 0: both conditions hold, the gap "
-            "after the impact is 1 - cos t, and the next touch is at phi_o with gamma_o: period "
-            "one. The derivative of alpha_k^2/2 is nu cos(phi_o) (1 - epsilon nu sin phi_o), 0 at "
-            "phi_o = pi/2 too",
-            NO_DOUBLE,
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, nu = -2, epsilon = 1/2, phi_o = 3 pi/2, gamma_o = 0 both conditions hold, "
+            "the gap after the impact is 1 - cos t, and the next touch is at phi_o with gamma_o: "
+            "period one. The derivative of alpha_k^2/2 is nu cos(phi_o) (1 - epsilon nu sin "
+            "phi_o), 0 at phi_o = pi/2 too.",
+            closed_form,
+            eq.ALPHA_TURNS,
         ),
+        corrected=(no_double,),
     ),
-    Derivation(
-        "R7",
+    derived_row(
+        Passage("R7", "6.2, Case 1.2.1", "the double impact periodic points are given by"),
         "Case 1.2.1: with alpha = 0 the two-impact points are phi_o = arcsin(-1/nu), phi_1 = pi - "
         "phi_o, gamma_i = -(1 + 1/epsilon) cos(phi_i).",
-        (*MAP, *AMPLITUDES, *ALPHA_ZERO),
-        _none(
-            _REFUTED,
-            "alpha_k = 0 gives gamma_(k+1) = 0 by (31), not the printed velocity",
-            "nu = -5/3, epsilon = 1/2, sin(phi_o) = 3/5, cos(phi_o) = 4/5: by (31) alpha_o = 0 "
-            "gives gamma_1 = 0; printed is gamma_1 = 12/5 (-4 with the factor nu without which "
-            "alpha_o is not 0 either)",
-            "alpha_k = 0 means that the mass is left at rest at x = 0: sin(phi_k) = -1/nu, "
-            "gamma_k = -(1 + 1/epsilon) nu cos(phi_k), and then gamma_(k+1) = 0 by (31). So "
-            "alpha_k = alpha_(k+1) = 0 takes cos(phi_(k+1)) = 0, |nu| = 1: a state with gamma = "
-            "-nu cos(phi) = 0, of period one. " + NO_DOUBLE,
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, nu = -5/3, epsilon = 1/2, sin(phi_o) = 3/5, cos(phi_o) = 4/5, alpha_o = 0 "
+            "gives gamma_1 = 0 by (31); printed is gamma_1 = 12/5 (-4 with the factor nu without "
+            "which alpha_o is not 0 either). alpha_k = 0 means that the mass is left at rest at x "
+            "= 0: sin(phi_k) = -1/nu, gamma_k = -(1 + 1/epsilon) nu cos(phi_k). So alpha_k = "
+            "alpha_(k+1) = 0 takes gamma_(k+1) = cos(phi_(k+1)) = 0, |nu| = 1: period one.",
+            closed_form,
+            *eq.AMPLITUDES,
+            *eq.ALPHA_ZERO,
         ),
+        corrected=(no_double,),
     ),
-    Derivation(
-        "R8",
+    derived_row(
+        Passage("R8", "6.2, Case 1.2.2", "On solving these, we obtain"),
         "Case 1.2.2: the four displayed vectors are two-impact periodic points, with phi_o, phi_1 "
         "the two solutions of sin(phi) = -1/nu.",
-        (*MAP, *VECTORS),
-        _none(
-            _REFUTED,
-            "they solve the displayed linear equations, but none of them (30) from phi_o to phi_1",
-            "nu = -5/3, sin(phi_o) = 3/5, cos(phi_o) = 4/5, phi_1 = pi - phi_o, any epsilon in "
-            "[0, 1): alpha_o sin(theta_o + Delta), which must be alpha_1 sin(theta_1) = 0, is s_1 "
-            "gamma_1 sin(2 phi_o), and no printed gamma_1 is 0",
-            "With |nu| > 1, sin(phi_o) = -1/nu, phi_1 = pi - phi_o and 0 <= epsilon < 1 the left "
-            "side of (14) from (phi_o, gamma_o) to phi_1 is s_1 gamma_1 sin(2 phi_o), not 0, for "
-            "each of the four vectors. The states of the first one are two different orbits of "
-            "period one. " + NO_DOUBLE,
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, |nu| > 1 (say sin(phi_o) = 3/5, nu = -5/3), 0 <= epsilon < 1, they solve "
+            "the displayed linear equations, but alpha_o sin(theta_o + Delta), which must be "
+            "alpha_1 sin(theta_1) = 0, is s_1 gamma_1 sin(2 phi_o), not 0. The states of the first "
+            "one are two different orbits of period one.",
+            closed_form,
+            *eq.SOLUTIONS,
         ),
+        corrected=(no_double,),
     ),
-    Derivation(
-        "R9",
+    derived_row(
+        Passage("R9", "6.2, Case 2", "solving the corresponding equations numerically"),
         "Case 2, sin(theta_(k+2)) = -sin(theta_k): further two-impact orbits, found numerically.",
-        MAP,
-        _none(
-            _REFUTED,
-            "there are none: every solution of period two has period one",
-            "none exists for any nu and 0 <= epsilon < 1: from impact to impact |gamma + nu cos "
-            "phi| is multiplied by epsilon, so it is 0 on a periodic orbit, and the phase constant",
-            NO_DOUBLE,
-        ),
+        Verdict.REFUTED,
+        no_double,
+        corrected=(iterates,),
     ),
-    Derivation(
-        "R10",
+    derived_row(
+        Passage("R10", "6.2, a11, a12, a22", "studying the eigenvalues of the Jacobian"),
         "The entries a11, a12, a22 of the Jacobian of F, gamma being gamma_o.",
-        DIFFERENTIABLE,
-        lambda: _verified(
-            "implicit differentiation of (14), (15) at eta = 1 gives them; the determinant of the "
-            "true matrix is epsilon",
-            JACOBIAN,
-        ),
+        Verdict.VERIFIED,
+        jacobian,
     ),
-    Derivation(
-        "R11",
+    derived_row(
+        Passage("R11", "6.2, a21", "studying the eigenvalues of the Jacobian"),
         "The entry a21.",
-        (
-            *DIFFERENTIABLE,
-            Equal(f"{eq.A21} - {eq.TRUE_A21}", "-2*nu*(1 + epsilon)*sin(phi)*cos(phi1 - phi)"),
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1 the last term of a21 has the wrong sign: off by {0} at nu = -1/5, epsilon "
+            "= 1/2, phi_o = 1, gamma_o = cos(1)/5 - 2 tan(1/4), where the next impact is at phi_1 "
+            "= phi_o - 1/2 mod 2 pi. Printed minus derived it is -2 nu (1 + epsilon) sin(phi_o) "
+            "cos(phi_1 - phi_o).",
+            jacobian,
+            eq.SIGN_OF_A21,
+            values=(eq.A21_DIFFERS,),
         ),
-        _misprint21,
-        (
-            differ(
-                f"at({eq.A21}, {eq.ROOT})",
-                f"at({eq.TRUE_A21}, {eq.ROOT})",
-                nu="-1/5",
-                epsilon="1/2",
-                phi="1",
-                t="-1/4",
-            ),
-        ),
+        corrected=(jacobian,),
     ),
-    Derivation(
-        "R12",
+    derived_row(
+        Passage("R12", "6.2, end", "is not 'sticking' if"),
         "The impact at (phi_o, gamma_o) is not sticking if the displayed expression is < 0, read "
         "as a test: exactly then.",
-        (*MAP, *TEST),
-        _none(
-            _REFUTED,
-            "no impact sticks for p > 0; for p < 0 exactly those with epsilon (gamma + nu cos phi) "
-            "= 0 do, where the expression is 0; it also mixes phi_o with gamma_1",
-            "nu = -5/2, epsilon = 1/2, sin(phi_o) = 4/5, cos(phi_o) = 3/5, gamma_o = 5/6, "
-            "epsilon (gamma_o + nu cos phi_o) = -1/3: the mass leaves the table and lands at phi_1 "
-            "= phi_o - 2 arctan(1/3) mod 2 pi, and the expression is 17/30 > 0",
-            STICKING,
+        Verdict.REFUTED,
+        corollary(
+            "At eta = 1, nu = -5/2, epsilon = 1/2, sin(phi_o) = 4/5, cos(phi_o) = 3/5, gamma_o = "
+            "5/6, epsilon (gamma_o + nu cos phi_o) = -1/3, the mass leaves the table and lands at "
+            "phi_1 = phi_o - 2 arctan(1/3) mod 2 pi, and the expression is 17/30 > 0.",
+            closed_form,
+            *eq.TEST,
         ),
+        corrected=(closed_form, rebound),
     ),
-    Derivation(
-        "R13",
+    derived_row(
+        Passage("R13", "Fig. 8", "are the unstable double impact periodic orbits"),
         "Figure 8: unstable double-impact periodic orbits exist.",
-        MAP,
-        _none(
-            _REFUTED,
-            "none exist, stable or not, for any nu and 0 <= epsilon < 1",
-            "every state of period two under (30), (31) has gamma = -nu cos(phi) and period one, "
-            "at every nu and every epsilon in [0, 1)",
-            NO_DOUBLE,
-        ),
+        Verdict.REFUTED,
+        no_double,
+        corrected=(iterates,),
     ),
-    Derivation(
-        "E1",
+    derived_row(
+        Passage("E1", "7, Fig. 10", "eighth subharmonic appearing as the amplitude is increased"),
         "Figure 10: at resonance subharmonics of the table frequency, an eighth one, appear as "
         "the amplitude grows (an experiment).",
-        MAP,
-        lambda: Decision(
-            Verdict.SIMULATED,
-            "an observation; the model of section 6 has no steady subharmonics, at any "
-            "amplitude: proofs.report.resonance_figure simulates it",
-            corrected=SUBHARMONICS,
-        ),
+        Verdict.SIMULATED,
+        no_subharmonic,
+        corrected=(iterates, no_subharmonic),
     ),
 )
-
-CLAIMS = tuple(derivation.claim for derivation in DERIVATIONS)

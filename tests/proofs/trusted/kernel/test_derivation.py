@@ -4,17 +4,25 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.methods import derive
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.derivation import RULES
-from proofs.trusted.paper.formulas import Asked, Derivation, Equal, Value, at, differ
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper.formulas import (
+    Equal,
+    Passage,
+    Value,
+    at,
+    corollary,
+    derived_row,
+    differ,
+)
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
 
 
 def run(rule, **witness):
-    return RULES[rule](PAPER, {}, Reader(witness))
+    return find_rule(rule)(Context(PAPER), Reader(witness))
 
 
 def equal(left, right):
@@ -252,9 +260,9 @@ def test_a_box_has_the_variables_of_the_function(box):
 
 class TestDecisions:
     ASKED = (at("x - 1", 1, x="2"), differ("x", "2*x", x="3"))
-    DERIVATION = Derivation(
-        "S1", "", (Equal("x", "x"),), lambda a, b: (Verdict.VERIFIED, a, b), ASKED
-    )
+    LEMMA = corollary("It begins.", Equal("x", "x"))
+    THEOREM = corollary("It is in {0}. So {1} is not.", LEMMA, values=ASKED, reports=("first",))
+    ROW = derived_row(Passage("S1", "1", "words"), "It is so.", Verdict.REFUTED, THEOREM)
 
     def found(self, **changes):
         one = {"function": "x - 1", "x": "2", "bounds": ("1/2", "3/2")} | changes
@@ -266,9 +274,11 @@ class TestDecisions:
 
     def test_decides_by_the_tightest_bounds(self):
         wide = self.found(bounds=("1/3", "2"))
-        decided = self.DERIVATION.decide(PAPER, [*wide, *self.found()])
-        assert decided[1] == (Fraction(1, 2), Fraction(3, 2))
-        assert decided[2] == (Fraction(-3), Fraction(-3))
+        decided = self.ROW.decide(PAPER, [*wide, *self.found()])
+        assert decided.verdict is Verdict.REFUTED
+        assert decided.why == "It is in [0.5, 1.5]"
+        assert decided.witness == "It is in [0.5, 1.5]. So -3 is not."
+        assert decided.quantities == {"first": (Fraction(1, 2), Fraction(3, 2))}
 
     @pytest.mark.parametrize(
         "changes",
@@ -280,31 +290,17 @@ class TestDecisions:
         ],
     )
     def test_another_value_decides_nothing(self, changes):
-        decided = self.DERIVATION.decide(PAPER, self.found(**changes))
-        assert decided.verdict is Verdict.UNDECIDED and "1 of 3" in decided.why
+        decided = self.ROW.decide(PAPER, self.found(**changes))
+        assert decided.verdict is Verdict.UNDECIDED and decided.witness is decided.theorem is None
 
-    def test_every_part_is_needed(self):
+    def test_every_part_is_needed_of_what_is_nearby_too(self):
+        beside = derived_row(
+            Passage("S1", "1", "words"), "", Verdict.VERIFIED, self.LEMMA, corrected=(self.THEOREM,)
+        )
+        assert beside.needs == self.ROW.needs == (Equal("x", "x"), *self.ASKED)
+        assert beside.decide(PAPER, self.found()).theorem.startswith("It is in")
         for index in range(3):
             found = self.found()
             del found[index]
-            assert self.DERIVATION.decide(PAPER, found).verdict is Verdict.UNDECIDED
-        mirrored = [Equal("x", "x + 0"), *self.found()[1:]]
-        assert self.DERIVATION.decide(PAPER, mirrored).verdict is Verdict.UNDECIDED
-
-    def test_a_value_of_either_sign_differs_and_0_does_not(self):
-        asked = differ("x", "y", x="1", y="2")
-        assert isinstance(asked, Asked)
-        for ends, met in ((("-2", "-1"), True), (("1", "2"), True), (("-1", "2"), False)):
-            assert asked.met_by(Value(asked.function, asked.box, tuple(map(Fraction, ends)))) is met
-
-
-@pytest.mark.slow
-def test_sympy_finds_the_same():
-    for left, right in TRUE:
-        if "exp" not in left and "sqrt" not in left:
-            assert derive.equal(left, right), left
-    for left, right in FALSE[:12]:
-        assert not derive.equal(left, right), left
-    assert derive.begins("sin(x)/x", "x", ("1", "0", "-1/6"))
-    assert not derive.begins("sin(x)/x", "x", ("1", "0", "1/6"))
-    assert not derive.begins("1/x", "x", ("0",))
+            assert self.ROW.decide(PAPER, found).verdict is Verdict.UNDECIDED
+            assert beside.decide(PAPER, found).verdict is Verdict.UNDECIDED

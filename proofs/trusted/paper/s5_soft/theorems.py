@@ -1,8 +1,8 @@
-"""Section 5, soft springs: what S11 to S23 rest on."""
+"""Section 5, soft springs: what S11 to S23 rest on, lemmas and theorems."""
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Equal, Lemma, Series, at, over
+from proofs.trusted.paper.formulas import Equal, Lemma, Series, at, corollary, over
 from proofs.trusted.paper.s5_soft import displayed as eq
 
 
@@ -174,4 +174,77 @@ STIFF_VALUES = (
     over(f"D({_STIFF_RATE}, tau)", 1, "tau", ("0", "1/2"), **_STIFF_POINT),
     over(eq.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
     over(_STIFF_RATE, -1, "tau", ("6", "63/10"), **_STIFF_POINT),
+)
+
+# -- theorems --------------------------------------------------------------------------------------
+
+diagram = corollary(
+    "Let m >= 1, 0 <= epsilon < 1, c = 2 pi m. The limit map has fixed points with flights over m "
+    "periods exactly for rho >= rho_SN = ((1 - epsilon)/(1 + epsilon)) c: psi = arccos(rho_SN/rho) "
+    "and psi = -arccos(rho_SN/rho), with lambda = -c. Let alpha = sqrt((1 + epsilon)^2 rho^2 - (1 "
+    "- epsilon)^2 c^2) >= 0 and rho_F = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - epsilon)^2 "
+    "c^2)/(1 + epsilon). The first has trace 1 + epsilon^2 - (1 + epsilon) alpha/2 and determinant "
+    "epsilon^2: it is a sink for rho_SN < rho < rho_F, with eigenvalues that are not real, of "
+    "modulus epsilon, exactly if (1 - epsilon)^2 < (1 + epsilon) alpha/2 < (1 + epsilon)^2; for "
+    "rho > rho_F it is a saddle with one eigenvalue below -1 (of the second kind if epsilon > 0). "
+    "The second has -alpha in place of alpha: it is a saddle with one eigenvalue above 1 (of the "
+    "first kind if epsilon > 0) for all rho > rho_SN. At rho_SN, where the two are one, the "
+    "eigenvalues are 1 and epsilon^2; at rho_F those of the first are -1 and -epsilon^2. (The "
+    "characteristic polynomial is (1 + epsilon) alpha/2 at 1 and (1 + epsilon) (4 (1 + epsilon^2)/"
+    "(1 + epsilon) - alpha)/2 at -1, and the product of its roots is epsilon^2 < 1.) So rho_SN is "
+    "the value of the saddle-node bifurcation and rho_F that of the flip.",
+    *CHARACTERISTIC,
+)
+stiff = corollary(
+    "For springs of any stiffness, k = omega_n/omega with 0 < k < 1/(2 m), q = 2 omega^2 p/g, s = "
+    "pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25) with psi_(k+1) = "
+    "psi_k = psi, cos psi not 0, lambda_(k+1) = lambda_k, where rho cos psi = ((1 - epsilon)/(1 + "
+    "epsilon)) tan(s) B/k, the determinant is epsilon^2 as well and the trace is ((1 + epsilon)^2 "
+    "+ (1 - epsilon)^2 cos(2 s) - (1 + epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an "
+    "eigenvalue exactly where ((1 + epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 "
+    "q), M = (1 + epsilon)^2 + 2 (1 + epsilon^2) + (1 - epsilon)^2 cos(2 s).",
+    *STIFF,
+)
+flip = corollary(
+    "For every m >= 1 and 0 <= epsilon < 1 the fixed point psi = arccos(rho_SN/rho) of the limit "
+    "map, rho_SN = ((1 - epsilon)/(1 + epsilon)) c, c = 2 pi m, undergoes a supercritical "
+    "period-doubling bifurcation at rho_F = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - "
+    "epsilon)^2 c^2)/(1 + epsilon), and at no other rho, so for epsilon = 0 at sqrt(16 + c^2), not "
+    "at the printed rho_o. It is stable below, unstable above, and an attracting orbit of period 2 "
+    "branches off for rho just above rho_F. At rho_F the eigenvalues are -1 and -epsilon^2; the "
+    "characteristic polynomial at -1, (1 + epsilon) (4 (1 + epsilon^2)/(1 + epsilon) - alpha)/2, "
+    "changes sign there with alpha = sqrt((1 + epsilon)^2 rho^2 - (1 - epsilon)^2 c^2), whose "
+    "derivative is positive; and the map on the centre manifold, h = psi - psi_o, has the second "
+    "iterate h - 2 K h^3 + O(h^4) with K = (3 c^2 (1 - epsilon^2)^2 + 8 (1 - epsilon)^4 + 64 "
+    "epsilon^2)/(48 (1 - epsilon^4)) > 0. For epsilon = 0 the third derivative of f^2 is -(3 pi^2 "
+    "m^2 + 2).",
+    *CHARACTERISTIC,
+    *CONDITIONS,
+    *MANIFOLD,
+)
+admissible = corollary(
+    "These orbits are real: with r = (1 - epsilon)/(1 + epsilon) and S = rho sin psi >= 2 r, the "
+    "gap of the flight from the fixed point is t (c - t) + S (1 - cos t) - r c sin t > 0 for 0 < t "
+    "< c, and S = 2 (1 + r^2) at rho_F. Proof. For t < 2 pi it is at least t (t - r sin t) - t^2 + "
+    "S (1 - cos t) = 2 sin(t/2) (S sin(t/2) - r t cos(t/2)), positive as tan u > u. For 2 pi <= t "
+    "< c let u = c - t: it is t u + S (1 - cos u) + r c sin u, positive for u <= pi; else t u > c, "
+    "since t >= 2 pi, u >= pi and c >= 4 pi.",
+    ADMISSIBLE,
+    *HEIGHT,
+)
+stiff_flip = corollary(
+    "For springs of any stiffness and plastic impacts every period doubling is supercritical. Let "
+    "k = omega_n/omega, q = 2 omega^2 p/g, t = tan(pi m k) defined and not 0. At a solution of "
+    "(24) with psi_(k+1) = psi_k = psi and a flight over m periods, where rho cos psi = t B/k, a = "
+    "rho sin psi, B = 2 + k^2 (a - q) not 0, the slope of the solution is (1 - a/B)/(1 + t^2): it "
+    "is -1 exactly if a = (2 + t^2) B, and then its second iterate is h - 2 K h^3 + O(h^4) with K "
+    "= (k^4 (3 t^6 + 10 t^4 + 14 t^2 + 4) + 2 k^2 (t^4 - t^2 + 1) + 3 t^2)/(12 k^2 (1 + t^2)^2) > "
+    "0. If k^2 (2 + t^2) is not 1, that is at a = (2 + t^2) (2 - k^2 q)/(1 - k^2 (2 + t^2)), rho^2 "
+    "= a^2 + (t B/k)^2, and the slope passes -1 with a speed in rho that is not 0, as "
+    "d(rho^2)/da = 4 a (1 + t^2)/(2 + t^2) and d(a/B)/da = (2 - k^2 q)/B^2. For m = 1, k = 1/10, q "
+    "= 0 it is at rho in {0}, and the flight from its fixed point has gap'' > 0 up to time 1/2, "
+    "gap > 0 from 1/2 to 6 and gap' < 0 from 6 to 6.3, so its first impact is at 2 pi.",
+    *STIFF_PLASTIC,
+    values=STIFF_VALUES,
+    reports=("rho_flip_at_k_tenth",),
 )

@@ -1,1 +1,0 @@
-"""Section 2: free flight, launch, impact relations, sticking."""

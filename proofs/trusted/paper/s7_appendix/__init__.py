@@ -1,1 +1,0 @@
-"""The appendix: the marching algorithm, and measures."""
