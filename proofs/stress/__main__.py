@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -19,7 +19,6 @@ from proofs.stress.shrink import shrunk
 from proofs.trusted.certificate import write_atomically
 
 _CASES = 600
-_MOST_CASES = 10**7
 _SHRUNK = 3  # failures of a run that are made smaller
 
 EXAMPLES = """
@@ -44,27 +43,24 @@ exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2
 def stress(
     families: Sequence[Family], count: int, seed: int, by: Kernel, tell: Callable[[str], None]
 ) -> report.Run:
-    """Try about `count` cases of some families."""
-    began = perf_counter()
+    """Try about `count` cases of some families; shrink the first failures."""
+    began, shrinks = perf_counter(), 0
     found: list[Judgement] = []
     for case in cases(families, count, seed, by):
         tell(f"{len(found)} cases, {case.family}")
-        found.append(_smaller(case, judge(case, by), by, found))
+        one = judge(case, by)
+        if one.outcome.failure and shrinks < _SHRUNK:
+            shrinks += 1
+
+            def fails(other: Case, outcome: object = one.outcome) -> bool:
+                try:
+                    return judge(other, by).outcome is outcome
+                except (ArithmeticError, ValueError):
+                    return False
+
+            one = judge(shrunk(case, fails), by)
+        found.append(one)
     return report.Run(found, seed, by.name, perf_counter() - began)
-
-
-def _smaller(case: Case, one: Judgement, by: Kernel, before: Sequence[Judgement]) -> Judgement:
-    """Shrink a failure, unless there were enough of them."""
-    if not one.outcome.failure or sum(other.outcome.failure for other in before) >= _SHRUNK:
-        return one
-
-    def fails(other: Case) -> bool:
-        try:
-            return judge(other, by).outcome is one.outcome
-        except (ArithmeticError, ValueError):
-            return False
-
-    return judge(shrunk(case, fails), by)
 
 
 def _parser() -> Parser:
@@ -73,8 +69,8 @@ def _parser() -> Parser:
     add = parser.add_argument
     names = [family.name for family in FAMILIES]
     add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
-    add("--cases", type=_whole(1, _MOST_CASES), default=_CASES, metavar="N",
-        help=f"how many, about (default {_CASES})")  # fmt: skip
+    many = f"how many, about (default {_CASES})"
+    add("--cases", type=_whole(1, 10**7), default=_CASES, metavar="N", help=many)
     add("--seed", type=_whole(0, 10**18), default=1, metavar="N", help="of the draw (default 1)")
     add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
     add("--out", type=Path, metavar="DIR", help="write the report there (default: print only)")
@@ -85,7 +81,7 @@ def _parser() -> Parser:
 def _whole(least: int, most: int) -> Callable[[str], int]:
     def read(text: str) -> int:
         if not (text.isascii() and text.isdigit() and least <= int(text[:20]) <= most):
-            raise argparse.ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
+            raise ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
         return int(text)
 
     return read
@@ -115,11 +111,9 @@ def _write(folder: Path, run: report.Run) -> None:
     write_atomically(folder / "stress.md", report.markdown(run))
     write_atomically(folder / "stress.json", report.machine_form(run))
     try:
-        picture = report.svg(run)
+        write_atomically(folder / "stress.svg", report.svg(run))
     except ImportError:
         print("no picture: matplotlib is not installed", file=sys.stderr)
-        return
-    write_atomically(folder / "stress.svg", picture)
 
 
 if __name__ == "__main__":

@@ -5,16 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, ClassVar, Protocol
 
-from proofs.stress.kernels import Kernel
-from proofs.trusted.facts import Range
+from proofs.stress.kernels import Kernel, Range
 
 Ranges = dict[str, Range]
-
-
-class Unknown(Exception):
-    """The truth is out of reach: a touch, or too many steps."""
 
 
 @dataclass(frozen=True)
@@ -38,32 +32,28 @@ class Answer:
     possible: bool = False
 
 
-class Case(Protocol):
-    """One input. `__dataclass_fields__` are exact: the case can be made again from them."""
+@dataclass(frozen=True)
+class Case:
+    """One exact input of a family: the case can be made again from its fields."""
 
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-
-    @property
-    def family(self) -> str:
-        """The family it was drawn for."""
+    family: str
 
     def answer(self) -> Answer:
         """Ask the library; let it raise."""
+        raise NotImplementedError
 
     def bits(self) -> int | None:
         """Return the least precision that suffices, where the answer does not say."""
+        return None
 
     def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
         """Return the truth about every sample, None where it is out of reach."""
+        raise NotImplementedError
 
-    def best(self, name: str, hull: Range) -> Fraction:
+    def best(self, hull: Range) -> Fraction:
         """Return the least width of an answer to this input, if `hull` are the true values."""
+        raise NotImplementedError
 
-
-def inputs(case: Case) -> dict[str, str]:
-    """Return the exact input of a case as text."""
-    return {name: _text(getattr(case, name)) for name in case.__dataclass_fields__}
-
-
-def _text(value: object) -> str:
-    return ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
+    def inputs(self) -> dict[str, str]:
+        """Return the fields as text."""
+        return {name: str(getattr(self, name)) for name in self.__dataclass_fields__}

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from random import Random
 
 from intervals import Interval, IntervalArray
-from proofs.stress.cases import Answer, Truth
-from proofs.stress.kernels import Kernel
-from proofs.trusted.facts import Range
+from proofs.stress.cases import Answer, Case, Truth
+from proofs.stress.kernels import Kernel, Range
 
 _PERIODIC = ("sin", "cos", "tan")
 _NEAR_ONE = ("log", "log2", "log10", "acosh", "sqrt", "cbrt")
@@ -23,59 +22,72 @@ _WORST = Fraction(6381956970095103 << 797)  # of binary64, the closest to a mult
 _BITS = 500  # of the truth, and more where the argument is large or the value next to 0
 _MOST_BITS = 20_000
 _LEAST = -1074  # binary64 has no multiples of less than 2^-1074
-_FINEST = -(10**9)  # Interval has finer ones than any
 
 
 @dataclass(frozen=True)
-class FunctionCase:
+class ValueCase(Case):
+    """A case whose answer is one value, in a precision that is prescribed."""
+
+    @property
+    def rounding(self) -> tuple[int, bool]:
+        """The precision, and whether the value is of an array, so of the range of binary64."""
+        raise NotImplementedError
+
+    def bits(self) -> int | None:
+        """Return the precision."""
+        return self.rounding[0]
+
+    def best(self, hull: Range) -> Fraction:
+        """Return the width of the range with its ends rounded outward."""
+        precision, binary64 = self.rounding
+        low = rounded_down(hull[0], precision, binary64=binary64)
+        return -rounded_down(-hull[1], precision, binary64=binary64) - low
+
+
+def value_of(found: Interval | IntervalArray) -> Answer:
+    """Return an Interval, or the one amid two easy neighbours in an IntervalArray, as answer."""
+    if isinstance(found, Interval):
+        return Answer((({"value": (found.inf, found.sup)},),))
+    return Answer((({"value": (Fraction(found.inf[1]), Fraction(found.sup[1]))},),))
+
+
+@dataclass(frozen=True)
+class FunctionCase(ValueCase):
     """f on [low, high], whose ends have at most `precision` bits."""
 
-    family: str
     function: str
     low: Fraction
     high: Fraction
     precision: int
 
+    @property
+    def rounding(self) -> tuple[int, bool]:
+        """The precision, and whether it is of an array."""
+        return self.precision, self.family == "arrays"
+
     def answer(self) -> Answer:
         """Return the enclosure by Interval, or by IntervalArray amid two easy neighbours."""
-        if self.family != "arrays":
-            value = getattr(Interval(self.low, self.high, precision=self.precision), self.function)
-            return Answer((({"value": (value().inf, value().sup)},),))
         easy = Fraction(5, 4) if self.function == "acosh" else Fraction(3, 4)
-        found = getattr(IntervalArray([easy, (self.low, self.high), easy]), self.function)()
-        return Answer((({"value": (Fraction(found.inf[1]), Fraction(found.sup[1]))},),))
-
-    def bits(self) -> int | None:
-        """Return the precision, which was prescribed."""
-        return self.precision
+        argument: Interval | IntervalArray
+        if self.family == "arrays":
+            argument = IntervalArray([easy, (self.low, self.high), easy])
+        else:
+            argument = Interval(self.low, self.high, precision=self.precision)
+        return value_of(getattr(argument, self.function)())
 
     def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
         """Return the two ends of the range, as truths about the one sample."""
         return true_range(kernel, self.function, self.low, self.high, self.precision)
 
-    def best(self, name: str, hull: Range) -> Fraction:
-        """Return the width of the range with its ends rounded outward."""
-        return least_width(hull, self.precision, binary64=self.family == "arrays")
 
-
-def least_width(hull: Range, precision: int, *, binary64: bool) -> Fraction:
-    """Return the width of a range, its ends rounded outward."""
-    low = rounded_down(hull[0], precision, binary64=binary64)
-    return -rounded_down(-hull[1], precision, binary64=binary64) - low
-
-
-def rounded_down(value: Fraction, bits: int, *, binary64: bool) -> Fraction:
-    """Round down to `bits` bits, above the least number of binary64 if that is asked."""
-    return _down(value, bits, _LEAST if binary64 else _FINEST)
-
-
-def _down(value: Fraction, bits: int, least: int) -> Fraction:
-    """Round down to `bits` bits, multiples of 2^least at the finest."""
+def rounded_down(value: Fraction, bits: int, *, binary64: bool = True) -> Fraction:
+    """Round down to `bits` bits, to a multiple of the least number of binary64 if that is asked."""
     if value == 0:
         return value
     exponent = abs(value.numerator).bit_length() - value.denominator.bit_length()
     exponent -= abs(value) < Fraction(2) ** exponent
-    unit = Fraction(2) ** max(exponent - bits + 1, least)
+    place = exponent - bits + 1
+    unit = Fraction(2) ** (max(place, _LEAST) if binary64 else place)
     return value // unit * unit
 
 
@@ -123,7 +135,8 @@ def _sharp(kernel: Kernel, function: str, x: Fraction, precision: int) -> Range:
         low, high = kernel.bounds(kernel.call(function, kernel.number(x)))
     except ArithmeticError:
         raise _Unsharp from None
-    if low < high and _down(low, precision, _FINEST) != _down(high, precision, _FINEST):
+    below = [rounded_down(x, precision, binary64=False) for x in (low, high)]
+    if below[0] != below[1]:
         raise _Unsharp
     if high - low > min(abs(low), abs(high)) / 10**20:
         raise _Unsharp
@@ -143,22 +156,22 @@ def _whole(kernel: Kernel, x: Fraction, shift: Fraction) -> int:
 # -- hard arguments --------------------------------------------------------------------------------
 
 
-def draw(generator: random.Random, kernel: Kernel, family: str) -> FunctionCase:
+def draw(generator: Random, kernel: Kernel, family: str) -> FunctionCase:
     """Return a random function at a random hard argument, a point or an interval."""
     function = generator.choice(NAMES)
     bits = 53 if family == "arrays" else generator.choice(_PRECISIONS)
-    low = _down(_argument(generator, kernel, function, bits), bits, _LEAST)
+    low = rounded_down(_argument(generator, kernel, function, bits), bits)
     high = low
     if generator.random() < 0.5:
         width = abs(low) / (1 << generator.choice((bits - 1, bits - 1, bits // 2, 10, 1)))
         if function in _PERIODIC and abs(low) < 100 and generator.random() < 0.3:
             width = Fraction(generator.uniform(0, 6.5))
-        high = max(low, -_down(-low - width, bits, _LEAST))
+        high = max(low, -rounded_down(-low - width, bits))
         high = high if _inside(function, high) else low
     return FunctionCase(family, function, low, high, bits)
 
 
-def _argument(generator: random.Random, kernel: Kernel, function: str, bits: int) -> Fraction:
+def _argument(generator: Random, kernel: Kernel, function: str, bits: int) -> Fraction:
     """Return a point of the domain, next to its ends, to zeros, to poles, tiny, large or plain."""
     sign = generator.choice((-1, 1))
     plain = Fraction(generator.getrandbits(bits) | 1, 2**bits)

@@ -5,43 +5,36 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
+from typing import Any
 
 from proofs.stress.cases import Case
 
 _MOST_TRIES = 200
 
 
-def shrunk(case: Case, fails: Callable[[Case], bool]) -> Case:
+def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = _MOST_TRIES) -> Case:
     """Return a simplest case found that still fails: each number in turn, until none gives."""
-    tries = 0
-    again = True
-    while again:
-        again = False
-        for simpler in _simpler(case):
-            tries += 1
-            if tries > _MOST_TRIES:
-                return case
-            if fails(simpler):
-                case, again = simpler, True
-                break
+    for number, simpler in enumerate(islice(_simpler(case), tries), 1):
+        if fails(simpler):
+            return shrunk(simpler, fails, tries - number)
     return case
 
 
 def _simpler(case: Case) -> Iterator[Case]:
-    """Yield the case with one number shorter, the shortest first, or with an interval a point."""
-    values = {name: getattr(case, name) for name in case.__dataclass_fields__}
+    """Yield the case with an interval a point, or with one number shorter, the shortest first."""
+    values: dict[str, Any] = {name: getattr(case, name) for name in case.__dataclass_fields__}
     low, high = values["low"], values["high"]
+    changes: list[dict[str, Any]] = []
     if low < high:
-        yield from (replace(case, high=low), replace(case, low=high))
+        changes = [{"high": low}, {"low": high}]
     for name, value in values.items():
-        if not isinstance(value, Fraction):
-            continue
-        for shorter in _shorter(value):
-            changed = {name: shorter}
-            if name in ("low", "high") and low == high:
-                changed = {"low": shorter, "high": shorter}
-            if changed.get("low", low) <= changed.get("high", high):
-                yield replace(case, **changed)
+        if isinstance(value, Fraction):
+            both = ("low", "high") if name in ("low", "high") and low == high else (name,)
+            changes += [dict.fromkeys(both, shorter) for shorter in _shorter(value)]
+    for change in changes:
+        if change.get("low", low) <= change.get("high", high):
+            yield replace(case, **change)
 
 
 def _shorter(value: Fraction) -> Iterator[Fraction]:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from proofs.stress.cases import Truth, Unknown
+from proofs.stress.cases import Truth
 from proofs.stress.kernels import Kernel
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
@@ -24,6 +24,10 @@ _SHORTER = 1 - Fraction(1, 2**20)  # of a step, for what rounding adds to it
 _MOST_STEPS = 4000
 _CONSTANT = ("slope", "phase by phi", "phase by gamma", "velocity by phi", "velocity by gamma")
 _FLOAT_STEPS = 400_000
+
+
+class Unknown(ArithmeticError):
+    """The truth is out of reach: a touch, or too many steps."""
 
 
 @dataclass(frozen=True)
@@ -61,31 +65,14 @@ class Motion:
         """Return M_order."""
         return abs(self.nu) + self.eta**order * self.amplitude
 
-    def gap(self, t: Any) -> Any:
-        """Return side times the left side of (14)."""
+    def gap(self, t: Any, order: int = 0) -> Any:
+        """Return side times the left side of (14), or its time derivative of an order up to 3."""
         s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("sin", self.phi + t)
-        return self.side * (self.height * c + self.speed * s - 1 - table)
-
-    def rate(self, t: Any) -> Any:
-        """Return its time derivative."""
-        s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("cos", self.phi + t)
-        return self.side * (self.eta * (self.speed * c - self.height * s) - table)
-
-    def bend(self, t: Any) -> Any:
-        """Return the second time derivative."""
-        s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("sin", self.phi + t)
-        return self.side * (table - self.eta * self.eta * (self.height * c + self.speed * s))
-
-    def launch(self) -> tuple[Any, Any, Any]:
-        """Return the first three time derivatives of the gap at t = 0."""
-        spring = -self.eta * self.eta
-        first = self.eta * self.speed - self.nu * self.cos
-        second = spring * self.height + self.nu * self.sin
-        third = spring * self.eta * self.speed + self.nu * self.cos
-        return self.side * first, self.side * second, self.side * third
+        table = self._sincos(self.phi + t)[order % 2]
+        mass = (self.height * c + self.speed * s, self.speed * c - self.height * s)[order % 2]
+        sign = 1 if order < 2 else -1
+        distance = sign * (self.eta**order * mass - self.nu * table)
+        return self.side * (distance if order else distance - 1)
 
     def answers(self, t: Any) -> dict[str, Any]:
         """Return flight, phase, and f' or gamma and DF, at an impact, by implicit differentiation.
@@ -116,7 +103,7 @@ def first_impact(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth:
     """Return the truth about the next impact, phases up to 2 pi; raise Unknown where it must."""
     with kernel.digits(BITS):
         motion = Motion(kernel, of)
-        first, second, _ = (_sign(kernel, x) for x in motion.launch())
+        first, second = (_sign(kernel, motion.gap(kernel.number(0), k)) for k in (1, 2))
         if of.gamma is not None and of.epsilon != 0 and first < 0:
             raise Unknown("an impossible state")
         sticks = (of.gamma is None or of.epsilon == 0) and second < 0
@@ -164,10 +151,10 @@ def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
         t = _coast(motion, t, horizon)
         if kernel.bounds(t)[0] >= horizon:
             return None
-        gap, rate = motion.gap(t), motion.rate(t)
+        gap, rate = motion.gap(t), motion.gap(t, 1)
         if _sign(kernel, gap) <= 0:
             raise Unknown("the gap touches 0 to within what is computed")
-        bend = abs(motion.bend(t)) + motion.most(3) * t
+        bend = abs(motion.gap(t, 2)) + motion.most(3) * t
         near = _sign(kernel, motion.most(2) - bend) > 0
         bend = bend if near else motion.most(2)
         falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * gap - rate * rate) < 0
@@ -183,7 +170,7 @@ def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
 def _start(motion: Motion, leaving: bool) -> Any:
     """Return a time up to which the gap is positive, by its Taylor polynomial at the launch."""
     kernel = motion.kernel
-    first, second, third = motion.launch()
+    first, second, third = (motion.gap(kernel.number(0), k) for k in (1, 2, 3))
     starts = []
     if leaving or (_sign(kernel, second) > 0 and _sign(kernel, third) > 0):
         starts.append(2 * third / motion.most(4))
@@ -230,7 +217,7 @@ def _polished(motion: Motion, t: Any) -> Any:
     """Return the zero next to t, by Newton's method, its ends proved by the signs of the gap."""
     kernel = motion.kernel
     for _ in range(14):
-        t = kernel.middle(t - motion.gap(t) / motion.rate(t))
+        t = kernel.middle(t - motion.gap(t) / motion.gap(t, 1))
     reach = abs(t) * kernel.number(_RELATIVE)
     signs = [_sign(kernel, motion.gap(end)) for end in (t - reach, t + reach)]
     if signs != [1, -1]:
