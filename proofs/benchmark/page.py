@@ -3,37 +3,29 @@
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+import os
+import platform
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from proofs.benchmark.diagrams import Diagram, svg
-from proofs.benchmark.measuring import Row, environment, table, word
+from proofs.benchmark.diagrams import svg
+from proofs.benchmark.rows import Row, Section
+from proofs.report.markup import markdown_table
 from proofs.trusted.certificate import write_atomically
 
 SCHEMA = "impact-proofs-benchmark-1"
-_PREFIX = "benchmark-"
+_PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 _MODES = {
     "smallest": "each thing measured once, on small work",
     "quick": "few repetitions, short work",
     "full": "more repetitions, longer work",
 }
-
-
-@dataclass(frozen=True)
-class Section:
-    """Rows that belong together: a heading, what they are, and their diagrams."""
-
-    title: str
-    about: str
-    rows: list[Row]
-    diagrams: list[Diagram] = field(default_factory=list)
-
-    @property
-    def asked(self) -> list[Row]:
-        """Return the rows with a target, and those that fail without one."""
-        return [row for row in self.rows if row.target or row.reached is False]
+_ABOUT = """\
+Times are on the clock: medians, with the least and the largest in brackets. What is
+compared was measured in turn, in one run, so that a busy machine slows all alike;
+ratios are of samples taken side by side. The raw samples are in `benchmark.json`."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +48,12 @@ class Run:
         return all(row.reached for row in self.asked)
 
 
+def text(run: Run) -> str:
+    """Return the tables and the verdict."""
+    parts = [f"## {one.title}\n\n" + "\n".join(_table(one.rows)) for one in run.sections]
+    return "\n\n".join([*parts, f"median (least .. largest); {verdict(run)}"])
+
+
 def verdict(run: Run) -> str:
     """Return the line that the exit status stands for."""
     reached, missed, unmeasured = _counts(run.asked)
@@ -63,19 +61,29 @@ def verdict(run: Run) -> str:
     return f"{len(run.asked)} targets: {counts}; {run.seconds:.0f} s in all"
 
 
-def _counts(asked: Sequence[Row]) -> tuple[int, int, int]:
-    """Return how many were reached, missed, not measured."""
-    found = [row.reached for row in asked]
-    return found.count(True), found.count(False), found.count(None)
+def _counts(asked: Sequence[Row]) -> list[int]:
+    return [sum(row.reached is state for row in asked) for state in (True, False, None)]
 
 
-def text(run: Run) -> str:
-    """Return the tables, under headings if there are several, and the verdict."""
-    parts = [table(one.rows) for one in run.sections]
-    if len(parts) > 1:
-        headed = zip(run.sections, parts, strict=True)
-        parts = [f"== {one.title} ==\n{part}" for one, part in headed]
-    return "\n\n".join([*parts, f"median (least .. largest); {verdict(run)}"])
+def _table(rows: Sequence[Row]) -> list[str]:
+    header = ("what", "target", "measured", "reached")
+    cells = [(row.name, row.target or "-", row.measured, row.state) for row in rows]
+    return markdown_table([header, *cells])
+
+
+def environment() -> dict[str, str | int | None]:
+    """Return what the measurements ran on; None stands for a package that is absent."""
+    packages = {name: version_of(name) for name in _PACKAGES}
+    machine = {"machine": platform.machine(), "processors": os.cpu_count()}
+    return {"python": platform.python_version(), **packages, **machine}
+
+
+def version_of(package: str) -> str | None:
+    """Return the version of a package; None if it is absent."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
 
 
 def machine_form(run: Run) -> str:
@@ -95,104 +103,52 @@ def machine_form(run: Run) -> str:
     return json.dumps(data, indent=1) + "\n"
 
 
-# -- the page --------------------------------------------------------------------------------------
-
-
 def write(folder: Path, run: Run) -> bool:
     """Write pictures, samples and page, each file whole; return whether there are pictures.
 
     All is drawn before anything is written, and the page comes last: what it links to is there.
     Without matplotlib there are no pictures. OSError if nothing can be written.
     """
-    pictures = _pictures(run)
-    page, samples = markdown(run, pictures), machine_form(run)
-    for name, picture in pictures.items():
-        write_atomically(folder / name, picture)
-    write_atomically(folder / "benchmark.json", samples)
-    write_atomically(folder / "benchmark.md", page)
-    return bool(pictures) or not any(section.diagrams for section in run.sections)
-
-
-def _pictures(run: Run) -> dict[str, str]:
-    """Draw all diagrams by file name; none without matplotlib."""
+    diagrams = [one for section in run.sections for one in section.diagrams]
     try:
-        return {_file(one): svg(one) for section in run.sections for one in section.diagrams}
+        files = {f"benchmark-{one.name}.svg": svg(one) for one in diagrams}
     except ImportError:
-        return {}
-
-
-def _file(diagram: Diagram) -> str:
-    return f"{_PREFIX}{diagram.name}.svg"
+        files = {}
+    drawn = bool(files) or not diagrams
+    files |= {"benchmark.json": machine_form(run), "benchmark.md": markdown(run, files)}
+    for name, content in files.items():
+        write_atomically(folder / name, content)
+    return drawn
 
 
 def markdown(run: Run, pictures: Collection[str] = ()) -> str:
     """Return the page, with links to those pictures that are there."""
-    lines = [
-        "# Benchmark",
-        "",
-        f"{verdict(run)}. Subject: {run.subject}. Mode: {run.mode} ({_MODES[run.mode]}).",
-        "",
-        "Times are on the clock: medians, with the least and the largest in brackets. What is",
-        "compared was measured in turn, in one run, so that a busy machine slows all alike;",
-        "ratios are of samples taken side by side. The raw samples are in `benchmark.json`.",
-        "",
-        f"Measured on: {_listed(environment())}.",
-        "",
-        *_targets(run),
-    ]
+    machine = ", ".join(f"{name} {one or 'absent'}" for name, one in environment().items())
+    mode = f"Subject: {run.subject}. Mode: {run.mode} ({_MODES[run.mode]})."
+    lines = ["# Benchmark", "", f"{verdict(run)}. {mode}", "", _ABOUT, ""]
+    lines += [f"Measured on: {machine}.", "", "## Targets", "", *_targets(run)]
     for section in run.sections:
-        lines += ["", f"## {section.title}", "", section.about, "", *_cells(section.rows)]
-        drawn = [one for one in section.diagrams if _file(one) in pictures]
-        for diagram in drawn:
-            lines += ["", f"![{diagram.title}]({_file(diagram)})"]
+        lines += ["", f"## {section.title}", "", section.about, "", *_table(section.rows)]
+        for diagram in section.diagrams:
+            if (file := f"benchmark-{diagram.name}.svg") in pictures:
+                lines += ["", f"![{diagram.title}]({file})"]
     return "\n".join(lines) + "\n"
 
 
-def _listed(found: Mapping[str, str | int | None]) -> str:
-    """Write versions, what is absent, and the machine."""
-    return ", ".join(f"{name} {'absent' if one is None else one}" for name, one in found.items())
-
-
-def _targets(run: Run) -> Iterator[str]:
-    """Yield how many targets each section has and reached; each that was not."""
-    yield "## Targets"
-    if not run.asked:
-        yield from ["", "None is set for this subject."]
-        return
-    yield from [
-        "",
-        "| section | targets | reached | missed | not measured |",
-        "|---|---|---|---|---|",
+def _targets(run: Run) -> list[str]:
+    """Return how many targets each section has and reached; each that was not."""
+    counts = [
+        (one.title, *map(str, (len(one.asked), *_counts(one.asked))))
+        for one in run.sections
+        if one.asked
     ]
-    for section in run.sections:
-        if section.asked:
-            counts = " | ".join(map(str, (len(section.asked), *_counts(section.asked))))
-            yield f"| {_cell(section.title)} | {counts} |"
-    for state, heading in {False: "Missed", None: "Not measured"}.items():
+    lines = markdown_table([("section", "targets", "reached", "missed", "not measured"), *counts])
+    for state, heading in ((False, "Missed"), (None, "Not measured")):
         rows = [(one.title, row) for one in run.sections for row in one.asked]
         rows = [(title, row) for title, row in rows if row.reached is state]
         if rows:
-            yield from ["", f"{heading}:", ""]
+            lines += ["", f"{heading}:", ""]
         for title, row in rows:
-            yield f"- {_cell(f'{title}: {row.name}')}: {_cell(row.measured)}{_wanted(row)}"
-
-
-def _wanted(row: Row) -> str:
-    return f"; wanted: {_cell(row.target)}" if row.target else ""
-
-
-def _cells(rows: Sequence[Row]) -> Iterator[str]:
-    """Yield the lines of a table."""
-    yield "| what | target | measured | reached |"
-    yield "|---|---|---|---|"
-    for row in rows:
-        cells = row.name, row.target or "-", row.measured, word(row)
-        yield "| " + " | ".join(map(_cell, cells)) + " |"
-
-
-def _cell(content: str) -> str:
-    """Write one cell: columns of the screen apart, no sign of Markdown taken for one."""
-    plain = re.sub(" {2,}", " · ", content.strip())
-    for sign in "\\|*`":
-        plain = plain.replace(sign, f"\\{sign}")
-    return plain
+            wanted = f"; wanted: {row.target}" if row.target else ""
+            lines.append(f"- {title}: {row.name}: {row.measured}{wanted}")
+    return lines

@@ -9,13 +9,14 @@ from pathlib import Path
 from time import perf_counter
 
 import proofs.stress
+from proofs.benchmark.peers import Arithmetic
 from proofs.shell.cli import USAGE_ERROR, Parser, progress, writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
 from proofs.stress.judge import Judgement, judge
-from proofs.stress.kernels import Kernel, kernel
 from proofs.stress.shrink import shrunk
+from proofs.stress.truth import kernel_of
 from proofs.trusted.certificate import write_atomically
 
 _CASES = 600
@@ -41,7 +42,7 @@ exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2
 
 
 def stress(
-    families: Sequence[Family], count: int, seed: int, by: Kernel, tell: Callable[[str], None]
+    families: Sequence[Family], count: int, seed: int, by: Arithmetic, tell: Callable[[str], None]
 ) -> report.Run:
     """Try about `count` cases of some families; shrink the first failures."""
     began, shrinks = perf_counter(), 0
@@ -94,7 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.out is not None:
         writable(parser, options.out)
     try:
-        by = kernel(options.kernel)
+        by = kernel_of(options.kernel)
     except ImportError:
         print(f"{parser.prog}: python-flint is not installed", file=sys.stderr)
         return USAGE_ERROR

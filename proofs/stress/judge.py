@@ -12,10 +12,10 @@ from fractions import Fraction
 from time import perf_counter
 
 from intervals import IntervalError
+from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.impact import NoImpact
 from proofs.motion.rebound import Impossible
 from proofs.stress.cases import Answer, Case, Ranges, Truth
-from proofs.stress.kernels import Kernel, Range
 
 _TURN_BITS = 800
 _WIDEST = Fraction(10**300)
@@ -85,7 +85,7 @@ def limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
 
 
-def judge(case: Case, kernel: Kernel, allowed: float = 1.0) -> Judgement:
+def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
     """Ask the library and the kernel, and compare."""
     began = perf_counter()
     try:
@@ -115,12 +115,12 @@ def _bits(case: Case, answer: Answer, allowed: float) -> int | None:
         return None
 
 
-def _has_impact(case: Case, kernel: Kernel) -> bool:
+def _has_impact(case: Case, kernel: Arithmetic) -> bool:
     return any(truth is not None and truth.known for truth in case.truths(kernel))
 
 
 def _compared(
-    answer: Answer, truths: Sequence[Truth | None], kernel: Kernel
+    answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
 ) -> tuple[Outcome, str]:
     """Compare each sample: some alternative must meet all the true values that it speaks of."""
     judged = [(number, truth) for number, truth in enumerate(truths) if truth is not None]
@@ -134,7 +134,7 @@ def _compared(
     return (Outcome.POSSIBLE if answer.possible else Outcome.ENCLOSED), ""
 
 
-def _wrong(said: Ranges, truth: Truth, kernel: Kernel) -> str:
+def _wrong(said: Ranges, truth: Truth, kernel: Arithmetic) -> str:
     """Say which true values are outside what was said of them; nothing where all are inside."""
     if not truth.known:
         return f"there is no value: {truth.reason}"
@@ -148,18 +148,18 @@ def _wrong(said: Ranges, truth: Truth, kernel: Kernel) -> str:
     return "; ".join(wrong)
 
 
-def _beside(name: str, true: Range, said: Range, kernel: Kernel) -> Range:
+def _beside(name: str, true: Range, said: Range, kernel: Arithmetic) -> Range:
     """Shift a true phase by the whole turns that bring it next to what was said."""
     if name != "phase":
         return true
-    with kernel.digits(_TURN_BITS):
-        low, high = kernel.bounds(kernel.pi() * 2)
+    with kernel.precision(_TURN_BITS):
+        low, high = kernel.ends(kernel.pi() * 2)
     count = round((sum(said) - sum(true)) / 2 / low)
     return true[0] + min(count * low, count * high), true[1] + max(count * low, count * high)
 
 
 def _widths(
-    case: Case, answer: Answer, truths: Sequence[Truth | None], kernel: Kernel
+    case: Case, answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
 ) -> dict[str, float]:
     """Return the width of every quantity by the best possible; 1 where both are 0."""
     widths = {}

@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from intervals import IntervalArray, Undecided
+from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.flight import Flight
 from proofs.motion.image import PossibleImages, image
@@ -17,7 +18,6 @@ from proofs.motion.rebound import rebound
 from proofs.motion.slope_cover import BINARY64, slope_cover
 from proofs.motion.system import System
 from proofs.stress.cases import Answer, Case, Truth
-from proofs.stress.kernels import Kernel, Range
 from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact
 
@@ -47,7 +47,7 @@ class MapCase(Case):
         """Return one of the launches."""
         return Launched(self.eta, self.nu, phi)
 
-    def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
         """Return the truth at the ends and inside."""
         phases = sorted({self.low + share * (self.high - self.low) for share in _SAMPLES})
         return [_truth(kernel, self.launched(phi), self.horizon) for phi in phases]
@@ -57,7 +57,7 @@ class MapCase(Case):
         return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** self.digits
 
 
-def _truth(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth | None:
+def _truth(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth | None:
     try:
         return true_impact(kernel, of, horizon)
     except ArithmeticError:
@@ -161,7 +161,7 @@ class CoverCase(Case):
         low = self.low + self.boxes // 2 * width
         return [low + share * width for share in _BOX_SAMPLES]
 
-    def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
         """Return the truth at the three phases."""
         launches = [Launched(self.eta, self.nu, x) for x in self._points()]
         return [_truth(kernel, of, _HORIZON) for of in launches]
