@@ -13,44 +13,49 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
+from typing import IO, Any
 
 from intervals import Undecided
 from proofs.benchmark.peers import CODAC, Range, arithmetic
 from proofs.benchmark.slopes import Work, bounds
 
-_ROOT = Path(__file__).parents[2]
+_ROOT = str(Path(__file__).parents[2])
 Bounds = Callable[[Work, int], Range]
 
 
 @contextmanager
 def codac(python: str) -> Iterator[tuple[str, Bounds] | None]:
     """Yield codac's version, and its `bounds`, by the interpreter `python`; None if it has none."""
-    path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
-    with subprocess.Popen(
+    path = os.pathsep.join(filter(None, (_ROOT, os.environ.get("PYTHONPATH"))))
+    server = subprocess.Popen(
         [python, "-m", "proofs.benchmark.codac_server"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         env={**os.environ, "PYTHONPATH": path},
-    ) as server:
-        if server.stdin is None or server.stdout is None:
-            raise RuntimeError("a process without pipes")
-        requests, replies = server.stdin, server.stdout
+    )
+    requests: Any = server.stdin
+    replies: Any = server.stdout
 
-        def ask(work: Work, order: int) -> Range:
-            pickle.dump((work, order), requests)
-            requests.flush()
-            found: Range | str = pickle.load(replies)
-            if isinstance(found, str):
-                raise Undecided(found)
-            return found
+    def ask(work: Work, order: int) -> Range:
+        _send((work, order), requests)
+        found: Range | str = pickle.load(replies)
+        if isinstance(found, str):
+            raise Undecided(found)
+        return found
 
+    with server:
         try:
-            yield str(pickle.load(replies)), ask
+            yield pickle.load(replies), ask
         except EOFError:
             yield None
         finally:
             server.terminate()
+
+
+def _send(message: object, where: IO[bytes]) -> None:
+    pickle.dump(message, where)
+    where.flush()
 
 
 def main() -> None:
@@ -58,17 +63,13 @@ def main() -> None:
     replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no reply
     of = arithmetic(CODAC, 53)
-    answer: Range | str = version(CODAC)
+    _send(version(CODAC), replies)
     while True:
-        pickle.dump(answer, replies)
-        replies.flush()
+        work, order = pickle.load(sys.stdin.buffer)
         try:
-            work, order = pickle.load(sys.stdin.buffer)
-            answer = bounds(of, of, work, order)
+            _send(bounds(of, of, work, order), replies)
         except Undecided as failure:
-            answer = str(failure)
-        except EOFError:
-            return
+            _send(str(failure), replies)
 
 
 if __name__ == "__main__":

@@ -6,10 +6,11 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from statistics import linear_regression, median
-from typing import Any
+from typing import NamedTuple
 
 from intervals import DomainError, Undecided
-from proofs.benchmark.rows import Row, in_turn, ratio_row, seconds_of
+from proofs.benchmark.page import Row, in_turn, ratio_row, seconds_of
+from proofs.benchmark.peers import PEERS
 
 Task = Callable[[], float]  # does the work, returns the error, < 0 if the truth is excluded
 
@@ -19,19 +20,13 @@ _MUCH = 5
 _ABOVE_FLOOR = 1000.0  # errors below this times the rounding say nothing of the order
 
 
-@dataclass(frozen=True)
-class Point:
+class Point(NamedTuple):
     """One size: boxes, digits, step, ... The error is None where nothing was proved or found."""
 
     size: float
     error: float | None
     seconds: list[float]
     note: str = ""
-
-    @property
-    def time(self) -> float:
-        """The median time in seconds."""
-        return median(self.seconds)
 
 
 @dataclass
@@ -61,9 +56,8 @@ class Curve:
 
     def order(self) -> float | None:
         """Return the exponent of a least-squares fit to the last points; None below three."""
-        if self.against == "time":
-            pairs = [(point.size, point.time) for point in self.measured]
-        else:
+        pairs = [(p.size, median(p.seconds)) for p in self.measured]
+        if self.against == "error":
             least = _ABOVE_FLOOR * self.floor
             pairs = [(p.size, p.error) for p in self.measured if p.error and p.error > least]
         logarithms = [(math.log(x), math.log(y)) for x, y in pairs[-_FITTED:]]
@@ -73,99 +67,84 @@ class Curve:
 
     def row(self) -> Row:
         """Return the row: both ends, the order, and the worst if nothing is proved."""
-        name = f"{self.work}, {self.way}"
-        samples = {"curve": self._samples()}
-        if not self.measured:
-            why = next((point.note for point in self.points if point.note), "not measured")
-            return Row(name, why, samples=samples)
-        first, last = self.measured[0], self.measured[-1]
-        text = self._shown(first) if first is last else f"{self._shown(first)}; {self._shown(last)}"
+        order, shown = self.order(), self.measured[:1] + self.measured[1:][-1:]
+        samples = {"order": order, "points": [point._asdict() for point in self.points]}
+        row = Row(f"{self.work}, {self.way}", "", samples=samples)
+        if not shown:
+            row.measured = self.points[0].note if self.points else "not measured"
+            return row
         worst = max(self.measured, key=lambda point: point.error or 0.0)
-        if not self.proved and worst not in (first, last):
-            text += f"; worst, {self._shown(worst)}"
-        order = self.order()
+        if not self.proved and worst not in shown:
+            shown.insert(1, worst)
+        parts = [f"{self.unit} {p.size:g}: {p.error:.1e} in {_ms(p)} ms" for p in shown]
         if order is not None:
-            text += f"; {self.against} ~ {self.unit}^{order:.2f}"
-        if self.proved and any(
-            point.error is not None and point.error < 0 for point in self.points
-        ):
-            return Row(name, text + "; NOT AN ENCLOSURE", "contains the truth", False, samples)
-        if self.least is None:
-            return Row(name, text, samples=samples)
-        if order is None:
-            return Row(name, f"{text}; too few sizes for an order", samples=samples)
-        return Row(name, text, f"order >= {self.least:g}", abs(order) >= self.least, samples)
-
-    def _samples(self) -> dict[str, Any]:
-        named = {name: value for name, value in vars(self).items() if name not in ("make", "sizes")}
-        return {**named, "points": [vars(point) for point in self.points], "order": self.order()}
-
-    def _shown(self, point: Point) -> str:
-        return f"{self.unit} {point.size:g}: {point.error:.1e} in {1e3 * point.time:.3g} ms"
+            parts.append(f"{self.against} ~ {self.unit}^{order:.2f}")
+            if self.least is not None:
+                row.target, row.reached = f"order >= {self.least:g}", abs(order) >= self.least
+        if self.proved and any(point.error < 0 for point in self.measured if point.error):
+            row.target, row.reached = "contains the truth", False
+            parts.append("NOT AN ENCLOSURE")
+        row.measured = "; ".join(parts)
+        return row
 
     def goes_on(self, limit: float) -> bool:
         """Whether the last size was fast, or not much slower than the one before."""
         times = [min(point.seconds) for point in self.measured[-2:]]
-        if not times or times[-1] <= limit:
-            return True
-        return times[-1] <= _MUCH * limit and times[-1] <= 2 * times[0]
+        return not times or times[-1] <= limit or times[-1] <= min(_MUCH * limit, 2 * times[0])
 
 
-@dataclass(frozen=True)
-class Budget:
+def _ms(point: Point) -> str:
+    return f"{1e3 * median(point.seconds):.3g}"
+
+
+class Budget(NamedTuple):
     """How often each is repeated, and beyond how many seconds it should not grow."""
 
     rounds: int
     limit: float
 
 
-def sweep(curves: Sequence[Curve], budget: Budget) -> list[Curve]:
+def sweep(curves: Sequence[Curve], budget: Budget) -> Sequence[Curve]:
     """Measure some ways to do one work at their growing sizes, all of a size in turn.
 
     The first call of each task gives its error and fills caches; its time counts if it is long.
     What is slower than the limit goes no further if its time grows; what is much slower goes no
     further and is not repeated. What is Undecided is recorded as such.
     """
-    active = list(curves)
     for size in dict.fromkeys(size for curve in curves for size in curve.sizes):
         repeated: list[tuple[Point, Task]] = []
-        for curve in active:
-            if curve.make is None or size not in curve.sizes:
-                continue
-            point, task = _first(curve.make, size)
-            curve.points.append(point)
-            if task is not None and point.seconds[0] <= _MUCH * budget.limit:
-                repeated.append((point, task))
+        for curve in curves:
+            if curve.make and size in curve.sizes and curve.goes_on(budget.limit):
+                try:
+                    task, errors = curve.make(size), list[float]()
+                    seconds = seconds_of(lambda: errors.append(task()))  # noqa: B023 (now)
+                    point = Point(
+                        size, errors[0], [seconds if seconds > _LONG else seconds_of(task)]
+                    )
+                except (Undecided, DomainError) as failure:
+                    curve.points.append(Point(size, None, [], str(failure)))
+                    continue
+                curve.points.append(point)
+                if point.seconds[0] <= _MUCH * budget.limit:
+                    repeated.append((point, task))
         columns = in_turn([task for _, task in repeated], budget.rounds)
         for (point, _), column in zip(repeated, columns, strict=True):
             point.seconds.extend(column)
-        active = [curve for curve in active if curve.goes_on(budget.limit)]
-    return list(curves)
+    return curves
 
 
-def _first(make: Callable[[float], Task], size: float) -> tuple[Point, Task | None]:
-    """Return the point of the first call, or of the second if that was short."""
-    errors: list[float] = []
-    try:
-        task = make(size)
-        seconds = seconds_of(lambda: errors.append(task()))
-        return Point(size, errors[0], [seconds if seconds > _LONG else seconds_of(task)]), task
-    except (Undecided, DomainError) as failure:
-        return Point(size, None, [], str(failure)), None
-
-
-def beside(curves: Sequence[Curve], peers: Sequence[str]) -> list[Row]:
+def beside(curves: Sequence[Curve]) -> list[Row]:
     """Return how many times as long peers take as the first way of the same work and form.
 
     That first way is ours. At the largest common size, in pairs.
     """
-    rows, first = [], dict[tuple[str, str, str], Curve]()
+    rows, first = [], dict[tuple[str, str], Curve]()
     for theirs in curves:
-        own = first.setdefault((theirs.work, theirs.way.rpartition(", ")[0], theirs.unit), theirs)
+        own = first.setdefault((theirs.work, theirs.way.rpartition(", ")[0]), theirs)
         known = {point.size: point.seconds for point in own.measured}
         common = [point for point in theirs.measured if point.size in known]
-        if own is not theirs and theirs.way.endswith(tuple(peers)) and common:
-            last = common[-1]
-            name = f"{own.work}: {theirs.way} / {own.way}, {own.unit} {last.size:g}"
-            rows.append(ratio_row(name, last.seconds, known[last.size]))
+        if own is not theirs and theirs.way.endswith(PEERS) and common:
+            size, _, seconds, _ = common[-1]
+            name = f"{own.work}: {theirs.way} / {own.way}, {own.unit} {size:g}"
+            rows.append(ratio_row(name, seconds, known[size]))
     return rows

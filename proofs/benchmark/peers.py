@@ -17,6 +17,7 @@ from intervals import Interval, Jet
 from proofs.trusted.equations import sincos
 
 OURS, FLINT, IV, CODAC, MP = "Interval", "python-flint", "mpmath.iv", "codac", "mpmath"
+PEERS = (FLINT, IV, CODAC)
 Range = tuple[Fraction, Fraction]
 End = Fraction | float | int
 
@@ -56,9 +57,14 @@ def arithmetic(library: str, bits: int) -> Arithmetic:
     return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac, MP: _mp}[library](bits)
 
 
+def installed(module: str) -> bool:
+    """Whether a module can be imported."""
+    return importlib.util.find_spec(module) is not None
+
+
 def libraries() -> list[str]:
     """Return those that are here and prove what they say in any precision, ours first."""
-    return [OURS, FLINT, IV] if importlib.util.find_spec("flint") else [OURS, IV]
+    return [OURS, FLINT, IV] if installed("flint") else [OURS, IV]
 
 
 def _ours(bits: int) -> Arithmetic:

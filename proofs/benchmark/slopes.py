@@ -10,11 +10,11 @@ coefficient of f', which the slope formula gives along (phi + s, t_0 + ... + t_k
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 from intervals import Undecided
 from proofs.benchmark.peers import Arithmetic, Range
@@ -23,8 +23,6 @@ from proofs.trusted.equations import Launch, clock, gap, launch, sincos, slope
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")
 SIDE = -1  # the sign of nu: the mass flies below the table
 MONOTONE = -1  # in the place of an order
-SIGN_BITS = 53
-_OPENINGS = 12
 
 
 @dataclass(frozen=True)
@@ -40,45 +38,51 @@ class Work:
     grid: Sequence[float]
     brackets: Sequence[tuple[float, float]]
     centres: Sequence[float]
-    ends: tuple[float, float]
+    ends: Sequence[float]
 
 
 def bounds(of: Arithmetic, signs: Arithmetic, work: Work, order: int) -> Range:
     """Enclose f' over all boxes, one after the other; Undecided if a hypothesis is not proved."""
-    with signs.precision():
-        prove(signs, work, convex=order == MONOTONE)
-    with of.precision():
+    with signs.precision(signs.bits):
+        boxes = [signs.number(*ends) for ends in pairwise(work.cuts)]
+        exclude(signs, boxes, work.grid)
+        for box, bracket in zip(boxes, work.brackets, strict=True):
+            _prove_bracket(signs, box, work.grid[-1], bracket)
+            if order == MONOTONE:
+                bend = coefficients(signs, box, signs.number(*bracket), 1)[1]
+                _require(signs.positive(bend), "f'' > 0 is not proved")
+    with of.precision(of.bits):
         ends = [of.ends(value) for value in _values(of, work, order)]
     return min(low for low, _ in ends), max(high for _, high in ends)
 
 
-# -- hypotheses ------------------------------------------------------------------------------------
+def first_impact(
+    of: Arithmetic, signs: Arithmetic, phase: Fraction, grid: Sequence[float], about: float
+) -> Range:
+    """Enclose the first impact's time near `about`, and f' there."""
+    with signs.precision(signs.bits):
+        exclude(signs, [signs.point(phase)], grid)
+    with of.precision(of.bits):
+        phi = of.point(phase)
+        time = thin_time(of, phi, about)
+        coefficients(of, phi, time, 0)
+        return of.ends(time)
 
 
-def prove(of: Arithmetic, work: Work, convex: bool = False) -> None:
-    """Prove that the first impacts are in the brackets, and f'' > 0 if that is asked."""
-    boxes = [of.number(*ends) for ends in pairwise(work.cuts)]
-    _require(excludes(of, boxes, work.grid), "an earlier impact is not excluded")
-    for box, bracket in zip(boxes, work.brackets, strict=True):
-        _prove_bracket(of, box, work.grid[-1], bracket)
-        if convex:
-            bend = coefficients(of, box, of.number(*bracket), 1)[1]
-            _require(of.positive(bend), "f'' > 0 is not proved")
+def _require(holds: bool, why: str) -> None:
+    if not holds:
+        raise Undecided(why)
 
 
-class Forms(NamedTuple):
-    """gap = lift A + rate B + D: (lift, rate) of each box, (A, B, D) of each time of the grid.
+def _launch(of: Arithmetic, phi: Any) -> Launch:
+    return launch(SIDE, of.point(ETA), of.point(NU), phi)
 
-    The same of w^2/8 gap'' on each piece of time, w its length.
+
+def exclude(of: Arithmetic, boxes: Sequence[Any], grid: Sequence[float]) -> None:
+    """Prove gap > 0 on (0, last time]: gap'' > 0 on the first piece, the chord on the others.
+
+    gap = lift A + rate B + D, and so is w^2/8 gap'': sine and cosine once a box, once a time.
     """
-
-    boxes: list[tuple[Any, Any]]
-    at_times: list[tuple[Any, Any, Any]]
-    on_pieces: list[tuple[Any, Any, Any]]
-
-
-def forms(of: Arithmetic, boxes: Sequence[Any], grid: Sequence[float]) -> Forms:
-    """Return the gap as forms: sine and cosine once a box and once a time."""
     eta, nu = of.point(ETA), of.point(NU)
     at_times, on_pieces = [], []
     for begin, end in pairwise([0.0, *grid]):
@@ -89,35 +93,15 @@ def forms(of: Arithmetic, boxes: Sequence[Any], grid: Sequence[float]) -> Forms:
         (mass_sin, mass_cos), (s, c) = sincos(eta * piece), sincos(piece)
         pull = eta * eta * mass_cos
         on_pieces.append((share * (pull - c), share * (eta * mass_sin - s), share * pull))
-    phases = [(nu * s, nu * c) for s, c in map(sincos, boxes)]
-    return Forms(phases, at_times, on_pieces)
-
-
-def excludes(of: Arithmetic, boxes: Sequence[Any], grid: Sequence[float]) -> bool:
-    """Whether gap > 0 on (0, last time] for all boxes: gap'' > 0 on the first piece, then chords."""
-    of_boxes, at_times, on_pieces = forms(of, boxes, grid)
-    heights = [[a * x + b * y + d for a, b, d in at_times] for x, y in of_boxes]
-    bends = [[a * x + b * y + d for a, b, d in on_pieces] for x, y in of_boxes]
-    return above_chords(of.positive, heights, bends)
-
-
-def above_chords(
-    positive: Callable[[Any], bool], heights: Sequence[list[Any]], bends: Sequence[list[Any]]
-) -> bool:
-    """Whether the gap is positive, from its values at times and w^2/8 gap'' between, box by box."""
-    return all(
-        positive(bend[0])
-        and all(map(positive, height))
-        and all(
-            positive(before - drop) and positive(after - drop)
-            for before, after, drop in zip(height, height[1:], bend[1:], strict=False)
-        )
-        for height, bend in zip(heights, bends, strict=True)
-    )
-
-
-def _launch(of: Arithmetic, phi: Any) -> Launch:
-    return launch(SIDE, of.point(ETA), of.point(NU), phi)
+    positive = of.positive
+    for sin, cos in map(sincos, boxes):
+        lift, rate = nu * sin, nu * cos
+        heights = [a * lift + b * rate + d for a, b, d in at_times]
+        drops = [a * lift + b * rate + d for a, b, d in on_pieces]
+        chords = zip(heights, heights[1:], drops[1:], strict=False)
+        above = positive(drops[0]) and all(map(positive, heights))
+        above = above and all(positive(x - drop) and positive(y - drop) for x, y, drop in chords)
+        _require(above, "an earlier impact is not excluded")
 
 
 def _prove_bracket(of: Arithmetic, box: Any, last: float, bracket: tuple[float, float]) -> None:
@@ -131,14 +115,6 @@ def _prove_bracket(of: Arithmetic, box: Any, last: float, bracket: tuple[float, 
         along = of.coefficient(gap(tangent, now), 1)
         height = gap(_launch(of, centre), now) + along * (box - centre)
         _require(of.positive(sign * height), "the gap's signs at the bracket are not proved")
-
-
-def _require(holds: bool, why: str) -> None:
-    if not holds:
-        raise Undecided(why)
-
-
-# -- enclosures ------------------------------------------------------------------------------------
 
 
 def coefficients(of: Arithmetic, phi: Any, time: Any, order: int) -> list[Any]:
@@ -160,12 +136,11 @@ def thin_time(of: Arithmetic, phi: Any, about: float) -> Any:
     for _ in range((of.bits // 40).bit_length()):
         now = clock(start.eta, time)
         time = of.middle(time - gap(start, now) / gap(start, now, 1))
-    unit = of.point(Fraction(1, 2 ** (of.bits - 8)))
-    for _ in range(_OPENINGS):
+    for spare in range(8, 20):
+        unit = of.point(Fraction(2) ** (spare - of.bits))
         before, after = (gap(start, clock(start.eta, t)) for t in (time - unit, time + unit))
         if of.positive(before) and of.positive(-after):
             return time + unit * of.number(-1, 1)
-        unit = unit * 2
     raise Undecided("the impact time is lost to rounding")
 
 
@@ -178,25 +153,15 @@ def _values(of: Arithmetic, work: Work, order: int) -> list[Any]:
     for ends, bracket, about in zip(pairwise(work.cuts), work.brackets, work.centres, strict=True):
         box = of.number(*ends)
         over = coefficients(of, box, of.number(*bracket), order)
+        centre = of.middle(box)
         if order:
-            centre = of.middle(box)
             over[:-1] = coefficients(of, centre, thin_time(of, centre, about), order - 1)
-            values += _polynomial(of, over, box - centre, [of.point(x) - centre for x in ends])
+        steep = _horner([k * x for k, x in enumerate(over)][1:], box - centre) if order > 1 else 0
+        if order > 1 and (of.positive(steep) or of.positive(-steep)):  # monotone on the box
+            values += [_horner(over, of.point(end) - centre) for end in ends]
         else:
-            values += over
+            values.append(_horner(over, box - centre))
     return values
-
-
-def _polynomial(of: Arithmetic, c: Sequence[Any], offset: Any, ends: Sequence[Any]) -> list[Any]:
-    """Return values whose hull encloses a polynomial over the offsets.
-
-    At the ends of the box if it is monotone, else by Horner's scheme.
-    """
-    if len(c) > 2:
-        steep = _horner([k * x for k, x in enumerate(c)][1:], offset)
-        if of.positive(steep) or of.positive(-steep):
-            return [_horner(c, end) for end in ends]
-    return [_horner(c, offset)]
 
 
 def _horner(c: Sequence[Any], x: Any) -> Any:
