@@ -111,7 +111,7 @@ def _intervals(mode: str, python: str) -> int:
     """Run pyperf on all operations; return its exit status."""
     effort = {"smallest": ["--debug-single-value"], "full": ["--processes=10"]}
     few = ["--processes=2", "--min-time=0.01"]
-    wide = [python, "-m", "proofs.benchmark.operations", *effort.get(mode, few)]
+    wide = [python, "-m", "proofs.benchmark.operations", "--quiet", *effort.get(mode, few)]
     long = [*wide, "--bits=333", "--length=100", "--libraries", OURS, FLINT, IV]
     return max(subprocess.run(command, check=False).returncode for command in (wide, long))
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from statistics import linear_regression, median
+from time import perf_counter
 from typing import NamedTuple
 
 from intervals import DomainError, Undecided
 from proofs.benchmark.page import Row, in_turn, ratio_row, seconds_of
 from proofs.benchmark.peers import PEERS
-
-Task = Callable[[], float]  # does the work, returns the error, < 0 if the truth is excluded
 
 _FITTED = 4  # an order is that of so many of the last points
 _LONG = 1.0  # seconds, beside which caches matter little
@@ -31,7 +31,7 @@ class Point(NamedTuple):
 
 @dataclass
 class Curve:
-    """One way to do a work, at growing cost: `make` returns the task of a size.
+    """One way to do a work, at growing cost: `run` does it at a size and returns the error.
 
     against: "error", "time" or "", what is fitted. The error goes with size^-order (or with
     step^order), down to `floor`, that of the arithmetic. proved: the errors are those of what
@@ -42,7 +42,7 @@ class Curve:
     way: str
     unit: str
     sizes: Sequence[float] = ()
-    make: Callable[[float], Task] | None = None
+    run: Callable[[float], float] | None = None
     against: str = "time"
     floor: float = 0.0
     proved: bool = True
@@ -112,20 +112,18 @@ def sweep(curves: Sequence[Curve], budget: Budget) -> Sequence[Curve]:
     further and is not repeated. What is Undecided is recorded as such.
     """
     for size in dict.fromkeys(size for curve in curves for size in curve.sizes):
-        repeated: list[tuple[Point, Task]] = []
+        repeated: list[tuple[Point, Callable[[], float]]] = []
         for curve in curves:
-            if curve.make and size in curve.sizes and curve.goes_on(budget.limit):
+            if curve.run and size in curve.sizes and curve.goes_on(budget.limit):
+                task, began = partial(curve.run, size), perf_counter()
                 try:
-                    task, errors = curve.make(size), list[float]()
-                    seconds = seconds_of(lambda: errors.append(task()))  # noqa: B023 (now)
-                    point = Point(
-                        size, errors[0], [seconds if seconds > _LONG else seconds_of(task)]
-                    )
+                    point = Point(size, task(), [perf_counter() - began])
                 except (Undecided, DomainError) as failure:
-                    curve.points.append(Point(size, None, [], str(failure)))
-                    continue
+                    point = Point(size, None, [], str(failure))
                 curve.points.append(point)
-                if point.seconds[0] <= _MUCH * budget.limit:
+                if point.seconds and point.seconds[0] < _LONG:
+                    point.seconds[:] = [seconds_of(task)]
+                if point.seconds and point.seconds[0] <= _MUCH * budget.limit:
                     repeated.append((point, task))
         columns = in_turn([task for _, task in repeated], budget.rounds)
         for (point, _), column in zip(repeated, columns, strict=True):

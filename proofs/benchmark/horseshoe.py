@@ -116,6 +116,7 @@ def claims(mode: str, tell: Tell) -> Section:
             commands[f"{group}, proved and checked"] = prove, _WITHIN.get(group)
             check = ["-S", "-O", "-m", "proofs.check", f"{folder}/{group}.json"]
             commands[f"the check of {group}"] = check, 5.0 if group == "nonplastic" else None
+        within: float | None
         for digits, within in ((5, 20), (10, 20), (15, None), (20, None)):
             prove = ["-m", "proofs.dimension", "--digits", str(digits), "--out", str(folder)]
             commands[f"dimension, {digits} digits"] = prove, within

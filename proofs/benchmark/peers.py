@@ -11,6 +11,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from intervals import Interval, Jet
@@ -52,6 +53,7 @@ class Arithmetic:
         return 4 * self.call("atan", self.point(1))
 
 
+@cache
 def arithmetic(library: str, bits: int) -> Arithmetic:
     """Return the numbers of a library; ImportError if it is absent."""
     return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac, MP: _mp}[library](bits)

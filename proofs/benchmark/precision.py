@@ -74,8 +74,8 @@ def of_main_job(mode: str, tell: Tell) -> Iterator[Section]:
     plan = PLANS[mode]
     tell("slope bounds by monotonicity")
     of = partial(Curve, "f' on I0 and I1, f'' > 0", unit="digits", sizes=_DIGITS)
-    ways = [of(name, make=tasks.monotone(name)) for name in libraries()]
-    ways.append(of("the main job's, witness kept", make=tasks.main_job_slopes))
+    ways = [of(name, run=partial(tasks.monotone, name)) for name in libraries()]
+    ways.append(of("the main job's, witness kept", run=tasks.main_job_slopes))
     title = "Slope bounds by monotonicity, where f'' > 0"
     across = "digits: -log10 of what the bounds of f' miss its extremes by"
     yield section(
@@ -87,8 +87,8 @@ def of_main_job(mode: str, tell: Tell) -> Iterator[Section]:
     tell("the kernel")
     sizes = [2.0**k for k in range(0, 13, plan.stride)]
     of = partial(Curve, "no earlier impact on I0 and I1", unit="boxes", sizes=sizes)
-    ways = [of(ARRAY, make=tasks.excluded_at_once)]
-    ways += [of(name, make=tasks.excluded(name)) for name in libraries()[1:]]
+    ways = [of(ARRAY, run=tasks.excluded_at_once)]
+    ways += [of(name, run=partial(tasks.excluded, name)) for name in libraries()[1:]]
     yield section(
         "The kernel of all covers: gap > 0 at each time of a grid and on each piece between, over "
         "each box; sine and cosine and the comparisons are included.",
@@ -106,16 +106,16 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
     works = []
     for order in plan.orders if digits and digits > 30 else range(len(_FORMS)):
         names = libraries()[0 if digits else 1 :]
-        makers = {name: tasks.by_library(name, order, digits) for name in names}
+        runs = {name: partial(tasks.by_library, name, order, digits) for name in names}
         if not digits:
-            makers = {ARRAY: tasks.by_bounds(tasks.at_once, order), **makers}
+            runs = {ARRAY: partial(tasks.by_bounds, tasks.at_once, order), **runs}
             if by_codac:
-                makers[CODAC] = tasks.by_bounds(by_codac, order)
+                runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
         form = partial(of, floor=floor, least=order + 0.8)  # the excess: boxes^-(order + 1)
-        ways = [form(f"{_FORMS[order]}, {name}", make=make) for name, make in makers.items()]
+        ways = [form(f"{_FORMS[order]}, {name}", run=run) for name, run in runs.items()]
         works.append(sweep(ways, plan.many))
     if not digits:
-        monotone = of(f"monotonicity, {ARRAY}", sizes=(8,), make=tasks.extremes)
+        monotone = of(f"monotonicity, {ARRAY}", sizes=(8,), run=tasks.extremes)
         works.append(sweep([monotone], plan.many))
     name, title = where.replace(" ", "-"), f"Slope bounds {'at' if digits else 'in'} {where}"
     across = "error: by how much the bounds of f' miss its extremes [1]"
@@ -131,17 +131,19 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
 
 def _flights(plan: Plan) -> Section:
     of = partial(Curve, "6 flights, I0 and I1", sizes=_DIGITS, unit="digits")
-    proved = [of(f"the grid given, {name}", make=tasks.flights(name)) for name in libraries()]
-    proved.append(of("certified map (motion.image)", make=tasks.images))
+    proved = [
+        of(f"the grid given, {name}", run=partial(tasks.flights, name)) for name in libraries()
+    ]
+    proved.append(of("certified map (motion.image)", run=tasks.images))
     guess = partial(of, proved=False, against="")
     steps, tolerances = [10.0**-k for k in range(1, 7)], [10.0**-k for k in range(3, 14, 2)]
-    march = guess("algorithm A.1", unit="step", sizes=steps, make=tasks.marches, least=0.8)
+    march = guess("algorithm A.1", unit="step", sizes=steps, run=tasks.marches, least=0.8)
     march.against = "error"
     floats = "floating point, steps that pass no zero"
-    others = [march, guess(floats, unit="run", sizes=(1,), make=tasks.floats)]
+    others = [march, guess(floats, unit="run", sizes=(1,), run=tasks.floats)]
     for method in ("RK45", "DOP853") if installed("scipy") else ():
-        name, make = f"scipy solve_ivp, {method}", tasks.solved(method)
-        others.append(guess(name, unit="tolerance", sizes=tolerances, make=make))
+        name, run = f"scipy solve_ivp, {method}", partial(tasks.solved, method)
+        others.append(guess(name, unit="tolerance", sizes=tolerances, run=run))
     title, error = "Flight time and map at a point", "error: of the worst of six flight times [1/ω]"
     return section(
         "The first impact after six launches, and the map and its slope there. The certified map "
@@ -158,8 +160,8 @@ def _orbits(plan: Plan) -> Section:
     words = [2.0**n for n in range(1, 15)]
     of = partial(Curve, "all periodic points of a period", unit="words", sizes=words)
     ways = [
-        of("binary64", make=partial(tasks.orbits, digits=None)),
-        of("25 digits", make=partial(tasks.orbits, digits=25)),
+        of("binary64", run=partial(tasks.orbits, None)),
+        of("25 digits", run=partial(tasks.orbits, 25)),
     ]
     return section(
         "Each word of 0 and 1 has one periodic point, which is enclosed. There are 2^n words of "
@@ -171,7 +173,7 @@ def _orbits(plan: Plan) -> Section:
 
 def _dimensions(plan: Plan) -> Section:
     way = Curve("both dimensions (H13)", "proofs.dimension", "digits", (2, 5, 10, 15, 20, 30))
-    way.make = tasks.dimensions
+    way.run = tasks.dimensions
     return section(
         "The command that proves claim H13, without its check, to so many digits: the true "
         "dimensions of two repellers. No peer has this.",
@@ -185,7 +187,7 @@ def checks(plan: Plan, folder: Path) -> Section:
     files = [path for group in GROUPS if (path := folder / f"{group}.json").exists()]
     sizes = {path.stat().st_size / 1000: path for path in files}
     curve = Curve("check", "certificates", "kB", sorted(sizes), against="", proved=False)
-    curve.make = lambda size: tasks.checked(sizes[size])
+    curve.run = lambda size: tasks.checked(sizes[size])
     sweep([curve], plan.long)
     curve.points = [point._replace(note=sizes[point.size].stem) for point in curve.points]
     rows = [

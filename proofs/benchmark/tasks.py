@@ -1,4 +1,4 @@
-"""What the curves do: the task of a size, which returns its error, < 0 if it excludes the truth."""
+"""What the curves do at a size: each does its work and returns the error, < 0 if it is wrong."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ import numpy as np
 
 from intervals import IntervalArray, Undecided
 from intervals.taylor import polynomial_range
-from proofs.benchmark.curves import Task
 from proofs.benchmark.peers import OURS, Range, arithmetic
 from proofs.benchmark.slopes import (
     ETA,
@@ -32,7 +31,7 @@ from proofs.benchmark.slopes import (
     coefficients,
     exclude,
     first_impact,
-)
+)  # fmt: skip
 from proofs.motion import candidate, kernel
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.image import Image, image
@@ -77,20 +76,15 @@ def loss(found: Sequence[Range]) -> float:
 
 
 @cache
-def grids() -> list[list[float]]:
-    """Return times before every impact, for each domain: what a scalar proof finds."""
-    return [grid_of(cover_by_impacts(SYSTEM, domain)[0]) for domain in DOMAINS]
+def works(boxes: int) -> list[Work]:
+    """Return what is given to all; Undecided if the kernel does not find it."""
+    return [work(domain, boxes) for domain in DOMAINS]
 
 
 @cache
-def works(boxes: int) -> list[Work]:
-    """Return what is given to all; Undecided if the kernel does not find it."""
-    loss(DOMAINS)  # finds the truth, not in anybody's time
-    return [work(domain, grid, boxes) for domain, grid in zip(DOMAINS, grids(), strict=True)]
-
-
-def work(domain: Range, grid: list[float], boxes: int) -> Work:
-    """Return the work of one domain."""
+def work(domain: Range, boxes: int) -> Work:
+    """Return the work of one domain, on times before every impact that a scalar proof finds."""
+    grid = grid_of(cover_by_impacts(SYSTEM, domain)[0])
     times, cuts = slope_cover(SYSTEM, domain, boxes, grid).times, cut(domain, boxes)
     low, high = times.inf * (1 - _OPENING), times.sup * (1 + _OPENING)
     brackets = list(zip(low.tolist(), high.tolist(), strict=True))
@@ -99,35 +93,29 @@ def work(domain: Range, grid: list[float], boxes: int) -> Work:
     return Work(domain, cuts.tolist(), grid, brackets, centres, ends)
 
 
-def by_bounds(of: Callable[[Work, int], Range], order: int) -> Callable[[float], Task]:
-    """Return the work at numbers of boxes, by what bounds f' on one domain."""
-
-    def make(boxes: float) -> Task:
-        given = works(int(boxes))
-        return lambda: loss([of(one, order) for one in given])
-
-    return make
+def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
+    """Do the work by what bounds f' on one domain."""
+    return loss([of(one, order) for one in works(int(boxes))])
 
 
-def by_library(library: str, order: int, digits: float | None) -> Callable[[float], Task]:
-    """Return the work box by box, to so many digits or in binary64, signs to 53 bits."""
-    of = arithmetic(library, _SIGN_BITS if digits is None else bits_for(digits))
+def by_library(library: str, order: int, digits: float | None, boxes: float) -> float:
+    """Do the work box by box, to so many digits or in binary64, signs to 53 bits."""
+    of = arithmetic(library, bits_for(digits) if digits else _SIGN_BITS)
     signs = arithmetic(library, _SIGN_BITS)
-    return by_bounds(lambda work, order: bounds(of, signs, work, order), order)
+    return loss([bounds(of, signs, one, order) for one in works(int(boxes))])
 
 
-def monotone(library: str) -> Callable[[float], Task]:
-    """Return f'' > 0 on 8 boxes and f' at the ends, at numbers of digits."""
-    return lambda digits: by_library(library, MONOTONE, digits)(_MONOTONE_BOXES)
+def monotone(library: str, digits: float) -> float:
+    """Prove f'' > 0 on 8 boxes, and enclose f' at the ends."""
+    return by_library(library, MONOTONE, digits, _MONOTONE_BOXES)
 
 
 def at_once(given: Work, order: int) -> Range:
     """Do the work for all boxes at once, in arrays of binary64."""
     of = replace(arithmetic(OURS, _SIGN_BITS), number=lambda low, high: low)  # exact numbers
-    cuts, about = np.array(given.cuts), np.array(given.centres)
-    launches = kernel.Launches(SYSTEM, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches, about = _launches(given), np.array(given.centres)
     kernel.exclude_impacts(launches, given.grid)
-    last = np.full(len(cuts) - 1, given.grid[-1])
+    last = np.full(len(about), given.grid[-1])
     low, high = np.array(given.brackets).T
     kernel.prove_brackets(launches, last, low, high)
     terms = coefficients(of, launches.phases, IntervalArray.from_floats(low, high), order)
@@ -138,56 +126,41 @@ def at_once(given: Work, order: int) -> Range:
     return Fraction(float(found.inf.min())), Fraction(float(found.sup.max()))
 
 
-def excluded_at_once(boxes: float) -> Task:
-    """Return the exclusion of all earlier impacts, in arrays; it has no error."""
-    given = works(int(boxes))
-
-    def task() -> float:
-        for one in given:
-            cuts = np.array(one.cuts)
-            box = IntervalArray.from_floats(cuts[:-1], cuts[1:])
-            kernel.exclude_impacts(kernel.Launches(SYSTEM, box), one.grid)
-        return 0.0
-
-    return task
+def _launches(given: Work) -> kernel.Launches:
+    cuts = np.array(given.cuts)
+    return kernel.Launches(SYSTEM, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
 
 
-def excluded(library: str) -> Callable[[float], Task]:
-    """Return the same, box by box in a library."""
-
-    def make(boxes: float) -> Task:
-        of, given = arithmetic(library, _SIGN_BITS), works(int(boxes))
-
-        def task() -> float:
-            for one in given:
-                exclude(of, [of.number(*ends) for ends in pairwise(one.cuts)], one.grid)
-            return 0.0
-
-        return task
-
-    return make
+def excluded_at_once(boxes: float) -> float:
+    """Exclude all earlier impacts, in arrays; that has no error."""
+    for one in works(int(boxes)):
+        kernel.exclude_impacts(_launches(one), one.grid)
+    return 0.0
 
 
-def extremes(_: float) -> Task:
-    """Return our bounds by monotonicity in binary64."""
-
-    def task() -> float:
-        found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
-        return loss([(Fraction(x.minimum[0]), Fraction(x.maximum[1])) for x in found])
-
-    return task
+def excluded(library: str, boxes: float) -> float:
+    """Exclude the same, box by box in a library."""
+    of = arithmetic(library, _SIGN_BITS)
+    for one in works(int(boxes)):
+        exclude(of, [of.number(*ends) for ends in pairwise(one.cuts)], one.grid)
+    return 0.0
 
 
-def main_job_slopes(digits: float) -> Task:
-    """Return what the main job does: it is given nothing, and keeps the witness."""
+def extremes(_: float) -> float:
+    """Bound f' by monotonicity, in binary64."""
+    found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
+    return loss([(Fraction(x.minimum[0]), Fraction(x.maximum[1])) for x in found])
+
+
+def main_job_slopes(digits: float) -> float:
+    """Do what the main job does: it is given nothing, and keeps the witness."""
     from proofs.search.steps import Prover
 
-    def task() -> float:
-        provers = (Prover(SYSTEM, int(digits), HORIZON).slopes(list(d))[1] for d in DOMAINS)
-        pieces = [one.pieces for one in provers]
-        return loss([(min(x for x, _ in one), max(y for _, y in one)) for one in pieces])
-
-    return task
+    found = []
+    for domain in DOMAINS:
+        pieces = Prover(SYSTEM, int(digits), HORIZON).slopes(list(domain))[1].pieces
+        found.append((min(low for low, _ in pieces), max(high for _, high in pieces)))
+    return loss(found)
 
 
 # -- flights ---------------------------------------------------------------------------------------
@@ -210,115 +183,79 @@ def deviation(times: Sequence[float | None]) -> float:
     return max(abs(float(Fraction(time) - truth(phase).flight[0])) for time, phase in known)
 
 
-def images(digits: float) -> Task:
-    """Return the certified map, which is given the phase alone."""
+def images(digits: float) -> float:
+    """Enclose the certified map, which is given the phase alone."""
+    found = [image(SYSTEM, (phase, phase), digits=int(digits)) for phase in PHASES]
+    return width([one.flight for one in found if isinstance(one, Image)])
 
-    def task() -> float:
-        found = [image(SYSTEM, (phase, phase), digits=int(digits)) for phase in PHASES]
-        return width([one.flight for one in found if isinstance(one, Image)])
 
-    return task
+def flights(library: str, digits: float) -> float:
+    """Exclude impacts on given grids at 53 bits, then enclose time and f' to so many digits."""
+    of, signs = arithmetic(library, bits_for(digits)), arithmetic(library, _SIGN_BITS)
+    return width([first_impact(of, signs, phase, *_given(phase)) for phase in PHASES])
 
 
 @cache
-def _launches() -> list[tuple[Fraction, list[float], float]]:
-    """Return the phases, times before each impact, and about the time of it."""
-    found = []
-    for phase in PHASES:
-        impact, about = locate(SYSTEM, (phase, phase)), candidate.next_impact(SYSTEM, float(phase))
-        grid = [float(time) for time in impact.times[1:] if time <= impact.window[0]]
-        found.append((phase, grid, about[0] if about else 0.0))
-    return found
+def _given(phase: Fraction) -> tuple[list[float], float]:
+    """Return times before the impact, and about the time of it."""
+    impact, about = locate(SYSTEM, (phase, phase)), candidate.next_impact(SYSTEM, float(phase))
+    grid = [float(time) for time in impact.times[1:] if time <= impact.window[0]]
+    return grid, about[0] if about else 0.0
 
 
-def flights(library: str) -> Callable[[float], Task]:
-    """Return: exclude impacts on given grids at 53 bits, then time and f' at so many digits."""
-
-    def make(digits: float) -> Task:
-        of, signs = arithmetic(library, bits_for(digits)), arithmetic(library, _SIGN_BITS)
-        return lambda: width([first_impact(of, signs, *one) for one in _launches()])
-
-    return make
+def marches(step: float) -> float:
+    """March by algorithm A.1, as the paper prints it."""
+    return deviation([march(SYSTEM, float(phase), step) for phase in PHASES])
 
 
-def marches(step: float) -> Task:
-    """Return algorithm A.1 as the paper prints it."""
-    return lambda: deviation([march(SYSTEM, float(phase), step) for phase in PHASES])
+def floats(_: float) -> float:
+    """Search in floating point, by steps that pass no zero."""
+    found = [candidate.next_impact(SYSTEM, float(phase)) for phase in PHASES]
+    return deviation([one and one[0] for one in found])
 
 
-def floats(_: float) -> Task:
-    """Return the search in floating point by steps that pass no zero."""
+def solved(method: str, tolerance: float) -> float:
+    """Simulate as one would with scipy: the mass as an ODE, the table as an event."""
+    from scipy.integrate import solve_ivp  # type: ignore[import, unused-ignore]
 
-    def task() -> float:
-        found = [candidate.next_impact(SYSTEM, float(phase)) for phase in PHASES]
-        return deviation([one and one[0] for one in found])
+    eta, nu, times = float(ETA), float(NU), list[float | None]()
+    for phase in map(float, PHASES):
 
-    return task
-
-
-def solved(method: str) -> Callable[[float], Task]:
-    """Return the simulation that one would write with scipy: mass as an ODE, table as an event."""
-    eta, nu = float(ETA), float(NU)
-
-    def time(phase: float, tolerance: float) -> float | None:
-        from scipy.integrate import solve_ivp  # type: ignore[import, unused-ignore]
-
-        def below(t: float, y: Any) -> float:
+        def below(t: float, y: Any, phase: float = phase) -> float:
             return 1 + nu * math.sin(phase + t) - float(y[0])
 
         below.terminal, below.direction = True, -1  # type: ignore[attr-defined]
-        start, accuracy = (1 + nu * math.sin(phase), nu * math.cos(phase)), (tolerance, tolerance)
+        start = 1 + nu * math.sin(phase), nu * math.cos(phase)
         found = solve_ivp(
             lambda _, y: (y[1], -eta * eta * y[0]), (0.0, 200.0), start, method, events=below,
-            max_step=1.0, **dict(zip(("rtol", "atol"), accuracy, strict=True)),
+            max_step=1.0, rtol=tolerance, atol=tolerance,
         )  # fmt: skip
         events = [t for t in found.t_events[0] if t > 0.25]  # before is the launch itself
-        return float(events[0]) if events else None
-
-    return lambda tolerance: lambda: deviation([time(float(x), tolerance) for x in PHASES])
+        times.append(float(events[0]) if events else None)
+    return deviation(times)
 
 
 # -- whole proofs ----------------------------------------------------------------------------------
 
 
-def dimensions(digits: float) -> Task:
-    """Return the command that proves both Hausdorff dimensions to so many digits."""
-
-    def task() -> float:
-        with TemporaryDirectory() as folder:
-            options = ["--digits", str(int(digits)), "--no-check", "--out", folder, "--json", "-"]
-            command = [sys.executable, "-m", "proofs.dimension", *options]
-            found = subprocess.run(command, capture_output=True, check=True, text=True).stdout
-        quantities = json.loads(found)["claims"][0]["quantities"]
-        both = [quantities[name] for name in ("dimension", "dimension_of_I")]
-        return float(max(Fraction(one["upper"]) - Fraction(one["lower"]) for one in both))
-
-    return task
+def dimensions(digits: float) -> float:
+    """Run the command that proves both Hausdorff dimensions to so many digits."""
+    with TemporaryDirectory() as folder:
+        options = ["--digits", str(int(digits)), "--no-check", "--out", folder, "--json", "-"]
+        command = [sys.executable, "-m", "proofs.dimension", *options]
+        found = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    quantities = json.loads(found)["claims"][0]["quantities"]
+    both = [quantities[name] for name in ("dimension", "dimension_of_I")]
+    return float(max(Fraction(one["upper"]) - Fraction(one["lower"]) for one in both))
 
 
-def orbits(words: float, digits: int | None) -> Task:
-    """Return all periodic points of a period, by the number of words, of a proved horseshoe."""
+def orbits(digits: int | None, words: float) -> float:
+    """Enclose all periodic points of a period, by the number of words, of a proved horseshoe."""
     from proofs.methods.orbits import periodic_points
     from proofs.methods.words import Words
 
-    of, given = _horseshoe(), Words.of_length(int(words).bit_length() - 1)
-
-    def task() -> float:
-        points = periodic_points(of, given, digits)
-        return float(max(one.point[1] - one.point[0] for one in points))
-
-    return task
-
-
-def checked(certificate: Path) -> Task:
-    """Return the check of a certificate in this process, for its exit status."""
-    from proofs import check
-
-    def task() -> float:
-        with redirect_stdout(StringIO()):
-            return check.main([str(certificate)])
-
-    return task
+    points = periodic_points(_horseshoe(), Words.of_length(int(words).bit_length() - 1), digits)
+    return float(max(one.point[1] - one.point[0] for one in points))
 
 
 @cache
@@ -329,3 +266,11 @@ def _horseshoe() -> Any:
     whole, least = (orbits.LEFT[0], orbits.RIGHT[1]), (Fraction(1), Fraction(1))
     sets = replace(PAPER, left=orbits.LEFT, right=orbits.RIGHT, interval=whole)
     return orbits.horseshoe(replace(sets, slopes=least, ratios=None, printed_s0=None))
+
+
+def checked(certificate: Path) -> float:
+    """Check a certificate in this process; its error is the exit status."""
+    from proofs import check
+
+    with redirect_stdout(StringIO()):
+        return check.main([str(certificate)])
