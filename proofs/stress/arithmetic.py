@@ -37,27 +37,21 @@ _LEAST = -1074  # binary64 has no multiples of less than 2^-1074
 
 @dataclass(frozen=True)
 class _Prescribed(Case):
-    """A case whose answer is one value, of prescribed precision: in binary64 if of an array."""
+    """A case whose answer is one value, to so many bits: in binary64 if of an array."""
 
-    @property
-    def rounding(self) -> tuple[int, bool]:
-        """The precision, and whether the value is of an array."""
-        raise NotImplementedError
-
-    def bits(self) -> int | None:
-        """Return the precision."""
-        return self.rounding[0]
+    precision: int
+    array: bool
 
     def best(self, hull: Range) -> Fraction:
         """Return the width of the range with its ends rounded outward."""
-        bits, binary64 = self.rounding
-        low, high = rounded_down(hull[0], bits, binary64), -rounded_down(-hull[1], bits, binary64)
-        return high - low
+        low, high = (rounded_down(x, self.precision, self.array) for x in (hull[0], -hull[1]))
+        return -high - low
 
     def operand(self, ends: Range, easy: Fraction) -> Any:
         """Return an Interval, or an IntervalArray with two easy neighbours."""
-        bits, binary64 = self.rounding
-        return IntervalArray([easy, ends, easy]) if binary64 else Interval(*ends, precision=bits)
+        if self.array:
+            return IntervalArray([easy, ends, easy])
+        return Interval(*ends, precision=self.precision)
 
 
 def _answer(found: Interval | IntervalArray) -> Answer:
@@ -88,13 +82,6 @@ class OperationCase(_Prescribed):
     high: Fraction
     left: Fraction
     right: Fraction
-    precision: int
-    array: bool
-
-    @property
-    def rounding(self) -> tuple[int, bool]:
-        """The precision, and whether the value is of an array."""
-        return self.precision, self.array
 
     def answer(self) -> Answer:
         """Return the enclosure."""
@@ -122,7 +109,7 @@ def operation(random: Draw, _: Arithmetic) -> OperationCase:
         left, right = (low, high) if random.random() < 0.5 else (-high, -low)
         right += abs(right) / 2 ** (bits - 2)
         right = -rounded_down(-right, bits)
-    return OperationCase(random.family, random.choice("+-*/"), low, high, left, right, bits, array)
+    return OperationCase(random.family, bits, array, random.choice("+-*/"), low, high, left, right)
 
 
 def _operand(random: Random, bits: int) -> Range:
@@ -146,12 +133,6 @@ class FunctionCase(_Prescribed):
     function: str
     low: Fraction
     high: Fraction
-    precision: int
-
-    @property
-    def rounding(self) -> tuple[int, bool]:
-        """The precision, and whether the value is of an array."""
-        return self.precision, self.family == "arrays"
 
     def answer(self) -> Answer:
         """Return the enclosure."""
@@ -228,7 +209,8 @@ def _turns(kernel: Arithmetic, x: Fraction, shift: Fraction) -> int:
 def function(random: Draw, kernel: Arithmetic) -> FunctionCase:
     """Return a random function at a random hard argument, a point or an interval."""
     name = random.choice(NAMES)
-    bits = 53 if random.family == "arrays" else random.choice((24, 53, 64, 100, 200, 333))
+    array = random.family == "arrays"
+    bits = 53 if array else random.choice((24, 53, 64, 100, 200, 333))
     low = rounded_down(_argument(random, kernel, name, bits), bits)
     high = low
     if random.random() < 0.5:
@@ -238,7 +220,7 @@ def function(random: Draw, kernel: Arithmetic) -> FunctionCase:
         high = max(low, -rounded_down(-low - width, bits))
         outside = high <= 0 if name in _POSITIVE else name in _UNIT and abs(high) >= 1
         high = low if outside else high
-    return FunctionCase(random.family, name, low, high, bits)
+    return FunctionCase(random.family, bits, array, name, low, high)
 
 
 def _argument(random: Random, kernel: Arithmetic, function: str, bits: int) -> Fraction:

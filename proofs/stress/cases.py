@@ -26,12 +26,10 @@ class Truth:
 class Answer:
     """What the library said of each sample: an enclosure, or several of which one is true.
 
-    possible: whether it said only that these are the possible images. bits: the least precision
-    that sufficed, of those that were tried.
+    possible: whether it said only that these are the possible images.
     """
 
     samples: tuple[tuple[Ranges, ...], ...]
-    bits: int | None = None
     possible: bool = False
 
 
@@ -44,10 +42,6 @@ class Case:
     def answer(self) -> Answer:
         """Ask the library; let it raise."""
         raise NotImplementedError
-
-    def bits(self) -> int | None:
-        """Return the least precision that suffices, where the answer does not say."""
-        return None
 
     def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
         """Return the truth about every sample, None where it is out of reach."""

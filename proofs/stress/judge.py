@@ -50,7 +50,6 @@ class Judgement:
     outcome: Outcome
     seconds: float
     reason: str = ""
-    bits: int | None = None
     widths: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -104,15 +103,7 @@ def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
     truths = case.truths(kernel)
     outcome, reason = _compared(answer, truths, kernel)
     widths = _widths(case, answer, truths, kernel) if outcome is Outcome.ENCLOSED else {}
-    return Judgement(case, outcome, seconds, reason, _bits(case, answer, allowed), widths)
-
-
-def _bits(case: Case, answer: Answer, allowed: float) -> int | None:
-    try:
-        with limited(allowed):
-            return answer.bits or case.bits()
-    except TookTooLong:
-        return None
+    return Judgement(case, outcome, seconds, reason, widths)
 
 
 def _has_impact(case: Case, kernel: Arithmetic) -> bool:

@@ -8,14 +8,11 @@ from fractions import Fraction
 
 import numpy as np
 
-from intervals import IntervalArray, Undecided
+from intervals import IntervalArray
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.flight import Flight
 from proofs.motion.image import PossibleImages, image
-from proofs.motion.impact import NoImpact, Sticks, first_impact, locate
 from proofs.motion.rebound import rebound
-from proofs.motion.slope_cover import BINARY64, slope_cover
+from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
 from proofs.stress.cases import Answer, Case, Truth
 from proofs.stress.truth import Launched
@@ -80,28 +77,6 @@ class ImageCase(MapCase):
             named["dwell"] = found.dwell
         return Answer(((named,),))
 
-    def bits(self) -> int | None:
-        """Return the precision at which the first impacts are found: 53, 64, 128, ..."""
-        phases = (self.low, self.high)
-        try:
-            if self.low < self.high:
-                parts = cover_by_impacts(self.system, phases, horizon=self.horizon)
-                return max(part.flight.precision for part in parts)
-            flight = Flight(self.system, phases, BINARY64)
-            if any(self._suffices(flight, step) for step in (Fraction(1, 8), Fraction(1, 256))):
-                return BINARY64
-            return locate(self.system, phases, horizon=self.horizon).flight.precision
-        except Undecided:
-            return None
-
-    def _suffices(self, flight: Flight, finest: Fraction) -> bool:
-        try:
-            return first_impact(flight, self.horizon, finest).transversal
-        except (NoImpact, Sticks):
-            raise
-        except Undecided:
-            return False
-
 
 @dataclass(frozen=True)
 class ReboundCase(MapCase):
@@ -153,7 +128,7 @@ class CoverCase(Case):
             k = int(np.searchsorted(found.boxes.inf, float(x), side="right")) - 1
             parts = {"flight": found.times[k], "slope": found.slopes[k]}
             samples.append(({name: _ends(part) for name, part in parts.items()},))
-        return Answer(tuple(samples), int(found.bits.max()))
+        return Answer(tuple(samples))
 
     def _points(self) -> list[Fraction]:
         """Return three phases of the box in the middle."""

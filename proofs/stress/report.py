@@ -14,7 +14,6 @@ from proofs.stress.judge import Judgement, Outcome
 
 SCHEMA = "impact-proofs-stress-1"
 _REASONS = 3
-_PRESCRIBED = ("operations", "functions", "arrays")
 _OUTCOMES = {
     outcome.name if outcome.failure else outcome.name.lower(): outcome for outcome in Outcome
 }
@@ -68,20 +67,10 @@ def _spread(values: Sequence[float]) -> tuple[str, str]:
 
 
 def text(run: Run) -> str:
-    """Return the table with what needed which precision, the failures and the verdict."""
-    return "\n".join([*_table(run), *_failures(run), verdict(run)])
-
-
-def _table(run: Run) -> list[str]:
-    """Return the table, and how many motions needed how many bits to find the first impact."""
-    lines = [*markdown_table([_HEADER, *rows(run)], numbers_from=1), ""]
-    motions = [one for one in run.judgements if one.case.family not in _PRESCRIBED]
-    needed = Counter(one.bits for one in motions if one.bits is not None)
-    if needed:
-        parts = ", ".join(f"{bits} bits {count}" for bits, count in sorted(needed.items()))
-        what = "first impacts of points and of boxes, by the least precision that sufficed"
-        lines += [f"{what}: {parts}", ""]
-    return lines
+    """Return the table, the failures and the verdict."""
+    return "\n".join(
+        [*markdown_table([_HEADER, *rows(run)], numbers_from=1), "", *_failures(run), verdict(run)]
+    )
 
 
 def verdict(run: Run) -> str:
@@ -105,7 +94,16 @@ def _failures(run: Run) -> list[str]:
 
 def markdown(run: Run) -> str:
     """Return the page."""
-    lines = ["# Stress", "", f"{verdict(run)}. Seed {run.seed}.", "", _ABOUT, "", *_table(run)]
+    lines = [
+        "# Stress",
+        "",
+        f"{verdict(run)}. Seed {run.seed}.",
+        "",
+        _ABOUT,
+        "",
+        *markdown_table([_HEADER, *rows(run)], numbers_from=1),
+        "",
+    ]
     lines += ["## What each family is", ""]
     lines += [f"- {f.name}: {f.about}" for f in FAMILIES if f.name in run.by_family()]
     lines += ["", "## Why cases were refused", ""]
@@ -149,8 +147,6 @@ def _case(one: Judgement) -> dict[str, object]:
     }
     if one.reason:
         found["reason"] = one.reason
-    if one.bits is not None:
-        found["bits"] = one.bits
     if one.widths:
         found["width"] = {name: float(f"{width:.4g}") for name, width in one.widths.items()}
     return found
