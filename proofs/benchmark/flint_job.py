@@ -52,25 +52,19 @@ class Flight:
         self.lift, self.rate = NU * self.phi.sin(), NU * self.phi.cos()
         self.finest = max(float(high - low), THIN)  # steps in time that suit the phases
 
-    def gap(self, t: Ball) -> Ball:
-        """Return table - mass."""
-        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
-        return 1 + NU * (self.phi + t).sin() - mass
-
-    def speed(self, t: Ball) -> Ball:
-        """Return the gap's derivative by time."""
-        mass = self.rate * (ETA * t).cos() - ETA * (1 + self.lift) * (ETA * t).sin()
-        return NU * (self.phi + t).cos() - mass
-
-    def acceleration(self, t: Ball) -> Ball:
-        """Return its second derivative."""
-        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
-        return ETA**2 * mass - NU * (self.phi + t).sin()
+    def gap(self, t: Ball, order: int = 0) -> Ball:
+        """Return table - mass, or its derivative by time, of order 1 or 2."""
+        s, c = (ETA * t).sin_cos()
+        table = (self.phi + t).sin_cos()[order % 2]
+        up, along = 1 + self.lift, self.rate / ETA
+        mass = (up * c + along * s, along * c - up * s)[order % 2]
+        distance = NU * table - ETA**order * mass
+        return (1 + distance, distance, -distance)[order]
 
     def slope(self, t: Ball) -> Ball:
         """Return f' = 1 - (dgap/dphi) / (dgap/dt) where the impacts are at times in t."""
         mass = self.rate * (ETA * t).cos() - self.lift * (ETA * t).sin() / ETA
-        return 1 - (NU * (self.phi + t).cos() - mass) / self.speed(t)
+        return 1 - (NU * (self.phi + t).cos() - mass) / self.gap(t, 1)
 
     def windows(self) -> list[tuple[float, float]] | None:
         """Return times that hold every first impact, the last ends with gap < 0; None: undecided.
@@ -78,7 +72,7 @@ class Flight:
         On (0, step] gap'' > 0 gives gap > 0, since gap(0) = gap'(0) = 0.
         """
         step = 1.0
-        while not self.acceleration(during(0.0, step)) > 0:
+        while not self.gap(during(0.0, step), 2) > 0:
             step /= 2
             if step < self.finest:
                 return None
@@ -106,9 +100,9 @@ class Flight:
         if windows is None or len(windows) > 1:
             return None
         time = during(*windows[0])
-        while self.speed(time) < 0:
+        while self.gap(time, 1) < 0:
             middle = time.mid()
-            following = time.intersection(middle - self.gap(middle) / self.speed(time))
+            following = time.intersection(middle - self.gap(middle) / self.gap(time, 1))
             if not following.rad() < time.rad() / 2:
                 return following
             time = following

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -14,8 +15,7 @@ from proofs.shell.cli import USAGE_ERROR, Parser, progress, writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
-from proofs.stress.judge import Judgement, judge
-from proofs.stress.shrink import shrunk
+from proofs.stress.judge import Judgement, judge, shrunk
 from proofs.stress.truth import kernel_of
 from proofs.trusted.certificate import write_atomically
 
@@ -45,23 +45,22 @@ def stress(
     families: Sequence[Family], count: int, seed: int, by: Arithmetic, tell: Callable[[str], None]
 ) -> report.Run:
     """Try about `count` cases of some families; shrink the first failures."""
-    began, shrinks = perf_counter(), 0
+    began = perf_counter()
     found: list[Judgement] = []
     for case in cases(families, count, seed, by):
         tell(f"{len(found)} cases, {case.family}")
-        one = judge(case, by)
-        if one.outcome.failure and shrinks < _SHRUNK:
-            shrinks += 1
-
-            def fails(other: Case, outcome: object = one.outcome) -> bool:
-                try:
-                    return judge(other, by).outcome is outcome
-                except (ArithmeticError, ValueError):
-                    return False
-
-            one = judge(shrunk(case, fails), by)
-        found.append(one)
+        found.append(judge(case, by))
+    for k in [k for k, one in enumerate(found) if one.outcome.failure][:_SHRUNK]:
+        found[k] = judge(shrunk(found[k].case, partial(_alike, found[k], by)), by)
     return report.Run(found, seed, by.name, perf_counter() - began)
+
+
+def _alike(one: Judgement, by: Arithmetic, other: Case) -> bool:
+    """Whether another case fails in the same way."""
+    try:
+        return judge(other, by).outcome is one.outcome
+    except (ArithmeticError, ValueError):
+        return False
 
 
 def _parser() -> Parser:

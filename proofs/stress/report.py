@@ -66,11 +66,13 @@ def _spread(values: Sequence[float]) -> tuple[str, str]:
     return (f"{median(values):.2g}", f"{max(values):.2g}") if values else ("-", "-")
 
 
+def _table(run: Run) -> str:
+    return "\n".join(markdown_table([_HEADER, *rows(run)], numbers_from=1))
+
+
 def text(run: Run) -> str:
     """Return the table, the failures and the verdict."""
-    return "\n".join(
-        [*markdown_table([_HEADER, *rows(run)], numbers_from=1), "", *_failures(run), verdict(run)]
-    )
+    return "\n".join([_table(run), "", *_failures(run), verdict(run)])
 
 
 def verdict(run: Run) -> str:
@@ -94,21 +96,16 @@ def _failures(run: Run) -> list[str]:
 
 def markdown(run: Run) -> str:
     """Return the page."""
-    lines = [
-        "# Stress",
-        "",
-        f"{verdict(run)}. Seed {run.seed}.",
-        "",
-        _ABOUT,
-        "",
-        *markdown_table([_HEADER, *rows(run)], numbers_from=1),
-        "",
+    known = run.by_family()
+    families = [f"- {family.name}: {family.about}" for family in FAMILIES if family.name in known]
+    refused = [
+        f"- {name}: {count} times: {reason}"
+        for name, some in known.items()
+        for reason, count in reasons(some)
     ]
-    lines += ["## What each family is", ""]
-    lines += [f"- {f.name}: {f.about}" for f in FAMILIES if f.name in run.by_family()]
-    lines += ["", "## Why cases were refused", ""]
-    for name, some in run.by_family().items():
-        lines += [f"- {name}: {count} times: {reason}" for reason, count in reasons(some)]
+    lines = ["# Stress", "", f"{verdict(run)}. Seed {run.seed}.", "", _ABOUT, "", _table(run)]
+    lines += ["", "## What each family is", "", *families]
+    lines += ["", "## Why cases were refused", "", *refused]
     if run.failures:
         lines += ["", "## Failures", "", *(f"- {line}" for line in _failures(run))]
     return "\n".join(lines) + "\n"
@@ -127,29 +124,19 @@ def reasons(some: Sequence[Judgement]) -> list[tuple[str, int]]:
 
 def machine_form(run: Run) -> str:
     """Return every case as JSON: its exact input and what became of it."""
-    data = {
-        "schema": SCHEMA,
-        "seed": run.seed,
-        "kernel": run.kernel,
-        "seconds": round(run.seconds, 2),
-        "failures": len(run.failures),
-        "families": [dict(zip(_HEADER, line, strict=True)) for line in rows(run)],
-        "cases": [_case(one) for one in run.judgements],
-    }
+    cases = [
+        {
+            **one.case.inputs(),
+            "outcome": one.outcome.value,
+            "ms": round(1000 * one.seconds, 3),
+            "reason": one.reason,
+            "width": {name: float(f"{width:.4g}") for name, width in one.widths.items()},
+        }
+        for one in run.judgements
+    ]
+    data = {"schema": SCHEMA, "seed": run.seed, "kernel": run.kernel}
+    data |= {"seconds": round(run.seconds, 2), "failures": len(run.failures), "cases": cases}
     return json.dumps(data, indent=1) + "\n"
-
-
-def _case(one: Judgement) -> dict[str, object]:
-    found: dict[str, object] = {
-        **one.case.inputs(),
-        "outcome": one.outcome.value,
-        "ms": round(1000 * one.seconds, 3),
-    }
-    if one.reason:
-        found["reason"] = one.reason
-    if one.widths:
-        found["width"] = {name: float(f"{width:.4g}") for name, width in one.widths.items()}
-    return found
 
 
 def svg(run: Run) -> str:

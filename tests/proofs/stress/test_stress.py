@@ -18,9 +18,8 @@ from proofs.stress.__main__ import main
 from proofs.stress.arithmetic import FunctionCase, OperationCase
 from proofs.stress.families import FAMILIES, cases
 from proofs.stress.grazing import GRAZES, graze, separation_point
-from proofs.stress.judge import Outcome, TookTooLong, judge, limited
+from proofs.stress.judge import Outcome, TookTooLong, judge, limited, shrunk
 from proofs.stress.motions import CoverCase, ImageCase, ReboundCase
-from proofs.stress.shrink import shrunk
 from proofs.stress.truth import Launched, first_impact, kernel_of
 from tests.proofs.trusted.paper import reference
 
