@@ -89,7 +89,8 @@ def svg(diagram: Diagram) -> str:
         if diagram.against == "error":
             grid[0].invert_xaxis()  # smaller errors to the right; the panels share their axes
         figure.suptitle(diagram.title)
-        figure.supxlabel(diagram.across, fontsize=9)
+        below = min(columns * (rows - 1) + columns // 2, len(panels) - 1)
+        grid[below].set_xlabel(diagram.across)
         figure.supylabel("time [s]", fontsize=9)
         names = list(known)
         if len(names) > 1:
