@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 
 import proofs.benchmark
 from proofs.benchmark import page
-from proofs.benchmark.measuring import EFFORTS, Effort
-from proofs.benchmark.page import Run, Section
+from proofs.benchmark.page import Run, Section, Tell
+from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import USAGE_ERROR, Parser, check_targets, progress, writable, write_target
 
+SUBJECTS = ("all", "horseshoe", "limit", "precision", "claims", "intervals")
 EXAMPLES = """
 examples:
   python -m proofs.benchmark
@@ -22,147 +24,55 @@ examples:
   python -m proofs.benchmark intervals --codac-python ~/codac/bin/python
   python -m proofs.benchmark claims --smallest
   python -m proofs.benchmark precision --out diagrams --json precision.json
-  python -m proofs.benchmark --quick --json - > benchmark.json
+
+all: horseshoe and precision.
+horseshoe: the main job beside bare imports and a script in python-flint; its bounds of f', and its
+kernel beside python-flint. limit: the first of these alone.
+precision: time against error: bounds of f' by natural, mean-value and Taylor forms and by
+monotonicity, flight times beside algorithm A.1 and an ODE solver, dimensions, periodic points,
+checks. Peers do the same work; fitted orders; diagrams with --out.
+claims: the command of each group of claims, a whole process with its check, the check alone, and
+time against digits (dimension) and period (orbits).
+intervals: each operation of IntervalArray and Interval beside python-flint, mpmath.iv and codac, by
+pyperf, which prints them: python -m proofs.benchmark.operations, in binary64 and at 333 bits. It
+writes no report; --codac-python is then the interpreter of all.
 
 With --out the report is written as benchmark.md, benchmark.json and, where matplotlib is installed,
 benchmark-*.svg. A busy machine slows everything alike: trust the ratios.
 
-all: horseshoe, limit and precision.
-
-horseshoe: the main job, its accuracy and its kernel. One evaluation of the gap: an enclosure of the
-gap at one time of the grid, or of gap'' on one piece between two, over one box of phases. Times
-include sine and cosine and the comparisons.
-
-intervals: each operation of IntervalArray and Interval, on wide intervals or on points, beside
-python-flint, mpmath.iv and codac in list comprehensions, and temporary memory. Ratios are times as
-long as ours. Tables of constants are filled before, but for the first calls, in new processes.
-mpmath.iv works on 100 elements at most, codac in a process of its own. At 1,000,000 elements only
---full measures every function.
-
-claims: the command of each group of claims, a whole process with its check, the check alone, and
-time against digits (dimension) and period (orbits).
-
-precision: time against error: bounds of f' by natural, mean-value and Taylor forms and by
-monotonicity, flight times beside algorithm A.1 and an ODE solver, s_0, images of edges, dimensions,
-periodic points, checks. Peers do the same work; fitted orders; diagrams with --out.
-
-limit: the whole process of the main job, stage by stage: interpreter, imports, search, proof,
-certificate, report, check.
-
 exit status: 0 every target was reached, 1 one was missed or could not be measured, 2 bad usage
 """
 
-Tell = Callable[[str], None]
 
-
-def measure(options: Namespace) -> list[Section]:
+def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     """Measure the subject."""
-    chosen = _ALL if options.subject == "all" else (options.subject,)
-    effort = EFFORTS[options.mode]
-    with progress() as tell:
-        return [one for name in chosen for one in SUBJECTS[name](options, effort, tell)]
+    from proofs.benchmark import horseshoe, precision
 
-
-def _horseshoe(_: Namespace, effort: Effort, tell: Tell) -> Iterator[Section]:
-    from proofs.benchmark import horseshoe
-
-    tell("the main job")
-    about = (
-        "Whole processes of `python -m proofs.horseshoe` beside bare imports, the loss of its "
-        "slope bounds, and the rate of its kernel. python-flint (balls of any precision, in C) "
-        "computes the true extremes to 600 bits and does the kernel's work beside."
-    )
-    yield Section("The main job", about, horseshoe.measure(effort))
-
-
-def _limit(_: Namespace, effort: Effort, tell: Tell) -> Iterator[Section]:
-    from proofs.benchmark import limit
-
-    tell("where the time of the main job goes")
-    about = (
-        "The whole process of the main job, stage by stage, from the start of the interpreter to "
-        "its end. The plastic claims are those that the target is about, and a plain script with "
-        "python-flint decides them beside; the default job proves the rectangles of section 4 too."
-    )
-    yield Section("Where the time of the main job goes", about, limit.measure(effort))
-
-
-def _precision(options: Namespace, _: Effort, tell: Tell) -> Iterator[Section]:
-    from proofs.benchmark import precision
-
-    return precision.measure(options.mode, options.codac_python, options.reports, tell)
-
-
-def _claims(_: Namespace, effort: Effort, tell: Tell) -> Iterator[Section]:
-    from proofs.benchmark import groups
-
-    about = (
-        "The command of each group of claims, a whole process with its check, and the check alone. "
-        "Then time against digits of the dimensions and against the period of the orbits."
-    )
-    yield Section("The groups of claims", about, groups.measure(effort, tell))
-
-
-def _intervals(options: Namespace, effort: Effort, tell: Tell) -> Iterator[Section]:
-    from proofs.benchmark import arrays, first_calls, memory, scalars
-
-    about = (
-        "Each operation of IntervalArray and Interval beside python-flint (balls, in C), mpmath.iv "
-        "(in Python, not proved sound) and codac (binary64, in C++). Ratios are times as long as "
-        "ours; after the operations, temporary memory and first calls."
-    )
-    rows = [
-        *arrays.measure(effort, options.codac_python, tell),
-        *memory.measure(),
-        *scalars.measure(effort, tell),
-        *first_calls.measure(effort, tell),
-    ]
-    yield Section("The interval arithmetic", about, rows)
-
-
-_ALL = ("horseshoe", "limit", "precision")
-SUBJECTS: dict[str, Callable[[Namespace, Effort, Tell], Iterator[Section]]] = {
-    "horseshoe": _horseshoe,
-    "limit": _limit,
-    "precision": _precision,
-    "claims": _claims,
-    "intervals": _intervals,
-}
+    subject, mode = options.subject, options.mode
+    if subject in ("all", "horseshoe", "limit"):
+        yield horseshoe.limits(mode, tell)
+    if subject == "horseshoe":
+        yield from precision.of_main_job(mode, tell)
+    if subject in ("all", "precision"):
+        yield from precision.measure(mode, options.codac_python, options.reports, tell)
+    if subject == "claims":
+        yield horseshoe.claims(mode, tell)
 
 
 def _parser() -> Parser:
     parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
-    parser.add_argument(
-        "subject",
-        nargs="?",
-        choices=("all", *SUBJECTS),
-        default="all",
-        help="what is measured (default: all)",
-    )
+    add = parser.add_argument
+    add("subject", nargs="?", choices=SUBJECTS, default="all", help="default: all")
     modes = parser.add_mutually_exclusive_group()
-    modes.add_argument("--quick", dest="mode", action="store_const", const="quick", help="default")
-    modes.add_argument("--full", dest="mode", action="store_const", const="full", help="more runs")
-    modes.add_argument(
-        "--smallest", dest="mode", action="store_const", const="smallest", help="each once"
-    )
-    parser.add_argument("--json", metavar="FILE", help="write all samples; - for standard output")
-    parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="write the report there (default: print only)"
-    )
-    parser.add_argument(
-        "--reports",
-        metavar="DIR",
-        type=Path,
-        default=Path("reports"),
-        help="where the certificates are whose check is measured (default: reports)",
-    )
-    parser.add_argument(
-        "--codac-python",
-        metavar="PATH",
-        default=sys.executable,
-        help="the interpreter that has codac (default: this one)",
-    )
+    for mode, text in {"quick": "default", "full": "more runs", "smallest": "each once"}.items():
+        modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode, help=text)
     parser.set_defaults(mode="quick")
+    add("--json", metavar="FILE", help="write all samples; - for standard output")
+    add("--out", metavar="DIR", type=Path, help="write the report there (default: print only)")
+    where = "where the certificates are whose check is measured (default: reports)"
+    add("--reports", metavar="DIR", type=Path, default=Path("reports"), help=where)
+    python = "the interpreter that has codac (default: this one)"
+    add("--codac-python", metavar="PATH", default=sys.executable, help=python)
     return parser
 
 
@@ -174,10 +84,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if shutil.which(options.codac_python) is None:
         print(f"{parser.prog}: no such interpreter: {options.codac_python}", file=sys.stderr)
         return USAGE_ERROR
+    if options.subject == "intervals":
+        return _intervals(options.mode, options.codac_python)
     if options.out is not None:
         writable(parser, options.out)
     began = perf_counter()
-    sections = measure(options)
+    try:
+        with progress() as tell:
+            sections = list(measure(options, tell))
+    except (ChildProcessError, ModuleNotFoundError) as failure:
+        print(f"{parser.prog}: {failure}", file=sys.stderr)
+        return 1
     run = Run(options.subject, options.mode, sections, perf_counter() - began)
     if options.json != "-":
         print(page.text(run))
@@ -187,7 +104,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print("no pictures: matplotlib is not installed", file=sys.stderr)
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
-    return 0 if run.reached else 1
+    return int(any(not row.reached for row in run.asked))
+
+
+def _intervals(mode: str, python: str) -> int:
+    """Run pyperf on all operations; return its exit status."""
+    effort = {"smallest": ["--debug-single-value"], "full": ["--processes=10"]}
+    few = ["--processes=2", "--min-time=0.01"]
+    wide = [python, "-m", "proofs.benchmark.operations", "--quiet", *effort.get(mode, few)]
+    long = [*wide, "--bits=333", "--length=100", "--libraries", OURS, FLINT, IV]
+    return max(subprocess.run(command, check=False).returncode for command in (wide, long))
 
 
 if __name__ == "__main__":

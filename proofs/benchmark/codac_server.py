@@ -1,48 +1,75 @@
 """codac in a process of its own, because importing it changes the rounding mode of the process.
 
-Standard input: a job as JSON to be prepared, or the word run. Standard output, a line each: an
-empty line once prepared, or the seconds an element; at first the version of codac.
+Each work travels as a pickle, in which floats are exact in any rounding mode.
 """
 
 from __future__ import annotations
 
-import json
 import os
+import pickle
+import subprocess
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from importlib.metadata import version
-from math import ldexp
-from typing import Any
+from pathlib import Path
+from typing import IO, Any
 
-from proofs.benchmark.libraries import Job, Library, in_rows, one_by_one
+from intervals import Undecided
+from proofs.benchmark.peers import CODAC, Range, arithmetic
+from proofs.benchmark.slopes import Work, bounds
 
-_BITS = 53
+_ROOT = str(Path(__file__).parents[2])
+Bounds = Callable[[Work, int], Range]
 
 
-def _library() -> Library:
-    import codac  # type: ignore[import-not-found, unused-ignore]
+@contextmanager
+def codac(python: str) -> Iterator[tuple[str, Bounds] | None]:
+    """Yield codac's version, and its `bounds`, by the interpreter `python`; None if it has none."""
+    path = os.pathsep.join(filter(None, (_ROOT, os.environ.get("PYTHONPATH"))))
+    server = subprocess.Popen(
+        [python, "-m", "proofs.benchmark.codac_server"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": path},
+    )
+    requests: Any = server.stdin
+    replies: Any = server.stdout
 
-    def interval(lower: int, upper: int) -> Any:
-        return codac.Interval(ldexp(lower, 4 - _BITS), ldexp(upper, 4 - _BITS))
+    def ask(work: Work, order: int) -> Range:
+        _send((work, order), requests)
+        found: Range | str = pickle.load(replies)
+        if isinstance(found, str):
+            raise Undecided(found)
+        return found
 
-    def matrix(items: list[Any], side: int) -> Any:
-        return codac.IntervalMatrix(in_rows(items, side))
+    with server:
+        try:
+            yield pickle.load(replies), ask
+        except EOFError:
+            yield None
+        finally:
+            server.terminate()
 
-    return Library(one_by_one(interval, codac.Interval), _BITS, vars(codac), matrix)
+
+def _send(message: object, where: IO[bytes]) -> None:
+    pickle.dump(message, where)
+    where.flush()
 
 
 def main() -> None:
     """Serve until standard input ends."""
-    replies = os.fdopen(os.dup(1), "w")
+    replies = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no reply
-    library = _library()
-    print(version("codac"), file=replies, flush=True)
-    for line in sys.stdin:
-        request = json.loads(line)
-        if isinstance(request, dict):
-            sampler, reply = library.sampler(Job(**request["job"]), request["enough"]), ""
-        else:
-            reply = repr(sampler())
-        print(reply, file=replies, flush=True)
+    of = arithmetic(CODAC, 53)
+    _send(version(CODAC), replies)
+    while True:
+        work, order = pickle.load(sys.stdin.buffer)
+        try:
+            _send(bounds(of, of, work, order), replies)
+        except Undecided as failure:
+            _send(str(failure), replies)
 
 
 if __name__ == "__main__":

@@ -5,24 +5,22 @@ A library has the same colour and mark in all of them: ours are shades of blue.
 
 from __future__ import annotations
 
-import io
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import ceil, isfinite, log10, sqrt
+from dataclasses import dataclass, field
+from itertools import cycle
+from math import ceil, log10
+from statistics import median
 from typing import TYPE_CHECKING, Literal
 
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.peers import CODAC, FLINT, IV
+from proofs.report.markup import svg_text
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-Style = tuple[str, str]  # colour, mark
-
-_OURS: Sequence[Style] = (("#08519c", "o"), ("#6baed6", "<"), ("#4292c6", ">"))
-_OTHERS: dict[str, Style] = {  # by the end of their names
+_OURS = ("#08519c", "o"), ("#6baed6", "<"), ("#4292c6", ">")  # colour, mark
+_OTHERS = {  # by the end of their names
     FLINT: ("#e6550d", "s"),
     IV: ("#31a354", "^"),
     CODAC: ("#de2d26", "D"),
@@ -31,8 +29,6 @@ _OTHERS: dict[str, Style] = {  # by the end of their names
     "RK45": ("#756bb1", "P"),
     "DOP853": ("#c51b8a", "X"),
 }
-_COLUMNS = 3
-_SHORT = 20  # letters: four such names fit side by side
 
 
 @dataclass(frozen=True)
@@ -41,18 +37,26 @@ class Diagram:
 
     `against` says which that is: the error; its digits, -log10 of it; or the size of the work.
     Errors up to `least` are not drawn; if `certified`, neither are curves that prove nothing.
-    panels: each form, the first part of the name of a way, has a panel of its own. Notes name
-    points; what has no order is not joined.
+    panels: each form, the first part of the name of a way, has a panel of its own.
     """
 
     name: str
     title: str
-    curves: list[Curve]
     across: str = "error"
     against: Literal["error", "digits", "size"] = "error"
+    curves: list[Curve] = field(default_factory=list)
     least: float = 0.0
     certified: bool = False
     panels: bool = False
+
+    def place(self, point: Point) -> float:
+        """Return the place of a point on the horizontal axis; 0 is none."""
+        error = abs(point.error or 0.0)
+        if self.against == "size" and point.seconds:
+            return point.size
+        if error <= self.least:
+            return 0.0
+        return error if self.against == "error" else -log10(error)
 
 
 def svg(diagram: Diagram) -> str:
@@ -65,113 +69,54 @@ def svg(diagram: Diagram) -> str:
     mpl.use("svg")
     from matplotlib import pyplot as plt
 
-    curves = [one for one in diagram.curves if one.proved or not diagram.certified]
-    forms = list(dict.fromkeys(map(_form, curves))) if diagram.panels else [""]
-    columns = min(len(forms), _COLUMNS)
-    rows = ceil(len(forms) / columns)
-    size = (7.5, 5.0) if columns == 1 else (9.5, 2.7 * rows + 1.0)
+    panels: dict[str, list[Curve]] = {}
+    for curve in diagram.curves:
+        form = curve.way.partition(", ")[0] if diagram.panels else ""
+        if curve.proved or not diagram.certified:
+            panels.setdefault(form, []).append(curve)
+    columns, rows = min(len(panels), 3), ceil(len(panels) / 3)
+    size = (9.5, 2.7 * rows + 1.0) if diagram.panels else (7.5, 5.0)
     with mpl.rc_context({"svg.hashsalt": diagram.name, "font.size": 9, "legend.fontsize": 8}):
-        figure, grid = plt.subplots(
-            rows, columns, figsize=size, layout="constrained", sharex=True, sharey=True,
-            squeeze=False,
-        )  # fmt: skip
-        for axes, form in zip(grid.flat, forms, strict=False):
-            _draw(axes, diagram, [one for one in curves if form in ("", _form(one))])
-            axes.set_title(form, fontsize=9)
-        for k in range(len(forms), rows * columns):
-            grid.flat[k].set_visible(False)
-            grid.flat[k - columns].tick_params(labelbottom=True)
-        _scale(grid[0, 0], diagram)
+        figure = plt.figure(figsize=size, layout="constrained")
+        grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
+        known: dict[str, Artist] = {}
+        for axes, (form, curves) in zip(grid, panels.items(), strict=False):
+            axes.set(xscale="log", yscale="log", title=form)
+            axes.grid(alpha=0.3)
+            known |= _draw(axes, diagram, curves)
+        for axes in grid[len(panels) :]:
+            axes.set_visible(False)
+        if diagram.against == "error":
+            grid[0].invert_xaxis()  # smaller errors to the right; the panels share their axes
         figure.suptitle(diagram.title)
-        grid[-1, columns // 2].set_xlabel(diagram.across)
-        for axes in grid[:, 0]:
-            axes.set_ylabel("time [s]")
-        _legend(figure, list(grid.flat))
-        file = io.StringIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-        plt.close(figure)
-    return "\n".join(line.rstrip() for line in file.getvalue().splitlines()) + "\n"
+        below = min(columns * (rows - 1) + columns // 2, len(panels) - 1)
+        grid[below].set_xlabel(diagram.across)
+        figure.supylabel("time [s]", fontsize=9)
+        names = list(known)
+        if len(names) > 1:
+            wide = 4 if max(map(len, names)) <= 20 else 2
+            figure.legend(known.values(), names, loc="outside lower center", ncols=wide)
+        return svg_text(figure)
 
 
-def _scale(axes: Axes, diagram: Diagram) -> None:
-    """Show a decade at least, smaller errors to the right, and digits and sizes as plain numbers.
-
-    The panels share their axes: one stands for all.
-    """
-    from matplotlib.ticker import LogFormatter
-
-    for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        if high < 10 * low:
-            middle = sqrt(low * high)
-            axis.set_view_interval(middle / sqrt(10), middle * sqrt(10), ignore=True)
-    if diagram.against == "error":
-        axes.invert_xaxis()
-        return
-    axes.xaxis.set_major_formatter(LogFormatter(labelOnlyBase=False))
-    axes.xaxis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 0.5)))
-
-
-def _legend(figure: Figure, panels: Sequence[Axes]) -> None:
-    """Explain each name once, below the panels."""
+def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist]:
+    """Draw curves into a panel; return what is drawn by name."""
     known: dict[str, Artist] = {}
-    for axes in panels:
-        handles, labels = axes.get_legend_handles_labels()
-        known.update(zip(labels, handles, strict=True))
-    columns = 4 if max(map(len, known), default=0) <= _SHORT else 2
-    if len(known) > 1:
-        figure.legend(known.values(), list(known), loc="outside lower center", ncols=columns)
-
-
-def _draw(axes: Axes, diagram: Diagram, curves: Sequence[Curve]) -> None:
-    """Draw curves into a panel."""
-    axes.set(xscale="log", yscale="log")
-    axes.margins(0.1)
-    axes.grid(alpha=0.3)
-    own = 0
+    own = cycle(_OURS)
     for curve in curves:
-        style = _style(curve.way)
-        if style is None:
-            style, own = _OURS[own % len(_OURS)], own + 1
-        points = [(_across(p, diagram), p) for p in curve.points if p.seconds]
-        points = [(x, p) for x, p in points if isfinite(x) and x > 0]
-        if not points:
-            continue
-        axes.plot(
-            [x for x, _ in points],
-            [p.time for _, p in points],
-            label=_library(curve) if diagram.panels else curve.way,
-            color=style[0],
-            marker=style[1],
-            ls="-" if curve.against else "none",
-            ms=4.5,
-            lw=1,
-        )
+        colour, mark = style(curve.way) or next(own)
+        points = [(x, p) for p in curve.points if (x := diagram.place(p)) > 0]
+        if points:
+            name = curve.way.rpartition(", ")[2] if diagram.panels else curve.way
+            places, times = zip(*((x, median(p.seconds)) for x, p in points), strict=True)
+            line = "-" if curve.against else "none"  # what has no order is not joined
+            (known[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
         for x, p in points:
-            axes.plot([x, x], [min(p.seconds), max(p.seconds)], color=style[0], lw=0.6)
-            axes.annotate(
-                p.note, (x, p.time), (4, 4), textcoords="offset points", size=7, in_layout=False
-            )
+            axes.plot([x, x], [min(p.seconds), max(p.seconds)], color=colour, lw=0.6)
+            axes.annotate(p.note, (x, min(p.seconds)), size=7)
+    return known
 
 
-def _across(point: Point, diagram: Diagram) -> float:
-    """Return the place on the horizontal axis; 0 is none."""
-    if diagram.against == "size":
-        return point.size
-    error = abs(point.error or 0.0)
-    if error <= diagram.least:
-        return 0.0
-    return error if diagram.against == "error" else -log10(error)
-
-
-def _style(way: str) -> Style | None:
+def style(way: str) -> tuple[str, str] | None:
     """Return colour and mark of others; None if the way is ours."""
-    return next((style for end, style in _OTHERS.items() if way.endswith(end)), None)
-
-
-def _form(curve: Curve) -> str:
-    return curve.way.rpartition(", ")[0] or curve.way
-
-
-def _library(curve: Curve) -> str:
-    return curve.way.rpartition(", ")[2]
+    return next((one for end, one in _OTHERS.items() if way.endswith(end)), None)

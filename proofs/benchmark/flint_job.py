@@ -23,7 +23,7 @@ from flint import arb
 Phases = tuple[Fraction, Fraction]
 Ball = Any  # flint.arb, which has no types
 
-ETA, NU = arb(2121) / 10000, arb(-1) / 5
+ETA, NU = arb(2121) / 10000, arb(-1) / 5  # nu < 0: the mass is below the table
 LEFT, RIGHT = (Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32"))
 WHOLE, GAP = (LEFT[0], RIGHT[1]), (LEFT[1], RIGHT[0])
 SLOPES = Fraction("4.2"), Fraction("5.25")
@@ -33,14 +33,10 @@ TURN = 2 * arb.pi()
 HORIZON, THIN, MOST_BALLS = 1000.0, 2.0**-10, 10_000
 
 
-def exact(x: Fraction) -> Ball:
-    """Return a ball that contains a rational."""
-    return arb(x.numerator) / x.denominator
-
-
 def ball(low: Fraction, high: Fraction) -> Ball:
     """Return a ball that contains an interval."""
-    return exact(low).union(exact(high))
+    ends = [arb(x.numerator) / x.denominator for x in (low, high)]
+    return ends[0] if low == high else ends[0].union(ends[1])
 
 
 def during(low: float, high: float) -> Ball:
@@ -49,32 +45,26 @@ def during(low: float, high: float) -> Ball:
 
 
 class Flight:
-    """The flights of all launches from a ball of phases; nu < 0: the mass is below the table."""
+    """The flights of all launches from a ball of phases."""
 
     def __init__(self, low: Fraction, high: Fraction) -> None:
         self.phi = ball(low, high)
         self.lift, self.rate = NU * self.phi.sin(), NU * self.phi.cos()
         self.finest = max(float(high - low), THIN)  # steps in time that suit the phases
 
-    def gap(self, t: Ball) -> Ball:
-        """Return table - mass."""
-        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
-        return 1 + NU * (self.phi + t).sin() - mass
-
-    def speed(self, t: Ball) -> Ball:
-        """Return the gap's derivative by time."""
-        mass = self.rate * (ETA * t).cos() - ETA * (1 + self.lift) * (ETA * t).sin()
-        return NU * (self.phi + t).cos() - mass
-
-    def acceleration(self, t: Ball) -> Ball:
-        """Return its second derivative."""
-        mass = (1 + self.lift) * (ETA * t).cos() + self.rate * (ETA * t).sin() / ETA
-        return ETA**2 * mass - NU * (self.phi + t).sin()
+    def gap(self, t: Ball, order: int = 0) -> Ball:
+        """Return table - mass, or its derivative by time, of order 1 or 2."""
+        s, c = (ETA * t).sin_cos()
+        table = (self.phi + t).sin_cos()[order % 2]
+        up, along = 1 + self.lift, self.rate / ETA
+        mass = (up * c + along * s, along * c - up * s)[order % 2]
+        distance = NU * table - ETA**order * mass
+        return (1 + distance, distance, -distance)[order]
 
     def slope(self, t: Ball) -> Ball:
         """Return f' = 1 - (dgap/dphi) / (dgap/dt) where the impacts are at times in t."""
         mass = self.rate * (ETA * t).cos() - self.lift * (ETA * t).sin() / ETA
-        return 1 - (NU * (self.phi + t).cos() - mass) / self.speed(t)
+        return 1 - (NU * (self.phi + t).cos() - mass) / self.gap(t, 1)
 
     def windows(self) -> list[tuple[float, float]] | None:
         """Return times that hold every first impact, the last ends with gap < 0; None: undecided.
@@ -82,7 +72,7 @@ class Flight:
         On (0, step] gap'' > 0 gives gap > 0, since gap(0) = gap'(0) = 0.
         """
         step = 1.0
-        while not self.acceleration(during(0.0, step)) > 0:
+        while not self.gap(during(0.0, step), 2) > 0:
             step /= 2
             if step < self.finest:
                 return None
@@ -102,21 +92,21 @@ class Flight:
         return None
 
     def impact(self) -> Ball | None:
-        """Return a ball with the time of every first impact, if all cross with gap' < 0."""
+        """Return a ball with the time of every first impact, if all cross with gap' < 0.
+
+        By interval Newton in the one window.
+        """
         windows = self.windows()
         if windows is None or len(windows) > 1:
             return None
         time = during(*windows[0])
-        return self.narrowed(time) if self.speed(time) < 0 else None
-
-    def narrowed(self, time: Ball) -> Ball:
-        """Narrow a ball of times with one zero of the gap and gap' < 0, by interval Newton."""
-        while True:
+        while self.gap(time, 1) < 0:
             middle = time.mid()
-            following = time.intersection(middle - self.gap(middle) / self.speed(time))
+            following = time.intersection(middle - self.gap(middle) / self.gap(time, 1))
             if not following.rad() < time.rad() / 2:
                 return following
             time = following
+        return None
 
 
 def by_halves(phases: Phases, decide: Callable[[Flight], bool]) -> bool:
@@ -134,7 +124,7 @@ def by_halves(phases: Phases, decide: Callable[[Flight], bool]) -> bool:
 def steep(flight: Flight) -> bool:
     """Whether f' exceeds the lower bound claimed on a ball of phases."""
     time = flight.impact()
-    return time is not None and flight.slope(time) > exact(SLOPES[0])
+    return time is not None and flight.slope(time) > ball(SLOPES[0], SLOPES[0])
 
 
 def escapes(flight: Flight) -> bool:
@@ -162,27 +152,9 @@ def at(phase: Fraction) -> tuple[Ball, Ball]:
     return flight.phi + time, flight.slope(time)
 
 
-def too_steep() -> bool:
-    """Whether f' exceeds the upper bound claimed in the middle of I0 or of I1."""
-    return any(at((low + high) / 2)[1] > exact(SLOPES[1]) for low, high in (LEFT, RIGHT))
-
-
-def shorter_than_a_turn() -> bool:
-    """Whether f(I0) and f(I1), for f increasing there, are shorter than the circle."""
-    return all(at(high)[0] - at(low)[0] < TURN for low, high in (LEFT, RIGHT))
-
-
-def left_out() -> bool:
-    """Whether f(I0), for f increasing on I0, misses [1.11, 1.12], which is in I0."""
-    (begin, _), (end, _) = (at(phase) for phase in LEFT)
-    turns = int(float(begin.mid()) / 6.283)
-    missed = ball(LEFT[0], Fraction("1.12"))
-    return bool(missed + turns * TURN < begin and end < missed + (turns + 1) * TURN)
-
-
 def moran_root(ratios: Phases) -> tuple[float, float]:
     """Bracket the root s of r0^s + r1^s = 1 by bisection; the sum decreases if both are < 1."""
-    first, second = exact(ratios[0]), exact(ratios[1])
+    first, second = (ball(ratio, ratio) for ratio in ratios)
     low, high = 0.0, 1.0
     for _ in range(40):
         middle = (low + high) / 2
@@ -197,8 +169,14 @@ def moran_root(ratios: Phases) -> tuple[float, float]:
 
 
 def verdicts() -> dict[str, str]:
-    """Decide the eight claims."""
+    """Decide the eight claims; H5 and H6 for f increasing, by its values at the ends."""
     steeper = all(by_halves(phases, steep) for phases in (LEFT, RIGHT))
+    most = ball(SLOPES[1], SLOPES[1])
+    too_steep = any(at((low + high) / 2)[1] > most for low, high in (LEFT, RIGHT))
+    (begin, end), (other, last) = ([at(phase)[0] for phase in ends] for ends in (LEFT, RIGHT))
+    first = ball(LEFT[0], Fraction("1.12")) + int(float(begin.mid()) / 6.283) * TURN
+    left_out = first < begin and end < first + TURN  # in I0, and not in f(I0)
+    short = end - begin < TURN and last - other < TURN
     reciprocals = 1 / SLOPES[1], 1 / SLOPES[0]
     near, brackets = Fraction(1, 2000), [moran_root(RATIOS), moran_root(reciprocals)]
     rounded = all(abs(x - y) < near / 10 for x, y in zip(RATIOS, reciprocals, strict=True))
@@ -206,11 +184,11 @@ def verdicts() -> dict[str, str]:
     small = sum(RATIOS) < 1 and brackets[0][0] > 0 and brackets[0][1] < 1
     return {
         "H1": "VERIFIED" if steeper else "UNDECIDED",
-        "H2": "REFUTED" if too_steep() else "UNDECIDED",
+        "H2": "REFUTED" if too_steep else "UNDECIDED",
         "H3": "VERIFIED" if steeper else "UNDECIDED",
         "H4": "VERIFIED" if by_halves(GAP, escapes) else "UNDECIDED",
-        "H5": "REFUTED" if steeper and left_out() else "UNDECIDED",
-        "H6": "VERIFIED" if steeper and shorter_than_a_turn() else "UNDECIDED",
+        "H5": "REFUTED" if steeper and left_out else "UNDECIDED",
+        "H6": "VERIFIED" if steeper and short else "UNDECIDED",
         "H11": "VERIFIED" if rounded and printed else "UNDECIDED",
         "H16": "VERIFIED" if small else "UNDECIDED",
     }

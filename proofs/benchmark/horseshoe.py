@@ -1,45 +1,27 @@
-"""The main job, its slopes and its kernel: whole processes, losses, and python-flint beside them.
-
-Every loss is against extremes computed by python-flint at 600 bits, on another transcription of the
-equations.
-"""
+"""Whole processes: the main job against its limits, and the commands of all claims, cold."""
 
 from __future__ import annotations
 
 import json
 import os
-import statistics
 import subprocess
 import sys
-import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from fractions import Fraction
-from functools import partial
 from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
-from intervals import IntervalArray, Undecided
-from proofs.benchmark import horseshoe_flint
-from proofs.benchmark.measuring import Effort, Row, in_pairs, spread, timed
-from proofs.benchmark.peers import has_flint
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import HORIZON
-from proofs.motion.kernel import Launches, exclude_impacts
-from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
-from proofs.motion.system import System
-from proofs.search.steps import Prover
+from proofs.benchmark.page import Row, Section, Tell, ratio_row, spread
+from proofs.benchmark.peers import FLINT, libraries
 from proofs.trusted.paper import GROUPS
 
-SYSTEM = System(horseshoe_flint.ETA, horseshoe_flint.NU)
-DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
-BOXES = 1024
-_FASTER = 14  # times as fast as python-flint, box by box in lists
-JOB, BARE = ("-m", "proofs.horseshoe"), ("-c", "import numpy, mpmath")
-PLASTIC = (
-    "--only",
-    *GROUPS["horseshoe"],
-)  # those that have a target
-TARGET = 2.5  # times as long as BARE
+CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")  # that the script in flint decides too
+_PAIRS = {"smallest": 1, "quick": 7, "full": 31}
+_RUNS = {"smallest": 1, "quick": 3, "full": 7}
+_WITHIN = {"nonplastic": 3.0, "dimension": 20.0, "circle": 60.0}  # seconds
+_MOST_MEMORY = 500  # MB
 # Started by a process as small as this one, a job's peak memory is its own.
 _LAUNCHER = """
 import json, os, sys, time
@@ -52,225 +34,106 @@ seconds = time.perf_counter() - began
 print(json.dumps([seconds, os.waitstatus_to_exitcode(status), usage.ru_maxrss]))
 """
 
-Range = tuple[Fraction, Fraction]
 
+class Process(NamedTuple):
+    """What a whole process took."""
 
-# -- whole processes -----------------------------------------------------------------------------
-
-
-def process(arguments: Sequence[str]) -> tuple[float, int, float]:
-    """Run python with these arguments; return (seconds, exit status, peak memory in MB)."""
-    text = subprocess.run(
-        [sys.executable, "-S", "-c", _LAUNCHER, *arguments],
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
-    seconds, status, peak = json.loads(text)
-    return seconds, status, peak / (1 << 20 if sys.platform == "darwin" else 1 << 10)
+    seconds: float
+    status: int
+    megabytes: float
 
 
 @contextmanager
-def bytecode(folder: Path) -> Iterator[None]:
-    """Have processes write and find compiled bytecode in a folder meanwhile."""
+def scratch() -> Iterator[Path]:
+    """Yield a folder, in which processes write and find compiled bytecode meanwhile."""
     before = dict(os.environ)
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    os.environ["PYTHONPYCACHEPREFIX"] = str(folder)
-    try:
-        yield
-    finally:
-        os.environ.clear()
-        os.environ.update(before)
+    with TemporaryDirectory() as name:
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+        os.environ["PYTHONPYCACHEPREFIX"] = f"{name}/cache"
+        try:
+            yield Path(name)
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
 
 
-def processes(
-    commands: Sequence[Sequence[str]], folder: Path, pairs: int
-) -> list[list[tuple[float, int, float]]]:
-    """Run `process` on the commands in turn, and once before that writes bytecode to `folder`."""
-    with bytecode(folder):
-        rounds = [[process(command) for command in commands] for _ in range(pairs + 1)]
-    return [list(column) for column in zip(*rounds[1:], strict=True)]
+def process(arguments: Sequence[str]) -> Process:
+    """Run python with these arguments; ChildProcessError if it fails."""
+    command = [sys.executable, "-S", "-c", _LAUNCHER, *arguments]
+    found = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
+    seconds, status, peak = json.loads(found)
+    if status not in (0, 1):  # 1: a claim is undecided
+        raise ChildProcessError(f"python {' '.join(arguments)}: exit status {status}")
+    return Process(seconds, status, peak / (1 << 20 if sys.platform == "darwin" else 1 << 10))
 
 
-def ratio_row(name: str, ours: Sequence[float], theirs: Sequence[float], most: float | None) -> Row:
-    """Return the row of a ratio of seconds in pairs, that should be at most `most`."""
-    ratios = [own / other for own, other in zip(ours, theirs, strict=True)]
-    target, reached = "", None
-    if most is not None:
-        target, reached = f"<= {most:g}", statistics.median(ratios) <= most
-    samples = {"ratios": ratios, "theirs": list(theirs)}
-    return Row(f"{name} (pairs)", spread(ratios), target, reached, samples)
-
-
-def whole_job(effort: Effort) -> list[Row]:
-    """Measure the main job beside the bare imports of numpy and mpmath."""
-    with tempfile.TemporaryDirectory() as name:
-        commands = [[*JOB, *PLASTIC, "--out", name], BARE]
-        jobs, imports = processes(commands, Path(name) / "cache", effort.process_pairs)
-    failed = {status for _, status, _ in (*jobs, *imports)} - {0}
-    if failed:
-        return [Row("main job", f"failed: exit status {failed}", "exit status 0", False)]
-    ours, theirs = ([one[0] for one in runs] for runs in (jobs, imports))
-    memory = max(one[2] for one in jobs)
-    return [
-        Row(
-            "main job (plastic claims), whole process [s]", spread(ours), samples={"seconds": ours}
-        ),
-        Row("import numpy, mpmath [s]", spread(theirs), samples={"seconds": theirs}),
-        ratio_row("main job / import numpy, mpmath", ours, theirs, TARGET),
-        Row(
-            "main job, peak memory [MB]",
-            f"{memory:.0f}",
-            "< 120",
-            memory < 120,
-            {"megabytes": [one[2] for one in jobs]},
-        ),
+def limits(mode: str, tell: Tell) -> Section:
+    """Measure the main job beside the bare imports, and beside a script in python-flint."""
+    tell("the main job")
+    job = ["-m", "proofs.horseshoe", "--out"]
+    with scratch() as folder:
+        commands = {
+            "plastic claims": [*job, str(folder), "--only", *CLAIMS],
+            "main job": [*job, str(folder)],
+            "import numpy, mpmath": ["-c", "import numpy, mpmath"],
+        }
+        script = "the same claims by a script in python-flint"
+        if FLINT in libraries():
+            commands[script] = ["-m", "proofs.benchmark.flint_job"]
+        first = [process(command) for command in commands.values()]
+        rounds = range(_PAIRS[mode])
+        runs = [[process(command) for command in commands.values()] for _ in rounds]
+    seconds = {name: [one[k].seconds for one in runs] for k, name in enumerate(commands)}
+    rows = [
+        Row(f"{name}, whole process [s]", spread(some), samples={"seconds": some})
+        for name, some in seconds.items()
     ]
-
-
-# -- accuracy ------------------------------------------------------------------------------------
-
-
-def accuracy(effort: Effort) -> list[Row]:
-    """Measure time and loss of slope enclosures over both intervals."""
-    if not has_flint():
-        return [Row("accuracy of slopes", "python-flint is absent", "loss <= 1e-11")]
-    truth = [horseshoe_flint.true_extremes(*domain) for domain in DOMAINS]
-    rows = [_accuracy("binary64, f'' > 0", effort, truth, _by_monotonicity, 1e-11)]
-    for boxes in (256, 1024, 4096):
-        name = f"binary64, mean value, {boxes} boxes"
-        rows.append(_accuracy(name, effort, truth, partial(_by_boxes, boxes)))
-    for digits in (30, 50, 100):
-        name, task = f"multiprecision, {digits} digits", partial(_by_multiprecision, digits)
-        rows.append(_accuracy(name, effort, truth, task, 10.0**-digits))
-    return rows
-
-
-def _by_monotonicity(domain: Range) -> Range:
-    found = slope_extremes(SYSTEM, domain)
-    return Fraction(found.minimum[0]), Fraction(found.maximum[1])
-
-
-def _by_boxes(boxes: int, domain: Range) -> Range:
-    low, high = slope_cover(SYSTEM, domain, boxes).bounds
-    return Fraction(low), Fraction(high)
-
-
-def _by_multiprecision(digits: int, domain: Range) -> Range:
-    found = Prover(SYSTEM, digits, HORIZON).slopes(list(domain))[1]
-    return min(low for low, _ in found.pieces), max(high for _, high in found.pieces)
-
-
-def _accuracy(
-    name: str,
-    effort: Effort,
-    truth: Sequence[Range],
-    task: Callable[[Range], Range],
-    target: float | None = None,
-) -> Row:
-    found = [task(domain) for domain in DOMAINS]
-    losses = [
-        loss
-        for (low, high), (true_low, true_high) in zip(found, truth, strict=True)
-        for loss in (true_low - low, high - true_high)
-    ]
-    times = [timed(lambda: [task(domain) for domain in DOMAINS]) for _ in range(effort.repeats)]
-    loss = float(max(losses))
-    sound = min(losses) >= 0
-    return Row(
-        f"f' on I0 and I1, {name}",
-        f"loss {loss:.1e} in {1e3 * statistics.median(times):.1f} ms"
-        + ("" if sound else ", NOT AN ENCLOSURE"),
-        "" if target is None else f"loss <= {target:.0e}",
-        (sound and loss <= target) if target is not None else (None if sound else False),
-        {"losses": [float(loss) for loss in losses], "seconds": times},
+    rows.append(Row("main job, first run, everything compiled [s]", f"{first[1].seconds:.3g}"))
+    plastic, whole, bare, *flint = seconds.values()
+    rows.append(ratio_row("plastic claims / import numpy, mpmath", plastic, bare, 2.5))
+    rows.append(ratio_row("main job / import numpy, mpmath", whole, bare))
+    if flint:
+        rows.append(ratio_row(f"plastic claims / {script}", plastic, flint[0], 1))
+    else:
+        rows.append(Row(f"plastic claims / {script}", f"{FLINT} is absent", "<= 1"))
+    memory = max(one[0].megabytes for one in runs)
+    rows.append(Row("plastic claims, memory [MB]", f"{memory:.0f}", "< 120", memory < 120))
+    about = (
+        "Whole processes of `python -m proofs.horseshoe` beside bare imports, and beside a plain "
+        "script that decides the same claims in python-flint, without certificate, report or "
+        "check. `python -X importtime` and cProfile tell where the time goes."
     )
+    return Section("The main job", about, rows)
 
 
-# -- the kernel ----------------------------------------------------------------------------------
-
-
-def kernel(effort: Effort) -> list[Row]:
-    """Measure the subdivision kernel, all earlier impacts excluded, beside python-flint."""
-    grids = [grid_of(cover_by_impacts(SYSTEM, domain)[0]) for domain in DOMAINS]
-    cuts = [cut(domain, BOXES) for domain in DOMAINS]
-    boxes = [IntervalArray.from_floats(one[:-1], one[1:]) for one in cuts]
-    evaluations = sum(2 * BOXES * len(grid) for grid in grids)
-
-    def ours() -> None:
-        for box, grid in zip(boxes, grids, strict=True):
-            exclude_impacts(Launches(SYSTEM, box), grid)
-
-    def whole() -> None:
-        for domain, grid in zip(DOMAINS, grids, strict=True):
-            slope_cover(SYSTEM, domain, BOXES, grid)
-
-    (all_steps,) = in_pairs([whole], effort.kernel_pairs)
-    rows = [
-        Row(
-            f"kernel with f', f'' and time brackets, 2 x {BOXES} boxes [s]",
-            spread(all_steps),
-            samples={"seconds": all_steps},
-        )
-    ]
-    if not has_flint():
-        (seconds,) = in_pairs([ours], effort.kernel_pairs)
-        rates = [evaluations / one for one in seconds]
-        absent = Row("ratio to python-flint", "python-flint is absent", f">= {_FASTER}")
-        return [*rows, Row("kernel, gap [1/s]", spread(rates), samples={"rates": rates}), absent]
-    peers: dict[str, list[Callable[[], bool]]] = {"lists": [], "arb_mat": []}
-    for one, grid in zip(cuts, grids, strict=True):
-        peers["lists"].append(horseshoe_flint.exclusion(one.tolist(), grid))
-        peers["arb_mat"].append(horseshoe_flint.exclusion_by_matrices(one.tolist(), grid))
-    return rows + _beside(effort, ours, peers, evaluations)
-
-
-def _beside(
-    effort: Effort,
-    ours: Callable[[], None],
-    peers: dict[str, list[Callable[[], bool]]],
-    evaluations: int,
-) -> list[Row]:
-    """Return the rates and ratios of single calls, of ours in the caches that the others emptied.
-
-    The last row is of calls of ours in a row, about as long together as one of python-flint.
-    """
-    groups = {name: partial(_each, tasks) for name, tasks in peers.items()}
-    for name, group in groups.items():
-        if not group():
-            raise Undecided(f"python-flint ({name}) does not exclude the earlier impacts")
-    calls = max(1, round(timed(groups["lists"]) / timed(ours)))
-
-    def in_a_row() -> None:
-        for _ in range(calls):
-            ours()
-
-    once, many, *others = in_pairs([ours, in_a_row, *groups.values()], effort.kernel_pairs)
-    times = [once, *others]
-    rates = [[evaluations / seconds for seconds in column] for column in times]
-    rows = [
-        Row("kernel, evaluations of the gap [1/s]", spread(rates[0]), "", None, {"rates": rates[0]})
-    ]
-    targets = (_FASTER, None)
-    for name, target, column, rate in zip(peers, targets, others, rates[1:], strict=True):
-        ratios = [theirs / own for theirs, own in zip(column, times[0], strict=True)]
-        rows.append(
-            Row(f"python-flint, {name}, the same [1/s]", spread(rate), "", None, {"rates": rate})
-        )
-        reached = None if target is None else statistics.median(ratios) >= target
-        text = "" if target is None else f">= {target}"
-        rows.append(
-            Row(f"ratio to it ({name}, pairs)", spread(ratios), text, reached, {"ratios": ratios})
-        )
-    ratios = [calls * theirs / own for theirs, own in zip(others[0], many, strict=True)]
-    name = "ratio to it (lists, calls in a row)"
-    return [*rows, Row(name, spread(ratios), samples={"ratios": ratios, "calls": calls})]
-
-
-def _each(tasks: Sequence[Callable[[], bool]]) -> bool:
-    return all(task() for task in tasks)
-
-
-def measure(effort: Effort) -> list[Row]:
-    """Measure everything."""
-    return [*whole_job(effort), *accuracy(effort), *kernel(effort)]
+def claims(mode: str, tell: Tell) -> Section:
+    """Measure the command of each group of claims, its check alone, and that of the orbits."""
+    commands: dict[str, tuple[list[str], float | None]] = {}
+    rows = []
+    with scratch() as folder:
+        for group in ("horseshoe", *GROUPS):
+            prove = ["-m", f"proofs.{group}", "--out", str(folder)]
+            commands[f"{group}, proved and checked"] = prove, _WITHIN.get(group)
+            check = ["-S", "-O", "-m", "proofs.check", f"{folder}/{group}.json"]
+            commands[f"the check of {group}"] = check, 5.0 if group == "nonplastic" else None
+        within: float | None
+        for digits, within in ((5, 20), (10, 20), (15, None), (20, None)):
+            prove = ["-m", "proofs.dimension", "--digits", str(digits), "--out", str(folder)]
+            commands[f"dimension, {digits} digits"] = prove, within
+        for period, digits, at_most in ((4, 25, None), (8, 25, None), (12, 15, 10), (12, 25, 60)):
+            find = ["-m", "proofs.orbits", "--period", str(period), "--digits", str(digits)]
+            commands[f"{2**period} words of length {period}, {digits} digits"] = find, at_most
+        for name, (command, within) in commands.items():
+            tell(name)
+            runs = [process(command) for _ in range(_RUNS[mode])]
+            seconds, memory = [one.seconds for one in runs], max(one.megabytes for one in runs)
+            target = f"< {_MOST_MEMORY} MB" + (f", < {within:g} s" if within else "")
+            reached = memory < _MOST_MEMORY and (within is None or median(seconds) < within)
+            row = Row(f"{name} [s]", f"{spread(seconds)}, {memory:.0f} MB", target, reached)
+            row.samples = {"seconds": seconds, "megabytes": memory}
+            rows.append(row)
+    about = (
+        "The command of each group of claims, a whole process with its check, and the check alone. "
+        "Then time against digits of the dimensions and against the period of the orbits."
+    )
+    return Section("The groups of claims", about, rows)

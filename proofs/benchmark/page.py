@@ -1,39 +1,93 @@
-"""What a run measured: tables for the screen, a page with pictures, JSON with samples."""
+"""What is measured and shown: rows in sections; tables, a page with pictures, JSON with samples."""
 
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+import os
+import platform
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from proofs.benchmark.diagrams import Diagram, svg
-from proofs.benchmark.measuring import Row, environment, table, word
+from proofs.report.markup import markdown_table
 from proofs.trusted.certificate import write_atomically
 
+if TYPE_CHECKING:
+    from proofs.benchmark.diagrams import Diagram
+
+Tell = Callable[[str], None]
 SCHEMA = "impact-proofs-benchmark-1"
-_PREFIX = "benchmark-"
-_MODES = {
-    "smallest": "each thing measured once, on small work",
-    "quick": "few repetitions, short work",
-    "full": "more repetitions, longer work",
-}
+_PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
+_ABOUT = """\
+Times are on the clock: medians, with the least and the largest in brackets. What is
+compared was measured in turn, in one run, so that a busy machine slows all alike;
+ratios are of samples taken side by side. The raw samples are in `benchmark.json`."""
 
 
-@dataclass(frozen=True)
-class Section:
+@dataclass
+class Row:
+    """One line of the table. reached is None where there is no target, or no measurement."""
+
+    name: str
+    measured: str
+    target: str = ""
+    reached: bool | None = None
+    samples: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The line of the table."""
+        unknown = "not measured" if self.target else "-"
+        state = {True: "yes", False: "NO", None: unknown}[self.reached]
+        return self.name, self.target or "-", self.measured, state
+
+
+class Section(NamedTuple):
     """Rows that belong together: a heading, what they are, and their diagrams."""
 
     title: str
     about: str
-    rows: list[Row]
-    diagrams: list[Diagram] = field(default_factory=list)
+    rows: Sequence[Row]
+    diagrams: Sequence[Diagram] = ()
 
     @property
-    def asked(self) -> list[Row]:
-        """Return the rows with a target, and those that fail without one."""
-        return [row for row in self.rows if row.target or row.reached is False]
+    def table(self) -> str:
+        """The rows under their header."""
+        header = "what", "target", "measured", "reached"
+        return "\n".join(markdown_table([header, *(row.cells for row in self.rows)]))
+
+
+def spread(samples: Sequence[float]) -> str:
+    """Write the median and, in brackets, the least and the largest."""
+    return f"{median(samples):.3g} ({min(samples):.3g} .. {max(samples):.3g})"
+
+
+def seconds_of(task: Callable[[], Any]) -> float:
+    """Return the seconds that one call takes."""
+    began = perf_counter()
+    task()
+    return perf_counter() - began
+
+
+def in_turn(tasks: Sequence[Callable[[], Any]], rounds: int) -> list[list[float]]:
+    """Time the tasks A B A B ..., so that a busy machine slows all; return the seconds of each."""
+    samples = [[seconds_of(task) for task in tasks] for _ in range(rounds)]
+    return [[one[k] for one in samples] for k in range(len(tasks))]
+
+
+def ratio_row(
+    name: str, above: Sequence[float], below: Sequence[float], most: float | None = None
+) -> Row:
+    """Return the row of ratios in pairs, whose median should be at most `most`."""
+    ratios = [one / other for one, other in zip(above, below, strict=False)]
+    row = Row(f"{name} (pairs)", spread(ratios), samples={"ratios": ratios})
+    if most is not None:
+        row.target, row.reached = f"<= {most:g}", median(ratios) <= most
+    return row
 
 
 @dataclass(frozen=True)
@@ -47,55 +101,58 @@ class Run:
 
     @property
     def asked(self) -> list[Row]:
-        """Return the rows with a target, and those that fail without one, of all sections."""
-        return [row for section in self.sections for row in section.asked]
+        """Return the rows with a target, and those that fail without one."""
+        rows = [row for section in self.sections for row in section.rows]
+        return [row for row in rows if row.target or row.reached is False]
 
     @property
-    def reached(self) -> bool:
-        """Whether every target was measured and reached."""
-        return all(row.reached for row in self.asked)
-
-
-def verdict(run: Run) -> str:
-    """Return the line that the exit status stands for."""
-    reached, missed, unmeasured = _counts(run.asked)
-    counts = f"{reached} reached, {missed} missed, {unmeasured} not measured"
-    return f"{len(run.asked)} targets: {counts}; {run.seconds:.0f} s in all"
-
-
-def _counts(asked: Sequence[Row]) -> tuple[int, int, int]:
-    """Return how many were reached, missed, not measured."""
-    found = [row.reached for row in asked]
-    return found.count(True), found.count(False), found.count(None)
+    def verdict(self) -> str:
+        """Return the line that the exit status stands for."""
+        states = [row.reached for row in self.asked]
+        counts = f"{states.count(True)} reached, {states.count(False)} missed"
+        unmeasured = f"{states.count(None)} not measured"
+        return f"{len(states)} targets: {counts}, {unmeasured}; {self.seconds:.0f} s in all"
 
 
 def text(run: Run) -> str:
-    """Return the tables, under headings if there are several, and the verdict."""
-    parts = [table(one.rows) for one in run.sections]
-    if len(parts) > 1:
-        headed = zip(run.sections, parts, strict=True)
-        parts = [f"== {one.title} ==\n{part}" for one, part in headed]
-    return "\n\n".join([*parts, f"median (least .. largest); {verdict(run)}"])
+    """Return the tables and the verdict."""
+    parts = [f"## {one.title}\n\n{one.table}\n" for one in run.sections]
+    return "\n".join([*parts, f"median (least .. largest); {run.verdict}"])
+
+
+def version_of(package: str) -> str:
+    """Return the version of a package, or that it is absent."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "absent"
+
+
+def environment() -> dict[str, str]:
+    """Return what the measurements ran on."""
+    packages = {name: version_of(name) for name in _PACKAGES}
+    machine = {"machine": platform.machine(), "processors": str(os.cpu_count())}
+    return {"python": platform.python_version(), **packages, **machine}
 
 
 def machine_form(run: Run) -> str:
     """Return everything, with the raw samples, as JSON."""
-    data = {
-        "schema": SCHEMA,
-        "subject": run.subject,
-        "mode": run.mode,
-        "seconds": round(run.seconds, 2),
-        **environment(),
-        "rows": [
-            {"section": section.title, **vars(row)}
-            for section in run.sections
-            for row in section.rows
-        ],
-    }
-    return json.dumps(data, indent=1) + "\n"
+    rows = [{"section": one.title, **vars(row)} for one in run.sections for row in one.rows]
+    asked = {"subject": run.subject, "mode": run.mode, "seconds": round(run.seconds, 2)}
+    return json.dumps({"schema": SCHEMA, **asked, **environment(), "rows": rows}, indent=1) + "\n"
 
 
-# -- the page --------------------------------------------------------------------------------------
+def markdown(run: Run, pictures: bool) -> str:
+    """Return the page, with links to pictures if there are any."""
+    machine = ", ".join(f"{name} {one}" for name, one in environment().items())
+    about = f"{run.verdict}. Subject: {run.subject}. Mode: {run.mode}."
+    lines = ["# Benchmark", "", about, "", _ABOUT, "", f"Measured on: {machine}."]
+    lines += [f"\nMissed: {row.name}: {row.measured}." for row in run.asked if not row.reached]
+    for section in run.sections:
+        lines += ["", f"## {section.title}", "", section.about, "", section.table]
+        for diagram in section.diagrams if pictures else ():
+            lines += ["", f"![{diagram.title}](benchmark-{diagram.name}.svg)"]
+    return "\n".join(lines) + "\n"
 
 
 def write(folder: Path, run: Run) -> bool:
@@ -104,95 +161,16 @@ def write(folder: Path, run: Run) -> bool:
     All is drawn before anything is written, and the page comes last: what it links to is there.
     Without matplotlib there are no pictures. OSError if nothing can be written.
     """
-    pictures = _pictures(run)
-    page, samples = markdown(run, pictures), machine_form(run)
-    for name, picture in pictures.items():
-        write_atomically(folder / name, picture)
-    write_atomically(folder / "benchmark.json", samples)
-    write_atomically(folder / "benchmark.md", page)
-    return bool(pictures) or not any(section.diagrams for section in run.sections)
+    from proofs.benchmark.diagrams import svg
 
-
-def _pictures(run: Run) -> dict[str, str]:
-    """Draw all diagrams by file name; none without matplotlib."""
+    diagrams = [one for section in run.sections for one in section.diagrams]
+    drawn = True
     try:
-        return {_file(one): svg(one) for section in run.sections for one in section.diagrams}
+        files = {f"benchmark-{one.name}.svg": svg(one) for one in diagrams}
     except ImportError:
-        return {}
-
-
-def _file(diagram: Diagram) -> str:
-    return f"{_PREFIX}{diagram.name}.svg"
-
-
-def markdown(run: Run, pictures: Collection[str] = ()) -> str:
-    """Return the page, with links to those pictures that are there."""
-    lines = [
-        "# Benchmark",
-        "",
-        f"{verdict(run)}. Subject: {run.subject}. Mode: {run.mode} ({_MODES[run.mode]}).",
-        "",
-        "Times are on the clock: medians, with the least and the largest in brackets. What is",
-        "compared was measured in turn, in one run, so that a busy machine slows all alike;",
-        "ratios are of samples taken side by side. The raw samples are in `benchmark.json`.",
-        "",
-        f"Measured on: {_listed(environment())}.",
-        "",
-        *_targets(run),
-    ]
-    for section in run.sections:
-        lines += ["", f"## {section.title}", "", section.about, "", *_cells(section.rows)]
-        drawn = [one for one in section.diagrams if _file(one) in pictures]
-        for diagram in drawn:
-            lines += ["", f"![{diagram.title}]({_file(diagram)})"]
-    return "\n".join(lines) + "\n"
-
-
-def _listed(found: Mapping[str, str | int | None]) -> str:
-    """Write versions, what is absent, and the machine."""
-    return ", ".join(f"{name} {'absent' if one is None else one}" for name, one in found.items())
-
-
-def _targets(run: Run) -> Iterator[str]:
-    """Yield how many targets each section has and reached; each that was not."""
-    yield "## Targets"
-    if not run.asked:
-        yield from ["", "None is set for this subject."]
-        return
-    yield from [
-        "",
-        "| section | targets | reached | missed | not measured |",
-        "|---|---|---|---|---|",
-    ]
-    for section in run.sections:
-        if section.asked:
-            counts = " | ".join(map(str, (len(section.asked), *_counts(section.asked))))
-            yield f"| {_cell(section.title)} | {counts} |"
-    for state, heading in {False: "Missed", None: "Not measured"}.items():
-        rows = [(one.title, row) for one in run.sections for row in one.asked]
-        rows = [(title, row) for title, row in rows if row.reached is state]
-        if rows:
-            yield from ["", f"{heading}:", ""]
-        for title, row in rows:
-            yield f"- {_cell(f'{title}: {row.name}')}: {_cell(row.measured)}{_wanted(row)}"
-
-
-def _wanted(row: Row) -> str:
-    return f"; wanted: {_cell(row.target)}" if row.target else ""
-
-
-def _cells(rows: Sequence[Row]) -> Iterator[str]:
-    """Yield the lines of a table."""
-    yield "| what | target | measured | reached |"
-    yield "|---|---|---|---|"
-    for row in rows:
-        cells = row.name, row.target or "-", row.measured, word(row)
-        yield "| " + " | ".join(map(_cell, cells)) + " |"
-
-
-def _cell(content: str) -> str:
-    """Write one cell: columns of the screen apart, no sign of Markdown taken for one."""
-    plain = re.sub(" {2,}", " · ", content.strip())
-    for sign in "\\|*`":
-        plain = plain.replace(sign, f"\\{sign}")
-    return plain
+        files, drawn = {}, False
+    files["benchmark.json"] = machine_form(run)
+    files["benchmark.md"] = markdown(run, drawn)
+    for name, content in files.items():
+        write_atomically(folder / name, content)
+    return drawn

@@ -1,108 +1,197 @@
-"""What the arithmetic is compared with: python-flint and mpmath.iv here, codac beside."""
+"""The numbers of each library under one interface, so that all do literally the same work.
+
+Nothing here is evidence for a claim. Peers are imported where they are used: they may be absent.
+codac changes the rounding mode of its process, and has one of its own (`codac_server`).
+"""
 
 from __future__ import annotations
 
 import importlib.util
-import json
-import os
-import subprocess
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import asdict
-from pathlib import Path
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
 from typing import Any
 
-from mpmath.ctx_iv import MPIntervalContext
-from mpmath.libmp import from_man_exp
+from intervals import Interval, Jet
+from proofs.trusted.equations import sincos
 
-from proofs.benchmark.libraries import Job, Library, Sampler, in_rows, one_by_one
-
-FLINT, IV, CODAC = "python-flint", "mpmath.iv", "codac"
-_ROOT = Path(__file__).parents[2]
-
-
-def has_flint() -> bool:
-    """Whether python-flint is installed."""
-    return importlib.util.find_spec("flint") is not None
+OURS, FLINT, IV, CODAC, MP = "Interval", "python-flint", "mpmath.iv", "codac", "mpmath"
+PEERS = (FLINT, IV, CODAC)
+Range = tuple[Fraction, Fraction]
+End = Fraction | float | int
 
 
-@contextmanager
-def at_precision(bits: int) -> Iterator[dict[str, Library]]:
-    """Yield mpmath.iv, and python-flint if there is one, that work with `bits` bits meanwhile."""
-    if not has_flint():
-        yield {IV: _iv(bits)}
-        return
+@dataclass(frozen=True)
+class Arithmetic:
+    """Numbers of some library with + - * / and `sincos`, of `bits` bits.
+
+    number: one that encloses two ends. ends: its exact ends, ArithmeticError if it is not finite.
+    middle: a point of it. positive: whether it is > 0 for certain. call: an elementary function by
+    name. series, coefficient: to and from a truncated Taylor series. precision: a context of so
+    many bits, which some libraries need.
+    """
+
+    name: str
+    bits: int
+    number: Callable[[End, End], Any]
+    ends: Callable[[Any], Range]
+    middle: Callable[[Any], Any]
+    positive: Callable[[Any], bool]
+    call: Callable[[str, Any], Any]
+    series: Callable[[list[Any]], Any] = lambda coefficients: Jet(*coefficients)
+    coefficient: Callable[[Any, int], Any] = lambda series, k: series.coefficients[k]
+    precision: Callable[[int], AbstractContextManager[object]] = nullcontext
+
+    def point(self, x: End) -> Any:
+        """Enclose one number."""
+        return self.number(x, x)
+
+    def pi(self) -> Any:
+        """Enclose pi."""
+        return 4 * self.call("atan", self.point(1))
+
+
+@cache
+def arithmetic(library: str, bits: int) -> Arithmetic:
+    """Return the numbers of a library; ImportError if it is absent."""
+    return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac, MP: _mp}[library](bits)
+
+
+def installed(module: str) -> bool:
+    """Whether a module can be imported."""
+    return importlib.util.find_spec(module) is not None
+
+
+def libraries() -> list[str]:
+    """Return those that are here and prove what they say in any precision, ours first."""
+    return [OURS, FLINT, IV] if installed("flint") else [OURS, IV]
+
+
+def _ours(bits: int) -> Arithmetic:
+    return Arithmetic(
+        OURS,
+        bits,
+        number=lambda low, high: Interval(Fraction(low), Fraction(high), precision=bits),
+        ends=lambda x: (x.inf, x.sup),
+        middle=lambda x: Interval(x.mid, precision=bits),
+        positive=Interval.certainly_positive,
+        call=lambda function, x: getattr(x, function)(),
+    )
+
+
+def _flint(bits: int) -> Arithmetic:
     import flint
 
-    with flint.ctx.workprec(bits):
-        yield {FLINT: _flint(bits), IV: _iv(bits)}
+    arb, series = flint.arb, flint.arb_series
+    for kind in (arb, series):
+        sincos.register(kind, kind.sin_cos)
+
+    def exact(x: End) -> Any:
+        return arb(x) if isinstance(x, float) else arb(flint.fmpq(x.numerator, x.denominator))
+
+    def ends(x: Any) -> Range:
+        if not x.is_finite():
+            raise ArithmeticError("no finite ball")
+        low, high = (_dyadic(*end.man_exp()) for end in (x.lower(), x.upper()))
+        return low, high
+
+    return Arithmetic(
+        FLINT,
+        bits,
+        number=lambda low, high: exact(low) if low == high else exact(low).union(exact(high)),
+        ends=ends,
+        middle=lambda x: x.mid(),
+        positive=lambda x: x > 0,
+        call=lambda function, x: getattr(x, function)(),
+        series=lambda coefficients: series(coefficients, len(coefficients)),
+        coefficient=lambda of, k: of[k],
+        precision=flint.ctx.workprec,
+    )
 
 
-def _flint(bits: int) -> Library:
-    import flint
+def _iv(bits: int) -> Arithmetic:
+    """Return mpmath.iv: not proved sound (its exp can exclude the truth), measured all the same."""
+    from mpmath.ctx_iv import MPIntervalContext
 
-    arb = flint.arb
-
-    def interval(lower: int, upper: int) -> Any:
-        low, high = arb((lower, 4 - bits)), arb((upper, 4 - bits))
-        return low if lower == upper else low.union(high)
-
-    def matrix(items: list[Any], side: int) -> Any:
-        return flint.arb_mat(in_rows(items, side))
-
-    return Library(one_by_one(interval), bits, {"arb": arb}, matrix)
-
-
-def _iv(bits: int) -> Library:
     context = MPIntervalContext()  # of its own: mpmath.iv itself keeps its precision
     context.prec = bits
+    context.mpf.sincos = lambda x: (context.sin(x), context.cos(x))
+    for name in ("__add__", "__sub__", "__mul__", "__truediv__"):
+        setattr(context.mpf, name, _yielding(getattr(context.mpf, name)))
 
-    def interval(lower: int, upper: int) -> Any:
-        return context.make_mpf(tuple(from_man_exp(m, 4 - bits) for m in (lower, upper)))
+    def exact(x: Fraction) -> Any:
+        return context.mpf(x.numerator) / x.denominator
 
-    def matrix(items: list[Any], side: int) -> Any:
-        return context.matrix(in_rows(items, side))
-
-    known = ("sqrt", "exp", "log", "sin", "cos", "cos_sin", "tan", "atan2", "fsum", "one")
-    names = {name: getattr(context, name) for name in known}
-    return Library(one_by_one(interval), bits, names, matrix)
-
-
-class Codac:
-    """A process that measures codac, of the given version."""
-
-    def __init__(self, server: subprocess.Popen[str], version: str) -> None:
-        self._server, self.version = server, version
-
-    def sampler(self, job: Job, enough: float) -> Sampler:
-        """Have the job prepared; return its measurement, valid until the next job."""
-        self.ask({"job": asdict(job), "enough": enough})
-        return lambda: float(self.ask("run"))
-
-    def ask(self, request: Any) -> str:
-        """Return the answer to a request; RuntimeError if there is none."""
-        if self._server.stdin and self._server.stdout:
-            print(json.dumps(request), file=self._server.stdin, flush=True)
-            answer = self._server.stdout.readline()
-            if answer:
-                return answer
-        raise RuntimeError(f"the process with codac failed at {request}")
+    return Arithmetic(
+        IV,
+        bits,
+        number=lambda x, y: context.mpf([exact(Fraction(x)).a, exact(Fraction(y)).b]),
+        ends=lambda x: (_signed(*x._mpi_[0]), _signed(*x._mpi_[1])),
+        middle=lambda x: x.mid,
+        positive=lambda x: (x > 0) is True,
+        call=lambda function, x: getattr(context, function)(x),
+    )
 
 
-@contextmanager
-def codac(python: str, server_module: str = "codac_server") -> Iterator[Codac | None]:
-    """Yield codac in a process of the interpreter `python`, None where that cannot import it."""
-    path = os.pathsep.join(filter(None, (str(_ROOT), os.environ.get("PYTHONPATH"))))
-    with subprocess.Popen(
-        [python, "-m", f"proofs.benchmark.{server_module}"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, "PYTHONPATH": path},
-    ) as server:
-        try:
-            version = server.stdout.readline().strip() if server.stdout else ""
-            yield Codac(server, version) if version else None
-        finally:
-            server.terminate()
+def _yielding(operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    """Let a jet on the right do the operation, where mpmath raises NotImplementedError."""
+    return lambda x, y: NotImplemented if isinstance(y, Jet) else operation(x, y)
+
+
+def _codac(bits: int) -> Arithmetic:
+    """Return codac's, in binary64, for a process of its own."""
+    import codac  # type: ignore[import-not-found, unused-ignore]
+
+    codac.Interval.sincos = lambda x: (codac.sin(x), codac.cos(x))
+
+    def exact(x: Fraction) -> Any:
+        return codac.Interval(float(x.numerator)) / float(x.denominator)
+
+    return Arithmetic(
+        CODAC,
+        53,
+        number=lambda low, high: exact(Fraction(low)) | exact(Fraction(high)),
+        ends=lambda x: (Fraction(x.lb()), Fraction(x.ub())),
+        middle=lambda x: codac.Interval(x.mid()),
+        positive=lambda x: bool(x.lb() > 0),
+        call=lambda function, x: getattr(codac, function)(x),
+    )
+
+
+def _mp(bits: int) -> Arithmetic:
+    """Return mpmath: candidates, a quarter of whose bits are believed, and never a proof."""
+    from mpmath import mp
+
+    context = mp.clone()
+
+    def number(low: End, high: End) -> Any:
+        middle = (Fraction(low) + Fraction(high)) / 2
+        return context.mpf(middle.numerator) / middle.denominator
+
+    def ends(x: Any) -> Range:
+        if not context.isfinite(x):
+            raise ArithmeticError("not a finite number")
+        middle = _signed(*x._mpf_)
+        spread = abs(middle) / 2 ** (context.prec // 4)  # 90 digits at 1200 bits
+        return middle - spread, middle + spread
+
+    return Arithmetic(
+        MP,
+        bits,
+        number=number,
+        ends=ends,
+        middle=lambda x: x,
+        positive=lambda x: ends(x)[0] > 0,
+        call=lambda function, x: getattr(context, function)(x),
+        precision=context.workprec,
+    )
+
+
+def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
+    return int(mantissa) * Fraction(2) ** int(exponent)
+
+
+def _signed(sign: int, mantissa: Any, exponent: Any, _: int) -> Fraction:
+    return _dyadic(-mantissa if sign else mantissa, exponent)

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
 import proofs.stress
+from proofs.benchmark.peers import Arithmetic
 from proofs.shell.cli import USAGE_ERROR, Parser, progress, writable
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
-from proofs.stress.judge import Judgement, judge
-from proofs.stress.kernels import Kernel, kernel
-from proofs.stress.shrink import shrunk
+from proofs.stress.judge import Judgement, judge, shrunk
+from proofs.stress.truth import kernel_of
 from proofs.trusted.certificate import write_atomically
 
 _CASES = 600
-_MOST_CASES = 10**7
 _SHRUNK = 3  # failures of a run that are made smaller
 
 EXAMPLES = """
@@ -42,29 +42,25 @@ exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2
 
 
 def stress(
-    families: Sequence[Family], count: int, seed: int, by: Kernel, tell: Callable[[str], None]
+    families: Sequence[Family], count: int, seed: int, by: Arithmetic, tell: Callable[[str], None]
 ) -> report.Run:
-    """Try about `count` cases of some families."""
+    """Try about `count` cases of some families; shrink the first failures."""
     began = perf_counter()
     found: list[Judgement] = []
     for case in cases(families, count, seed, by):
         tell(f"{len(found)} cases, {case.family}")
-        found.append(_smaller(case, judge(case, by), by, found))
+        found.append(judge(case, by))
+    for k in [k for k, one in enumerate(found) if one.outcome.failure][:_SHRUNK]:
+        found[k] = judge(shrunk(found[k].case, partial(_alike, found[k], by)), by)
     return report.Run(found, seed, by.name, perf_counter() - began)
 
 
-def _smaller(case: Case, one: Judgement, by: Kernel, before: Sequence[Judgement]) -> Judgement:
-    """Shrink a failure, unless there were enough of them."""
-    if not one.outcome.failure or sum(other.outcome.failure for other in before) >= _SHRUNK:
-        return one
-
-    def fails(other: Case) -> bool:
-        try:
-            return judge(other, by).outcome is one.outcome
-        except (ArithmeticError, ValueError):
-            return False
-
-    return judge(shrunk(case, fails), by)
+def _alike(one: Judgement, by: Arithmetic, other: Case) -> bool:
+    """Whether another case fails in the same way."""
+    try:
+        return judge(other, by).outcome is one.outcome
+    except (ArithmeticError, ValueError):
+        return False
 
 
 def _parser() -> Parser:
@@ -73,8 +69,8 @@ def _parser() -> Parser:
     add = parser.add_argument
     names = [family.name for family in FAMILIES]
     add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
-    add("--cases", type=_whole(1, _MOST_CASES), default=_CASES, metavar="N",
-        help=f"how many, about (default {_CASES})")  # fmt: skip
+    many = f"how many, about (default {_CASES})"
+    add("--cases", type=_whole(1, 10**7), default=_CASES, metavar="N", help=many)
     add("--seed", type=_whole(0, 10**18), default=1, metavar="N", help="of the draw (default 1)")
     add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
     add("--out", type=Path, metavar="DIR", help="write the report there (default: print only)")
@@ -85,7 +81,7 @@ def _parser() -> Parser:
 def _whole(least: int, most: int) -> Callable[[str], int]:
     def read(text: str) -> int:
         if not (text.isascii() and text.isdigit() and least <= int(text[:20]) <= most):
-            raise argparse.ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
+            raise ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
         return int(text)
 
     return read
@@ -98,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.out is not None:
         writable(parser, options.out)
     try:
-        by = kernel(options.kernel)
+        by = kernel_of(options.kernel)
     except ImportError:
         print(f"{parser.prog}: python-flint is not installed", file=sys.stderr)
         return USAGE_ERROR
@@ -115,11 +111,9 @@ def _write(folder: Path, run: report.Run) -> None:
     write_atomically(folder / "stress.md", report.markdown(run))
     write_atomically(folder / "stress.json", report.machine_form(run))
     try:
-        picture = report.svg(run)
+        write_atomically(folder / "stress.svg", report.svg(run))
     except ImportError:
         print("no picture: matplotlib is not installed", file=sys.stderr)
-        return
-    write_atomically(folder / "stress.svg", picture)
 
 
 if __name__ == "__main__":

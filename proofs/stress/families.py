@@ -1,260 +1,208 @@
-"""The families of hard cases: what each one aims at, and how its cases are drawn."""
+"""The families of hard cases: how one of each is drawn, and the table of all."""
 
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
+from typing import NamedTuple
 
-from proofs.stress import functions, operations
-from proofs.stress.cases import Case
+import mpmath
+
+from proofs.benchmark.peers import Arithmetic
+from proofs.stress.arithmetic import function, operation
+from proofs.stress.cases import ETA, NU, Case, Draw, System
 from proofs.stress.grazing import graze, separation_point
-from proofs.stress.kernels import Kernel
 from proofs.stress.motions import CoverCase, ImageCase, ReboundCase
 
-ETA, NU = Fraction("0.2121"), Fraction("-0.2")
-Generator = random.Random
-Draw = Callable[[Generator, Kernel], Case]
 _CIRCLE = Fraction(62831, 10000)
 
 
-@dataclass(frozen=True)
-class Family:
+def _point(draw: Draw, of: System, phase: Fraction, digits: int, horizon: int) -> ImageCase:
+    far = Fraction(horizon)
+    return ImageCase(draw.family, *of, phase, phase, digits=digits, horizon=far)
+
+
+def _around(draw: Draw, of: System, phase: Fraction, room: Fraction) -> ImageCase:
+    """Return the launch at a phase, or half of the time an interval within `room` above it."""
+    width = room / 10 ** draw.randint(1, 12) if draw.random() < 0.5 else Fraction(0)
+    return ImageCase(draw.family, *of, phase, phase + width)
+
+
+def _graze(draw: Draw) -> tuple[System, Fraction]:
+    eta, nu, phase = graze(draw.randrange(100))
+    return (eta, nu), phase
+
+
+def _short(draw: Draw, kernel: Arithmetic) -> Case:
+    """The flight lasts 3 times the distance."""
+    of = draw.system()
+    distance = draw.tiny(2, 40)
+    phase = separation_point(kernel, *of, beginning=True) - distance
+    return _around(draw, of, phase, distance / 2)
+
+
+def _separation(draw: Draw, kernel: Arithmetic) -> Case:
+    """Launches at both sides of the phase where the gap has a triple zero."""
+    of = draw.system()
+    distance = draw.tiny(2, 60) * draw.sign()
+    case = _around(draw, of, separation_point(kernel, *of) + distance, abs(distance) / 2)
+    return replace(case, digits=draw.choice((10, 20, 30)))
+
+
+def _grazing(draw: Draw, _: Arithmetic) -> Case:
+    """At both sides of it: an impact of speed 0, or none until much later."""
+    of, phase = _graze(draw)
+    phase += draw.tiny(3, 30) * draw.sign()
+    return ImageCase(draw.family, *of, phase, phase)
+
+
+def _tangent(draw: Draw, _: Arithmetic) -> Case:
+    of, phase = _graze(draw)
+    distance = draw.tiny(2, 14) * draw.sign()
+    return _around(draw, of, phase + distance, abs(distance) / 2)
+
+
+def _long(draw: Draw, _: Arithmetic) -> Case:
+    """A soft spring, or the paper's launches next to pi/2."""
+    if draw.random() < 0.25:
+        phase = Fraction(math.pi / 2) + draw.tiny(3, 4) * draw.sign()
+        return _point(draw, (ETA, NU), phase, 15, 3000)
+    of = draw.tiny(3, 5), -draw.decimal(0.1, 0.9, 4)
+    return _point(draw, of, draw.decimal(0.1, 1.5), 15, 10**6)
+
+
+def _soft(draw: Draw, _: Arithmetic) -> Case:
+    """The table catches up with a mass that hardly feels its spring."""
+    of = draw.tiny(2, 40), draw.decimal(0.01, 3, 4) * draw.sign()
+    return _around(draw, of, draw.decimal(1.6, 3.1), Fraction(1, 1000))
+
+
+def _resonance(draw: Draw, _: Arithmetic) -> Case:
+    eta = 1 + draw.tiny(1, 40) * draw.choice((-1, 0, 1, -1, 1))
+    return _point(draw, (eta, -draw.decimal(0.05, 3, 4)), draw.phase(), 20, 200)
+
+
+def _rational(draw: Draw, _: Arithmetic) -> Case:
+    """All returns to the launch after as many turns of the table as the denominator says."""
+    eta = Fraction(draw.randint(1, 9), draw.randint(1, 9))
+    nu = draw.decimal(0.05, 2, 4) * draw.sign()
+    return _point(draw, (eta, nu), draw.phase(), 20, 200)
+
+
+def _small_nu(draw: Draw, _: Arithmetic) -> Case:
+    """Eta is small with it, or not."""
+    nu = draw.tiny(1, 30) * draw.sign()
+    eta = draw.decimal(0.1, 2, 3)
+    if draw.random() < 0.5:
+        eta = Fraction(math.sqrt(abs(nu))) * draw.decimal(0.1, 0.9, 3)
+    return _point(draw, (eta, nu), draw.phase(), 20, 1000)
+
+
+def _large_nu(draw: Draw, _: Arithmetic) -> Case:
+    nu = 1 + draw.tiny(1, 30) * draw.choice((-1, 0, 1))
+    if draw.random() < 0.5:
+        nu = draw.decimal(1, 9) * 10 ** draw.randint(0, 20)
+    phase = draw.phase()
+    nu *= draw.sign()
+    return _point(draw, (draw.decimal(0.05, 2, 4), nu), phase, 20, 200)
+
+
+def _digits(draw: Draw, _: Arithmetic) -> Case:
+    eta, nu = (value + Fraction(draw.randrange(10**49), 10**53) for value in draw.system())
+    return _around(draw, (eta, nu), draw.phase(), Fraction(1, 100))
+
+
+def _restitution(draw: Draw, _: Arithmetic) -> Case:
+    """Also 0 and 1 themselves; launches of all kinds."""
+    of = draw.system()
+    near = draw.tiny(1, 30), 1 - draw.tiny(1, 30)
+    epsilon = draw.choice((Fraction(0), Fraction(1), *near))
+    phase = draw.phase()
+    gamma = _velocity(of, phase, draw.decimal(0.01, 2))
+    high = phase + Fraction(1, 10 ** draw.randint(4, 14)) * draw.choice((0, 1))
+    return ReboundCase(draw.family, *of, phase, high, epsilon, gamma, digits=20)
+
+
+def _chatter(draw: Draw, _: Arithmetic) -> Case:
+    """Many where the table pushes: flights about as short as the impacts are weak."""
+    of = draw.system()
+    epsilon = draw.decimal(0.01, 0.99, 2)
+    phase = draw.phase()
+    gamma = _velocity(of, phase, draw.tiny(2, 30))
+    return ReboundCase(draw.family, *of, phase, phase, epsilon, gamma, digits=20)
+
+
+def _velocity(of: System, phase: Fraction, speed: Fraction) -> Fraction:
+    """Return the velocity gamma of a mass that meets the table with about this speed."""
+    eta, nu = of
+    with mpmath.workdps(60):
+        cosine = mpmath.nstr(mpmath.cos(mpmath.mpf(phase.numerator) / phase.denominator), 55)
+    side = 1 if nu > 0 else -1
+    return (side * speed - nu * Fraction(cosine)) / eta
+
+
+def _intervals(draw: Draw, _: Arithmetic) -> Case:
+    of = draw.system()
+    low = Fraction(math.ldexp(round(draw.uniform(0.3, 6) * 2**50), -50))
+    width = Fraction(1, 2**50)
+    if draw.random() < 0.8:
+        width = min(draw.tiny(1, 15), _CIRCLE - low)
+    elif draw.random() < 0.1:
+        low, width = Fraction(0), _CIRCLE
+    return ImageCase(draw.family, *of, low, low + width, digits=12, horizon=Fraction(100))
+
+
+def _kernel(draw: Draw, _: Arithmetic) -> Case:
+    """Boxes of all sizes, easy ones and next to grazing ones."""
+    boxes = draw.choice((1, 4, 16, 64))
+    if draw.random() < 0.5:
+        of, phase = _graze(draw)
+        low = phase + draw.tiny(2, 9) * draw.sign()
+        high = low + abs(low - phase) / draw.choice((3, 1000))
+    else:
+        of = draw.system()
+        low = draw.phase()
+        high = low + draw.tiny(2, 9)
+    return CoverCase(draw.family, *of, low, high, boxes)
+
+
+class Family(NamedTuple):
     """share: how many of 100 cases belong to it."""
 
     name: str
+    share: int
     about: str
-    share: float
-    draw: Draw
+    draw: Callable[[Draw, Arithmetic], Case]
 
 
-def decimal(generator: Generator, low: float, high: float, places: int = 6) -> Fraction:
-    """Return a random decimal between two numbers."""
-    return Fraction(generator.randint(int(low * 10**places), int(high * 10**places)), 10**places)
+FAMILIES = [
+    Family("operations", 20, "+ - * / next to cancellation, 0, overflow, underflow", operation),
+    Family("functions", 25, "elementary functions at hard arguments, 24 to 333 bits", function),
+    Family("arrays", 25, "the same in binary64 arrays", function),
+    Family("short flights", 2, "launches 1e-2 to 1e-40 before sticking begins", _short),
+    Family("separation", 2, "launches 1e-2 to 1e-60 from the separation phase", _separation),
+    Family("grazing", 3, "launches 1e-3 to 1e-30 from a grazing one", _grazing),
+    Family("tangent", 2, "intervals of launches next to grazing ones: f' is large", _tangent),
+    Family("long flights", 1, "flights of 10^3 to 10^6", _long),
+    Family("soft spring", 3, "eta from 1e-2 to 1e-40", _soft),
+    Family("resonance", 2, "eta next to 1, and 1", _resonance),
+    Family("rational", 2, "eta a ratio of digits: exact returns", _rational),
+    Family("small nu", 2, "|nu| from 0.1 to 1e-30", _small_nu),
+    Family("large nu", 2, "|nu| next to 1, and up to 1e21", _large_nu),
+    Family("50 digits", 2, "parameters with 50 digits", _digits),
+    Family("restitution", 2, "epsilon next to 0 and to 1", _restitution),
+    Family("chatter", 2, "impacts of speed 1e-2 to 1e-30", _chatter),
+    Family("intervals", 2, "launch phases from one ulp to the whole circle", _intervals),
+    Family("kernel", 1, "boxes in binary64, retried where it does not decide", _kernel),
+]
 
 
-def tiny(generator: Generator, first: int, last: int) -> Fraction:
-    """Return a random number of the size 10^-first to 10^-last."""
-    return decimal(generator, 1, 9.999, 3) / Fraction(10) ** generator.randint(first, last)
-
-
-def system(generator: Generator) -> tuple[Fraction, Fraction]:
-    """Return (eta, nu): the paper's, or others with a sticking arc."""
-    while True:
-        if generator.random() < 0.3:
-            return ETA, NU
-        eta = decimal(generator, 0.05, 2.5, 4)
-        nu = generator.choice((-1, 1)) * decimal(generator, 0.05, 3, 4)
-        if eta != 1 and abs(eta**2 / (nu * (1 - eta**2))) < Fraction(9, 10):
-            return eta, nu
-
-
-def _phase(generator: Generator) -> Fraction:
-    return decimal(generator, 0, 6.28)
-
-
-def _around(
-    generator: Generator,
-    family: str,
-    of: tuple[Fraction, Fraction],
-    phase: Fraction,
-    room: Fraction,
-) -> ImageCase:
-    """Return the point, or half of the time an interval within `room` above it."""
-    width = room / 10 ** generator.randint(1, 12) if generator.random() < 0.5 else Fraction(0)
-    return ImageCase(family, *of, phase, phase + width)
-
-
-def _short(generator: Generator, kernel: Kernel) -> Case:
-    """Launches just before sticking begins: the flight lasts 3 times the distance."""
-    of = system(generator)
-    distance = tiny(generator, 2, 40)
-    point = separation_point(kernel, *of, beginning=True) - distance
-    return _around(generator, "short flights", of, point, distance / 2)
-
-
-def _separation(generator: Generator, kernel: Kernel) -> Case:
-    """Launches at both sides of the phase where the gap has a triple zero."""
-    of = system(generator)
-    distance = tiny(generator, 2, 60) * generator.choice((-1, 1))
-    point = separation_point(kernel, *of) + distance
-    case = _around(generator, "separation", of, point, abs(distance) / 2)
-    return replace(case, digits=generator.choice((10, 20, 30)))
-
-
-def _grazing(generator: Generator, kernel: Kernel) -> Case:
-    """Launches at both sides of a grazing one: an impact of speed 0, or none until much later."""
-    eta, nu, phase = graze(generator.randrange(100))
-    distance = tiny(generator, 3, 30) * generator.choice((-1, 1))
-    return ImageCase("grazing", eta, nu, phase + distance, phase + distance)
-
-
-def _tangent(generator: Generator, kernel: Kernel) -> Case:
-    """Intervals of launches next to a grazing one: f' is large, and its formula cancels."""
-    eta, nu, phase = graze(generator.randrange(100))
-    distance = tiny(generator, 2, 14) * generator.choice((-1, 1))
-    return _around(generator, "tangent", (eta, nu), phase + distance, abs(distance) / 2)
-
-
-def _long(generator: Generator, kernel: Kernel) -> Case:
-    """Flights of 10^3 to 10^6: a soft spring, or the paper's launches next to pi/2."""
-    horizon = Fraction(10**6)
-    if generator.random() < 0.25:
-        phase = Fraction(math.pi / 2) + tiny(generator, 3, 4) * generator.choice((-1, 1))
-        return ImageCase("long flights", ETA, NU, phase, phase, 15, Fraction(3000))
-    eta, nu = tiny(generator, 3, 5), -decimal(generator, 0.1, 0.9, 4)
-    phase = decimal(generator, 0.1, 1.5)
-    return ImageCase("long flights", eta, nu, phase, phase, 15, horizon)
-
-
-def _soft(generator: Generator, kernel: Kernel) -> Case:
-    """eta -> 0: the table catches up with a mass that hardly feels its spring."""
-    eta, nu = tiny(generator, 2, 40), decimal(generator, 0.01, 3, 4) * generator.choice((-1, 1))
-    phase = decimal(generator, 1.6, 3.1)
-    return _around(generator, "soft spring", (eta, nu), phase, Fraction(1, 1000))
-
-
-def _resonance(generator: Generator, kernel: Kernel) -> Case:
-    """eta next to 1, and 1."""
-    eta = 1 + tiny(generator, 1, 40) * generator.choice((-1, 0, 1, -1, 1))
-    nu = -decimal(generator, 0.05, 3, 4)
-    point = _phase(generator)
-    return ImageCase("resonance", eta, nu, point, point, 20, Fraction(200))
-
-
-def _rational(generator: Generator, kernel: Kernel) -> Case:
-    """eta = p/q: all returns to the launch after q turns of the table."""
-    eta = Fraction(generator.randint(1, 9), generator.randint(1, 9))
-    nu = decimal(generator, 0.05, 2, 4) * generator.choice((-1, 1))
-    point = _phase(generator)
-    return ImageCase("rational", eta, nu, point, point, 20, Fraction(200))
-
-
-def _small_nu(generator: Generator, kernel: Kernel) -> Case:
-    """nu -> 0, eta with it or not."""
-    nu = tiny(generator, 1, 30) * generator.choice((-1, 1))
-    eta = decimal(generator, 0.1, 2, 3)
-    if generator.random() < 0.5:
-        eta = Fraction(math.sqrt(abs(nu))) * decimal(generator, 0.1, 0.9, 3)
-    point = _phase(generator)
-    return ImageCase("small nu", eta, nu, point, point, 20, Fraction(1000))
-
-
-def _large_nu(generator: Generator, kernel: Kernel) -> Case:
-    """|nu| next to 1 and far above it."""
-    nu = 1 + tiny(generator, 1, 30) * generator.choice((-1, 0, 1))
-    if generator.random() < 0.5:
-        nu = decimal(generator, 1, 9) * 10 ** generator.randint(0, 20)
-    point = _phase(generator)
-    sign = generator.choice((-1, 1))
-    eta = decimal(generator, 0.05, 2, 4)
-    return ImageCase("large nu", eta, sign * nu, point, point, 20, Fraction(200))
-
-
-def _digits(generator: Generator, kernel: Kernel) -> Case:
-    """Parameters with 50 digits."""
-    eta, nu = (value + Fraction(generator.randrange(10**49), 10**53) for value in system(generator))
-    return _around(generator, "50 digits", (eta, nu), _phase(generator), Fraction(1, 100))
-
-
-def _restitution(generator: Generator, kernel: Kernel) -> Case:
-    """epsilon next to 0 and to 1, and both; launches of all kinds."""
-    eta, nu = system(generator)
-    epsilon = generator.choice(
-        (Fraction(0), Fraction(1), tiny(generator, 1, 30), 1 - tiny(generator, 1, 30))
-    )
-    point = _phase(generator)
-    gamma = _velocity(eta, nu, point, decimal(generator, 0.01, 2))
-    width = Fraction(1, 10 ** generator.randint(4, 14)) * generator.choice((0, 1))
-    return ReboundCase("restitution", eta, nu, point, point + width, epsilon, gamma, 20)
-
-
-def _chatter(generator: Generator, kernel: Kernel) -> Case:
-    """Weak impacts, many where the table pushes: flights about as short as they are weak."""
-    eta, nu = system(generator)
-    epsilon = decimal(generator, 0.01, 0.99, 2)
-    point = _phase(generator)
-    gamma = _velocity(eta, nu, point, tiny(generator, 2, 30))
-    return ReboundCase("chatter", eta, nu, point, point, epsilon, gamma, 20)
-
-
-def _velocity(eta: Fraction, nu: Fraction, phase: Fraction, speed: Fraction) -> Fraction:
-    """Return the velocity gamma of a mass that meets the table with about this speed."""
-    side = 1 if nu > 0 else -1
-    return (side * speed - nu * _cosine(phase)) / eta
-
-
-def _cosine(x: Fraction) -> Fraction:
-    import mpmath
-
-    with mpmath.workdps(60):
-        return Fraction(mpmath.nstr(mpmath.cos(mpmath.mpf(x.numerator) / x.denominator), 55))
-
-
-def _intervals(generator: Generator, kernel: Kernel) -> Case:
-    """Launch phases from one ulp of binary64 to the whole circle."""
-    of = system(generator)
-    low = Fraction(math.ldexp(round(generator.uniform(0.3, 6) * 2**50), -50))
-    width = Fraction(1, 2**50)
-    if generator.random() < 0.8:
-        width = min(tiny(generator, 1, 15), _CIRCLE - low)
-    elif generator.random() < 0.1:
-        low, width = Fraction(0), _CIRCLE
-    return ImageCase("intervals", *of, low, low + width, 12, Fraction(100))
-
-
-def _kernel(generator: Generator, kernel: Kernel) -> Case:
-    """The binary64 kernel on boxes of all sizes, easy ones and next to grazing ones."""
-    boxes = generator.choice((1, 4, 16, 64))
-    if generator.random() < 0.5:
-        eta, nu, phase = graze(generator.randrange(100))
-        low = phase + tiny(generator, 2, 9) * generator.choice((-1, 1))
-        high = low + abs(low - phase) / generator.choice((3, 1000))
-    else:
-        eta, nu = system(generator)
-        low = _phase(generator)
-        high = low + tiny(generator, 2, 9)
-    return CoverCase("kernel", eta, nu, low, high, boxes)
-
-
-def _functions(generator: Generator, kernel: Kernel) -> Case:
-    return functions.draw(generator, kernel, "functions")
-
-
-def _arrays(generator: Generator, kernel: Kernel) -> Case:
-    return functions.draw(generator, kernel, "arrays")
-
-
-FAMILIES = (
-    Family(
-        "operations", "+ - * / next to cancellation, 0, overflow, underflow", 20, operations.draw
-    ),
-    Family("functions", "elementary functions at hard arguments, 24 to 333 bits", 25, _functions),
-    Family("arrays", "the same in binary64 arrays", 25, _arrays),
-    Family("short flights", "launches 1e-2 to 1e-40 before sticking begins", 2, _short),
-    Family("separation", "launches 1e-2 to 1e-60 from the separation phase", 2, _separation),
-    Family("grazing", "launches 1e-3 to 1e-30 from a grazing one", 3, _grazing),
-    Family("tangent", "intervals of launches next to grazing ones: f' is large", 2, _tangent),
-    Family("long flights", "flights of 10^3 to 10^6", 1, _long),
-    Family("soft spring", "eta from 1e-2 to 1e-40", 3, _soft),
-    Family("resonance", "eta next to 1, and 1", 2, _resonance),
-    Family("rational", "eta a ratio of digits: exact returns", 2, _rational),
-    Family("small nu", "|nu| from 0.1 to 1e-30", 2, _small_nu),
-    Family("large nu", "|nu| next to 1, and up to 1e21", 2, _large_nu),
-    Family("50 digits", "parameters with 50 digits", 2, _digits),
-    Family("restitution", "epsilon next to 0 and to 1", 2, _restitution),
-    Family("chatter", "impacts of speed 1e-2 to 1e-30", 2, _chatter),
-    Family("intervals", "launch phases from one ulp to the whole circle", 2, _intervals),
-    Family("kernel", "boxes in binary64, retried where it does not decide", 1, _kernel),
-)
-
-
-def cases(families: Sequence[Family], count: int, seed: int, kernel: Kernel) -> Iterator[Case]:
+def cases(families: Sequence[Family], count: int, seed: int, kernel: Arithmetic) -> Iterator[Case]:
     """Draw about `count` cases, by share, at least one of each family; the same for a seed."""
     whole = sum(family.share for family in families)
     for family in families:
-        generator = random.Random(f"{seed} {family.name}")
+        draw = Draw(seed, family.name)
         for _ in range(max(1, round(count * family.share / whole))):
-            yield family.draw(generator, kernel)
+            yield family.draw(draw, kernel)

@@ -2,95 +2,63 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
-from functools import cache
-from itertools import pairwise
-from typing import Any
 
-from proofs.motion.candidate import next_impact
-from proofs.motion.system import System
-from proofs.stress.kernels import Kernel
+from proofs.benchmark.peers import Arithmetic
 from proofs.stress.truth import BITS, separation
 
 _DIGITS = 80
-_PHASES = 120
-SYSTEMS = tuple(
-    (Fraction(eta), Fraction(nu))
-    for eta, nu in (("0.2121", "-0.2"), ("0.9", "-0.3"), ("1.7", "-0.9"), ("0.35", "-0.5"),
-                    ("0.6", "1.1"), ("1.4", "-2.3"))
-)  # fmt: skip
-
-
-def separation_point(
-    kernel: Kernel, eta: Fraction, nu: Fraction, *, beginning: bool = False
-) -> Fraction:
-    """Return the phase where a sticking mass leaves, or where sticking begins, to 80 digits."""
-    with kernel.digits(BITS):
-        phase = separation(kernel, eta, nu)
-        if beginning:
-            phase = kernel.pi() - phase
-        low = kernel.bounds(phase)[0]
-        if low < 0:
-            low += 2 * kernel.bounds(kernel.pi())[0]
-    return Fraction(round(low * 10**_DIGITS), 10**_DIGITS)
-
-
-@cache
-def _grazes() -> tuple[tuple[Fraction, Fraction, Fraction], ...]:
-    """Return (eta, nu, phase) of grazing launches, the phase to 80 digits."""
-    found = []
-    for eta, nu in SYSTEMS:
-        oscillator = System(eta, nu)
-        phases = [0.01 + 6.26 * k / _PHASES for k in range(_PHASES)]
-        times = [next_impact(oscillator, phase, 60.0) for phase in phases]
-        for (a, b), (s, t) in zip(pairwise(phases), pairwise(times), strict=True):
-            if s is None or t is None or abs(s[0] - t[0]) < 0.8:
-                continue
-            phase = _refined(oscillator, (a, b), (s[0], t[0]))
-            if phase is not None:
-                found.append((eta, nu, phase))
-    return tuple(found)
+# By eta and nu, phases to 80 digits: gap = gap' = 0 at a time before which gap > 0, by Newton's
+# method from where the flight time of a search in floating point jumps.
+GRAZES = {
+    ("0.2121", "-0.2"): (
+        "1.199985859948170230409198749741551081231020378143098720356181914030751399757935",
+        "2.1364860287548289027487353177287578525812297616858308477722421866944235989093739",
+    ),
+    ("0.9", "-0.3"): (
+        "2.0424579323215820831424968892793933111256301248560542472272551968146875517478102",
+        "2.3066975860054578370065560559699241689886574675293707932101120988908447853288667",
+        "2.6045627331302255807048188278075096119411246655523048367908751123225390276743712",
+        "2.9447453813267196271787052234392781205373007573058849690034101373008332102193525",
+        "3.3313723701533262361122760030146372079116602264913198028149162291876899201357818",
+        "3.7621061730760169259258677885088521263133117005412764553769081007941157771421529",
+        "4.2276075844967646875666441006729436822314835284247471270278208161802327741030901",
+    ),
+    ("1.7", "-0.9"): (
+        "0.011799612739648851324827658980327645530398446684882681423467026396028635792793796",
+        "1.4051006700916248156942655094104453532495575873080956259128539500369350032518594",
+        "1.472642238851524727912411648420724655921306546635245212421489660264142304370355",
+        "1.8335112140042185193484287198778294814671733527649962640026531853687496835014395",
+        "2.4047600482979841286746835226090684322909913035914481898489713673228515755441473",
+    ),
+    ("0.35", "-0.5"): (
+        "1.1695285693972582160199922874209906315875075472468841052661871481191964040805781",
+        "1.2704332623016992965625613670166200595659580071611260970643124330897841574934882",
+        "2.1115471740642215367205341242255937028940733517714104793256187584736043940240763",
+    ),
+    ("1.4", "-2.3"): (
+        "0.38704064956303419003896927948749053135402020272950629208018103533515939135000487",
+        "0.5160877522217584880725184656976267421794687827158495735742173685793547175169826",
+    ),
+}
 
 
 def graze(number: int) -> tuple[Fraction, Fraction, Fraction]:
-    """Return one of the grazing launches."""
-    known = _grazes()
-    return known[number % len(known)]
+    """Return (eta, nu, phase) of one of the grazing launches."""
+    known = [(*of, phase) for of, phases in GRAZES.items() for phase in phases]
+    eta, nu, phase = map(Fraction, known[number % len(known)])
+    return eta, nu, phase
 
 
-def _refined(
-    oscillator: System, phases: tuple[float, float], times: tuple[float, float]
-) -> Fraction | None:
-    """Halve the jump of the flight time, then solve gap = gap' = 0 for phase and time."""
-    import mpmath
-
-    (a, b), (s, t) = phases, times
-    for _ in range(40):
-        middle = next_impact(oscillator, (a + b) / 2, 60.0)
-        if middle is None:
-            return None
-        if abs(middle[0] - s) < abs(middle[0] - t):
-            a, s = (a + b) / 2, middle[0]
-        else:
-            b, t = (a + b) / 2, middle[0]
-    if abs(s - t) < 0.5:
-        return None
-    eta, nu = oscillator.eta, oscillator.nu
-    with mpmath.workdps(_DIGITS + 20):
-        e, n = (mpmath.mpf(x.numerator) / x.denominator for x in (eta, nu))
-
-        def touch(phi: Any, time: Any) -> tuple[Any, Any]:
-            sin, cos = mpmath.sin, mpmath.cos
-            height, speed = 1 + n * sin(phi), n * cos(phi) / e
-            gap = height * cos(e * time) + speed * sin(e * time) - 1 - n * sin(phi + time)
-            rate = e * (speed * cos(e * time) - height * sin(e * time)) - n * cos(phi + time)
-            return gap, rate
-
-        try:
-            phase, time = mpmath.findroot(touch, (a, min(s, t)))
-        except (ValueError, ZeroDivisionError):
-            return None
-        if abs(phase - a) > 1e-3 or not math.isclose(time, min(s, t), rel_tol=1e-2):
-            return None
-        return Fraction(mpmath.nstr(phase, _DIGITS))
+def separation_point(
+    kernel: Arithmetic, eta: Fraction, nu: Fraction, *, beginning: bool = False
+) -> Fraction:
+    """Return the phase where a sticking mass leaves, or where sticking begins, to 80 digits."""
+    with kernel.precision(BITS):
+        phase = separation(kernel, eta, nu)
+        if beginning:
+            phase = kernel.pi() - phase
+        low = kernel.ends(phase)[0]
+        if low < 0:
+            low += 2 * kernel.ends(kernel.pi())[0]
+    return Fraction(round(low * 10**_DIGITS), 10**_DIGITS)

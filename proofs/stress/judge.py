@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
+from itertools import islice
 from time import perf_counter
+from typing import Any
 
 from intervals import IntervalError
+from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.impact import NoImpact
 from proofs.motion.rebound import Impossible
-from proofs.stress.cases import Answer, Case, Ranges, Truth, inputs
-from proofs.stress.kernels import Kernel
-from proofs.stress.limit import TookTooLong, limited
-from proofs.trusted.numbers import Range
+from proofs.stress.cases import Answer, Case, Ranges, Truth
 
 _TURN_BITS = 800
+_WIDEST = Fraction(10**300)
+_MOST_TRIES = 200
 
 
 class Outcome(Enum):
@@ -41,138 +46,168 @@ class Outcome(Enum):
 class Judgement:
     """What became of a case. seconds: for the library's answer, on the clock.
 
-    ratio: the width of the widest bounds, by what it must at least be; ratios: of all.
+    widths: of each of its bounds, by what it must at least be.
     """
 
-    family: str
+    case: Case
     outcome: Outcome
     seconds: float
-    inputs: dict[str, str]
     reason: str = ""
-    ratio: float | None = None
-    bits: int | None = None
-    ratios: dict[str, float] = field(default_factory=dict)
+    widths: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def width(self) -> float | None:
+        """That of the widest bounds."""
+        return max(self.widths.values(), default=None)
 
 
-def judge(case: Case, kernel: Kernel, allowed: float = 1.0) -> Judgement:
+class TookTooLong(BaseException):
+    """The time is over. No Exception, so that nobody's `except Exception` takes it."""
+
+
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Raise TookTooLong after so many seconds of work, where the system has such an alarm.
+
+    It is raised again each second: what is raised while an object is finalised is lost.
+    """
+    if not hasattr(signal, "SIGVTALRM") or threading.current_thread() != threading.main_thread():
+        yield
+        return
+
+    def stop(number: int, frame: object) -> None:
+        raise TookTooLong
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, 1.0)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
+def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
     """Ask the library and the kernel, and compare."""
     began = perf_counter()
     try:
         with limited(allowed):
             answer = case.answer()
     except TookTooLong:
-        reason = "stopped: it took too long"
-        return Judgement(case.family, Outcome.STOPPED, allowed, inputs(case), reason)
-    except (IntervalError, Impossible, OverflowError) as refusal:
-        seconds, outcome = perf_counter() - began, Outcome.REFUSED
-        if isinstance(refusal, (NoImpact, Impossible)) and _has_impact(case, kernel):
+        return Judgement(case, Outcome.STOPPED, allowed, "stopped: it took too long")
+    except Exception as error:  # what is no refusal is a defect to be shown
+        seconds, outcome = perf_counter() - began, Outcome.CRASHED
+        if isinstance(error, (IntervalError, Impossible, OverflowError)):
+            outcome = Outcome.REFUSED
+        if isinstance(error, (NoImpact, Impossible)) and _has_impact(case, kernel):
             outcome = Outcome.MISSED
-        reason = f"{type(refusal).__name__}: {refusal}"
-        return Judgement(case.family, outcome, seconds, inputs(case), reason)
-    except Exception as crash:  # whatever else the library raises is a defect to be shown
-        seconds = perf_counter() - began
-        reason = f"{type(crash).__name__}: {crash}"
-        return Judgement(case.family, Outcome.CRASHED, seconds, inputs(case), reason)
+        return Judgement(case, outcome, seconds, f"{type(error).__name__}: {error}")
     seconds = perf_counter() - began
     truths = case.truths(kernel)
-    outcome, reason = _contained(answer, truths, kernel)
-    ratios = _ratios(case, answer, truths, kernel) if outcome is Outcome.ENCLOSED else {}
-    return Judgement(
-        case.family, outcome, seconds, inputs(case), reason,
-        max(ratios.values(), default=None),
-        _bits(case, answer, allowed),
-        ratios,
-    )  # fmt: skip
+    outcome, reason = _compared(answer, truths, kernel)
+    widths = _widths(case, answer, truths, kernel) if outcome is Outcome.ENCLOSED else {}
+    return Judgement(case, outcome, seconds, reason, widths)
 
 
-def _bits(case: Case, answer: Answer, allowed: float) -> int | None:
-    try:
-        with limited(allowed):
-            return answer.bits or case.bits()
-    except TookTooLong:
-        return None
-
-
-def _has_impact(case: Case, kernel: Kernel) -> bool:
+def _has_impact(case: Case, kernel: Arithmetic) -> bool:
     return any(truth is not None and truth.known for truth in case.truths(kernel))
 
 
-def _contained(
-    answer: Answer, truths: Sequence[Truth | None], kernel: Kernel
+def _compared(
+    answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
 ) -> tuple[Outcome, str]:
     """Compare each sample: some alternative must meet all the true values that it speaks of."""
-    judged = False
-    for number, truth in enumerate(truths):
-        if truth is None:
-            continue
-        judged = True
-        alternatives = _of(answer, number)
-        if not any(_meets(one, truth, kernel) for one in alternatives):
-            return (
-                Outcome.EXCLUDED,
-                f"sample {number}: {_difference(alternatives[0], truth, kernel)}",
-            )
+    judged = [(number, truth) for number, truth in enumerate(truths) if truth is not None]
+    for number, truth in judged:
+        alternatives = answer.samples[min(number, len(answer.samples) - 1)]
+        wrong = [_wrong(said, truth, kernel) for said in alternatives]
+        if all(wrong):
+            return Outcome.EXCLUDED, f"sample {number}: {wrong[0]}"
     if not judged:
         return Outcome.UNJUDGED, "the truth is out of reach"
     return (Outcome.POSSIBLE if answer.possible else Outcome.ENCLOSED), ""
 
 
-def _of(answer: Answer, number: int) -> tuple[Ranges, ...]:
-    return answer.samples[min(number, len(answer.samples) - 1)]
-
-
-def _meets(said: Ranges, truth: Truth, kernel: Kernel) -> bool:
-    return bool(truth.known) and not _wrong(said, truth, kernel)
-
-
-def _wrong(said: Ranges, truth: Truth, kernel: Kernel) -> dict[str, tuple[Range, Range]]:
-    """Return the quantities whose true value is outside what was said, with both."""
-    wrong = {}
+def _wrong(said: Ranges, truth: Truth, kernel: Arithmetic) -> str:
+    """Say which true values are outside what was said of them; nothing where all are inside."""
+    if not truth.known:
+        return f"there is no value: {truth.reason}"
+    wrong = []
     for name, (low, high) in said.items():
         if name in truth.known:
             true = _beside(name, truth.known[name], (low, high), kernel)
             if true[1] < low or high < true[0]:
-                wrong[name] = (low, high), true
-    return wrong
+                ends = f"[{float(low):.17g}, {float(high):.17g}]"
+                wrong.append(f"{name} {ends}, not {float(true[0]):.17g}")
+    return "; ".join(wrong)
 
 
-def _beside(name: str, true: Range, said: Range, kernel: Kernel) -> Range:
+def _beside(name: str, true: Range, said: Range, kernel: Arithmetic) -> Range:
     """Shift a true phase by the whole turns that bring it next to what was said."""
     if name != "phase":
         return true
-    low, high = _turn(kernel)
+    with kernel.precision(_TURN_BITS):
+        low, high = kernel.ends(kernel.pi() * 2)
     count = round((sum(said) - sum(true)) / 2 / low)
-    return (true[0] + min(count * low, count * high), true[1] + max(count * low, count * high))
+    return true[0] + min(count * low, count * high), true[1] + max(count * low, count * high)
 
 
-def _turn(kernel: Kernel) -> Range:
-    with kernel.digits(_TURN_BITS):
-        return kernel.bounds(kernel.pi() * 2)
-
-
-def _difference(said: Ranges, truth: Truth, kernel: Kernel) -> str:
-    if not truth.known:
-        return f"there is no value: {truth.reason}"
-    return "; ".join(
-        f"{name} [{float(low):.17g}, {float(high):.17g}], not {float(true[0]):.17g}"
-        for name, ((low, high), true) in _wrong(said, truth, kernel).items()
-    )
-
-
-def _ratios(
-    case: Case, answer: Answer, truths: Sequence[Truth | None], kernel: Kernel
+def _widths(
+    case: Case, answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
 ) -> dict[str, float]:
     """Return the width of every quantity by the best possible; 1 where both are 0."""
-    ratios = {}
+    widths = {}
     for name, said in answer.samples[0][0].items():
-        near = [_beside(name, truth.known[name], said, kernel)
-                for truth in truths if truth is not None and name in truth.known]  # fmt: skip
+        near = [
+            _beside(name, truth.known[name], said, kernel)
+            for truth in truths
+            if truth is not None and name in truth.known
+        ]
         if len(near) < len(truths):
             continue
-        best = case.best(name, (min(x[0] for x in near), max(x[1] for x in near)))
+        best = case.best((min(x[0] for x in near), max(x[1] for x in near)))
         width = said[1] - said[0]
         if best > 0:
-            ratios[name] = float(min(width / best, Fraction(10**300)))
+            widths[name] = float(min(width / best, _WIDEST))
         elif width == 0:
-            ratios[name] = 1.0
-    return ratios
+            widths[name] = 1.0
+    return widths
+
+
+# -- failures made smaller -------------------------------------------------------------------------
+
+
+def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = _MOST_TRIES) -> Case:
+    """Return a simplest case found that still fails: each number in turn, until none gives."""
+    for number, simpler in enumerate(islice(_simpler(case), tries), 1):
+        if fails(simpler):
+            return shrunk(simpler, fails, tries - number)
+    return case
+
+
+def _simpler(case: Case) -> Iterator[Case]:
+    """Yield the case with an interval a point, or with one number shorter, the shortest first."""
+    values: dict[str, Any] = {name: getattr(case, name) for name in case.__dataclass_fields__}
+    low, high = values["low"], values["high"]
+    changes: list[dict[str, Any]] = []
+    if low < high:
+        changes = [{"high": low}, {"low": high}]
+    for name, value in values.items():
+        if isinstance(value, Fraction):
+            both = ("low", "high") if name in ("low", "high") and low == high else (name,)
+            changes += [dict.fromkeys(both, shorter) for shorter in _shorter(value)]
+    for change in changes:
+        if change.get("low", low) <= change.get("high", high):
+            yield replace(case, **change)
+
+
+def _shorter(value: Fraction) -> Iterator[Fraction]:
+    """Yield numbers near by that take fewer digits."""
+    size = len(str(value))
+    seen = {value}
+    for digits in (1, 2, 4, 8, 16, 32, 64):
+        unit = Fraction(10) ** digits
+        for near in (Fraction(round(value * unit)) / unit, value.limit_denominator(10**digits)):
+            if near not in seen and near != 0 and len(str(near)) < size:
+                seen.add(near)
+                yield near

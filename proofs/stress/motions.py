@@ -3,159 +3,117 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from fractions import Fraction
 
 import numpy as np
 
-from intervals import Undecided
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.flight import Flight
-from proofs.motion.image import Image, PossibleImages, image
-from proofs.motion.impact import NoImpact, Sticks, first_impact, locate
+from intervals import IntervalArray
+from proofs.benchmark.peers import Arithmetic, Range
+from proofs.motion.image import PossibleImages, image
 from proofs.motion.rebound import rebound
-from proofs.motion.slope_cover import BINARY64, slope_cover
+from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
-from proofs.stress.cases import Answer, Ranges, Truth, Unknown
-from proofs.stress.kernels import Kernel
+from proofs.stress.cases import Answer, Case, Truth
 from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact
-from proofs.trusted.numbers import Range
 
-_SAMPLES = (Fraction(0), Fraction(1, 2), Fraction(1), Fraction(281, 1009))
+_SAMPLES = (Fraction(0), Fraction(281, 1009), Fraction(1, 2), Fraction(1))
+_BOX_SAMPLES = (Fraction(1, 8), Fraction(1, 2), Fraction(7, 8))
+_HORIZON = Fraction(1000)
 
 
 @dataclass(frozen=True)
-class ImageCase:
-    """The plastic map over the launch phases [low, high], a point or an interval."""
+class MapCase(Case):
+    """A map over the launch phases [low, high], a point or an interval."""
 
-    family: str
     eta: Fraction
     nu: Fraction
     low: Fraction
     high: Fraction
+    _: KW_ONLY
     digits: int = 30
-    horizon: Fraction = Fraction(1000)
+    horizon: Fraction = _HORIZON
+
+    @property
+    def system(self) -> System:
+        """The oscillator."""
+        return System(self.eta, self.nu)
+
+    def launched(self, phi: Fraction) -> Launched:
+        """Return one of the launches."""
+        return Launched(self.eta, self.nu, phi)
+
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
+        """Return the truth at the ends and inside."""
+        phases = sorted({self.low + share * (self.high - self.low) for share in _SAMPLES})
+        return [_truth(kernel, self.launched(phi), self.horizon) for phi in phases]
+
+    def best(self, hull: Range) -> Fraction:
+        """Return the width of the true values and of the digits asked for."""
+        return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** self.digits
+
+
+def _truth(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth | None:
+    try:
+        return true_impact(kernel, of, horizon)
+    except ArithmeticError:
+        return None
+
+
+@dataclass(frozen=True)
+class ImageCase(MapCase):
+    """The plastic map."""
 
     def answer(self) -> Answer:
         """Return bounds of flight, phase and slope, or the set of possible images."""
-        found = image(self._system, (self.low, self.high), digits=self.digits, horizon=self.horizon)
+        phases = self.low, self.high
+        found = image(self.system, phases, digits=self.digits, horizon=self.horizon)
         if isinstance(found, PossibleImages):
-            return _possible(found)
-        return Answer(((_named(found),),))
-
-    def bits(self) -> int | None:
-        """Return the precision at which the first impacts are found: 53, 64, 128, ..."""
-        phases = (self.low, self.high)
-        try:
-            if self.low < self.high:
-                parts = cover_by_impacts(self._system, phases, horizon=self.horizon)
-                return max(part.flight.precision for part in parts)
-            for finest in (Fraction(1, 8), Fraction(1, 256)):
-                flight = Flight(self._system, phases, BINARY64)
-                if _transversal(flight, self.horizon, finest):
-                    return BINARY64
-            return locate(self._system, phases, horizon=self.horizon).flight.precision
-        except Undecided:
-            return None
-
-    def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
-        """Return the truth at the ends and inside."""
-        return [
-            _truth(kernel, Launched(self.eta, self.nu, phi), self.horizon)
-            for phi in _samples(self.low, self.high)
-        ]
-
-    def best(self, name: str, hull: Range) -> Fraction:
-        """Return the width of the true values and of the digits asked for."""
-        return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** self.digits
-
-    @property
-    def _system(self) -> System:
-        return System(self.eta, self.nu)
-
-
-def _possible(found: PossibleImages) -> Answer:
-    images = tuple({"flight": time, "phase": phase} for time, phase in found.images)
-    return Answer((images,), possible=True)
-
-
-def _named(found: Image) -> Ranges:
-    named = {"flight": found.flight, "phase": found.phase, "slope": found.slope}
-    return named if found.dwell is None else named | {"dwell": found.dwell}
-
-
-def _transversal(flight: Flight, horizon: Fraction, finest: Fraction) -> bool:
-    try:
-        return first_impact(flight, horizon, finest).transversal
-    except (NoImpact, Sticks):
-        raise
-    except Undecided:
-        return False
-
-
-def _truth(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth | None:
-    try:
-        return true_impact(kernel, of, horizon)
-    except (Unknown, ArithmeticError):
-        return None
-
-
-def _samples(low: Fraction, high: Fraction) -> list[Fraction]:
-    return sorted({low + share * (high - low) for share in _SAMPLES})
+            images = tuple({"flight": time, "phase": phase} for time, phase in found.images)
+            return Answer((images,), possible=True)
+        named = {"flight": found.flight, "phase": found.phase, "slope": found.slope}
+        if found.dwell is not None:
+            named["dwell"] = found.dwell
+        return Answer(((named,),))
 
 
 @dataclass(frozen=True)
-class ReboundCase:
-    """The map with restitution at the phases [low, high] and one velocity."""
+class ReboundCase(MapCase):
+    """The map with restitution at one velocity."""
 
-    family: str
-    eta: Fraction
-    nu: Fraction
-    low: Fraction
-    high: Fraction
     epsilon: Fraction
     gamma: Fraction
-    digits: int = 30
-    horizon: Fraction = Fraction(1000)
 
     def answer(self) -> Answer:
         """Return bounds of flight, phase, velocity and DF."""
-        system, phases = System(self.eta, self.nu), (self.low, self.high)
+        phases, velocities = (self.low, self.high), (self.gamma, self.gamma)
         found = rebound(
-            system, phases, (self.gamma, self.gamma), self.epsilon,
-            digits=self.digits, horizon=self.horizon,
-        )  # fmt: skip
+            self.system,
+            phases,
+            velocities,
+            self.epsilon,
+            digits=self.digits,
+            horizon=self.horizon,
+        )
         named = {"flight": found.flight, "phase": found.phase, "velocity": found.velocity}
-        for row, of in zip(found.jacobian, ("phase", "velocity"), strict=True):
-            for bounds, by in zip(row, ("phi", "gamma"), strict=True):
+        for of, row in zip(("phase", "velocity"), found.jacobian, strict=True):
+            for by, bounds in zip(("phi", "gamma"), row, strict=True):
                 named[f"{of} by {by}"] = bounds
         return Answer(((named,),))
 
-    def bits(self) -> int | None:
-        """Return None: the search does not tell."""
-        return None
-
-    def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
-        """Return the truth at the ends and inside."""
-        return [
-            _truth(kernel, Launched(self.eta, self.nu, phi, self.epsilon, self.gamma), self.horizon)
-            for phi in _samples(self.low, self.high)
-        ]
-
-    def best(self, name: str, hull: Range) -> Fraction:
-        """Return the width of the true values and of the digits asked for."""
-        return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** self.digits
+    def launched(self, phi: Fraction) -> Launched:
+        """Return one of the launches."""
+        return Launched(self.eta, self.nu, phi, self.epsilon, self.gamma)
 
 
 @dataclass(frozen=True)
-class CoverCase:
+class CoverCase(Case):
     """The binary64 kernel over [low, high] in `boxes` boxes, seen at three phases of one.
 
     A box that binary64 does not decide is asked again, alone, in higher precision.
     """
 
-    family: str
     eta: Fraction
     nu: Fraction
     low: Fraction
@@ -165,36 +123,28 @@ class CoverCase:
     def answer(self) -> Answer:
         """Return bounds of flight and slope on the box around each sample."""
         found = slope_cover(System(self.eta, self.nu), (self.low, self.high), self.boxes)
-        rows = []
+        samples = []
         for x in self._points():
             k = int(np.searchsorted(found.boxes.inf, float(x), side="right")) - 1
-            rows.append(({name: _bounds(part[k]) for name, part in
-                          (("flight", found.times), ("slope", found.slopes))},))  # fmt: skip
-        return Answer(tuple(rows), int(found.bits.max()))
-
-    def _box(self) -> Range:
-        width = (self.high - self.low) / self.boxes
-        low = self.low + self.boxes // 2 * width
-        return low, low + width
+            parts = {"flight": found.times[k], "slope": found.slopes[k]}
+            samples.append(({name: _ends(part) for name, part in parts.items()},))
+        return Answer(tuple(samples))
 
     def _points(self) -> list[Fraction]:
-        low, high = self._box()
-        return [low + share * (high - low) / 8 for share in (1, 4, 7)]
+        """Return three phases of the box in the middle."""
+        width = (self.high - self.low) / self.boxes
+        low = self.low + self.boxes // 2 * width
+        return [low + share * width for share in _BOX_SAMPLES]
 
-    def bits(self) -> int | None:
-        """Return None: the answer says."""
-        return None
-
-    def truths(self, kernel: Kernel) -> Sequence[Truth | None]:
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
         """Return the truth at the three phases."""
-        return [
-            _truth(kernel, Launched(self.eta, self.nu, x), Fraction(1000)) for x in self._points()
-        ]
+        launches = [Launched(self.eta, self.nu, x) for x in self._points()]
+        return [_truth(kernel, of, _HORIZON) for of in launches]
 
-    def best(self, name: str, hull: Range) -> Fraction:
+    def best(self, hull: Range) -> Fraction:
         """Return the width over the whole box, from that over 6/8 of it, and of binary64."""
         return (hull[1] - hull[0]) * 4 / 3 + max(map(abs, hull)) / 2**52
 
 
-def _bounds(one: object) -> Range:
-    return Fraction(float(one.inf)), Fraction(float(one.sup))  # type: ignore[attr-defined]
+def _ends(x: IntervalArray) -> Range:
+    return Fraction(float(x.inf)), Fraction(float(x.sup))

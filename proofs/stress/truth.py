@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from proofs.stress.cases import Truth, Unknown
-from proofs.stress.kernels import Kernel
+from proofs.benchmark.peers import FLINT, MP, Arithmetic, arithmetic, libraries
+from proofs.stress.cases import Truth
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
 _RELATIVE = Fraction(1, 2**360)  # to which impact times are known: more than 100 digits
@@ -24,6 +24,10 @@ _SHORTER = 1 - Fraction(1, 2**20)  # of a step, for what rounding adds to it
 _MOST_STEPS = 4000
 _CONSTANT = ("slope", "phase by phi", "phase by gamma", "velocity by phi", "velocity by gamma")
 _FLOAT_STEPS = 400_000
+
+
+class Unknown(ArithmeticError):
+    """The truth is out of reach: a touch, or too many steps."""
 
 
 @dataclass(frozen=True)
@@ -40,18 +44,18 @@ class Launched:
 class Motion:
     """The flight with position (1 + nu sin phi) cos(eta t) + c sin(eta t), as in (14)."""
 
-    def __init__(self, kernel: Kernel, of: Launched, phi: Any = None) -> None:
+    def __init__(self, kernel: Arithmetic, of: Launched, phi: Any = None) -> None:
         self.kernel, self.of = kernel, of
         self.side = 1 if of.nu > 0 else -1
-        self.eta, self.nu = kernel.number(of.eta), kernel.number(of.nu)
-        self.phi = kernel.number(of.phi) if phi is None else phi
+        self.eta, self.nu = kernel.point(of.eta), kernel.point(of.nu)
+        self.phi = kernel.point(of.phi) if phi is None else phi
         self.sin, self.cos = self._sincos(self.phi)
         self.height = 1 + self.nu * self.sin
-        self.restitution = kernel.number(of.epsilon)
+        self.restitution = kernel.point(of.epsilon)
         self.speed = self.nu / self.eta * self.cos
         if of.gamma is not None:
             self.speed = self.speed * (1 + self.restitution)
-            self.speed += self.restitution * kernel.number(of.gamma)
+            self.speed += self.restitution * kernel.point(of.gamma)
         self.amplitude = kernel.call("sqrt", self.height * self.height + self.speed * self.speed)
 
     def _sincos(self, x: Any) -> tuple[Any, Any]:
@@ -61,31 +65,14 @@ class Motion:
         """Return M_order."""
         return abs(self.nu) + self.eta**order * self.amplitude
 
-    def gap(self, t: Any) -> Any:
-        """Return side times the left side of (14)."""
+    def gap(self, t: Any, order: int = 0) -> Any:
+        """Return side times the left side of (14), or its time derivative of an order up to 3."""
         s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("sin", self.phi + t)
-        return self.side * (self.height * c + self.speed * s - 1 - table)
-
-    def rate(self, t: Any) -> Any:
-        """Return its time derivative."""
-        s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("cos", self.phi + t)
-        return self.side * (self.eta * (self.speed * c - self.height * s) - table)
-
-    def bend(self, t: Any) -> Any:
-        """Return the second time derivative."""
-        s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("sin", self.phi + t)
-        return self.side * (table - self.eta * self.eta * (self.height * c + self.speed * s))
-
-    def launch(self) -> tuple[Any, Any, Any]:
-        """Return the first three time derivatives of the gap at t = 0."""
-        spring = -self.eta * self.eta
-        first = self.eta * self.speed - self.nu * self.cos
-        second = spring * self.height + self.nu * self.sin
-        third = spring * self.eta * self.speed + self.nu * self.cos
-        return self.side * first, self.side * second, self.side * third
+        table = self._sincos(self.phi + t)[order % 2]
+        mass = (self.height * c + self.speed * s, self.speed * c - self.height * s)[order % 2]
+        sign = 1 if order < 2 else -1
+        distance = sign * (self.eta**order * mass - self.nu * table)
+        return self.side * (distance if order else distance - 1)
 
     def answers(self, t: Any) -> dict[str, Any]:
         """Return flight, phase, and f' or gamma and DF, at an impact, by implicit differentiation.
@@ -112,11 +99,18 @@ class Motion:
         }
 
 
-def first_impact(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth:
+def kernel_of(name: str | None = None) -> Arithmetic:
+    """Return the numbers named, "flint" or "mpmath"; by default python-flint where installed."""
+    if name == "mpmath" or (name is None and FLINT not in libraries()):
+        return arithmetic(MP, BITS)
+    return arithmetic(FLINT, BITS)
+
+
+def first_impact(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth:
     """Return the truth about the next impact, phases up to 2 pi; raise Unknown where it must."""
-    with kernel.digits(BITS):
+    with kernel.precision(BITS):
         motion = Motion(kernel, of)
-        first, second, _ = (_sign(kernel, x) for x in motion.launch())
+        first, second = (_sign(kernel, motion.gap(kernel.point(0), k)) for k in (1, 2))
         if of.gamma is not None and of.epsilon != 0 and first < 0:
             raise Unknown("an impossible state")
         sticks = (of.gamma is None or of.epsilon == 0) and second < 0
@@ -130,26 +124,26 @@ def first_impact(kernel: Kernel, of: Launched, horizon: Fraction) -> Truth:
             return Truth({}, "no impact up to the horizon")
         found = motion.answers(time)
         if sticks:
-            dwell = leave - kernel.number(of.phi)
+            dwell = leave - kernel.point(of.phi)
             while _sign(kernel, dwell) < 0:  # the next time that the table is there
                 dwell += 2 * kernel.pi()
-            found |= dict.fromkeys(_CONSTANT, kernel.number(0)) | {"dwell": dwell}
-        return Truth({name: kernel.bounds(value) for name, value in found.items()})
+            found |= dict.fromkeys(_CONSTANT, kernel.point(0)) | {"dwell": dwell}
+        return Truth({name: kernel.ends(value) for name, value in found.items()})
 
 
-def separation(kernel: Kernel, eta: Fraction, nu: Fraction) -> Any:
+def separation(kernel: Arithmetic, eta: Fraction, nu: Fraction) -> Any:
     """Return the phase at which a sticking mass leaves, where there is one."""
     if eta == 1:
         return None
     sine = eta**2 / (nu * (1 - eta**2))
     if abs(sine) >= 1:
         return None
-    angle = kernel.call("asin", kernel.number(sine))
+    angle = kernel.call("asin", kernel.point(sine))
     return angle if eta < 1 else kernel.pi() - angle
 
 
-def _sign(kernel: Kernel, x: Any) -> int:
-    low, high = kernel.bounds(x)
+def _sign(kernel: Arithmetic, x: Any) -> int:
+    low, high = kernel.ends(x)
     return 1 if low > 0 else -1 if high < 0 else 0
 
 
@@ -162,12 +156,12 @@ def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
     t = _start(motion, leaving)
     for _ in range(_MOST_STEPS):
         t = _coast(motion, t, horizon)
-        if kernel.bounds(t)[0] >= horizon:
+        if kernel.ends(t)[0] >= horizon:
             return None
-        gap, rate = motion.gap(t), motion.rate(t)
+        gap, rate = motion.gap(t), motion.gap(t, 1)
         if _sign(kernel, gap) <= 0:
             raise Unknown("the gap touches 0 to within what is computed")
-        bend = abs(motion.bend(t)) + motion.most(3) * t
+        bend = abs(motion.gap(t, 2)) + motion.most(3) * t
         near = _sign(kernel, motion.most(2) - bend) > 0
         bend = bend if near else motion.most(2)
         falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * gap - rate * rate) < 0
@@ -176,14 +170,14 @@ def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
         step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * gap)) / bend
         if near and _sign(kernel, step - t) > 0:
             step = t
-        t = kernel.middle(t + step * kernel.number(_SHORTER))
+        t = kernel.middle(t + step * kernel.point(_SHORTER))
     raise Unknown("too many steps")
 
 
 def _start(motion: Motion, leaving: bool) -> Any:
     """Return a time up to which the gap is positive, by its Taylor polynomial at the launch."""
     kernel = motion.kernel
-    first, second, third = motion.launch()
+    first, second, third = (motion.gap(kernel.point(0), k) for k in (1, 2, 3))
     starts = []
     if leaving or (_sign(kernel, second) > 0 and _sign(kernel, third) > 0):
         starts.append(2 * third / motion.most(4))
@@ -193,8 +187,8 @@ def _start(motion: Motion, leaving: bool) -> Any:
         starts.append(first / motion.most(2))
     if not starts:
         raise Unknown("the launch itself is not decided")
-    latest = max(starts, key=lambda t: kernel.bounds(t)[0])
-    return kernel.middle(latest * kernel.number(_SHORTER))
+    latest = max(starts, key=lambda t: kernel.ends(t)[0])
+    return kernel.middle(latest * kernel.point(_SHORTER))
 
 
 def _coast(motion: Motion, start: Any, horizon: Fraction) -> Any:
@@ -219,20 +213,20 @@ def _coast(motion: Motion, start: Any, horizon: Fraction) -> Any:
             break
         rate = motion.side * (eta * (speed * c - height * s) - nu * math.cos(phi + t))
         t += 0.98 * (rate + math.sqrt(rate * rate + 1.9 * bend * gap)) / bend
-    return motion.kernel.number(Fraction(safe)) if safe > begin else start
+    return motion.kernel.point(Fraction(safe)) if safe > begin else start
 
 
-def _float(kernel: Kernel, x: Any) -> float:
-    return float(sum(kernel.bounds(x)) / 2)
+def _float(kernel: Arithmetic, x: Any) -> float:
+    return float(sum(kernel.ends(x)) / 2)
 
 
 def _polished(motion: Motion, t: Any) -> Any:
     """Return the zero next to t, by Newton's method, its ends proved by the signs of the gap."""
     kernel = motion.kernel
     for _ in range(14):
-        t = kernel.middle(t - motion.gap(t) / motion.rate(t))
-    reach = abs(t) * kernel.number(_RELATIVE)
+        t = kernel.middle(t - motion.gap(t) / motion.gap(t, 1))
+    reach = abs(t) * kernel.point(_RELATIVE)
     signs = [_sign(kernel, motion.gap(end)) for end in (t - reach, t + reach)]
     if signs != [1, -1]:
         raise Unknown("the impact is too slow for 100 digits")
-    return kernel.between(kernel.bounds(t - reach)[0], kernel.bounds(t + reach)[1])
+    return kernel.number(kernel.ends(t - reach)[0], kernel.ends(t + reach)[1])

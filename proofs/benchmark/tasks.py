@@ -1,0 +1,276 @@
+"""What the curves do at a size: each does its work and returns the error, < 0 if it is wrong."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from io import StringIO
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from intervals import IntervalArray, Undecided
+from intervals.taylor import polynomial_range
+from proofs.benchmark.peers import OURS, Range, arithmetic
+from proofs.benchmark.slopes import (
+    ETA,
+    MONOTONE,
+    NU,
+    Work,
+    bounds,
+    coefficients,
+    exclude,
+    first_impact,
+)  # fmt: skip
+from proofs.motion import candidate, kernel
+from proofs.motion.covering import cover_by_impacts
+from proofs.motion.image import Image, image
+from proofs.motion.impact import HORIZON, locate
+from proofs.motion.marching import march
+from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.system import System
+
+SYSTEM = System(ETA, NU)
+DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
+PHASES = tuple(map(Fraction, ("1.11", "1.13", "1.15", "1.27", "1.3", "1.32")))
+_TRUE_DIGITS = 400  # more than are asked of any
+_SIGN_BITS = 53
+_OPENING = 1e-11  # relative: a bracket that one library proves, another can prove too
+_MONOTONE_BOXES = 8
+
+
+def bits_for(digits: float) -> int:
+    """Return bits for so many digits, with some to spare."""
+    return math.ceil(digits * math.log2(10)) + 30
+
+
+@cache
+def truth(phase: Fraction) -> Image:
+    """Return flight, image and slope to more digits than any other here."""
+    found = image(SYSTEM, (phase, phase), digits=_TRUE_DIGITS)
+    if not isinstance(found, Image):
+        raise ArithmeticError(f"there is no single image of {phase}")
+    return found
+
+
+# -- slopes ----------------------------------------------------------------------------------------
+
+
+def loss(found: Sequence[Range]) -> float:
+    """Return by how much bounds of f' on I0 and I1, where f'' > 0, miss its values at the ends."""
+    losses = []
+    for (low, high), ends in zip(found, DOMAINS, strict=True):
+        least, most = (truth(end).slope for end in ends)
+        losses += [least[1] - low, high - most[0]]
+    return float(min(losses)) if min(losses) < 0 else float(max(losses))
+
+
+@cache
+def works(boxes: int) -> list[Work]:
+    """Return what is given to all; Undecided if the kernel does not find it."""
+    return [work(domain, boxes) for domain in DOMAINS]
+
+
+@cache
+def work(domain: Range, boxes: int) -> Work:
+    """Return the work of one domain, on times before every impact that a scalar proof finds."""
+    grid = grid_of(cover_by_impacts(SYSTEM, domain)[0])
+    times, cuts = slope_cover(SYSTEM, domain, boxes, grid).times, cut(domain, boxes)
+    low, high = times.inf * (1 - _OPENING), times.sup * (1 + _OPENING)
+    brackets = list(zip(low.tolist(), high.tolist(), strict=True))
+    centres = kernel.find_times(SYSTEM, 0.5 * (cuts[:-1] + cuts[1:])).tolist()
+    ends = kernel.find_times(SYSTEM, np.array([float(end) for end in domain])).tolist()
+    return Work(domain, cuts.tolist(), grid, brackets, centres, ends)
+
+
+def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
+    """Do the work by what bounds f' on one domain."""
+    return loss([of(one, order) for one in works(int(boxes))])
+
+
+def by_library(library: str, order: int, digits: float | None, boxes: float) -> float:
+    """Do the work box by box, to so many digits or in binary64, signs to 53 bits."""
+    of = arithmetic(library, bits_for(digits) if digits else _SIGN_BITS)
+    signs = arithmetic(library, _SIGN_BITS)
+    return loss([bounds(of, signs, one, order) for one in works(int(boxes))])
+
+
+def monotone(library: str, digits: float) -> float:
+    """Prove f'' > 0 on 8 boxes, and enclose f' at the ends."""
+    return by_library(library, MONOTONE, digits, _MONOTONE_BOXES)
+
+
+def at_once(given: Work, order: int) -> Range:
+    """Do the work for all boxes at once, in arrays of binary64."""
+    of = replace(arithmetic(OURS, _SIGN_BITS), number=lambda low, high: low)  # exact numbers
+    launches, about = _launches(given), np.array(given.centres)
+    kernel.exclude_impacts(launches, given.grid)
+    last = np.full(len(about), given.grid[-1])
+    low, high = np.array(given.brackets).T
+    kernel.prove_brackets(launches, last, low, high)
+    terms = coefficients(of, launches.phases, IntervalArray.from_floats(low, high), order)
+    if order:
+        thin = kernel.enclose_times(launches.centre, last, (about, about))
+        terms[:-1] = coefficients(of, launches.centre.phases, thin, order - 1)
+    found = polynomial_range(terms, launches.offset) if order else terms[0]
+    return Fraction(float(found.inf.min())), Fraction(float(found.sup.max()))
+
+
+def _launches(given: Work) -> kernel.Launches:
+    cuts = np.array(given.cuts)
+    return kernel.Launches(SYSTEM, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+
+
+def excluded_at_once(boxes: float) -> float:
+    """Exclude all earlier impacts, in arrays; that has no error."""
+    for one in works(int(boxes)):
+        kernel.exclude_impacts(_launches(one), one.grid)
+    return 0.0
+
+
+def excluded(library: str, boxes: float) -> float:
+    """Exclude the same, box by box in a library."""
+    of = arithmetic(library, _SIGN_BITS)
+    for one in works(int(boxes)):
+        exclude(of, [of.number(*ends) for ends in pairwise(one.cuts)], one.grid)
+    return 0.0
+
+
+def extremes(_: float) -> float:
+    """Bound f' by monotonicity, in binary64."""
+    found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
+    return loss([(Fraction(x.minimum[0]), Fraction(x.maximum[1])) for x in found])
+
+
+def main_job_slopes(digits: float) -> float:
+    """Do what the main job does: it is given nothing, and keeps the witness."""
+    from proofs.search.steps import Prover
+
+    found = []
+    for domain in DOMAINS:
+        pieces = Prover(SYSTEM, int(digits), HORIZON).slopes(list(domain))[1].pieces
+        found.append((min(low for low, _ in pieces), max(high for _, high in pieces)))
+    return loss(found)
+
+
+# -- flights ---------------------------------------------------------------------------------------
+
+
+def width(found: Sequence[Range]) -> float:
+    """Return the largest width of enclosures of the six times; -1 if one excludes the truth."""
+    for (low, high), phase in zip(found, PHASES, strict=True):
+        least, most = truth(phase).flight
+        if not (low <= most and least <= high):
+            return -1.0
+    return float(max(high - low for low, high in found))
+
+
+def deviation(times: Sequence[float | None]) -> float:
+    """Return the largest error of six approximate times; Undecided where there is none."""
+    known = [(time, phase) for time, phase in zip(times, PHASES, strict=True) if time is not None]
+    if len(known) < len(PHASES):
+        raise Undecided("no impact was found")
+    return max(abs(float(Fraction(time) - truth(phase).flight[0])) for time, phase in known)
+
+
+def images(digits: float) -> float:
+    """Enclose the certified map, which is given the phase alone."""
+    found = [image(SYSTEM, (phase, phase), digits=int(digits)) for phase in PHASES]
+    return width([one.flight for one in found if isinstance(one, Image)])
+
+
+def flights(library: str, digits: float) -> float:
+    """Exclude impacts on given grids at 53 bits, then enclose time and f' to so many digits."""
+    of, signs = arithmetic(library, bits_for(digits)), arithmetic(library, _SIGN_BITS)
+    return width([first_impact(of, signs, phase, *_given(phase)) for phase in PHASES])
+
+
+@cache
+def _given(phase: Fraction) -> tuple[list[float], float]:
+    """Return times before the impact, and about the time of it."""
+    impact, about = locate(SYSTEM, (phase, phase)), candidate.next_impact(SYSTEM, float(phase))
+    grid = [float(time) for time in impact.times[1:] if time <= impact.window[0]]
+    return grid, about[0] if about else 0.0
+
+
+def marches(step: float) -> float:
+    """March by algorithm A.1, as the paper prints it."""
+    return deviation([march(SYSTEM, float(phase), step) for phase in PHASES])
+
+
+def floats(_: float) -> float:
+    """Search in floating point, by steps that pass no zero."""
+    found = [candidate.next_impact(SYSTEM, float(phase)) for phase in PHASES]
+    return deviation([one and one[0] for one in found])
+
+
+def solved(method: str, tolerance: float) -> float:
+    """Simulate as one would with scipy: the mass as an ODE, the table as an event."""
+    from scipy.integrate import solve_ivp  # type: ignore[import, unused-ignore]
+
+    eta, nu, times = float(ETA), float(NU), list[float | None]()
+    for phase in map(float, PHASES):
+
+        def below(t: float, y: Any, phase: float = phase) -> float:
+            return 1 + nu * math.sin(phase + t) - float(y[0])
+
+        below.terminal, below.direction = True, -1  # type: ignore[attr-defined]
+        start = 1 + nu * math.sin(phase), nu * math.cos(phase)
+        found = solve_ivp(
+            lambda _, y: (y[1], -eta * eta * y[0]), (0.0, 200.0), start, method, events=below,
+            max_step=1.0, rtol=tolerance, atol=tolerance,
+        )  # fmt: skip
+        events = [t for t in found.t_events[0] if t > 0.25]  # before is the launch itself
+        times.append(float(events[0]) if events else None)
+    return deviation(times)
+
+
+# -- whole proofs ----------------------------------------------------------------------------------
+
+
+def dimensions(digits: float) -> float:
+    """Run the command that proves both Hausdorff dimensions to so many digits."""
+    with TemporaryDirectory() as folder:
+        options = ["--digits", str(int(digits)), "--no-check", "--out", folder, "--json", "-"]
+        command = [sys.executable, "-m", "proofs.dimension", *options]
+        found = subprocess.run(command, capture_output=True, check=True, text=True).stdout
+    quantities = json.loads(found)["claims"][0]["quantities"]
+    both = [quantities[name] for name in ("dimension", "dimension_of_I")]
+    return float(max(Fraction(one["upper"]) - Fraction(one["lower"]) for one in both))
+
+
+def orbits(digits: int | None, words: float) -> float:
+    """Enclose all periodic points of a period, by the number of words, of a proved horseshoe."""
+    from proofs.methods.orbits import periodic_points
+    from proofs.methods.words import Words
+
+    points = periodic_points(_horseshoe(), Words.of_length(int(words).bit_length() - 1), digits)
+    return float(max(one.point[1] - one.point[0] for one in points))
+
+
+@cache
+def _horseshoe() -> Any:
+    from proofs import orbits
+    from proofs.trusted.parameters import PAPER
+
+    whole, least = (orbits.LEFT[0], orbits.RIGHT[1]), (Fraction(1), Fraction(1))
+    sets = replace(PAPER, left=orbits.LEFT, right=orbits.RIGHT, interval=whole)
+    return orbits.horseshoe(replace(sets, slopes=least, ratios=None, printed_s0=None))
+
+
+def checked(certificate: Path) -> float:
+    """Check a certificate in this process; its error is the exit status."""
+    from proofs import check
+
+    with redirect_stdout(StringIO()):
+        return check.main([str(certificate)])

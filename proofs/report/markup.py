@@ -1,0 +1,40 @@
+"""Tables and pictures as text that is the same from run to run."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def markdown_table(rows: Sequence[Sequence[str]], numbers_from: int = 99) -> list[str]:
+    """Return the lines of a table, the first row its header, aligned for a screen, too.
+
+    Columns from `numbers_from` on are aligned to the right.
+    """
+    rows = [[cell.replace("|", "\\|") for cell in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+
+    def line(row: Sequence[str]) -> str:
+        cells = [
+            cell.rjust(width) if k >= numbers_from else cell.ljust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        return "| " + " | ".join(cells) + " |"
+
+    rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
+    header, *others = rows
+    return [line(header), rule, *map(line, others)]
+
+
+def svg_text(figure: Figure) -> str:
+    """Return a figure as SVG without the date, and close it. Set svg.hashsalt before."""
+    from matplotlib import pyplot as plt
+
+    file = io.StringIO()
+    figure.savefig(file, format="svg", metadata={"Date": None})
+    plt.close(figure)
+    return "\n".join(line.rstrip() for line in file.getvalue().splitlines()) + "\n"

@@ -1,0 +1,249 @@
+"""Operations next to cancellation, overflow and 0, and elementary functions at hard arguments.
+
+Of Interval at any precision, of IntervalArray in binary64.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from random import Random
+from typing import Any
+
+from intervals import Interval, IntervalArray
+from proofs.benchmark.peers import Arithmetic, Range
+from proofs.stress.cases import Answer, Case, Draw, Truth
+
+_OPERATIONS: dict[str, Any] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
+_PERIODIC = ("sin", "cos", "tan")
+_NEAR_ONE = ("log", "log2", "log10", "acosh", "sqrt", "cbrt")
+_UNIT = ("asin", "acos", "atanh", "log1p")
+_GROWING = ("exp", "exp2", "exp10", "expm1", "sinh", "cosh", "tanh", "atan", "asinh")
+NAMES = _PERIODIC + _NEAR_ONE + _UNIT + _GROWING
+_POSITIVE = ("log", "log2", "log10", "sqrt")
+_WORST = Fraction(6381956970095103 << 797)  # of binary64, the closest to a multiple of pi/2
+_BITS = 500  # of the truth, and more where the argument is large or the value next to 0
+_MOST_BITS = 20_000
+_LEAST = -1074  # binary64 has no multiples of less than 2^-1074
+
+
+@dataclass(frozen=True)
+class _Prescribed(Case):
+    """A case whose answer is one value, to so many bits: in binary64 if of an array."""
+
+    precision: int
+    array: bool
+
+    def best(self, hull: Range) -> Fraction:
+        """Return the width of the range with its ends rounded outward."""
+        low, high = (rounded_down(x, self.precision, self.array) for x in (hull[0], -hull[1]))
+        return -high - low
+
+    def operand(self, ends: Range, easy: Fraction) -> Any:
+        """Return an Interval, or an IntervalArray with two easy neighbours."""
+        if self.array:
+            return IntervalArray([easy, ends, easy])
+        return Interval(*ends, precision=self.precision)
+
+
+def _answer(found: Interval | IntervalArray) -> Answer:
+    ends = (found.inf, found.sup) if isinstance(found, Interval) else (found.inf[1], found.sup[1])
+    return Answer((({"value": (Fraction(ends[0]), Fraction(ends[1]))},),))
+
+
+def rounded_down(value: Fraction, bits: int, binary64: bool = True) -> Fraction:
+    """Round down to `bits` bits, to a multiple of the least number of binary64 if that is asked."""
+    if value == 0:
+        return value
+    exponent = abs(value.numerator).bit_length() - value.denominator.bit_length()
+    exponent -= abs(value) < Fraction(2) ** exponent
+    place = exponent - bits + 1
+    unit = Fraction(2) ** (max(place, _LEAST) if binary64 else place)
+    return value // unit * unit
+
+
+# -- operations ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class OperationCase(_Prescribed):
+    """[low, high] operation [left, right], their ends of at most `precision` bits."""
+
+    operation: str
+    low: Fraction
+    high: Fraction
+    left: Fraction
+    right: Fraction
+
+    def answer(self) -> Answer:
+        """Return the enclosure."""
+        pairs = (self.low, self.high), (self.left, self.right)
+        return _answer(
+            _OPERATIONS[self.operation](*(self.operand(x, Fraction(3, 4)) for x in pairs))
+        )
+
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
+        """Return the two ends of the range, exact: they are values at ends."""
+        if self.operation == "/" and self.left <= 0 <= self.right:
+            return [Truth({}, "a quotient by 0")]
+        apply = _OPERATIONS[self.operation]
+        values = [apply(a, b) for a in (self.low, self.high) for b in (self.left, self.right)]
+        return [Truth({"value": (end, end)}) for end in (min(values), max(values))]
+
+
+def operation(random: Draw, _: Arithmetic) -> OperationCase:
+    """Return a random operation on random hard operands."""
+    array = random.random() < 0.5
+    bits = 53 if array else random.choice((53, 53, 24, 64, 200))
+    low, high = _operand(random, bits)
+    left, right = _operand(random, bits)
+    if random.random() < 0.3:  # next to cancellation
+        left, right = (low, high) if random.random() < 0.5 else (-high, -low)
+        right += abs(right) / 2 ** (bits - 2)
+        right = -rounded_down(-right, bits)
+    return OperationCase(random.family, bits, array, random.choice("+-*/"), low, high, left, right)
+
+
+def _operand(random: Random, bits: int) -> Range:
+    """Return an interval of tiny, large or plain numbers, or one around 0."""
+    scale = random.choice((0, 0, 0, 1, -1)) * random.randrange(1, 1000)
+    low = random.choice((-1, 1)) * Fraction(random.getrandbits(bits), 1 << bits)
+    width = abs(low) / (1 << random.choice((bits - 1, bits // 2, 1)))
+    width = random.choice((0, 1, 1)) * width + random.choice((0, 0, 0, 1)) * abs(low)
+    ends = (low * Fraction(2) ** scale, (low + width) * Fraction(2) ** scale)
+    down = rounded_down(ends[0], bits)
+    return down, max(down, -rounded_down(-ends[1], bits))
+
+
+# -- functions -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class FunctionCase(_Prescribed):
+    """f on [low, high], whose ends have at most `precision` bits."""
+
+    function: str
+    low: Fraction
+    high: Fraction
+
+    def answer(self) -> Answer:
+        """Return the enclosure."""
+        easy = Fraction(5, 4) if self.function == "acosh" else Fraction(3, 4)
+        return _answer(getattr(self.operand((self.low, self.high), easy), self.function)())
+
+    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
+        """Return the least and the largest value, or one Truth without value if there is a pole.
+
+        With so many bits that it is known between which two numbers of the precision each lies.
+        """
+        bits = _BITS + max(abs(self.low), abs(self.high)).__ceil__().bit_length()
+        while True:
+            # a value that is such a number never ends it
+            fine = self.precision if bits < _MOST_BITS else 1
+            try:
+                with kernel.precision(bits):
+                    return _range(kernel, self.function, (self.low, self.high), fine)
+            except ArithmeticError:
+                if bits >= _MOST_BITS:
+                    return [None]
+                bits *= 3
+
+
+def _range(kernel: Arithmetic, function: str, ends: Range, precision: int) -> list[Truth | None]:
+    """Return the least and the largest value; ArithmeticError if more bits are needed."""
+    low, high = ends
+    values = [_value(kernel, function, x, precision) for x in {low, high}]
+    if function == "cosh" and low < 0 < high:
+        values.append((Fraction(1), Fraction(1)))
+    if function in _PERIODIC:
+        # turning points of sin at pi/2 + k pi, of cos at k pi; poles of tan at pi/2 + k pi
+        shift = Fraction(0) if function == "cos" else Fraction(1, 2)
+        first, last = (_turns(kernel, x, shift) for x in ends)
+        if first < last and function == "tan":
+            return [Truth({}, "a pole")]
+        turning = range(first + 1, min(last, first + 2) + 1)
+        values += [(Fraction(1 - 2 * (k % 2)),) * 2 for k in turning]
+    return [Truth({"value": min(values)}), Truth({"value": max(values, key=lambda v: v[1])})]
+
+
+def _value(kernel: Arithmetic, function: str, x: Fraction, precision: int) -> Range:
+    low, high = kernel.ends(_called(kernel, function, x))
+    if rounded_down(low, precision, False) != rounded_down(high, precision, False):
+        raise ArithmeticError("it is not known which way it is to be rounded")
+    if high - low > min(abs(low), abs(high)) / 10**20:
+        raise ArithmeticError("few of its digits are known")
+    return low, high
+
+
+def _called(kernel: Arithmetic, function: str, x: Fraction) -> Any:
+    """Return a function of x; those that a kernel lacks, or has on another domain, by others."""
+    exp, log = partial(kernel.call, "exp"), partial(kernel.call, "log")
+    at = kernel.point(x)
+    if function == "cbrt" and x != 0:
+        return exp(log(abs(at)) / 3) * (1 if x > 0 else -1)
+    if function in ("exp2", "exp10"):
+        return exp(at * log(kernel.point(int(function[3:]))))
+    if function in ("log2", "log10"):
+        return log(at) / log(kernel.point(int(function[3:])))
+    return at if function == "cbrt" else kernel.call(function, at)
+
+
+def _turns(kernel: Arithmetic, x: Fraction, shift: Fraction) -> int:
+    """Return the largest k with (k + shift) pi <= x."""
+    if x == 0:
+        return 0 if shift == 0 else -1
+    low, high = kernel.ends(kernel.point(x) / kernel.pi() - kernel.point(shift))
+    if low // 1 != high // 1:
+        raise ArithmeticError("it is not known on which side of a turning point it is")
+    return int(low // 1)
+
+
+def function(random: Draw, kernel: Arithmetic) -> FunctionCase:
+    """Return a random function at a random hard argument, a point or an interval."""
+    name = random.choice(NAMES)
+    array = random.family == "arrays"
+    bits = 53 if array else random.choice((24, 53, 64, 100, 200, 333))
+    low = rounded_down(_argument(random, kernel, name, bits), bits)
+    high = low
+    if random.random() < 0.5:
+        width = abs(low) / (1 << random.choice((bits - 1, bits - 1, bits // 2, 10, 1)))
+        if name in _PERIODIC and abs(low) < 100 and random.random() < 0.3:
+            width = Fraction(random.uniform(0, 6.5))
+        high = max(low, -rounded_down(-low - width, bits))
+        outside = high <= 0 if name in _POSITIVE else name in _UNIT and abs(high) >= 1
+        high = low if outside else high
+    return FunctionCase(random.family, bits, array, name, low, high)
+
+
+def _argument(random: Random, kernel: Arithmetic, function: str, bits: int) -> Fraction:
+    """Return a point of the domain, next to its ends, to zeros, to poles, tiny, large or plain."""
+    sign = random.choice((-1, 1))
+    plain = Fraction(random.getrandbits(bits) | 1, 2**bits)
+    tiny = plain / (1 << random.randrange(1, 900))
+    kind = random.randrange(4)
+    if function in _PERIODIC:
+        if kind == 0:
+            return sign * tiny
+        if kind == 1:
+            large = plain * (1 << random.randrange(1, 900))
+            return sign * random.choice((large, large, large, _WORST))
+        turns = random.randrange(1, 2 ** random.randrange(2, 60))
+        with kernel.precision(_BITS):
+            return sign * kernel.ends(kernel.pi())[0] * turns / 2
+    if function in _UNIT:
+        edge = 1 - Fraction(1, 1 << random.randrange(1, bits))
+        return sign * (tiny, edge, plain, plain / 1000)[kind]
+    if function in _NEAR_ONE:
+        side = 1 if function == "acosh" else sign
+        near = 1 + side * plain / (1 << random.randrange(1, bits))
+        large = (1 + plain) * (1 << random.randrange(1, 900))
+        return (near, large, 1 + plain, near if function == "acosh" else tiny)[kind]
+    return sign * (tiny, plain, plain * 30, plain * 900)[kind]
