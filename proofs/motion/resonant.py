@@ -5,7 +5,7 @@ The gap at time t after the impact is side 2 sin(t/2) (K cos(t/2) - sin(t/2)). I
 next impact is at the phase phi + 2 arctan(K) mod 2 pi, and c is K there: so the phases tend to
 phi + 2 sum over n >= 0 of arctan(epsilon^n K), for epsilon < 1. If K = 0 and nu < 0, the mass
 touches the table again after 2 pi, at the same phase, where c = 0. If K = 0 and nu > 0, it rests
-on the table for ever. Proof. `resonance_theorems.CLOSED`.
+on the table for ever. Proof. `trusted.paper.s6_resonance.resonance.closed_form`.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ enclosures of its own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -22,7 +22,7 @@ from proofs.methods.formulas import (
     subdivide,
     values,
 )
-from proofs.search.evidence import Evidence
+from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.derivation import Formulas
@@ -30,6 +30,7 @@ from proofs.trusted.kernel.enclose import Box, size
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
@@ -126,9 +127,15 @@ class Steps:
 
 
 def prove_rows(
-    rows: Sequence[Row], claims: Sequence[str], digits: int, tell: Callable[[str], None]
+    rows: Sequence[Row],
+    of: Parameters,
+    claims: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Tell = lambda stage: None,
 ) -> Evidence:
-    """Prove what the rows asked for follow from, each lemma once."""
+    """Prove what the claims asked for follow from, each lemma once, whatever the parameters."""
+    del of
     steps, evidence = Steps(digits), Evidence()
     for row in rows:
         if row.id in claims and isinstance(row, DerivedRow):

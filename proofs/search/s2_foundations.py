@@ -32,7 +32,7 @@ def prove(
 ) -> Evidence:
     """Prove what the claims asked for follow from."""
     rows = (*s2_foundations.ROWS, *s7_appendix.ROWS)
-    evidence = prove_rows(rows, claims, digits, tell)
+    evidence = prove_rows(rows, of, claims, digits=digits, tell=tell)
     if "A1" in claims:
         tell("phases without a next impact")
         evidence.proofs["A1"] += unending(of, evidence.steps)

@@ -51,6 +51,8 @@ ROWS = (
                 "epsilon) alpha/2 < (1 + epsilon)^2.",
                 Equal(eq.DISCRIMINANT, eq.TRUE_SUM),
                 given.ROOTS,
+                tex=r"(\tfrac{1 + \varepsilon}{2} \alpha - (1 - \varepsilon)^2)"
+                r"(\tfrac{1 + \varepsilon}{2} \alpha - (1 + \varepsilon)^2)",
             ),
         ),
     ),
@@ -222,6 +224,7 @@ ROWS = (
                 "psi_o/2 - 1) + (2 pi m) t^3/6 + O(t^4) after the impact, rho sin psi_o = sqrt("
                 "rho^2 - (2 pi m)^2).",
                 *given.SLOPES,
+                tex=r"\rho_o = \sqrt{16 + (2 \pi m)^2}",
             ),
         ),
     ),

@@ -221,6 +221,8 @@ flip = corollary(
     *CHARACTERISTIC,
     *CONDITIONS,
     *MANIFOLD,
+    tex=r"h - 2 K h^3 + O(h^4), \quad K = \frac{3 c^2 (1 - \varepsilon^2)^2 + 8 (1 - \varepsilon)^4"
+    r" + 64 \varepsilon^2}{48 (1 - \varepsilon^4)}",
 )
 admissible = corollary(
     "These orbits are real: with r = (1 - epsilon)/(1 + epsilon) and S = rho sin psi >= 2 r, the "

@@ -15,12 +15,9 @@ HEIGHT = "(1 + nu*sin(phi))"
 SPEED = "(epsilon*gamma + nu*(1 + epsilon)*cos(phi))"
 S14 = f"{HEIGHT}*cos(d) + {SPEED}*sin(d) - 1 - nu*sin(phi1)"  # = 0
 S15 = f"{HEIGHT}*sin(d) - {SPEED}*cos(d)"  # = gamma_(k+1)
-AMPLITUDES = tuple(  # (30), alpha sin(theta) being HEIGHT, and (31)
-    Equal(f"at({form}, h=alpha*sin(theta), w=alpha*cos(theta))", polar)
-    for form, polar in (
-        ("h*cos(d) + w*sin(d)", "alpha*sin(theta + d)"),
-        ("h*sin(d) - w*cos(d)", "-alpha*cos(theta + d)"),
-    )
+AMPLITUDES = (  # (30) and (31), HEIGHT being alpha sin(theta), SPEED alpha cos(theta)
+    Equal("alpha*sin(theta)*cos(d) + alpha*cos(theta)*sin(d)", "alpha*sin(theta + d)"),
+    Equal("alpha*sin(theta)*sin(d) - alpha*cos(theta)*cos(d)", "-alpha*cos(theta + d)"),
 )
 
 # The model itself: the mass after an impact, the table, and the rule of restitution.
