@@ -10,6 +10,7 @@ from itertools import groupby
 from types import MappingProxyType
 from typing import TypeVar
 
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, floor_text
 from proofs.trusted.parameters import Parameters, Place
@@ -148,4 +149,7 @@ class Row:
         """Decide the claim by what is proved."""
         if self.printed_at is not None and not self.printed_at.holds(of):
             return undecided(f"the printed numbers are about {self.printed_at}: not asked here")
-        return self.decide_by(of, Found(of, conclusions))
+        try:
+            return self.decide_by(of, Found(of, conclusions))
+        except Unproved as missing:  # a hypothesis of a theorem
+            return undecided(str(missing))

@@ -36,10 +36,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "s31_horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6"),
-        "s32_sets.moran": ("H11", "H16"),
+        "s32_sets.invariant": ("H7", "H8", "H9", "H10"),
+        "s32_sets.moran": ("H11",),
+        "s32_sets.linear": ("H12", "H14", "H15", "H16", "H17"),
         "s2_foundations.relations": GROUPS["foundations"],
         "s33_restitution.nonplastic": GROUPS["nonplastic"],
-        "s32_sets.sets": GROUPS["sets"],
         "s32_sets.dimension": GROUPS["dimension"],
         "s34_circle.chaos": GROUPS["chaos"],
         "s34_circle.circle": GROUPS["circle"],

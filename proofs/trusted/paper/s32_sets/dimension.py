@@ -1,191 +1,167 @@
-"""Claim 1 read for the map itself: the dimension of the set that stays in I. Trusted, and shared.
-
-Lambda(I) is the set of the phases in I whose images by f all stay in I. The paper has s_0 for its
-dimension, that of a linear Cantor set whose two ratios are the extremes of 1 / f'.
-"""
+"""Section 3.2, Claim 1 read for the map itself: the dimension of the set that stays in I. H13."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, hull, show, show_range
-from proofs.trusted.paper import Claim, Decision, undecided
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.numbers import (
+    TURN,
+    Phases,
+    Range,
+    ceil_text,
+    floor_text,
+    hull,
+    show_range,
+    within,
+)
+from proofs.trusted.paper.s31_horseshoe import escapes
+from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
+from proofs.trusted.paper.s32_sets.repeller import Repeller
+from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import Avoids, Impact
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 FULL = ("0", "1")
 WITHOUT_000 = ("1", "01", "001")
 
 
 @dataclass(frozen=True)
-class Repeller(Conclusion):
-    """The compact set K = union of g_w(K) over the words; g_w is g_j after g_v where w = jv.
+class StayingDimension(Conclusion):
+    """The phases whose orbits stay in I, the hull of a repeller, are its set K.
 
-    f increases on both domains; g_j is its inverse from `hull` into domains[j], for letters that
-    end a word, and on its part that g_v reaches for others; f takes no other points of domains[j]
-    there. The g_w map the hull into itself, to disjoint images; 1 / g_w' lies in the range that
-    `slopes` has for w, all above 1. The Hausdorff dimension of K lies in `dimension`.
+    Theorem. Let I0 and I1, the domains of the repeller, begin and end with I, and let f take no
+    phase of the closed gap between them into I. Let the words be 0 and 1; or let them be 1, 01, 001
+    and f(a) >= y, f(y) > c for the lower end a of I, the upper end c of I0 and a phase y of I0, and
+    f(a) in I. Then Lambda(I), the set of the phases in I whose images all stay in I, is K.
+
+    Proof. A point x of Lambda(I) lies in I0 or I1 with all its images. 1. Words 0, 1: x = g_j(f(x)),
+    and so on, is in K. 2. Words 1, 01, 001: if x and f(x) are in I0, then f(x) >= f(a) >= y, so that
+    f(f(x)) >= f(y) > c: no three images in a row are in I0. So x is in some g_w(Lambda(I)), and in
+    K. For on I0 f, lifted as its inverse is, stays below a + 2 pi and above the upper end - 2 pi:
+    a phase within I is the lifted value; one beyond c in [0, 2 pi) is that value, or is 2 pi above
+    it, and then the value is below I, where f(y) >= f(a) is not. 3. Conversely f maps K to K, and
+    g_w(K) with its images up to K is in I0 and I1.
     """
 
-    hull: Range
-    domains: tuple[Range, Range]
-    words: tuple[str, ...]
-    slopes: tuple[Range, ...]
-    dimension: Range
+    repeller: Repeller
+    escape: Avoids
+    start: Impact | None
+    then: Impact | None
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the hypotheses are proved, of one oscillator."""
+        (low, high), (left, right) = self.interval, self.repeller.domains
+        parts = [x for x in (self.repeller, self.escape, self.start, self.then) if x is not None]
+        if len({x.at for x in parts}) > 1:
+            raise Unproved("the hypotheses are about different oscillators")
+        if (low, high) != (left[0], right[1]):
+            raise Unproved("the domains do not begin and end with I")
+        if not escapes(self.escape, (left[1], right[0]), self.interval):
+            raise Unproved("the gap is not proved to leave I")
+        if self.repeller.words != FULL and not self._blocked(left):
+            raise Unproved("the set that stays in I is not proved to have these words")
+
+    def _blocked(self, left: Phases) -> bool:
+        """Whether no three images in a row are in I0, and the words are those without 000."""
+        if self.start is None or self.then is None or self.repeller.words != WITHOUT_000:
+            return False
+        return (
+            self.start.phase == left[0] < self.then.phase <= self.start.image[0]
+            and self.start.image[1] <= self.interval[1]
+            and self.then.phase <= left[1] < self.then.image[0]
+        )
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.repeller.at
+
+    @property
+    def interval(self) -> Phases:
+        """I."""
+        return self.repeller.hull
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        left, right = map(show_range, self.repeller.domains)
+        flat, steep = hull(self.repeller.slopes)
+        kind = "" if self.repeller.words == FULL else f", without three in a row in {left}"
+        branches = "along 1, 01 and 001" if kind else "where it arrives in I"
+        return (
+            f"let Lambda(I) be the set of the phases in I = {show_range(self.interval)} whose "
+            f"images by the impact map f all stay in I. f increases on {left} and on {right} and "
+            f"takes no phase between them into I; Lambda(I) are the phases whose images stay in "
+            f"these two{kind}; derivatives {branches} are between {floor_text(flat, 2)} and "
+            f"{ceil_text(steep, 2)}, and the Hausdorff dimension of Lambda(I) satisfies "
+            f"{between(self.repeller.dimension, 'D')}."
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the dimension."""
+        return f"{between(self.repeller.dimension, 'dim')} for I = {show_range(self.interval)}"
 
 
-def _within(inner: Range, outer: Range) -> bool:
-    return outer[0] <= inner[0] and inner[1] <= outer[1]
-
-
-def _escapes(gap: Range, interval: Range, found: Sequence[object]) -> bool:
-    """Whether f takes no phase of the closed gap into the interval."""
-    return any(
-        isinstance(one, Avoids) and _within(gap, one.phases) and _within(interval, one.target)
-        for one in found
+def staying_dimension(
+    repeller: Repeller, gaps: Sequence[Avoids], points: Sequence[Impact]
+) -> StayingDimension:
+    """Return the theorem of `StayingDimension`, by what is proved of the gap and of phases."""
+    (low, high), (left, right) = repeller.hull, repeller.domains
+    escape = next((x for x in gaps if escapes(x, (left[1], right[0]), (low, high))), None)
+    if escape is None:
+        raise Unproved("the gap is not proved to leave I")
+    if repeller.words == FULL:
+        return StayingDimension(repeller, escape, None, None)
+    start = next((x for x in points if x.phase == low), None)
+    beyond = [x for x in points if low < x.phase <= left[1] < x.image[0]]
+    return StayingDimension(
+        repeller, escape, start, min(beyond, key=lambda x: x.phase, default=None)
     )
 
 
-def _whole(found: Sequence[object]) -> Iterator[Repeller]:
-    """Yield the repellers that are Lambda(hull), for the words 0 and 1.
-
-    The domains begin and end with the hull, and no phase between them is taken into the hull. So
-    a point of Lambda(hull) lies in a domain with all its images: x = g_j(f(x)), and so on, is in K.
-    Conversely f maps K = g_0(K) and g_1(K) to K.
-    """
-    for one in found:
-        if isinstance(one, Repeller) and one.words == FULL:
-            (first, low), (high, last) = one.domains
-            if (first, last) == one.hull and _escapes((low, high), one.hull, found):
-                yield one
-
-
-def _without_000(of: Parameters, found: Sequence[object]) -> Repeller | None:
-    """Return the repeller of the words 1, 01, 001 that is Lambda(I), if one is proved to be.
-
-    I reaches from the lower end a of I0 to the upper end of I1; f takes no phase between into I.
-    So a point of Lambda(I) lies in I0 or I1 with all its images. Let c be the upper end of I0, and
-    f(a) >= y and f(y) > c for a phase y of I0. If x and f(x) are in I0, then f(x) >= f(a) >= y, so
-    that f(f(x)) >= f(y) > c: no three images in a row are in I0. So x is in some g_w(Lambda(I)),
-    and in K. Conversely g_w(K), with its images up to K, is in I0 and I1.
-
-    On I0 f, lifted as its inverse is, stays below the lower end of I + 2 pi and above the upper
-    end - 2 pi. So a phase within I is the lifted value; one beyond c in [0, 2 pi) is that
-    value, or is 2 pi above it, and then the value is below I, where f(y) >= f(a) is not.
-    """
-    points = [one for one in found if isinstance(one, Impact)]
-    start, top = of.interval[0], of.left[1]
-    blocked = any(
-        first.phase == start < second.phase <= first.image[0]
-        and first.image[1] <= of.interval[1]
-        and second.phase <= top < second.image[0]
-        and second.image[1] < TURN
-        for first in points
-        for second in points
-    )
-    spans = of.interval == (of.left[0], of.right[1])
-    if not (blocked and spans and _escapes(of.gap, of.interval, found)):
-        return None
-    about = (WITHOUT_000, of.interval, (of.left, of.right))
-    repellers = [one for one in found if isinstance(one, Repeller)]
-    return next((one for one in repellers if (one.words, one.hull, one.domains) == about), None)
-
-
-def _crude(of: Repeller, found: Sequence[object]) -> Range | None:
-    """Return bounds of the dimension from those of 1 / g_w' alone, by Moran's equation.
-
-    If r_w |x - y| <= |g_w(x) - g_w(y)| <= R_w |x - y|, the dimension lies between the roots for
-    r and for R (Falconer, Fractal Geometry, Propositions 9.6 and 9.7).
-    """
-    roots = [one for one in found if isinstance(one, MoranRoot)]
-    pairs = [(one, list(zip(one.ratios, of.slopes, strict=True))) for one in roots]
-    lower = [one.root[0] for one, pair in pairs if all(r * steep <= 1 for r, (_, steep) in pair)]
-    upper = [one.root[1] for one, pair in pairs if all(r * flat >= 1 for r, (flat, _) in pair)]
-    return (max(lower), min(upper)) if lower and upper else None
-
-
-def _between(bounds: Range, name: str) -> str:
+def between(bounds: Range, name: str) -> str:
     """Write bounds outward, with two digits more than they decide."""
-    places = len(str(int(1 / (bounds[1] - bounds[0])))) + 1
+    places = min(40, len(str(int(1 / (bounds[1] - bounds[0])))) + 1)
     return f"{floor_text(bounds[0], places)} <= {name} <= {ceil_text(bounds[1], places)}"
 
 
-def _decide_dimension(of: Parameters, found: Sequence[object]) -> Decision:
+def _dimension(of: Parameters, found: Found) -> Decision:
+    """H13: by the set of I itself, or by a larger one, whose dimension is not smaller."""
     if max(of.moran_ratios) >= 1:
-        return Decision(Verdict.REFUTED, "there is no s_0", witness="a ratio is at least 1")
-    roots = [
-        one.root for one in found if isinstance(one, MoranRoot) and one.ratios == of.moran_ratios
-    ]
-    around = [one for one in _whole(found) if _within(of.interval, one.hull)]
-    if not roots or not around:
-        missing = "no bracket of s_0" if not roots else "no full horseshoe around I with dimension"
-        return undecided(missing)
-    root, whole, itself = roots[0], around[0], _without_000(of, found)
-    quantities = {"dimension": whole.dimension, "s0": root}
-    crude = _crude(whole, found)
-    if crude is not None:
-        quantities["dimension_crude"] = crude
-    if whole.hull == of.interval:
-        itself = whole
-    elif itself is not None:
-        quantities["dimension_of_I"] = itself.dimension
-    # Lambda(I) is a part of Lambda(hull): its dimension is not larger
-    exact = itself is not None
-    low, high = itself.dimension if itself is not None else (0 * root[0], whole.dimension[1])
-    why = _between((low, high), "dim") if exact else f"dim <= {ceil_text(high, 9)}"
-    why = f"{why}, and {_between(root, 's_0')}"
-    if low <= root[1] and root[0] <= high:
-        return Decision(Verdict.UNDECIDED, why, quantities=quantities)
-    relation = "is less than" if high < root[0] else "is greater than"
-    return Decision(
-        Verdict.REFUTED,
-        why,
-        witness=f"the dimension of Lambda {relation} s_0: {why}",
-        corrected=_theorem(of, whole, itself, root, crude),
-        quantities=quantities,
-    )
-
-
-def _theorem(
-    of: Parameters, whole: Repeller, itself: Repeller | None, root: Range, crude: Range | None
-) -> str:
-    """State what is proved about the dimension."""
-    flat, steep = hull(whole.slopes)
-    first, second = whole.domains
-    parts = [
-        f"At (eta, nu) = ({show(of.eta)}, {show(of.nu)}) let Lambda(I) be the set of the phases "
-        f"in I whose images by the impact map f all stay in I. For I = {show_range(whole.hull)} "
-        f"f increases on {show_range(first)} and on {show_range(second)}, takes each over all of I "
-        f"and no phase between them into I, its derivative where it arrives in I is between "
-        f"{floor_text(flat, 2)} and {ceil_text(steep, 2)}, and the Hausdorff dimension D of "
-        f"Lambda(I) satisfies {_between(whole.dimension, 'D')}"
-    ]
-    if crude is not None:
-        parts.append(f" (the derivative's bounds alone give {_between(crude, 'D')})")
-    if itself is not None and itself is not whole:
-        parts.append(
-            f". For I = {show_range(of.interval)} Lambda(I) consists of the points without three "
-            f"images in a row in {show_range(of.left)}, and {_between(itself.dimension, 'D')}"
+        return decided(Verdict.REFUTED, NoGap(of.moran_ratios))
+    around = []
+    for each in found.all(Repeller):
+        with suppress(Unproved):
+            around.append(staying_dimension(each, found.all(Avoids), found.all(Impact)))
+    around = [each for each in around if within(of.interval, each.interval)]
+    itself = [each for each in around if each.interval == of.interval]
+    root = next((each for each in found.all(MoranRoot) if each.ratios == of.moran_ratios), None)
+    if root is None or not around:
+        return undecided(
+            "no bracket of s_0" if root is None else "no horseshoe around I with dimension"
         )
-    elif itself is None:
-        parts.append(f". For I = {show_range(of.interval)} the dimension is at most that")
-    ratios = " and ".join(map(show, of.moran_ratios))
-    parts.append(
-        f". {_between(root, 's_0')} is the dimension of the linear Cantor set of the ratios "
-        f"{ratios}, not that of Lambda(I)."
-    )
-    return "".join(parts)
+    known = {"dimension": around[0].repeller.dimension, "s0": root.root}
+    if itself and itself[0] is not around[0]:
+        known["dimension_of_I"] = itself[0].repeller.dimension
+    reason = (itself or around)[0]
+    low, high = reason.repeller.dimension
+    if root.root[1] < low and itself or high < root.root[0]:
+        return decided(Verdict.REFUTED, reason, root, corrected=around, known=known)
+    return undecided(f"{reason.brief}, and {root.brief}", known=known)
 
 
-CLAIMS = (
-    Claim(
+ROWS = (
+    Row(
         "H13",
+        "3.2, Claim 1",
+        "The Hausdorff dimension of the set Lambda is s_0",
         "At (eta, nu) = ({eta}, {nu}): the phases whose images by f all stay in I = {i} form a set "
         "of Hausdorff dimension s_0, where {r0}^s_0 + {r1}^s_0 = 1.",
-        _decide_dimension,
+        _dimension,
     ),
 )

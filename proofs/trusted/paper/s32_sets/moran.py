@@ -1,4 +1,4 @@
-"""Section 3.2: Moran's equation, and the digits printed for its root. Claims H11 and H16."""
+"""Section 3.2: Moran's equation, and the digits printed for its root. Claim H11."""
 
 from __future__ import annotations
 
@@ -63,12 +63,9 @@ def moran_root(context: Context, reader: Reader) -> MoranRoot:
     return MoranRoot((ratios[0], ratios[1]), root)
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class NoGap(Conclusion):
-    """The two ratios, both positive, leave no linear Cantor set, or Moran's equation no root."""
+    """Two positive ratios leave no linear Cantor set, or Moran's equation no root."""
 
     ratios: Range
 
@@ -80,12 +77,13 @@ class NoGap(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the statement."""
+        first, second = map(show, self.ratios)
         if max(self.ratios) >= 1:
-            return "a ratio is at least 1, so the sum exceeds 1 for every s > 0: there is no s_0."
-        return (
-            f"eta0 + eta1 = {show(sum(self.ratios, Fraction(0)))} >= 1: s_0 >= 1, q does not "
-            "decrease, and the two parts of I are not disjoint."
-        )
+            return f"({first})^s + ({second})^s > 1 for every s > 0: there is no s_0."
+        return f"eta0 + eta1 >= 1 for {first} and {second}: s_0 >= 1, and q does not decrease."
+
+
+# -- the row ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -97,7 +95,7 @@ class Unlike(Conclusion):
 
     def __post_init__(self) -> None:
         """Raise Unproved where it does."""
-        if 1 / self.slope == self.given or rounds_to(1 / self.slope, show(self.given)):
+        if is_printed(1 / self.slope, self.given):
             raise Unproved("the ratio is 1 / slope, rounded")
 
     @property
@@ -120,14 +118,23 @@ class Digits(Conclusion):
         return [readings(each.root, self.printed) for each in (self.given, self.exact)]
 
     @property
+    def verdict(self) -> Verdict:
+        """Whether they are the digits of both roots, rounded; or of neither in any reading."""
+        if all(rounded for rounded, _ in self.readings):
+            return Verdict.VERIFIED
+        none = all(reading == (False, False) for reading in self.readings)
+        return Verdict.REFUTED if none else Verdict.UNDECIDED
+
+    @property
     def sentence(self) -> str:
         """Return which readings of the digits hold."""
-        if all(rounded for rounded, _ in self.readings):
-            cut = "also" if all(truncated for _, truncated in self.readings) else "not"
-            return f"{self.given.brief}: {self.printed} if rounded, {cut} if truncated."
-        if all(reading == (False, False) for reading in self.readings):
-            return f"{self.given.brief}: not {self.printed} in any reading."
-        return f"{self.given.brief}: the readings of {self.printed} differ between the ratios."
+        truncated = {second for _, second in self.readings}
+        cut = {(True,): ", also if truncated", (False,): ", not if truncated"}
+        says = {
+            Verdict.VERIFIED: f"{self.printed} if rounded{cut.get(tuple(truncated), '')}",
+            Verdict.REFUTED: f"not {self.printed} in any reading",
+        }.get(self.verdict, f"the readings of {self.printed} differ between the ratios")
+        return f"{self.given.brief}: {says}."
 
     @property
     def brief(self) -> str:
@@ -135,31 +142,14 @@ class Digits(Conclusion):
         return self.sentence.rstrip(".")
 
 
-@dataclass(frozen=True)
-class GapFunction(Conclusion):
-    """eta0 + eta1 < 1, so that 0 < s_0 < 1: q decreases, and q(eta1/eta0) = 0."""
-
-    ratios: Range
-
-    def __post_init__(self) -> None:
-        """Raise Unproved where the ratios leave no gap."""
-        if min(self.ratios) <= 0 or sum(self.ratios) >= 1:
-            raise Unproved("the ratios do not sum to less than 1")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"0 < s_0 < 1, because eta0 + eta1 = {show(sum(self.ratios, Fraction(0)))} < 1."
-
-
 def _last_place(printed: str) -> Fraction:
     """Return the unit of the last place of a decimal; 0 for a fraction, which is exact."""
     return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
 
 
-def rounds_to(value: Fraction, printed: str) -> bool:
-    """Whether printed digits are those of a number, rounded."""
-    return 2 * abs(value - Fraction(printed)) < _last_place(printed)
+def is_printed(value: Fraction, given: Fraction) -> bool:
+    """Whether a number is the given one, or rounds to its digits."""
+    return value == given or 2 * abs(value - given) < _last_place(show(given))
 
 
 def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
@@ -183,7 +173,7 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     if max(ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(ratios))
     for slope, ratio in zip(of.slopes[::-1], ratios, strict=True):
-        if 1 / slope != ratio and not rounds_to(1 / slope, show(ratio)):
+        if not is_printed(1 / slope, ratio):
             return decided(Verdict.REFUTED, Unlike(slope, ratio))
     roots = {each.ratios: each for each in found.all(MoranRoot)}
     if ratios not in roots or of.reciprocals not in roots:
@@ -192,40 +182,20 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     known = {"s0": given.root, "s0_reciprocal_slopes": exact.root}
     if of.printed_s0 is None:
         return decided(Verdict.VERIFIED, given, known=known)
-    return _digits_read(Digits(of.printed_s0, given, exact), known)
-
-
-def _digits_read(digits: Digits, known: dict[str, Range]) -> Decision:
-    """Decide whether printed digits are those of s_0, for given and for exact ratios."""
-    if all(rounded for rounded, _ in digits.readings):
-        return decided(Verdict.VERIFIED, digits, known=known)
-    if all(reading == (False, False) for reading in digits.readings):
-        return decided(Verdict.REFUTED, digits, corrected=[digits.given], known=known)
-    return undecided(digits.brief, known=known)
-
-
-def _gap_function(of: Parameters, found: Found) -> Decision:
-    del found  # exact arithmetic on the ratios decides
-    if sum(of.moran_ratios) >= 1:
-        return decided(Verdict.REFUTED, NoGap(of.moran_ratios))
-    return decided(Verdict.VERIFIED, GapFunction(of.moran_ratios))
+    digits = Digits(of.printed_s0, given, exact)
+    if digits.verdict is Verdict.UNDECIDED:
+        return undecided(digits.brief, known=known)
+    corrected = [given] if digits.verdict is Verdict.REFUTED else []
+    return decided(digits.verdict, digits, corrected=corrected, known=known)
 
 
 ROWS = (
     Row(
         "H11",
         "3.2",
-        "s_o = 0.449...",
+        "s_o evaluates to 0.449...",
         "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
         "to the places given.",
         _moran_root,
-    ),
-    Row(
-        "H16",
-        "3.2, Claim 1, 3.",
-        "q is a decreasing function",
-        "With eta0 = {r0}, eta1 = {r1} and eta0^s_0 + eta1^s_0 = 1, the function q(x) = "
-        "((1 - eta1)/eta0 + x)^s_0 - 1 - x^s_0 decreases on x > 0 and q(eta1/eta0) = 0.",
-        _gap_function,
     ),
 )
