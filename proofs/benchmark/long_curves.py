@@ -18,7 +18,7 @@ from proofs.methods.words import Words
 from proofs.motion.horseshoe_map import ImpactMap
 from proofs.search import s32_dimension as dimension
 from proofs.trusted.certificate import SCHEMA, Malformed, read
-from proofs.trusted.paper.s32_sets.dimension import Repeller
+from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 

@@ -17,7 +17,6 @@ from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
-
 # -- the theorem -----------------------------------------------------------------------------------
 
 
@@ -65,7 +64,7 @@ class Horseshoe(Conclusion):
             "Hence, for every n, each of the 2^n words w_1 ... w_n over {0, 1} has its own closed "
             "interval of phases phi with f^(k-1)(phi) in I_(w_k) for k = 1, ..., n, disjoint from "
             f"those of the other words and at most |I| / {low}^(n-1) long; the set of phases whose "
-            f"orbit stays in I is a Cantor set{null}, and on it f is topologically conjugate to the "
+            f"orbit stays in I is a Cantor set{null}; on it f is topologically conjugate to the "
             "full one-sided shift on two symbols: 2^n points are fixed by f^n, there are periodic "
             "orbits of every period, uncountably many nonperiodic ones, and a dense one."
         )

@@ -229,21 +229,22 @@ def invariant_set(base: Horseshoe, interval: Phases, orbits: Iterable[Itinerary]
 # -- the rows --------------------------------------------------------------------------------------
 
 
-def _around(of: Parameters, found: Found) -> Horseshoe:
-    """Return a horseshoe whose interval contains I."""
+def around(interval: Range, found: Found) -> Horseshoe:
+    """Return a horseshoe whose interval contains this one; Unproved if there is none."""
     for base in found.all(Horseshoe):
-        if within(of.interval, base.interval):
+        if within(interval, base.interval):
             return base
     raise Unproved("no horseshoe is proved on sets around the given interval I")
 
 
-def _invariant(of: Parameters, found: Found) -> InvariantSet:
-    return invariant_set(_around(of, found), Phases(*of.interval), found.all(Itinerary))
+def staying(interval: Range, found: Found) -> InvariantSet:
+    """Return the set that stays in an interval, by the conclusions found."""
+    return invariant_set(around(interval, found), Phases(*interval), found.all(Itinerary))
 
 
 def _homeomorphism(of: Parameters, found: Found) -> Decision:
     """H7: h is a homeomorphism onto a subshift, which is all exactly if no word is forbidden."""
-    known = _invariant(of, found)
+    known = staying(of.interval, found)
     if not within(of.gap, known.base.gap) or of.interval != (of.left[0], of.right[1]):
         return undecided("I0 and I1 do not hold all points of Lambda on their sides of the gap")
     if not known.shift.forbidden:
@@ -253,7 +254,7 @@ def _homeomorphism(of: Parameters, found: Found) -> Decision:
 
 def _chaotic(of: Parameters, found: Found) -> Decision:
     """H8 and H9: the subshift is irreducible; or Lambda is empty."""
-    known = _invariant(of, found)
+    known = staying(of.interval, found)
     if not known.shift.arrows:
         return decided(Verdict.REFUTED, known)
     if not known.shift.chaotic:
@@ -262,7 +263,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _measure_zero(of: Parameters, found: Found) -> Decision:
-    base = _around(of, found)
+    base = around(of.interval, found)
     if not base.is_null:
         return undecided(f"{base.brief}, not above 2")
     return decided(Verdict.VERIFIED, base)

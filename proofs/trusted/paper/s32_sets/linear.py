@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
@@ -27,21 +28,7 @@ class LinearSet(Conclusion):
     The closed interval I_w of a word w over 0, 1 has the left part I_w0, of eta0 times its length,
     the right part I_w1, of eta1 times its length, and between them its open gap. Lambda is the
     intersection of all E_n, the union of the 2^n intervals of level n, of words of n letters.
-
-    Theorem (Claim 1). What the sentence says. Proof. 0 < s < 1, as eta0 + eta1 < 1.
-    1. |H0| <= |I_w0| = eta0 |I_w|, and so for H1. With k = 1 - eta0 - eta1 the function G(x, y) =
-       (x + k + y)^s - x^s - y^s decreases in x and in y, since t^(s-1) decreases, and G(eta0, eta1)
-       = 0; so G >= 0 on [0, eta0] x [0, eta1].
-    2. q' = s ((c + x)^(s-1) - x^(s-1)) < 0, c > 0; q(eta1/eta0) = (1 - eta0^s - eta1^s) / eta0^s.
-    3. Induction on n, for all similar sets; n = 0 is clear. Where all the I_w in J lie in I_0, or
-       all in I_1, it is the statement for that part. Otherwise J contains the gap of I, and meets
-       I_0 and I_1 in H0 and H1: by 1 the sum is at most |H0|^s + |H1|^s <= |J|^s. And Lambda is
-       compact: finitely many members of an open cover suffice, and by Lebesgue's number each I_w of
-       a large level is inside one of them.
-    4. Let e be that minimum: |L'| <= eta1^(n+1) |I| + e <= eta1^n |I|, |L'|^s <= |L|^s + e^s, as
-       (x + y)^s <= x^s + y^s for 0 < s < 1. The sum of all |L|^s is |I|^s.
-    5. By 3 and 4 |I|^s is the infimum of the sums over covers by intervals no longer than any given
-       bound. (Moran 1946, Hutchinson 1981 have the dimension, the measure is as in Falconer.)
+    What is concluded about it is a subclass.
     """
 
     ratios: Range
@@ -61,11 +48,42 @@ class LinearSet(Conclusion):
         return f"with (eta0, eta1) = ({first}, {second}) in I = {show_range(self.interval)}"
 
     @property
+    def brief(self) -> str:
+        """Return the first of the sentences."""
+        return self.sentence.partition(". ")[0].rstrip(".")
+
+    def length(self, word: str) -> Fraction:
+        """Return |I_w|."""
+        sizes = [self.ratios[int(letter)] for letter in word]
+        return prod(sizes, start=self.interval[1] - self.interval[0])
+
+
+@dataclass(frozen=True)
+class ExactMeasure(LinearSet):
+    """Theorem (Claim 1). What the sentence says. Proof. 0 < s < 1, as eta0 + eta1 < 1.
+
+    1. |H0| <= |I_w0| = eta0 |I_w|, and so for H1. With k = 1 - eta0 - eta1 the function G(x, y) =
+       (x + k + y)^s - x^s - y^s decreases in x and in y, since t^(s-1) decreases, and G(eta0, eta1)
+       = 0; so G >= 0 on [0, eta0] x [0, eta1].
+    2. q' = s ((c + x)^(s-1) - x^(s-1)) < 0, c > 0; q(eta1/eta0) = (1 - eta0^s - eta1^s) / eta0^s.
+    3. Induction on n, for all similar sets; n = 0 is clear. Where all the I_w in J lie in I_0, or
+       all in I_1, it is the statement for that part. Otherwise J contains the gap of I, and meets
+       I_0 and I_1 in H0 and H1: by 1 the sum is at most |H0|^s + |H1|^s <= |J|^s. And Lambda is
+       compact: finitely many members of an open cover suffice, and by Lebesgue's number each I_w of
+       a large level is inside one of them.
+    4. Let e be that minimum: |L'| <= eta1^(n+1) |I| + e <= eta1^n |I|, |L'|^s <= |L|^s + e^s, as
+       (x + y)^s <= x^s + y^s for 0 < s < 1. The sum of all |L|^s is |I|^s.
+    5. By 3 and 4 |I|^s is the infimum of the sums over covers by intervals no longer than any given
+       bound. (Moran 1946, Hutchinson 1981 have the dimension, the measure is as in Falconer.)
+    """
+
+    @property
     def sentence(self) -> str:
         """Return the theorem."""
         return (
-            f"for the linear Cantor set Lambda {self.named}, eta0^s + eta1^s = 1: (1) if H0 in "
-            "I_w0 and H1 in I_w1 are intervals on both sides of the gap K of the same I_w, then |K|"
+            f"for the linear Cantor set Lambda {self.named}, I_w0 and I_w1 the end parts of an "
+            "interval I_w, eta0 and eta1 times as long, and eta0^s + eta1^s = 1: (1) if H0 in I_w0 "
+            "and H1 in I_w1 are intervals on both sides of the gap K of the same I_w, then |K|"
             " >= (1 - eta0 - eta1) max(|H0|/eta0, |H1|/eta1) and (|H0| + |K| + |H1|)^s >= |H0|^s + "
             "|H1|^s, whichever is longer; (2) 0 < s < 1, so that q(x) = (c + x)^s - 1 - x^s, c = "
             "(1 - eta1)/eta0, decreases on x > 0, and q(eta1/eta0) = 0; (3) for every interval J "
@@ -83,17 +101,9 @@ class LinearSet(Conclusion):
         """Return what it is about."""
         return f"Claim 1 holds for the linear set {self.named}, 0 < s < 1"
 
-    def part(self, word: str) -> Range:
-        """Return the interval I_w, exact."""
-        low, high = self.interval
-        for letter in word:
-            size = self.ratios[int(letter)] * (high - low)
-            low, high = (low, low + size) if letter == "0" else (high - size, high)
-        return low, high
-
 
 @dataclass(frozen=True)
-class LinearDimension(LinearSet):
+class LinearDimension(ExactMeasure):
     """The root s is in `root`, the Hausdorff measure |I|^s of the linear set in `measure`."""
 
     root: Range
@@ -111,12 +121,7 @@ class LinearDimension(LinearSet):
         return {"dimension": self.root, "measure": self.measure}
 
 
-def length(interval: Range) -> Fraction:
-    """Return the length of an interval."""
-    return interval[1] - interval[0]
-
-
-def _power(base: Fraction, exponent: Range) -> Enclosure:
+def power(base: Fraction, exponent: Range) -> Enclosure:
     """Enclose base^s for all s in an interval, base > 0, at the precision that this deserves."""
     bits = bits_for(exponent)
     return exp(Enclosure.of(*exponent, bits) * log(base, bits))
@@ -130,7 +135,7 @@ def linear_set(context: Context, reader: Reader) -> LinearDimension:
     """
     (name,) = reader.fields("root")
     step, interval = context.step(name, MoranRoot), context.of.interval
-    measure = _power(length(interval), step.root).range
+    measure = power(interval[1] - interval[0], step.root).range
     return LinearDimension(step.ratios, interval, step.root, measure)
 
 
@@ -158,15 +163,15 @@ class Excess(LinearSet):
     @property
     def sentence(self) -> str:
         """Return the counterexample."""
-        n, delta = len(self.word) - 1, self.epsilon / 2 ** len(self.word)
-        beyond = length(self.part(self.word)) + delta > self.ratios[1] ** n * length(self.interval)
+        n = len(self.word) - 1
+        beyond = self.length(self.word) + self.epsilon / 2 ** (n + 1) > self.length("1" * n)
         outside = "; |L'| > eta1^n |I|, so that L' is not in T_n" if beyond else ""
-        longest = "; as L is the longest, so it is for all L of its level, and for the sum"
+        longest = "; so it is for all L of its level, I_1...1 being the longest, and for the sum"
         return (
-            f"let n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), and, for the "
-            f"linear set {self.named}, L = I_{self.word}, |L'| = |L| + epsilon/2^(n+1); then "
-            f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])}, where 0 would be "
-            f"the most{outside}{'' if '0' in self.word else longest}."
+            f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])} for the linear set "
+            f"{self.named}, n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), L = "
+            f"I_{self.word} and |L'| = |L| + epsilon/2^(n+1){outside}"
+            f"{'' if '0' in self.word else longest}."
         )
 
 
@@ -180,8 +185,8 @@ def excess(context: Context, reader: Reader) -> Excess:
     if not 2 <= len(word) <= _LONGEST_WORD or not {"0", "1"}.issuperset(word) or epsilon <= 0:
         raise reader.fail("a positive number and a word over 0 and 1 are expected")
     given, delta = LinearSet(step.ratios, context.of.interval), epsilon / 2 ** len(word)
-    size = length(given.part(word))
-    bounds = _power(size + delta, step.root) - _power(size, step.root)
+    size = given.length(word)
+    bounds = power(size + delta, step.root) - power(size, step.root)
     above = (bounds - rational(delta, bounds.bits)).range
     return Excess(given.ratios, given.interval, epsilon, word, above)
 
@@ -242,15 +247,16 @@ class Uncovered(LinearSet):
 # -- the rows --------------------------------------------------------------------------------------
 
 
-def ratio_pairs(of: Parameters) -> list[Range]:
-    """Return (eta0, eta1) as 1 / slopes and, where they differ, as printed."""
-    return list(dict.fromkeys((of.reciprocals, of.moran_ratios)))
+def linear_sets(of: Parameters) -> list[ExactMeasure]:
+    """Return Claim 1 for the ratios 1 / slopes and, where they differ, for those printed."""
+    pairs = dict.fromkeys((of.reciprocals, of.moran_ratios))
+    return [ExactMeasure(ratios, of.interval) for ratios in pairs]
 
 
 def _linear_dimension(of: Parameters, found: Found) -> Decision:
     """H12: the lines of these slopes must map I0 and I1 exactly onto I."""
-    given = LinearSet(of.reciprocals, of.interval)
-    if (given.part("0"), given.part("1")) != (of.left, of.right):
+    given, (low, high) = LinearSet(of.reciprocals, of.interval), of.interval
+    if (of.left, of.right) != ((low, low + given.length("0")), (high - given.length("1"), high)):
         return undecided("lines of these slopes do not map I0 and I1 exactly onto I")
     for each in found.all(LinearDimension):
         if (each.ratios, each.interval) == (given.ratios, given.interval):
@@ -259,19 +265,19 @@ def _linear_dimension(of: Parameters, found: Found) -> Decision:
 
 
 def _covering_sum(of: Parameters, found: Found) -> Decision:
-    """H14: by one L for each pair of ratios, as defined and as printed."""
-    theorem = LinearSet(of.moran_ratios, of.interval)
-    known = {each.ratios: each for each in found.all(Excess) if each.interval == of.interval}
-    if not known.keys() >= set(ratio_pairs(of)):
+    """H14: by one L for both pairs of ratios."""
+    sets = linear_sets(of)
+    known = {(each.ratios, each.interval): each for each in found.all(Excess)}
+    refuted = [known.get((each.ratios, each.interval)) for each in sets]
+    if None in refuted:
         return undecided("no L is examined for one of the pairs of ratios")
-    refuted = [known[ratios] for ratios in ratio_pairs(of)]
-    return decided(Verdict.REFUTED, *refuted, corrected=[theorem])
+    return decided(Verdict.REFUTED, *filter(None, refuted), corrected=sets[-1:])
 
 
 def _gap_estimates(of: Parameters, found: Found) -> Decision:
     """H15: true for equal ratios, false for others; both pairs must agree."""
     del found  # exact arithmetic on the ratios decides
-    sets = [LinearSet(ratios, of.interval) for ratios in ratio_pairs(of)]
+    sets = linear_sets(of)
     true = [each for each in sets if each.ratios[0] == each.ratios[1]]
     false = [ShortGap(each.ratios, each.interval) for each in sets if each not in true]
     if true and false:
@@ -286,15 +292,15 @@ def _gap_function(of: Parameters, found: Found) -> Decision:
     del found
     if sum(of.moran_ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(of.moran_ratios))
-    return decided(Verdict.VERIFIED, LinearSet(of.moran_ratios, of.interval))
+    return decided(Verdict.VERIFIED, ExactMeasure(of.moran_ratios, of.interval))
 
 
 def _replacing(of: Parameters, found: Found) -> Decision:
     """H17: for both pairs of ratios."""
     del found
-    covers = [Uncovered(ratios, of.interval) for ratios in ratio_pairs(of)]
-    theorem = LinearSet(of.moran_ratios, of.interval)
-    return decided(Verdict.REFUTED, *covers, corrected=[theorem])
+    sets = linear_sets(of)
+    covers = [Uncovered(each.ratios, each.interval) for each in sets]
+    return decided(Verdict.REFUTED, *covers, corrected=sets[-1:])
 
 
 _LINEAR = (

@@ -36,13 +36,6 @@ class MoranRoot(Conclusion):
         """Return the bounds."""
         return f"{floor_text(self.root[0])} <= s_0 <= {ceil_text(self.root[1])}"
 
-    @property
-    def latex(self) -> str:
-        """Return the equation and the bounds."""
-        first, second = map(show, self.ratios)
-        low, high = floor_text(self.root[0], 9), ceil_text(self.root[1], 9)
-        return rf"{first}^s + {second}^s = 1,\ s \in [{low}, {high}]"
-
 
 def moran_root(context: Context, reader: Reader) -> MoranRoot:
     """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
@@ -87,85 +80,47 @@ class NoGap(Conclusion):
 
 
 @dataclass(frozen=True)
-class Unlike(Conclusion):
-    """1 / slope does not round to the ratio that is given."""
-
-    slope: Fraction
-    given: Fraction
-
-    def __post_init__(self) -> None:
-        """Raise Unproved where it does."""
-        if is_printed(1 / self.slope, self.given):
-            raise Unproved("the ratio is 1 / slope, rounded")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"1/{show(self.slope)} does not round to {show(self.given)}."
-
-
-@dataclass(frozen=True)
 class Digits(Conclusion):
-    """Printed digits against the roots for given and for exact ratios."""
+    """A number in `value` against printed digits; a fraction p/q stands for itself alone.
 
+    Rounded they stand for the numbers within half a unit of the last place, truncated for those
+    from the printed one on, up to a unit more. Decided where all of `value` is inside or outside.
+    """
+
+    name: str
+    value: Range
     printed: str
-    given: MoranRoot
-    exact: MoranRoot
 
     @property
-    def readings(self) -> list[tuple[bool | None, bool | None]]:
-        """Whether they are the digits of each root, (rounded, truncated); None: not decided."""
-        return [readings(each.root, self.printed) for each in (self.given, self.exact)]
+    def unit(self) -> Fraction:
+        """The unit of the last place of a decimal; 0 for a fraction, which is exact."""
+        return Fraction("/" not in self.printed, 10 ** len(self.printed.partition(".")[2]))
 
     @property
-    def verdict(self) -> Verdict:
-        """Whether they are the digits of both roots, rounded; or of neither in any reading."""
-        if all(rounded for rounded, _ in self.readings):
-            return Verdict.VERIFIED
-        none = all(reading == (False, False) for reading in self.readings)
-        return Verdict.REFUTED if none else Verdict.UNDECIDED
+    def rounded(self) -> bool | None:
+        """Whether the digits are those of the number, rounded; None: not decided."""
+        (low, high), middle, half = self.value, Fraction(self.printed), self.unit / 2
+        if (middle - half < low and high < middle + half) or low == middle == high:
+            return True
+        return False if high <= middle - half or middle + half <= low else None
+
+    @property
+    def truncated(self) -> bool | None:
+        """Whether the digits are those of the number, truncated; None: not decided."""
+        (low, high), first = self.value, Fraction(self.printed)
+        if (first <= low and high < first + self.unit) or low == first == high:
+            return True
+        return False if high < first or first + self.unit <= low else None
 
     @property
     def sentence(self) -> str:
         """Return which readings of the digits hold."""
-        truncated = {second for _, second in self.readings}
-        cut = {(True,): ", also if truncated", (False,): ", not if truncated"}
-        says = {
-            Verdict.VERIFIED: f"{self.printed} if rounded{cut.get(tuple(truncated), '')}",
-            Verdict.REFUTED: f"not {self.printed} in any reading",
-        }.get(self.verdict, f"the readings of {self.printed} differ between the ratios")
-        return f"{self.given.brief}: {says}."
-
-    @property
-    def brief(self) -> str:
-        """Return the statement."""
-        return self.sentence.rstrip(".")
-
-
-def _last_place(printed: str) -> Fraction:
-    """Return the unit of the last place of a decimal; 0 for a fraction, which is exact."""
-    return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
-
-
-def is_printed(value: Fraction, given: Fraction) -> bool:
-    """Whether a number is the given one, or rounds to its digits."""
-    return value == given or 2 * abs(value - given) < _last_place(show(given))
-
-
-def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
-    """Return whether the printed digits are the root's, (rounded, truncated); None: undecided.
-
-    Rounded they stand for the numbers within half a unit of the last place, truncated for those
-    from the printed one on, up to a unit more: decided where the bracket is inside or outside.
-    """
-    (low, high), value, unit = root, Fraction(printed), _last_place(printed)
-    nearest: bool | None = (value - unit / 2 < low and high < value + unit / 2) or None
-    if high <= value - unit / 2 or low >= value + unit / 2:
-        nearest = False
-    first: bool | None = (value <= low and high < value + unit) or None
-    if high < value or low >= value + unit:
-        first = False
-    return nearest, first
+        words = {True: "is", False: "is not", None: "may be"}
+        return (
+            f"{self.name}, in [{floor_text(self.value[0])}, {ceil_text(self.value[1])}], "
+            f"{words[self.rounded]} {self.printed} if rounded, and {words[self.truncated]} if "
+            "truncated."
+        )
 
 
 def _moran_root(of: Parameters, found: Found) -> Decision:
@@ -173,20 +128,21 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     if max(ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(ratios))
     for slope, ratio in zip(of.slopes[::-1], ratios, strict=True):
-        if not is_printed(1 / slope, ratio):
-            return decided(Verdict.REFUTED, Unlike(slope, ratio))
+        digits = Digits(f"1/{show(slope)}", (1 / slope, 1 / slope), show(ratio))
+        if not digits.rounded:
+            return decided(Verdict.REFUTED, digits)
     roots = {each.ratios: each for each in found.all(MoranRoot)}
     if ratios not in roots or of.reciprocals not in roots:
         return undecided("no bracket of s_0")
     given, exact = roots[ratios], roots[of.reciprocals]
     known = {"s0": given.root, "s0_reciprocal_slopes": exact.root}
-    if of.printed_s0 is None:
-        return decided(Verdict.VERIFIED, given, known=known)
-    digits = Digits(of.printed_s0, given, exact)
-    if digits.verdict is Verdict.UNDECIDED:
-        return undecided(digits.brief, known=known)
-    corrected = [given] if digits.verdict is Verdict.REFUTED else []
-    return decided(digits.verdict, digits, corrected=corrected, known=known)
+    pair = dict.fromkeys((given, exact)) if of.printed_s0 else ()
+    read = [Digits("s_0", each.root, of.printed_s0 or "") for each in pair]
+    if read and all(each.rounded is each.truncated is False for each in read):
+        return decided(Verdict.REFUTED, *read, corrected=[given], known=known)
+    if not all(each.rounded for each in read):
+        return undecided("; ".join(each.brief for each in read), known=known)
+    return decided(Verdict.VERIFIED, given, *read, known=known)
 
 
 ROWS = (
