@@ -166,12 +166,12 @@ class Excess(LinearSet):
         n = len(self.word) - 1
         beyond = self.length(self.word) + self.epsilon / 2 ** (n + 1) > self.length("1" * n)
         outside = "; |L'| > eta1^n |I|, so that L' is not in T_n" if beyond else ""
-        longest = "; so it is for all L of its level, I_1...1 being the longest, and for the sum"
+        longest = ", as for all L of its level, I_1...1 being the longest, and for their sum"
         return (
             f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])} for the linear set "
             f"{self.named}, n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), L = "
-            f"I_{self.word} and |L'| = |L| + epsilon/2^(n+1){outside}"
-            f"{'' if '0' in self.word else longest}."
+            f"I_{self.word} and |L'| = |L| + epsilon/2^(n+1)"
+            f"{'' if '0' in self.word else longest}{outside}."
         )
 
 
