@@ -148,7 +148,7 @@ class InvariantSet(InHorseshoe):
     the orbit of each end of J, unless it is one of I, follow a word w_0 ... w_(k-1) in I0 and I1
     and then be in neither; c = 0, 1, 2 as it is then below I0, between I0 and I1, or above I1. Then
     itineraries conjugate f on L_J to the subshift of the sequences of which no factor u_0 ... u_k
-    comes before w_0 ... w_(k-1) c of the lower end, or after that of the upper end.
+    comes before w_0 ... w_(k-1) c of the lower end, and each comes before that of the upper end.
 
     Proof. 1. L_J is in L, for it stays in I. 2. A point x of L with the itinerary u is below an end
     phi exactly if u_0 ... u_k comes before w_0 ... w_(k-1) c, in lexicographic order: if u_j is the
@@ -173,7 +173,8 @@ class InvariantSet(InHorseshoe):
     def shift(self) -> Subshift:
         """The sequences that are itineraries."""
         cuts = {orbit.phase: orbit.cut for orbit in self.orbits}
-        return Subshift.between(*(cuts.get(end, "") for end in self.interval))
+        low, high = self.interval
+        return Subshift.between(cuts.get(low, "0"), cuts.get(high, "2"))
 
     @property
     def sentence(self) -> str:

@@ -32,15 +32,13 @@ class Subshift:
 
     @classmethod
     def between(cls, low: str, high: str) -> Subshift:
-        """Return the sequences of which no factor comes before `low` or after `high`.
+        """Return the sequences of which no factor comes before `low` and all come before `high`.
 
-        Factors as long as these are compared, in lexicographic order; "" bounds nothing.
+        Factors as long as these are compared, in lexicographic order; "0" and "2" bound nothing.
         """
         length = max(2, len(low), len(high))
-        return cls(
-            length,
-            frozenset(w for w in words(length) if w[: len(low)] < low or w[: len(high)] > high),
-        )
+        cut = (w for w in words(length) if w[: len(low)] < low or w[: len(high)] >= high)
+        return cls(length, frozenset(cut))
 
     @cached_property
     def arrows(self) -> dict[str, list[str]]:
