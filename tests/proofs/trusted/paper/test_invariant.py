@@ -148,9 +148,7 @@ STEPS = known(("1", ("0.8", "0.9")), ("1.1", ("1.25", "1.26")), ("1.2", ("1.5", 
 
 def test_follow_takes_the_nearest_points():
     found = follow(BASE, [STEPS], Fraction("1.1"))
-    assert found == Itinerary(
-        BASE, ((Fraction("1.1"),) * 2, (Fraction("1.25"), Fraction("1.26")))
-    )
+    assert found == Itinerary(BASE, ((Fraction("1.1"),) * 2, (Fraction("1.25"), Fraction("1.26"))))
     assert found.cut == "01"
     assert follow(BASE, [STEPS], Fraction("0.9")).cut == "0"
     assert follow(BASE, [STEPS], Fraction("1.5")).cut == "2"
@@ -246,7 +244,10 @@ def test_nothing_without_a_horseshoe_around_the_interval(claim, found):
 @pytest.mark.parametrize("claim", ["H7", "H8", "H9"])
 @pytest.mark.parametrize(
     "other",
-    [orbit("001", phase=Fraction("1.12")), orbit("001", base=replace(AROUND, slopes=(Fraction(3),) * 2))],
+    [
+        orbit("001", phase=Fraction("1.12")),
+        orbit("001", base=replace(AROUND, slopes=(Fraction(3),) * 2)),
+    ],
 )
 def test_the_end_itself_must_be_followed(claim, other):
     assert DECIDE[claim](PAPER, [AROUND, other]).verdict is Verdict.UNDECIDED
