@@ -14,7 +14,7 @@ from proofs.motion.impact import HORIZON, FirstImpact
 from proofs.motion.inverse import InverseBranch, InverseSystem
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Tell
-from proofs.search.s32_sets import prove_staying
+from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -108,7 +108,7 @@ def prove(
     if "H13" not in claims:
         return Evidence()
     digits = min(digits, _MOST_DIGITS)
-    run = _Run(of, Prover(System(of.eta, of.nu), digits, HORIZON), digits, tell)
+    run = _Run(of, Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON), digits, tell)
     proof: Proof = []
     if max(of.moran_ratios) < 1:
         proof.append(run.prover.root(of.moran_ratios))

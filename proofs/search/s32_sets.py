@@ -28,6 +28,7 @@ from proofs.trusted.slopes import SlopeRange
 
 _INVARIANT = ("H7", "H8", "H9", "H10")
 _NEARBY = Fraction(1, 10**10)  # how far from an approximate image f is enclosed
+LEAST_DIGITS = 12  # to tell in which of I0 and I1 an image is
 _TRIES = 6
 _FOLLOWED = 10
 
@@ -130,7 +131,8 @@ def prove(
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Evidence:
     """Prove what the claims asked for rest on, once each."""
-    prover, evidence = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
+    prover = Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON)
+    evidence = Evidence()
     if set(claims).intersection(_INVARIANT):
         tell("a horseshoe around I, and the orbits of the ends of I")
         proof = prove_staying(of, prover)

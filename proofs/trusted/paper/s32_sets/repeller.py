@@ -47,8 +47,7 @@ class Repeller(Conclusion):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless domains and bounds are in order."""
-        (_, before), (after, _) = self.domains
-        if before >= after or not 0 < self.dimension[0] < self.dimension[1]:
+        if self.domains[0][1] >= self.domains[1][0] or self.dimension[0] >= self.dimension[1]:
             raise Unproved("the domains or the bounds of the dimension are not in order")
         if min(low for low, _ in self.slopes) <= 1:
             raise Unproved("the inverse branches are not proved to contract")
@@ -282,8 +281,8 @@ def _read(context: Context, reader: Reader) -> tuple[_System, Range]:
     words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
     if not all(1 <= len(x) <= _LONGEST_WORD and set(x) <= {"0", "1"} for x in words):
         raise words_of.fail("words over 0 and 1 are expected")
-    if radius <= 0 or len(set(words)) != len(words):
-        raise reader.fail("no radius, or a word that is there twice")
+    if radius <= 0 or len(set(words)) != len(words) or not 0 < span[0] < span[1]:
+        raise reader.fail("no radius, a word that is there twice, or no bounds of a dimension")
     bits = bits_for((-radius, radius))
     pieces, order = integer(pieces_of, 1, _MOST_PIECES), integer(order_of, 1, _HIGHEST)
     suffixes = sorted({word[k:] for word in words for k in range(len(word))})
