@@ -139,10 +139,6 @@ class ImageArc(Conclusion):
         """Whether the image is proved to contain an interval of phases."""
         return self.low[1] <= target[0] and target[1] <= self.high[0]
 
-    def misses(self, target: Range) -> bool:
-        """Whether the image is proved to miss an interval of phases."""
-        return self.is_interval and (target[1] < self.low[0] or self.high[1] < target[0])
-
     @property
     def sentence(self) -> str:
         """Return the statement."""

@@ -305,7 +305,6 @@ def test_an_interval_of_phases_is_canonical(low, high):
 def test_the_arc_s_hull_is_not_what_it_covers():
     arc = ImageArc(HERE, phases("1.11", "1.15"), Phase(*span("6.2", "6.21")), Phase(*span("1.33")))
     assert not arc.is_interval and not arc.covers(span("1.11", "1.32"))
-    assert not arc.misses(span("2", "3"))
 
 
 # -- parts of what is known ------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from proofs.trusted.flights import bits_for
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, ceil_text, floor_text, show, show_range
+from proofs.trusted.numbers import Range, floor_text, show, show_range
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -110,12 +110,6 @@ class LinearDimension(ExactMeasure):
     measure: Range
 
     @property
-    def brief(self) -> str:
-        """Return the dimension."""
-        low, high = floor_text(self.root[0], 9), ceil_text(self.root[1], 9)
-        return f"{low} <= s_0 <= {high} is the dimension, and |I|^s_0 the Hausdorff measure"
-
-    @property
     def quantities(self) -> Mapping[str, Range]:
         """Return the dimension and the measure."""
         return {"dimension": self.root, "measure": self.measure}
@@ -130,8 +124,8 @@ def power(base: Fraction, exponent: Range) -> Enclosure:
 def linear_set(context: Context, reader: Reader) -> LinearDimension:
     """Rule `linear-set`: {root: name of a moran-root step}.
 
-    Hypothesis: r0 + r1 < 1, exact. Conclusion: the theorem of `LinearSet`, with bounds on s and on
-    |I|^s: the dimension and the Hausdorff measure of the linear set.
+    Hypothesis: r0 + r1 < 1, exact. Conclusion: `ExactMeasure`, with bounds on s and on |I|^s: the
+    dimension and the Hausdorff measure of the linear set.
     """
     (name,) = reader.fields("root")
     step, interval = context.step(name, MoranRoot), context.of.interval
@@ -202,7 +196,7 @@ class ShortGap(LinearSet):
     """
 
     def __post_init__(self) -> None:
-        """Raise Unproved where the ratios are equal: then (1) of `LinearSet` is what is asked."""
+        """Raise Unproved where the ratios are equal: then `ExactMeasure`, (1), is what is asked."""
         super().__post_init__()
         if self.ratios[0] == self.ratios[1]:
             raise Unproved("eta0 = eta1: the names do not matter")

@@ -13,12 +13,12 @@ from proofs.search import s32_dimension as dimension
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.paper.s32_sets.dimension import FULL
 from proofs.trusted.paper.s32_sets.repeller import Repeller, _Branch
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.paper import reference
 
@@ -148,7 +148,10 @@ def true_images(words=FULL, hull=SETS.interval):
 BOUND, PLACE, ONCE = "the operator is only proved", "where it is said", "only once"
 UNPROVED = {
     "a hull that is a point": (put(hull=["11/10", "11/10"]), "no interval of phases"),
-    "domains in the wrong order": (swapped("domains", "flights", "turns", "inverse"), "not in order"),
+    "domains in the wrong order": (
+        swapped("domains", "flights", "turns", "inverse"),
+        "not in order",
+    ),
     "higher": (move_dimension("1e-5"), BOUND),
     "lower": (move_dimension("-1e-5"), BOUND),
     "much higher": (move_dimension("1/10"), BOUND),

@@ -285,8 +285,7 @@ def test_slopes_of_two_are_not_enough_for_measure_zero():
 
 def test_an_empty_invariant_set():
     """If the orbit of the lower end is above that of all points, nothing stays in I."""
-    low = replace(PAPER, left=(Fraction("1.28"), Fraction("1.29")), right=(Fraction("1.3"), Fraction("1.32")),
-                  interval=(Fraction("1.28"), Fraction("1.32")))  # fmt: skip
+    low = sets(("1.28", "1.29"), ("1.3", "1.32"))
     gone = orbit("12", phase=Fraction("1.28"))
     for claim in ("H8", "H9"):
         decision = DECIDE[claim](low, [AROUND, gone])

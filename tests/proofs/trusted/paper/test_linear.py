@@ -3,7 +3,7 @@
 import random
 from dataclasses import replace
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 import pytest
 from flint import arb, ctx
@@ -179,7 +179,7 @@ def test_gap_estimates_by_brute_force_for_equal_ratios():
     seen = 0
     for low, high in product(ends, ends):
         chosen = largest(found, (low, high)) if low < high else []
-        for left, right in zip(chosen, chosen[1:], strict=False):
+        for left, right in pairwise(chosen):
             sizes = [length(found[left]), length(found[right])]
             if sorted(sizes) == sorted(length(found[w]) for w in chosen)[-2:]:
                 gap = found[right][0] - found[left][1]
