@@ -124,7 +124,7 @@ def prove_horseshoe(context: Context, reader: Reader) -> Horseshoe:
 def _part(context: Context, reader: Reader) -> SlopeRange:
     name, domain = reader.fields("slopes", "domain")
     whole = context.step(name, SlopeRange)
-    METER.get().spend(len(whole.points))
+    METER.get().spend(8 * len(whole.points))
     part = whole.over(domain.range())
     if part is None:
         raise domain.fail("not two points of the step")

@@ -14,11 +14,12 @@ import pytest
 
 from proofs.search.s32_sets import prove
 from proofs.shell.groups import produce, wanted
-from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.meter import metered
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phase, Phases
-from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.s31_horseshoe import Horseshoe, prove_horseshoe
 from proofs.trusted.paper.s32_sets.invariant import (
     ROWS,
     InvariantSet,
@@ -193,6 +194,10 @@ def test_every_step_of_an_orbit_counts_the_points_it_looks_at():
     with metered(1000) as meter:
         follow(BASE, [known(*images)], Fraction("1.1"))
     assert meter.spent >= 200
+    part = {"slopes": "s", "domain": ["1", "1199/1000"]}
+    witness = Reader({"left": part, "right": part, "gap": "g", "slopes": ["2", "3"]})
+    with metered(1000), pytest.raises(Exhausted):
+        prove_horseshoe(Context(PAPER, {}, {"s": known(*images)}), witness)
 
 
 @pytest.mark.parametrize(
