@@ -228,6 +228,11 @@ class RectangleHorseshoe(Conclusion):
     margin: Fraction
     rates: Rates
 
+    def __post_init__(self) -> None:
+        """Raise Unproved where edges fall short."""
+        if self.margin <= 0:
+            raise Unproved("an edge is not mapped beyond the rectangles")
+
     @property
     def sentence(self) -> str:
         """Return the theorem; for epsilon = 0 about the phases alone."""

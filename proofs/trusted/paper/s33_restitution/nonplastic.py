@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -31,6 +32,12 @@ class EdgeImage(Conclusion):
     phase: Fraction
     velocity: Fraction
     image: Range
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the state is a corner."""
+        ends = (*self.strips.left, *self.strips.right)
+        if self.phase not in ends or self.velocity not in self.strips.velocities:
+            raise Unproved("the state is no corner of a rectangle")
 
     @property
     def edge(self) -> tuple[str, int]:
@@ -70,12 +77,12 @@ class EdgeImage(Conclusion):
 
 def edge_images(strips: Strips, found: Sequence[Rebound]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
-    ends = (*strips.left, *strips.right)
     images = []
     for each in found:
-        (phase, high), (velocity, top) = each.phases, each.velocities
-        if phase == high in ends and velocity == top in strips.velocities:
-            images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
+        (phase, last), (velocity, top) = each.phases, each.velocities
+        if phase == last and velocity == top:
+            with suppress(Unproved):
+                images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
     return images
 
 

@@ -40,6 +40,11 @@ class BarredWord(Conclusion):
     word: tuple[int, ...]
     short: Fraction
 
+    def __post_init__(self) -> None:
+        """Raise Unproved unless it falls short."""
+        if self.short <= 0:
+            raise Unproved("an orbit along the word is not excluded")
+
     @property
     def brief(self) -> str:
         """Return the word, and where."""
@@ -95,8 +100,6 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
             raise Unproved("an image velocity leaves the rectangles")
     low, high = path[-1].phases
     short = low - extreme if above else extreme - high
-    if short <= 0:
-        raise Unproved("an orbit along the word is not excluded")
     return BarredWord(maps[0].at, strips(maps), tuple(map(int, word)), short)
 
 

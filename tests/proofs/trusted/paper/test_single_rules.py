@@ -199,6 +199,8 @@ def test_windows_in_eta_are_not_talked_into(document):
         {"nu": "-1/5"},
         {"nu": "1/4"},
     ]
+    assert "n = 1, ..., 48" in derived("single-eta-windows", witness).sentence
+    refused("single-eta-windows", {**witness, "low": "9/20", "ends": []})
     wrong.append({"ends": [["1/5", "41/200", *first[2:]], *ends[1:]]})  # true, but too wide
     for changed in wrong:
         refused("single-eta-windows", {**witness, **changed})
@@ -300,8 +302,8 @@ def sticking(found):
         (("P4", "P5", "P6"), Solution, having(multiplier=(ONE / 2, ONE))),
         (("P4", "P5", "P6"), Solution, having(acceleration=(-ONE, ONE))),
         (("P4", "P5", "P6"), Solution, sticking),
-        (("P5",), Solution, moved(eta=Fraction(15))),
-        (("P5",), Solution, moved(eta=Fraction(2))),
+        (("P5",), Solution, moved(eta=Fraction("15.5"))),
+        (("P5",), Solution, moved(eta=Fraction("2.2"))),
         (("P5",), Solution, moved(nu=Fraction("0.21"))),
         (("P6",), Solution, moved(eta=Fraction("0.238"))),
         (("P6",), Solution, moved(nu=Fraction("0.95"))),
@@ -324,8 +326,8 @@ def test_sentences_have_all_their_hypotheses(document):
     """An orbit may stick and be stable, too: at (0.23, 0.2) f' = 0 and (18) is 0.463."""
     said = {entry["id"]: entry["corrected"] for entry in document["claims"]}
     assert all("leaves the table at once" in said[claim] for claim in ("P3", "P4", "P5", "P6"))
-    assert "0 < |nu| < 1" in said["P4"] and "for nu = 0.2 (p < 0)" in said["P5"]
-    assert "for eta = 0.237, plastic impacts and 0 < |nu| < 1" in said["P6"]
+    assert "0 < |nu| < 1" in said["P4"] and "For nu = 0.2 (p < 0)" in said["P5"]
+    assert "For eta = 0.237, plastic impacts and 0 < |nu| < 1" in said["P6"]
     eta, nu = mpf("0.23"), mpf("0.2")
     separation = mp.asin(eta**2 / (nu * (1 - eta**2)))
     time, phi = reference.first_impact(eta, nu, separation + mpf(10) ** -20)
