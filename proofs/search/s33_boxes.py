@@ -9,7 +9,6 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
-from proofs.search.evidence import FAILED
 from proofs.search.s33_rectangles import (
     Sets,
     image_phases,
@@ -116,17 +115,10 @@ def _failure(prover: ReboundProver, box: Place, sets: Sets) -> list[str]:
     for point in dict.fromkeys(likely):
         with suppress(Unproved):
             word = prover.missing_word(prover.pair(point, sets))
-            return [word, *_states(prover, point, sets)]
+            return [word, *prover.corners(point, sets, short=True)]
     for point in failing[:_WORDS]:
-        if states := _states(prover, point, sets):
+        if states := prover.corners(point, sets, short=True):
             return states
-    return []
-
-
-def _states(prover: ReboundProver, point: Place, sets: Sets) -> list[str]:
-    """Prove the images of states on edges that fall short at a point, if it can be done."""
-    with suppress(*FAILED):
-        return prover.refuting_states(point, sets)
     return []
 
 
