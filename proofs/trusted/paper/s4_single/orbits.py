@@ -127,9 +127,9 @@ class Orbit(Conclusion):
     def sentence(self) -> str:
         """Return the statement."""
         return (
-            f"the phase in {_within(self.solution.phase, 20)} is such an orbit for n = "
-            f"{self.solution.n}, with slope in {_within(self.solution.multiplier, 12)}: the mass "
-            "leaves at once, and its first impact, a transversal one, is 2 pi n later."
+            f"a phase in {_within(self.solution.phase, 20)} is a fixed point of f, with slope in "
+            f"{_within(self.solution.multiplier, 12)}: the mass leaves the table at once, and its "
+            f"first impact, a transversal one, is 2 pi n later, n = {self.solution.n}."
         )
 
 
