@@ -24,11 +24,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import (
-    RectangleMap,
-    restitution,
-    size,
-)
+from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, restitution, size
 from proofs.trusted.parameters import Place
 
 CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
