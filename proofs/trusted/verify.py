@@ -16,7 +16,7 @@ from proofs.trusted.certificate import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.formula import read_formula
+from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.kernel.meter import DEFAULT, metered
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import find
@@ -80,7 +80,7 @@ def premises(source: str) -> Context:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     context = Context(
         None if parameters_of.is_null() else parameters_from_json(parameters_of),
-        {name: read_formula(name, each) for name, each in functions_of.members()},
+        {name: read_function(name, each) for name, each in functions_of.members()},
     )
     derive(context, steps_of)
     return context
