@@ -110,9 +110,13 @@ class Lemmas:
     # -- values and equations ------------------------------------------------------------------
 
     def value(self, text: str, bounds: tuple[Number, Number], **box: tuple[Number, Number]) -> str:
-        """Add a step `formula-value`: closed bounds on a formula on a box."""
-        (low, high), sides = exact([bounds])[0], _sides(box)
-        tree = _divided(text, sides, lambda v: low <= v[0].inf and v[0].sup <= high)
+        """Add a step `formula-value`: closed bounds on a formula on a box.
+
+        (The checker has exact values at points, of what is rational.)
+        """
+        (low, high), sides, tree = exact([bounds])[0], _sides(box), None
+        if any(first < last for first, last in sides.values()):
+            tree = _divided(text, sides, lambda v: low <= v[0].inf and v[0].sup <= high)
         return self._value(text, sides, (low, high), tree)
 
     def sign(self, text: str, sign: int, **box: tuple[Number, Number]) -> str:
@@ -128,6 +132,11 @@ class Lemmas:
     def equal(self, left: str, right: str) -> str:
         """Add a step `formula-equal`."""
         return self.add("formula-equal", {"left": left, "right": right})
+
+    def series(self, text: str, variable: str, *coefficients: str, nonzero: Any = ()) -> str:
+        """Add a step `formula-series`."""
+        witness = {"function": text, "variable": variable, "coefficients": list(coefficients)}
+        return self.add("formula-series", {**witness, "nonzero": list(nonzero)})
 
     # -- zeros ---------------------------------------------------------------------------------
 

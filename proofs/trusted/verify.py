@@ -107,10 +107,13 @@ def _conclude(context: Context, claims_of: Reader, used: set[str]) -> Report:
     entries = claims_of.items(least=1)
     if context.parameters is None:
         names = _named(context, claims_of, used)
-        sentences = tuple(context.known[name].sentence for name in names)
-        if sum(map(len, sentences)) > _MAX_TEXT:
-            raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
-        return Report(None, sentences=sentences)
+        sentences, length = [], 0
+        for name in names:
+            sentences.append(context.known[name].sentence)
+            length += len(sentences[-1])
+            if length > _MAX_TEXT:
+                raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
+        return Report(None, sentences=tuple(sentences))
     claims = tuple(_check_claim(context, entry, used) for entry in entries)
     if len({claim.id for claim in claims}) != len(claims):
         raise claims_of.fail("a claim appears twice")

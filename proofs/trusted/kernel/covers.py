@@ -71,7 +71,7 @@ def disjoint(one: HSet, two: HSet) -> bool:
 
 
 def _dot(a: Sequence[Fraction], b: Sequence[Fraction]) -> Fraction:
-    METER.get().spend(sum(10 + (size(x) + size(y) >> 3) for x, y in zip(a, b, strict=True)))
+    METER.get().spend(sum(10 + (size(x) + size(y) >> 5) for x, y in zip(a, b, strict=True)))
     return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
 
 

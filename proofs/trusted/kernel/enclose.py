@@ -115,7 +115,7 @@ class Exact:
     def apply(self, op: str, arguments: list[Fraction], datum: Fraction) -> Fraction:
         """Return op(arguments)."""
         digits = sum(map(size, arguments)) * (abs(int(datum)) if op == "^" else 1)
-        METER.get().spend(digits >> 4)
+        METER.get().spend(2 + (digits >> 6))
         if digits > _MOST_DIGITS:
             raise Unproved("a rational with too many digits")
         try:

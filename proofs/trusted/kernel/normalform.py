@@ -58,7 +58,7 @@ def power(place: int, n: Exponent = 1) -> Polynomial:
 
 def plus(a: Polynomial, b: Polynomial, factor: Fraction | int = 1) -> Polynomial:
     """Return a + factor b."""
-    METER.get().spend(len(a) + len(b))
+    METER.get().spend(5 * (len(a) + len(b)))
     result = dict(a)
     for monomial, value in b.items():
         _accumulate(result, monomial, factor * value)
@@ -165,7 +165,7 @@ class NormalForms:
         product: Polynomial = {}
         for one, c in a.items():
             for two, d in b.items():
-                METER.get().spend(4 + (size(c) + size(d)) / 20)
+                METER.get().spend(12 + 3 * (len(one) + len(two)) + (size(c) + size(d) >> 4))
                 _accumulate(product, _merge(one, two), c * d)
         while places := {g for m in product for g, n in m if n > 1 and g in self._squares}:
             product = self._without_square(product, max(places))
@@ -182,7 +182,7 @@ class NormalForms:
                 continue
             (rest,) = over({monomial: value}, ((place, 2),))
             for other, factor in self._squares[place].items():
-                METER.get().spend(4 + (size(value) + size(factor)) / 20)
+                METER.get().spend(12 + 3 * len(monomial) + (size(value) + size(factor) >> 4))
                 _accumulate(result, _merge(rest, other), value * factor)
         return result
 

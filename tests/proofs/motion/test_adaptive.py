@@ -20,8 +20,8 @@ from proofs.motion.system import System
 from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
 from proofs.stress.grazing import graze
 from proofs.trusted.certificate import Reader
-from proofs.trusted.parameters import PAPER as FACTS
 from proofs.trusted.flights import RULES
+from proofs.trusted.parameters import PAPER as FACTS
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

@@ -45,10 +45,10 @@ from proofs.shell.counting import (
 )
 from proofs.trusted import equations
 from proofs.trusted.equations import clock, gap, launch, slope
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Dual, rational
 from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS as BASIC
 from proofs.trusted.paper.s5_soft.soft import DERIVATIONS as SOFT
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 
 pytestmark = pytest.mark.slow

@@ -11,11 +11,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
+from proofs.trusted.GONE import HORSESHOE, STATEMENTS, theorem
+
 from proofs.search.s31_horseshoe import prove
 from proofs.trusted.certificate import SCHEMA, parameters_to_json
 from proofs.trusted.certificate import render as text_of
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.GONE import HORSESHOE, STATEMENTS, theorem
 from tests.proofs.trusted.mutations import Document, Edit, renew_texts
 
 VERDICTS = {  # of the accepted certificate, at the paper's numbers

@@ -13,11 +13,12 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple
 
+from proofs.trusted.GONE import STATEMENTS, theorem
+
 from proofs.search.s31_horseshoe import prove
 from proofs.trusted.certificate import SCHEMA, Malformed, parameters_from_json, parse
 from proofs.trusted.certificate import render as text_of
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.GONE import STATEMENTS, theorem
 from proofs.trusted.verify import Rejected, Report, check
 
 VERDICTS = ("VERIFIED", "REFUTED", "UNDECIDED", "CONDITIONAL", "verified", "")

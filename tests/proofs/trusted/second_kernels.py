@@ -7,9 +7,9 @@ from typing import Any
 from flint import arb, arb_series, ctx
 
 from proofs.trusted import equations
-from proofs.trusted.numbers import Range
 from proofs.trusted.flights import Motion, phase_after
 from proofs.trusted.kernel.arithmetic import exp, log, pi, rational
+from proofs.trusted.numbers import Range
 from tests.proofs.trusted.second_map import ball, bounds
 
 

@@ -21,9 +21,9 @@ from flint import ctx
 
 from proofs.trusted import flights as rules
 from proofs.trusted.certificate import Reader, parameters_from_json, parse
-from proofs.trusted.numbers import Range
 from proofs.trusted.flights import FirstImpact, Motion
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range
 from tests.proofs.trusted import second_reader
 from tests.proofs.trusted.second_kernels import Arb, Checker, Kernel
 from tests.proofs.trusted.second_map import NotAProof, thin

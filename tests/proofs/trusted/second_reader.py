@@ -10,9 +10,9 @@ from itertools import pairwise
 from math import gcd
 
 from flint import ctx
+from proofs.trusted.GONE import STATEMENTS, theorem
 
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.GONE import STATEMENTS, theorem
 from tests.proofs.trusted.second_claims import BELOW_TURN, Facts, verdict, verified
 from tests.proofs.trusted.second_map import Impacts, NotAProof, avoids, moran_root, proof, within
 

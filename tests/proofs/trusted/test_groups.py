@@ -14,8 +14,8 @@ from proofs.shell.manifest import NAME
 from proofs.trusted import flights as rules
 from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import Malformed, Reader, parameters_from_json, parse, render
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.paper import GROUPS, rules_of
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, _check_claim, _derive_steps, check, find_rule
 

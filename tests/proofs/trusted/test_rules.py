@@ -13,9 +13,9 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.flights import RULES, FirstImpact, Motion, _meets, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]

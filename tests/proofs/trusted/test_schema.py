@@ -8,14 +8,13 @@ from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
+from proofs.trusted.GONE import STATEMENTS, Facts, quantities
 
 from proofs.trusted.certificate import _MAX_DIGITS, _MAX_DIGITS_OF_PARAMETERS, SCHEMA
-from proofs.trusted.numbers import TURN
-from proofs.trusted.GONE import Facts
-from proofs.trusted.parameters import Parameters
 from proofs.trusted.flights import RULES
+from proofs.trusted.numbers import TURN
 from proofs.trusted.paper import GROUPS, rules_of
-from proofs.trusted.GONE import STATEMENTS, quantities
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.trusted.mutations import mutations, outcome
 

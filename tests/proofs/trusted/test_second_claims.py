@@ -7,12 +7,11 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from proofs.trusted.GONE import STATEMENTS, Facts, decide, quantities
 
 from proofs.trusted.certificate import parameters_to_json
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.GONE import Facts
 from proofs.trusted.slopes import Impact, SlopeRange
-from proofs.trusted.GONE import STATEMENTS, decide, quantities
 from tests.proofs.trusted import second_claims
 from tests.proofs.trusted.second_both import both
 

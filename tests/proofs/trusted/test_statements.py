@@ -4,12 +4,20 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from proofs.trusted.GONE import (
+    HORSESHOE,
+    STATEMENTS,
+    Facts,
+    decide,
+    image_arcs,
+    quantities,
+    readings,
+    theorem,
+)
 
-from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.numbers import TURN, ceil_text, floor_text, show, show_range
-from proofs.trusted.GONE import Facts
+from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.slopes import Impact, SlopeRange
-from proofs.trusted.GONE import HORSESHOE, STATEMENTS, decide, image_arcs, quantities, readings, theorem
 from proofs.trusted.verdicts import Verdict
 
 VERIFIED, REFUTED, UNDECIDED = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED

@@ -21,14 +21,14 @@ from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
 from proofs.shell.groups import certificate, decide, produce
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.flights import RULES as BASIC
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s34_circle.chaos import CLAIMS, PRINTED, Branch, CoveringGraph, brackets
 from proofs.trusted.paper.s34_circle.chaos_rules import RULES
 from proofs.trusted.paper.s34_circle.staying import Cell, StayingSet
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from proofs.trusted.windows import BITS, Meetings

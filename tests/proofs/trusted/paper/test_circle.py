@@ -24,12 +24,12 @@ from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.shell.groups import certificate, decide
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import Cell, absorbed, links
 from proofs.trusted.paper.s34_circle.circle_rules import RULES
 from proofs.trusted.paper.s34_circle.landing import Absorption, NeverImpacts, Separation
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check, find_rule
 from tests.proofs.trusted.paper import reference

@@ -16,11 +16,11 @@ from proofs.motion.system import System
 from proofs.search import s32_dimension as dimension
 from proofs.shell import groups
 from proofs.trusted.certificate import render
-from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Avoids, Impact
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, Repeller
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.slopes import Avoids, Impact
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import periodic_dimension, reference

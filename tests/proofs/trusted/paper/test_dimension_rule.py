@@ -13,11 +13,11 @@ from proofs.search import s32_dimension as dimension
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.flights import RULES as BASIC
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s32_sets.dimension import FULL, Repeller
 from proofs.trusted.paper.s32_sets.dimension_rules import RULES, _Branch
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
 DIGITS = 5

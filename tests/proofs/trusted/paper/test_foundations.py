@@ -18,13 +18,13 @@ from proofs.methods import derive
 from proofs.search.s2_foundations import prove
 from proofs.shell.groups import settle
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.s2_foundations import displayed as eq
 from proofs.trusted.paper.s2_foundations.relations import DERIVATIONS
 from proofs.trusted.paper.s7_appendix.appendix import MethodOne
 from proofs.trusted.paper.s7_appendix.rules import RULES
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference

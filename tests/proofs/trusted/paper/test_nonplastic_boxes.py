@@ -23,10 +23,10 @@ from proofs.trusted.certificate import (
     parameters_to_json,
     render,
 )
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.rebound_boxes import covered
 from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Rebound, Rectangle
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.corpus import accepted

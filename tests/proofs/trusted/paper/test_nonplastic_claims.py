@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.rebound_facts import restricted
 from proofs.trusted.paper.s33_restitution.rebounds import BarredWord, Rectangle
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.trusted.paper.test_rebounds import HERE, linear, pair_of
 

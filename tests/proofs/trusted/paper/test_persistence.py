@@ -17,7 +17,6 @@ from proofs.motion.system import System
 from proofs.search.s34_persistence import prove
 from proofs.shell.groups import certificate, decide
 from proofs.trusted.certificate import Malformed, Reader, render, texts
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.paper.s33_restitution.rules import RULES as REBOUND_RULES
@@ -28,6 +27,7 @@ from proofs.trusted.paper.s34_circle.persistence import (
     stable_pair,
 )
 from proofs.trusted.paper.s34_circle.persistence_rules import RULES, _bounce
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference

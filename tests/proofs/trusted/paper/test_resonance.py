@@ -5,18 +5,18 @@ import random
 
 import pytest
 from mpmath import mp, mpf
+from proofs.trusted.kernel.derivation import RULES
 
 from proofs.methods import derive
 from proofs.search.s6_resonance import CLAIMS, prove
 from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.derivation import RULES
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Equal
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.paper.s6_resonance.resonance import DERIVATIONS
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 

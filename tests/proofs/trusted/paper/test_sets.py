@@ -13,12 +13,12 @@ import pytest
 from proofs.search.s32_sets import prove
 from proofs.shell.groups import settle
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.numbers import Range
-from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.paper.s32_sets.itinerary import Horseshoe, Itinerary, follow, invariant_set
 from proofs.trusted.paper.s32_sets.sets import CLAIMS
 from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 

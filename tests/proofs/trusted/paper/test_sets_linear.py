@@ -10,8 +10,6 @@ from flint import arb, ctx
 
 from proofs.search.s32_sets import prove
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.s32_sets.cantor import (
     Excess,
@@ -22,9 +20,11 @@ from proofs.trusted.paper.s32_sets.cantor import (
     length,
     ratio_pairs,
 )
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.rules import RULES
 from proofs.trusted.paper.s32_sets.sets import CLAIMS
 from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 
 DECIDE = {claim.id: claim.decide for claim in CLAIMS}

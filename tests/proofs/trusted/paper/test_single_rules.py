@@ -18,12 +18,12 @@ from proofs.search import s4_single as single
 from proofs.shell.groups import certificate, decide, settle
 from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.parameters import PAPER
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.formulas import Value
 from proofs.trusted.paper.s4_single import displayed as eq
 from proofs.trusted.paper.s4_single.rules import RULES
 from proofs.trusted.paper.s4_single.single_facts import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check, find_rule
 from tests.proofs.trusted.paper import reference

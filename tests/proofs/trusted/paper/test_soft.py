@@ -5,19 +5,19 @@ import random
 from fractions import Fraction
 
 import pytest
+from proofs.trusted.kernel.derivation import RULES, Formulas
 
 from proofs.methods import derive
 from proofs.search.derivations import Steps
 from proofs.search.s5_soft import CLAIMS, prove
 from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.parameters import PAPER
-from proofs.trusted.kernel.derivation import RULES, Formulas
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Asked, Equal, Series, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import soft_lemmas as given
 from proofs.trusted.paper.s5_soft.soft import DERIVATIONS
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 
 VERDICTS = {
