@@ -27,9 +27,10 @@ from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.derivation import Formulas
 from proofs.trusted.kernel.enclose import Box, size
+from proofs.trusted.kernel.equation import Equal, Value
 from proofs.trusted.kernel.formula import Formula
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.paper.formulas import Asked, DerivedRow, Lemma
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 

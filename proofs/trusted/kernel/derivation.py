@@ -15,10 +15,10 @@ from proofs.trusted.kernel.angles import Angles, Finer
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, Components, decide, leaves
+from proofs.trusted.kernel.equation import Equal, Series, Value
 from proofs.trusted.kernel.expansion import Expansions, Laurent
 from proofs.trusted.kernel.formula import FUNCTIONS, Tape
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Equal, Series, Value
 
 _MAX_LENGTH = 12_000
 _MAX_DEPTH = 150

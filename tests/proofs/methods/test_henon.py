@@ -12,6 +12,7 @@ from itertools import pairwise
 
 import pytest
 from mpmath import matrix, mp, mpf
+from proofs.trusted.kernel.lemma import check_lemma
 
 from intervals import Interval
 from proofs.methods.cells import Region, function_of, invariant_cover
@@ -20,7 +21,6 @@ from proofs.methods.periodic import periodic_orbits
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.formula import read_formula
-from proofs.trusted.kernel.lemma import check_lemma
 from proofs.trusted.verify import Rejected
 from tests.proofs.methods.henon_sets import entropy_lemma
 from tests.proofs.trusted.kernel.lemma_examples import Written, henon

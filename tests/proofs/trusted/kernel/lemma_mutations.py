@@ -9,8 +9,9 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from proofs.trusted.certificate import render
 from proofs.trusted.kernel.lemma import RULES
+
+from proofs.trusted.certificate import render
 from tests.proofs.trusted.mutations import Document, Mutation, drop, edited, put, swap, walk
 
 HARMLESS = {

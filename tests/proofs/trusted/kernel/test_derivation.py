@@ -7,16 +7,9 @@ import pytest
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.equation import Equal, Value
 from proofs.trusted.kernel.meter import Exhausted, metered
-from proofs.trusted.paper.formulas import (
-    Equal,
-    Passage,
-    Value,
-    at,
-    corollary,
-    derived_row,
-    differ,
-)
+from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict

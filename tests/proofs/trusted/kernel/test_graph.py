@@ -7,11 +7,11 @@ from itertools import pairwise, product
 
 import flint
 import pytest
+from proofs.trusted.kernel.lemma import check_lemma
 
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.hset import HSet, disjoint, inverse
-from proofs.trusted.kernel.lemma import check_lemma
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted.kernel.lemma_examples import henon, text
 

@@ -3,9 +3,9 @@
 import json
 
 import pytest
+from proofs.trusted.kernel.lemma import check_lemma
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.kernel.lemma import check_lemma
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted.kernel.lemma_examples import text
 

@@ -6,9 +6,9 @@ from os import environ
 from zlib import crc32
 
 import pytest
+from proofs.trusted.kernel.lemma import RULES, check_lemma
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.kernel.lemma import RULES, check_lemma
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted.kernel import lemma_corpus
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text

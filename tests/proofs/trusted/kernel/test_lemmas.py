@@ -14,9 +14,9 @@ from math import isqrt
 from pathlib import Path
 
 import pytest
+from proofs.trusted.kernel.lemma import RULES, check_lemma
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.kernel.lemma import RULES, check_lemma
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 

@@ -15,8 +15,9 @@ from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.derivation import equal as rule_equal
+from proofs.trusted.kernel.equation import Equal, Value
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.formulas import Asked, Equal, Value
+from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.paper.s6_resonance.resonance import ROWS
 from proofs.trusted.parameters import PAPER
