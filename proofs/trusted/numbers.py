@@ -88,8 +88,9 @@ def ceil_text(value: Fraction, places: int = 6) -> str:
 
 
 def between(bounds: Range, places: int = 6) -> str:
-    """Write an enclosure, rounded outward."""
-    return f"[{floor_text(bounds[0], places)}, {ceil_text(bounds[1], places)}]"
+    """Write an enclosure, rounded outward; a number where its ends are one then."""
+    low, high = floor_text(bounds[0], places), ceil_text(bounds[1], places)
+    return low if low == high else f"[{low}, {high}]"
 
 
 def within(inner: Range, outer: Range) -> bool:

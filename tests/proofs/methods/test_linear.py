@@ -10,12 +10,11 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
-from proofs.trusted.verify import check
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 MODULUS = ["sqrt", ["^", "x", "2"]]
 LINEAR = (
