@@ -104,25 +104,28 @@ def first_windows(
 class Motion:
     """The gap of all launches in `phases`, in the checker's arithmetic."""
 
-    side: int
     eta: Fraction
     nu: Fraction
     phases: Range
     bits: int = COVER_BITS
 
+    @property
+    def side(self) -> int:
+        """The sign of nu."""
+        return 1 if self.nu > 0 else -1
+
     def start(self) -> Launch:
         """Return the launch states."""
-        return self._launch(Enclosure.of(*self.phases, self.bits))
+        return self.launch(Enclosure.of(*self.phases, self.bits))
 
-    def _launch(self, phi: Enclosure | Dual) -> Launch:
-        return launch(self.side, self._eta(), rational(self.nu, self.bits), phi)
+    def launch(self, phi: Enclosure | Dual) -> Launch:
+        """Return the state after a launch at a phase."""
+        return launch(self.side, rational(self.eta, self.bits), rational(self.nu, self.bits), phi)
 
-    def _eta(self) -> Enclosure:
-        return rational(self.eta, self.bits)
-
-    def clock(self, time: Range) -> Clock:
+    def clock(self, time: Range | Dual) -> Clock:
         """Return the time functions over an interval of times."""
-        return clock(self._eta(), Enclosure.of(*time, self.bits))
+        t = time if isinstance(time, Dual) else Enclosure.of(*time, self.bits)
+        return clock(rational(self.eta, self.bits), t)
 
     def gap(self, start: Launch, time: Range, order: int = 0) -> Enclosure:
         """Enclose a time derivative of the gap."""
@@ -134,24 +137,19 @@ class Motion:
         """The gap as a function of time and order."""
         return partial(self.gap, self.start())
 
-    def falls(self, start: Launch, time: Range) -> bool:
-        """Whether gap' < 0 on an interval of times."""
-        return falls(partial(self.gap, start), time)
-
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
-        start = self.start()
-        value: Enclosure = slope(start, self.clock(time), fall(partial(self.gap, start), time))
+        value: Enclosure = slope(self.start(), self.clock(time), fall(self.gap_of, time))
         return value
 
     def curvature(self, time: Range) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
         start, now = self.start(), self.clock(time)
-        one, down = rational(Fraction(1), self.bits), fall(partial(self.gap, start), time)
+        one, down = rational(Fraction(1), self.bits), fall(self.gap_of, time)
         faster = slope(start, now, down) - 1
-        moved = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
+        moved = self.launch(Dual(Enclosure.of(*self.phases, self.bits), one))
         change = gap(moved, now, 1).derivative + self.gap(start, time, 2) * faster
-        later = clock(self._eta(), Dual(Enclosure.of(*time, self.bits), faster))
+        later = self.clock(Dual(Enclosure.of(*time, self.bits), faster))
         bent: Dual = slope(moved, later, Dual(down, change))
         return bent.derivative
 
@@ -167,7 +165,6 @@ class FirstImpact(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         times = ", ".join(show_range(window) for window in self.windows)
         kind = "transversal first" if self.transversal else "first"
         return (
@@ -204,8 +201,10 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, of = read_times(times_of), context.of
-    side = 1 if of.nu > 0 else -1
-    motion = Motion(side, of.eta, of.nu, read_phases(phases_of), bits_for_pieces(times))
+    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
+    # gaps are of the order w^2 in a piece of width w
+    bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    motion = Motion(of.eta, of.nu, read_phases(phases_of), bits)
     return FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 2))
 
 
@@ -225,12 +224,6 @@ def bits_for(time: Range) -> int:
     if width == 0:
         raise Unproved("an empty bracket")
     return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
-
-
-def bits_for_pieces(times: Sequence[Fraction]) -> int:
-    """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
-    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:

@@ -26,6 +26,7 @@ from proofs.trusted.numbers import (
     Phase,
     Phases,
     Range,
+    between,
     ceil_text,
     floor_text,
     show,
@@ -45,16 +46,11 @@ class Impact(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        slope, image = (
-            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]"
-            for low, high in (self.slope, self.image)
-        )
+        slope, image = between(self.slope, 12), between(self.image, 12)
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
 
     @property
     def brief(self) -> str:
-        """Return the numbers."""
         return (
             f"{floor_text(self.slope[0])} <= f'({show(self.phase)}) <= {ceil_text(self.slope[1])}, "
             f"{floor_text(self.image[0])} <= f({show(self.phase)}) <= {ceil_text(self.image[1])}"
@@ -112,7 +108,6 @@ class SlopeRange(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
             f"f is continuously differentiable on {show_range(self.domain)}, with "
             f"{floor_text(self.minimum[0])} <= f' <= {ceil_text(self.maximum[1])}."
@@ -120,13 +115,11 @@ class SlopeRange(Conclusion):
 
     @property
     def brief(self) -> str:
-        """Return the bounds."""
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
         return f"{low} <= f' <= {high} on {show_range(self.domain)}"
 
     @property
     def latex(self) -> str:
-        """Return the bounds."""
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
         return rf"{low} \le f'(\varphi) \le {high},\ \varphi \in {show_range(self.domain)}"
 
@@ -158,16 +151,13 @@ class ImageArc(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        ends = [f"[{floor_text(x[0], 12)}, {ceil_text(x[1], 12)}]" for x in (self.low, self.high)]
         return (
             f"f maps {show_range(self.domain)} monotonically onto the arc from a phase in "
-            f"{ends[0]} up to one in {ends[1]}."
+            f"{between(self.low, 12)} up to one in {between(self.high, 12)}."
         )
 
     @property
     def brief(self) -> str:
-        """Return where the image ends."""
         return (
             f"f({show_range(self.domain)}) reaches from {floor_text(self.low[0])}.. to "
             f"{ceil_text(self.high[1])}"
@@ -202,7 +192,6 @@ class Avoids(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         phases, target = show_range(self.phases), show_range(self.target)
         return f"no phase of {phases} has its first impact in {target}."
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, between
 from proofs.trusted.paper import Decision
-from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, between, over
+from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, over
 from proofs.trusted.paper.s2_foundations import displayed as eq
 from proofs.trusted.paper.s5_soft.displayed import SPEED5
 from proofs.trusted.verdicts import Verdict

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, between
 from proofs.trusted.paper import Decision
-from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, between, differ
+from proofs.trusted.paper.formulas import Derivation, Equal, Series, at, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft.soft_stability import STABILITY
 from proofs.trusted.verdicts import Verdict

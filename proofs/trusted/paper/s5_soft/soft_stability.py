@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, between
 from proofs.trusted.paper import Decision
-from proofs.trusted.paper.formulas import Derivation, Equal, at, between, differ
+from proofs.trusted.paper.formulas import Derivation, Equal, at, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import soft_lemmas as given
 from proofs.trusted.paper.s5_soft import soft_theorems as theorems

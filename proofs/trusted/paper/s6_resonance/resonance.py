@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, between
 from proofs.trusted.paper import Decision
-from proofs.trusted.paper.formulas import Derivation, Equal, between, differ
+from proofs.trusted.paper.formulas import Derivation, Equal, differ
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.paper.s6_resonance.resonance_lemmas import (
     ALPHA_TURNS,

@@ -32,7 +32,6 @@ from proofs.trusted.paper.s34_circle.other_sets import (
     PRINTED,
     FullShift,
     StayingSet,
-    connections,
     full_shift,
     staying_orbit,
 )
@@ -391,7 +390,7 @@ def test_g5_is_decided_by_what_stays_in_the_printed_interval():
 @pytest.mark.parametrize(("phase", "turns"), [("1.25", 60), ("1.45", 60), ("1.6", 900)])
 def test_every_meeting_is_in_a_window(phase, turns):
     """Where brute force has the mass on or below the table, the windows must look."""
-    motion = Motion(-1, PAPER.eta, PAPER.nu, (F(phase), F(phase)), BITS)
+    motion = Motion(PAPER.eta, PAPER.nu, (F(phase), F(phase)), BITS)
     flight = Flight(SYSTEM, (F(phase), F(phase)), BITS)
     windows = [list(one.before(turns)) for one in (Meetings.of(motion), Windows.of(flight))]
     last = 2 * math.pi * (turns - 1)

@@ -30,8 +30,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.absorption import Absorption
-from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
+from proofs.trusted.paper.s34_circle.absorption import Absorption, Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.circle import FixedPoint, repelling_fixed_point
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER

@@ -24,8 +24,13 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion, _bounce
-from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.persistence import (
+    StablePair,
+    SuperstableMotion,
+    _bounce,
+    stable_pair,
+)
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
