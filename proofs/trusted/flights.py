@@ -17,7 +17,7 @@ from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Range, show_range
+from proofs.trusted.numbers import TURN, Range, increasing, show_range, within
 from proofs.trusted.parameters import Place
 
 COVER_BITS = 64
@@ -184,7 +184,7 @@ def read_phases(reader: Reader) -> Range:
 def read_times(reader: Reader) -> tuple[Fraction, ...]:
     """Read times 0 < t_1 < ... < t_n, n >= 2."""
     times = reader.numbers(least=2)
-    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
+    if times[-1] > LATEST or not increasing((_ZERO, *times)):
         raise reader.fail(f"times must increase from 0, to at most {LATEST}")
     return times
 
@@ -213,7 +213,7 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
     step = context.step(name, FirstImpact)
     if not step.transversal:
         raise Unproved("the first impact is not transversal")
-    if phases[0] < step.motion.phases[0] or phases[1] > step.motion.phases[1]:
+    if not within(phases, step.motion.phases):
         raise name.fail("the step is about other phases")
     return step
 
@@ -233,7 +233,7 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
     lower end and gap < 0 at the upper one bracket it.
     """
     time, window, motion = time_of.range(), step.windows[0], step.motion
-    if time[0] < window[0] or time[1] > window[1]:
+    if not within(time, window):
         raise Unproved("a bracket leaves the window of the first impact")
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more

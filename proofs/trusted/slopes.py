@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import (
@@ -29,6 +28,7 @@ from proofs.trusted.numbers import (
     between,
     ceil_text,
     floor_text,
+    increasing,
     show,
     show_range,
 )
@@ -49,13 +49,6 @@ class Impact(Conclusion):
         slope, image = between(self.slope, 12), between(self.image, 12)
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
 
-    @property
-    def brief(self) -> str:
-        return (
-            f"{floor_text(self.slope[0])} <= f'({show(self.phase)}) <= {ceil_text(self.slope[1])}, "
-            f"{floor_text(self.image[0])} <= f({show(self.phase)}) <= {ceil_text(self.image[1])}"
-        )
-
 
 @dataclass(frozen=True)
 class SlopeRange(Conclusion):
@@ -68,9 +61,8 @@ class SlopeRange(Conclusion):
     pieces: tuple[Range, ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the points are phases in order."""
         Phases(self.points[0], self.points[-1])
-        if any(low >= high for low, high in pairwise(self.points)):
+        if not increasing(self.points):
             raise Unproved("points must be in order")
 
     def over(self, domain: Range) -> SlopeRange | None:
@@ -108,10 +100,7 @@ class SlopeRange(Conclusion):
 
     @property
     def sentence(self) -> str:
-        return (
-            f"f is continuously differentiable on {show_range(self.domain)}, with "
-            f"{floor_text(self.minimum[0])} <= f' <= {ceil_text(self.maximum[1])}."
-        )
+        return f"f is continuously differentiable, with {self.brief}."
 
     @property
     def brief(self) -> str:
@@ -154,13 +143,6 @@ class ImageArc(Conclusion):
         return (
             f"f maps {show_range(self.domain)} monotonically onto the arc from a phase in "
             f"{between(self.low, 12)} up to one in {between(self.high, 12)}."
-        )
-
-    @property
-    def brief(self) -> str:
-        return (
-            f"f({show_range(self.domain)}) reaches from {floor_text(self.low[0])}.. to "
-            f"{ceil_text(self.high[1])}"
         )
 
 
@@ -222,8 +204,7 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
     f'(x_(i+1)) - f'' [0, w] (mean value theorem).
     """
     points_of, pieces_of = reader.fields("points", "pieces")
-    entries = points_of.items(least=2)
-    facts = [point(context, entry) for entry in entries]
+    facts = [point(context, entry) for entry in points_of.items(least=2)]
     pieces = []
     for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
         flight, time_of = entry.fields("flight", "time")

@@ -9,12 +9,11 @@ from fractions import Fraction
 
 from proofs.trusted.equations import gap
 from proofs.trusted.flights import Motion, stays_up
-from proofs.trusted.flights import falls as gap_falls
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.numbers import Range, hull
 
 BITS = 80
-_DEEPEST = 24
+DEEPEST = 24  # halvings of an interval of times
 _ZERO = Fraction(0)
 _UNIT = Fraction(1, 2**30)
 
@@ -133,7 +132,7 @@ def level(motion: Motion, time: Fraction) -> Range:
 
 def clear(motion: Motion, times: Range) -> None:
     """Prove gap > 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    gap_of, shortest = motion.gap_of, (times[1] - times[0]) / 2**_DEEPEST
+    gap_of, shortest = motion.gap_of, (times[1] - times[0]) / 2**DEEPEST
     begin, least = times[0], level(motion, times[0])[0]
     waiting = [(times[1], level(motion, times[1])[0])]
     while waiting:
@@ -145,9 +144,3 @@ def clear(motion: Motion, times: Range) -> None:
         else:
             middle = (begin + end) / 2
             waiting.append((middle, level(motion, middle)[0]))
-
-
-def falls(motion: Motion, times: Range) -> None:
-    """Prove gap' < 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    if not gap_falls(motion.gap_of, times, _DEEPEST):
-        raise Unproved("the gap is not proved to fall to the impact")

@@ -10,7 +10,7 @@ from functools import cache
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, brackets, lifted
+from proofs.trusted.flights import Motion, brackets, falls, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -18,8 +18,9 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,
     Range,
-    ceil_text,
+    between,
     floor_text,
+    hull,
     increasing,
     show,
     show_range,
@@ -27,7 +28,7 @@ from proofs.trusted.numbers import (
 )
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-from proofs.trusted.windows import BITS, Meetings, clear, falls, leaves, level
+from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
 _MOST_TURNS = 20_000
 _LOG_BITS = 160
@@ -117,7 +118,8 @@ def branch(context: Context, reader: Reader) -> Branch:
         raise Unproved("the last window starts at launch")
     found = Branch(of.place, cuts, int(turn), begin, ends_of.numbers())
     for piece, end in zip(pairwise(cuts), found.ends, strict=True):
-        falls(found.motion(piece), (begin, end))
+        if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
+            raise Unproved("the gap is not proved to fall to the impact")
         if level(found.motion(piece), end)[1] >= 0:
             raise Unproved("the gap is not proved negative at an end")
     return found
@@ -145,14 +147,13 @@ class EntropyBound(Conclusion):
 
     @property
     def sentence(self) -> str:
-        domain = show_range((self.branches[0].phases[0], self.branches[-1].phases[1]))
-        first = floor_text(min(each.begin for each in self.branches), 0)
-        last = ceil_text(max(end for each in self.branches for end in each.ends), 0)
+        domain = hull([each.phases for each in self.branches])
+        times = hull([(each.begin, max(each.ends)) for each in self.branches])
         return (
-            f"f has a compact set K in {domain}, f(K) in K, on which it is continuous and has "
-            f"topological entropy at least log {show(self.growth)} >= "
+            f"f has a compact set K in {show_range(domain)}, f(K) in K, on which it is continuous "
+            f"and has topological entropy at least log {show(self.growth)} >= "
             f"{floor_text(self.entropy[0])}. K lies in {len(self.branches)} disjoint intervals on "
-            f"each of which f is C^1, with flights over times from {first} to {last}."
+            f"each of which f is C^1, with flights over times in {between(times, 0)}."
         )
 
     @property

@@ -22,7 +22,16 @@ from proofs.trusted.flights import (
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Phase, Phases, Range, between, floor_text, show_range
+from proofs.trusted.numbers import (
+    TURN,
+    Phase,
+    Phases,
+    Range,
+    between,
+    floor_text,
+    increasing,
+    show_range,
+)
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, clear, level
 
@@ -91,7 +100,9 @@ class Separation(Conclusion):
         return {
             "arc_start": self.start,
             "separation_phase": self.phase,
+            "flight": self.time,
             "impact_phase": self.arrival,
+            "impact_speed": self.speed,
         }
 
 
@@ -168,7 +179,7 @@ def lands(context: Context, reader: Reader) -> Lands:
     turns = turns_of.number()
     if turns.denominator != 1 or not 0 <= turns <= 1000:
         raise turns_of.fail("a whole number from 0 to 1000 is expected")
-    if any(high <= low for low, high in pairwise(cuts)):
+    if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
     first = lifted(arc.phase if turns == 0 else arc.start, -1, BITS)[1]
     last = arc.phase[0] if turns == 0 else arc.start[0]

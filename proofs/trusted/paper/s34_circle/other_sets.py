@@ -12,16 +12,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import (
-    Phases,
-    Range,
-    ceil_text,
-    covered,
-    floor_text,
-    show,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phases, Range, between, covered, show_range, within
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import Avoids, SlopeRange, image_arc
@@ -96,6 +87,17 @@ def apart(intervals: Iterable[Phases]) -> bool:
 
 # -- infinitely many -------------------------------------------------------------------------------
 
+_CONNECTIONS = (
+    " The phases with sequences over 0, 1 and those over 1, 2 are two invariant Cantor sets, each "
+    "a full shift on two symbols, with the fixed point p = 111... in common; they are the phases "
+    "whose orbits stay in the interval up to p, and in the interval from p on. They are connected "
+    "in both directions: a word over 0, 1, as long as one likes, and then a sequence over 1, 2 "
+    "belong to a phase whose orbit begins near the first set and ends in the second one; a "
+    "sequence infinite to both sides, over 0, 1 in the past and over 1, 2 in the future, to a full "
+    "orbit that tends to the first set in the past and lies in the second in the future; and the "
+    "same with the two sets exchanged."
+)
+
 
 @dataclass(frozen=True)
 class FullShift(Conclusion):
@@ -115,29 +117,14 @@ class FullShift(Conclusion):
 
     @property
     def sentence(self) -> str:
-        low, high = floor_text(self.slopes[0], 2), ceil_text(self.slopes[1], 2)
         whole = show_range(self.interval)
         named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
         return (
-            f"f is C^1 with {low} <= f' <= {high} on each of the sets {named}, maps each of "
+            f"f is C^1, f' in {between(self.slopes, 2)}, on each of the sets {named}, maps each of "
             f"them over {whole}, and no other phase of {whole} into it: the phases whose orbits "
             f"stay in {whole} are a Cantor set on which f is conjugate to the full shift on "
             f"{len(self.cells)} symbols, the n-th symbol of phi being the number of the set that "
-            f"f^n(phi) lies in.{self._connections if len(self.cells) == 3 else ''}"
-        )
-
-    @property
-    def _connections(self) -> str:
-        low, high = map(show, self.interval)
-        return (
-            " The phases with sequences over 0, 1 and those over 1, 2 are two invariant Cantor "
-            "sets, each a full shift on two symbols, with the fixed point p = 111... in common; "
-            f"they are the phases whose orbits stay in [{low}, p] and in [p, {high}]. They are "
-            "connected in both directions: a word over 0, 1, as long as one likes, and then a "
-            "sequence over 1, 2 belong to a phase whose orbit begins near the first set and ends "
-            "in the second one; a sequence infinite to both sides, over 0, 1 in the past and over "
-            "1, 2 in the future, to a full orbit that tends to the first set in the past and lies "
-            "in the second in the future; and the same with the two sets exchanged."
+            f"f^n(phi) lies in.{_CONNECTIONS if len(self.cells) == 3 else ''}"
         )
 
 

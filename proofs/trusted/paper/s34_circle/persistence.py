@@ -81,13 +81,7 @@ class SuperstableMotion(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        return {
-            "epsilon_max": (self.largest, self.largest),
-            "separation_phase": self.arc.phase,
-            "impact_phase": self.arc.arrival,
-            "impact_speed": self.arc.speed,
-            "flight": self.arc.time,
-        }
+        return {"epsilon_max": (self.largest, self.largest), **self.arc.quantities}
 
 
 def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
@@ -280,8 +274,7 @@ def _persists(of: Parameters, found: Found) -> Decision:
 def _transients(of: Parameters, found: Found) -> Decision:
     """G8: no conclusion proves anything about it."""
     del of, found
-    reason = "an observation about simulated motions: there is nothing to prove"
-    return Decision(Verdict.SIMULATED, missing=reason)
+    return Decision(Verdict.SIMULATED, missing="an observation about simulated motions, no theorem")
 
 
 _AT = "At (eta, nu) = ({eta}, {nu})"
