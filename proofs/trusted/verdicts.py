@@ -33,7 +33,7 @@ class Verdict(Enum):
 
 def told(conclusions: Iterable[Conclusion]) -> str:
     """Return conclusions as a text: their sentences, each after the parameters that it is about."""
-    parts = []
+    parts: list[str] = []
     for at, group in groupby(dict.fromkeys(conclusions), key=lambda each: each.place):
         first, *more = (each.sentence for each in group)
         start = f"At {at}: {first}" if at is not None else _begun(first) if parts else first
