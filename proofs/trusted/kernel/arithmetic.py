@@ -12,7 +12,6 @@ from functools import lru_cache
 
 from proofs.trusted.kernel.meter import METER
 
-
 _MIXED = "enclosures of different precision do not mix"
 
 

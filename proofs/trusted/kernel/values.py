@@ -81,7 +81,7 @@ class Value(Conclusion):
 
 
 def equal(_: Context, reader: Reader) -> Equal:
-    """Rule `formula-equal`: {left, right}, formulas.
+    """Rule `formula-equal`: {left, right}.
 
     Hypothesis: the difference of their normal forms (see `normalform`), times the polynomials of
     which it has inverses, is 0. Conclusion: they are equal wherever all their parts are defined.
