@@ -176,7 +176,9 @@ class _Placer:
                 if len(moves) < len(words):
                     raise Unproved("a variable is substituted twice")
                 before = len(self.parts)
-                place, *self.parts[before:] = self._moved(inner(function), before, moves)
+                root = inner(function)
+                moved = self.tape.moved([root, *self.parts[before:]], moves)
+                place, self.parts[before:] = moved[0], moved[1:]
             case ast.Call(func=ast.Name(id=name), args=[one], keywords=[]) if name in FUNCTIONS:
                 place = self.tape.add(name, inner(one))
             case _:
@@ -184,15 +186,11 @@ class _Placer:
         return place
 
     def _derivative(self, place: int, by: list[ast.expr]) -> int:
-        for name in by:
-            variable = self._variable(name.id if isinstance(name, ast.Name) else None)
+        for each in by:
+            variable = self._variable(each.id if isinstance(each, ast.Name) else None)
             self.parts.append(place)
             place = self.tape.derivative(place, int(self.tape.nodes[variable].datum))
         return place
-
-    def _moved(self, place: int, before: int, moves: dict[int, int]) -> list[int]:
-        """Substitute in a function, and in the parts that it has brought in."""
-        return self.tape.moved([place, *self.parts[before:]], moves)
 
     def _variable(self, name: str | None) -> int:
         if name not in self.places:
