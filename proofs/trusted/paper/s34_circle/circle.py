@@ -14,16 +14,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import (
-    Phase,
-    Phases,
-    Range,
-    between,
-    floor_text,
-    hull,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
