@@ -9,7 +9,7 @@ from pkgutil import walk_packages
 
 import numpy as np
 import pytest
-from proofs.trusted.kernel.formula import Tape
+from proofs.trusted.kernel.expression import Tape
 
 import intervals
 import proofs
