@@ -17,7 +17,7 @@ from proofs.motion.chatter import Pushing, Settled
 from proofs.motion.covering import halves
 from proofs.motion.image import separation_phase
 from proofs.motion.impact import HORIZON, FirstImpact, impact_time, locate
-from proofs.motion.phase import turn
+from proofs.motion.phase import lifted, turn
 from proofs.motion.simulate import late_state
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence
@@ -30,7 +30,6 @@ from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
 from proofs.trusted.parameters import Parameters, Place
 
-CLAIMS = ("G7", "G8")
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
 _HALVINGS = 9  # of a step of epsilon
@@ -73,9 +72,8 @@ def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
     time = impact_time(found, leave, bits)
     flight = found.thin(leave, bits)
     arrival = leave[0] + time[0], leave[1] + time[1]
-    whole = turn(bits + 30)
-    turns = int((arrival[1] - leave[0]) // whole.inf) + 1
-    impact = arrival[0] - turns * whole.sup, arrival[1] - turns * whole.inf
+    turns = int((arrival[1] - leave[0]) // turn(bits + 30).inf) + 1
+    impact = lifted(arrival, -turns, bits + 30)
     speed = -flight.velocity(*time)
     cells = _cells(Pushing(system, leave[0]), impact, (speed.inf, speed.sup))
     witness = {
