@@ -14,16 +14,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import (
-    TURN,
-    Phases,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    show,
-    show_range,
-)
+from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, hull, show_range
 from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, restitution, size
 from proofs.trusted.parameters import Place
 
@@ -40,7 +31,6 @@ class Strips:
     velocities: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved where they overlap or have no width."""
         if self.left[1] >= self.right[0] or self.velocities[0] >= self.velocities[1]:
             raise Unproved("the rectangles overlap or have no width")
 
@@ -50,9 +40,16 @@ class Strips:
         return self.left[0], self.right[1]
 
     def __str__(self) -> str:
-        """Write both."""
         left, right, gamma = map(show_range, (self.left, self.right, self.velocities))
         return f"V1 = {left} x {gamma}, V2 = {right} x {gamma} (closed, phases x velocities)"
+
+    @property
+    def smooth(self) -> str:
+        """The beginning of a theorem about them."""
+        return (
+            f"let {self}: all their states are physically possible (gap' <= 0), and F is smooth "
+            "on them"
+        )
 
 
 def strips(maps: Maps) -> Strips:
@@ -94,12 +91,11 @@ class Rates(NamedTuple):
     contraction: Fraction
 
     def __str__(self) -> str:
-        """Write what hyperbolic means."""
         return (
-            f"uniformly hyperbolic: unstable directions have |dgamma| <= {show(CONE)} |dphi| and "
-            f"each step stretches them at least {floor_text(self.expansion, 2)} times in phase, "
-            f"stable ones have |dphi| <= {show(1 / CONE)} |dgamma| and shrink in velocity to at "
-            f"most {ceil_text(self.contraction, 3)} times"
+            "uniformly hyperbolic: unstable directions have |dgamma| <= 2 |dphi| and are stretched "
+            f"at least {floor_text(self.expansion, 2)} times in phase by each step, stable ones "
+            f"have |dphi| <= |dgamma| / 2 and shrink to at most {ceil_text(self.contraction, 3)} "
+            "times in velocity"
         )
 
 
@@ -134,27 +130,21 @@ def rates(on: RectangleMap) -> Rates:
 # -- horseshoes ------------------------------------------------------------------------------------
 
 
-class Crossing(NamedTuple):
-    """What `crossing` finds: the rectangles, by how far edges overshoot, and how vectors grow."""
+def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Fraction:
+    """Check hypotheses 1 and 2 of the rule `rectangle-horseshoe` for these arrows, or Unproved.
 
-    strips: Strips
-    margin: Fraction
-    rates: Rates
-
-
-def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Crossing:
-    """Check the hypotheses of the rule `rectangle-horseshoe`, for these arrows, or Unproved."""
-    found, margins = strips(maps), []
+    Return by how much at least edges overshoot the rectangles that they should.
+    """
+    (lowest, highest), margins = strips(maps).velocities, []
     for each, targets in zip(maps, arrows, strict=True):
         low, high = hull([maps[target].phases for target in targets])
         margins += [low - each.left[1], each.right[0] - high]
-        lowest, highest = found.velocities
         if not lowest < each.velocity[0] <= each.velocity[1] < highest:
             raise Unproved("an image velocity is not in the interior of the velocities")
     if min(margins) <= 0:
         short = ceil_text(-min(margins))
         raise Unproved(f"an edge is not mapped beyond the rectangles: up to {short} short")
-    return Crossing(found, min(margins), worst(map(rates, maps)))
+    return min(margins)
 
 
 @dataclass(frozen=True)
@@ -168,35 +158,26 @@ class RectangleHorseshoe(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem; for epsilon = 0 about the phases alone."""
         least, most = restitution(self.at)
-        text = (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), F is smooth "
-            "on them and maps each across both, left edges to the left and right ones to the right "
-            f"of both by at least {floor_text(self.margin)}."
-        )
+        text = f"{self.strips.smooth}. F maps each across both; {self.brief}."
         if most > 0:
             text += (
                 " Each two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of "
                 "F in V1 and V2; the states of these orbits are a compact set, on which F is "
-                f"{self.rates}. {'If epsilon > 0, ' if least == 0 else ''}F is one-to-one on V1 "
-                "and V2, and on this set conjugate to the two-sided full shift on two symbols, of "
-                "entropy log 2."
+                f"{self.rates}. For epsilon > 0 F is one-to-one on V1 and V2, and on this set "
+                "conjugate to the two-sided full shift on two symbols, of entropy log 2."
             )
         if least == 0:
-            phases = f"{show_range(self.strips.left)} and {show_range(self.strips.right)}"
             text += (
-                f" {'If epsilon = 0, the' if most > 0 else 'The'} plastic map f is continuously "
-                f"differentiable on {phases}, with f' >= {floor_text(self.rates.expansion, 2)}; "
-                "each one-sided sequence of 1 and 2 is the itinerary of exactly one phase whose "
-                "orbit stays in them, and f on these phases is conjugate to the one-sided full "
-                "shift on two symbols, of entropy log 2."
+                " For epsilon = 0 the plastic map f is continuously differentiable on the phases "
+                f"of V1 and of V2, with f' >= {floor_text(self.rates.expansion, 2)}; each "
+                "one-sided sequence is the itinerary of exactly one phase whose orbit stays there, "
+                "and f on these is conjugate to the one-sided full shift, of entropy log 2."
             )
         return text
 
     @property
     def brief(self) -> str:
-        """Return the margin."""
         return f"edges overshoot both rectangles by at least {floor_text(self.margin)}"
 
 
@@ -230,7 +211,8 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     relations for multidimensional dynamical systems, J. Differential Equations 202 (2004).
     """
     maps = read_maps(context, *reader.fields("rectangles"))
-    return RectangleHorseshoe(maps[0].at, *crossing(maps, ((0, 1), (0, 1))))
+    margin = crossing(maps, ((0, 1), (0, 1)))
+    return RectangleHorseshoe(maps[0].at, strips(maps), margin, worst(map(rates, maps)))
 
 
 def union(context: Context, reader: Reader) -> RectangleHorseshoe:
