@@ -58,7 +58,7 @@ class ReboundProver:
 
     def all(self, kind: type[C], at: Place) -> list[tuple[str, C]]:
         """Return the conclusions of a kind about these oscillators, with their names."""
-        return [(k, x) for k, x in self.known.items() if isinstance(x, kind) and x.place == at]
+        return [(k, x) for k, x in self.known.items() if type(x) is kind and x.place == at]
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""

@@ -5,20 +5,17 @@ Each theorem is a rule: a function from conclusions of earlier steps, named in t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, hull, show_range
-from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, restitution, size
+from proofs.trusted.paper.s33_restitution.rebounds import Rates, RectangleMap, rates, sides, size
 from proofs.trusted.parameters import Place
 
-CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
 Maps = tuple[RectangleMap, RectangleMap]
 
 
@@ -77,54 +74,46 @@ def read_maps(context: Context, names: Reader) -> Maps:
     return first, second
 
 
-# -- cones -----------------------------------------------------------------------------------------
-
-
-class Rates(NamedTuple):
-    """How vectors (x, y) = (dphi, dgamma / CONE) grow and shrink under DF.
-
-    expansion: a lower bound > 1 on |x'| / |x| where |y| <= |x|; contraction: an upper bound < 1
-    on |y'| / |y| where |x'| <= |y'|.
+@dataclass(frozen=True)
+class Hyperbolic(Conclusion):
+    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
+    `shrink`, and is hyperbolic where it stays there.
     """
 
-    expansion: Fraction
-    contraction: Fraction
+    at: Place
+    strips: Strips
+    grow: Fraction
+    shrink: Fraction
+    rates: Rates
 
-    def __str__(self) -> str:
+    @property
+    def sentence(self) -> str:
         return (
-            "uniformly hyperbolic: unstable directions have |dgamma| <= 2 |dphi| and are stretched "
-            f"at least {floor_text(self.expansion, 2)} times in phase by each step, stable ones "
-            f"have |dphi| <= |dgamma| / 2 and shrink to at most {ceil_text(self.contraction, 3)} "
-            "times in velocity"
+            f"{self.strips.smooth}. The images of two states on one horizontal line of a rectangle "
+            f"are at least {floor_text(self.grow, 2)} times as far apart (phases on the line), of "
+            f"two on one vertical line at most {ceil_text(self.shrink, 3)} times. For every "
+            f"compact set K in V1 and V2 with F(K) = K, F on K is {self.rates}."
         )
 
+    @property
+    def brief(self) -> str:
+        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
+        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
 
-def worst(each: Iterable[Rates]) -> Rates:
-    """Return rates that hold for all."""
-    expansions, contractions = zip(*each, strict=True)
-    return Rates(min(expansions), max(contractions))
 
+def hyperbolic(maps: Maps) -> Hyperbolic:
+    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
+    |q| + |s| < 1.
 
-def rates(on: RectangleMap) -> Rates:
-    """Theorem. Let p > 0, and for D = (p q; r s), any matrix of numbers within the bounds on DF
-    in the coordinates (x, y) of `Rates`, and Q(x, y) = x^2 - y^2, let D^T Q D - Q be positive
-    definite. Then vectors with |y| <= |x| are mapped to such, those whose image has |x'| <= |y'|
-    have |x| <= |y|, and `Rates` holds, if its bounds are on the right sides of 1.
-
-    Proof. 1. The form is positive definite if its second diagonal entry, q^2 - s^2 + 1, and its
-    determinant, p^2 + s^2 - q^2 - r^2 - 1 - (p s - q r)^2, are positive. 2. Q increases, hence the
-    cones. 3. |x'| >= (|p| - |q|) |x| if |y| <= |x|. 4. If |x'| <= |y'|, then |p x| <= |y'| + |q y|
-    <= |r x| + (|q| + |s|) |y|, which bounds |x|, then |y'| <= |r x| + |s y|.
+    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
+    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
+    on a compact invariant set makes it hyperbolic.
     """
-    (p, q_range), (r_range, s_range) = on.derivative
-    q, r, s = CONE * size(q_range), size(r_range) / CONE, size(s_range)
-    determinant = p[0] ** 2 - q**2 - r**2 - 1 - (p[1] * s + q * r) ** 2
-    if p[0] <= r or s >= 1 or determinant <= 0:
-        raise Unproved("the cone condition is not proved")
-    found = Rates(p[0] - q, r * (q + s) / (p[0] - r) + s)
-    if found.expansion <= 1 or found.contraction >= 1:
-        raise Unproved("the rates are not proved hyperbolic")
-    return found
+    grow = min(each.derivative[0][0][0] for each in maps)
+    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
+    if grow <= 1 or shrink >= 1:
+        raise Unproved("distances are not proved to grow and to shrink")
+    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, rates(maps))
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
@@ -158,7 +147,7 @@ class RectangleHorseshoe(Conclusion):
 
     @property
     def sentence(self) -> str:
-        least, most = restitution(self.at)
+        least, most = sides(self.at)[2]
         text = f"{self.strips.smooth}. F maps each across both; {self.brief}."
         if most > 0:
             text += (
@@ -212,7 +201,7 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     """
     maps = read_maps(context, *reader.fields("rectangles"))
     margin = crossing(maps, ((0, 1), (0, 1)))
-    return RectangleHorseshoe(maps[0].at, strips(maps), margin, worst(map(rates, maps)))
+    return RectangleHorseshoe(maps[0].at, strips(maps), margin, rates(maps))
 
 
 def union(context: Context, reader: Reader) -> RectangleHorseshoe:
@@ -237,4 +226,4 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
                 raise Unproved(f"the boxes leave a hole in {name}")
             at = replace(at, **{name: hull([one, two])})
     margin = min(part.margin for part in parts)
-    return RectangleHorseshoe(at, sets, margin, worst(part.rates for part in parts))
+    return RectangleHorseshoe(at, sets, margin, Rates.worst([part.rates for part in parts]))

@@ -9,62 +9,12 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, between, ceil_text, floor_text, show, within
-from proofs.trusted.paper.s33_restitution.horseshoes import (
-    Maps,
-    Rates,
-    RectangleHorseshoe,
-    Strips,
-    rates,
-    strips,
-    worst,
-)
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides, size
+from proofs.trusted.numbers import Phases, Range, between, floor_text, show, within
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips, hyperbolic
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-
-
-@dataclass(frozen=True)
-class Hyperbolic(Conclusion):
-    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
-    `shrink`, and is hyperbolic where it stays there.
-    """
-
-    at: Place
-    strips: Strips
-    grow: Fraction
-    shrink: Fraction
-    rates: Rates
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"{self.strips.smooth}. The images of two states on one horizontal line of a rectangle "
-            f"are at least {floor_text(self.grow, 2)} times as far apart (phases on the line), of "
-            f"two on one vertical line at most {ceil_text(self.shrink, 3)} times. For every "
-            f"compact set K in V1 and V2 with F(K) = K, F on K is {self.rates}."
-        )
-
-    @property
-    def brief(self) -> str:
-        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
-        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
-
-
-def hyperbolic(maps: Maps) -> Hyperbolic:
-    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
-    |q| + |s| < 1.
-
-    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
-    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
-    on a compact invariant set makes it hyperbolic.
-    """
-    grow = min(each.derivative[0][0][0] for each in maps)
-    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
-    if grow <= 1 or shrink >= 1:
-        raise Unproved("distances are not proved to grow and to shrink")
-    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, worst(map(rates, maps)))
 
 
 @dataclass(frozen=True)

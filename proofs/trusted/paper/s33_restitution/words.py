@@ -13,16 +13,8 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import floor_text, within
-from proofs.trusted.paper.s33_restitution.horseshoes import (
-    Rates,
-    Strips,
-    crossing,
-    rates,
-    read_maps,
-    strips,
-    worst,
-)
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, restitution
+from proofs.trusted.paper.s33_restitution.horseshoes import Strips, crossing, read_maps, strips
+from proofs.trusted.paper.s33_restitution.rebounds import Rates, Rebound, RectangleMap, rates, sides
 from proofs.trusted.parameters import Place
 
 _LONGEST = 10  # symbols of a barred word
@@ -134,7 +126,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     maps, part = read_maps(context, names), context.step(part_of, RectangleMap)
     words = [context.step(name, BarredWord) for name in words_of.items(most=64)]
     (first, second), found = maps, strips(maps)
-    if restitution(first.at)[0] <= 0:
+    if sides(first.at)[2][0] <= 0:
         raise Unproved("without restitution F is not one-to-one")
     if any((word.at, word.strips) != (first.at, found) for word in words):
         raise Unproved("words are about other rectangles or oscillators")
@@ -144,7 +136,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     if not same or part.phases[1] > second.phases[1]:
         raise Unproved("N is no part of V2 with the same left edge")
     crossing((first, part), ((0, 1), (0,)))
-    return GoldenMean(first.at, found, worst(map(rates, (first, part))))
+    return GoldenMean(first.at, found, rates((first, part)))
 
 
 def never_twice(words: Sequence[tuple[int, ...]]) -> bool:

@@ -19,7 +19,7 @@ from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rati
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text, show, within
+from proofs.trusted.numbers import TURN, Range, between, ceil_text, floor_text, show, within
 from proofs.trusted.paper.s4_single.single_facts import (
     FLIP,
     SADDLE,
@@ -39,11 +39,6 @@ _LEAVING = (
     "an orbit that leaves the table at once (launch acceleration > 0), with its first impact, a "
     "transversal one, n table periods later and |f'| < 1, exists exactly"
 )
-Turn = tuple[Enclosure, Enclosure]
-
-
-def _within(values: Range, places: int = 6) -> str:
-    return f"[{floor_text(values[0], places)}, {ceil_text(values[1], places)}]"
 
 
 def _bits(width: Fraction, n: int) -> int:
@@ -53,7 +48,7 @@ def _bits(width: Fraction, n: int) -> int:
     return min(MAX_BITS, max(COVER_BITS, needed))
 
 
-def _turn(eta: Fraction, n: int, bits: int) -> Turn:
+def _turn(eta: Fraction, n: int, bits: int) -> tuple[Enclosure, Enclosure]:
     """Enclose sin x, cos x, x = pi n eta."""
     return (pi(bits) * rational(n * eta, bits)).sincos()
 
@@ -77,18 +72,15 @@ class Solution(Conclusion):
     early: Fraction | None
 
     def __post_init__(self) -> None:
-        """Raise Unproved where n is none, or all phases solve (16)."""
         if not 1 <= self.n <= _MOST_PERIODS or self.n * self.at.eta[0] % 1 == 0:
             raise Unproved("n >= 1 is a whole number, n eta is none")
 
     @property
     def contracts(self) -> bool:
-        """Whether |slope| < 1."""
         return self.multiplier[0] > -1 and self.multiplier[1] < 1
 
     @property
     def sticks(self) -> bool:
-        """Whether the mass does not leave the table at once."""
         return self.acceleration[1] < 0
 
     @property
@@ -98,22 +90,14 @@ class Solution(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        why = ""
-        if self.hits and self.early is not None:
+        why = ", so that the mass sticks" if self.sticks else ""
+        if self.early is not None and self.hits:
             why = f", but the mass would be inside the table at time {show(self.early)} < 2 pi n"
-        elif self.sticks:
-            why = ", so that the mass sticks"
         return (
-            f"for n = {self.n} the phase in {_within(self.phase, 20)} solves (16); there (18) is "
-            f"in {_within(self.multiplier)}, the launch acceleration in "
-            f"{_within(self.acceleration)}{why}."
+            f"for n = {self.n} the phase in {between(self.phase, 20)} solves (16); there (18) is "
+            f"in {between(self.multiplier)}, the launch acceleration in "
+            f"{between(self.acceleration)}{why}."
         )
-
-    @property
-    def brief(self) -> str:
-        """Return it with its place."""
-        return f"at {self.at}, {self.sentence.rstrip('.')}"
 
 
 @dataclass(frozen=True)
@@ -125,10 +109,9 @@ class Orbit(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
-            f"a phase in {_within(self.solution.phase, 20)} is a fixed point of f, with slope in "
-            f"{_within(self.solution.multiplier, 12)}: the mass leaves the table at once, and its "
+            f"a phase in {between(self.solution.phase, 20)} is a fixed point of f, with slope in "
+            f"{between(self.solution.multiplier, 12)}: the mass leaves the table at once, and its "
             f"first impact, a transversal one, is 2 pi n later, n = {self.solution.n}."
         )
 
@@ -148,28 +131,23 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     if phase[0] < -TURN or phase[1] > TURN:
         raise phase_of.fail("phases lie between -2 pi and 2 pi")
     bits = _bits(phase[1] - phase[0], n)
-    own_eta, own_nu, turn = rational(eta, bits), rational(nu, bits), _turn(eta, n, bits)
-
-    def k(x: Dual) -> Dual:
-        found: Dual = defect(own_eta, own_nu, sincos(x), turn)
-        return found
-
-    one = rational(Fraction(1), bits)
-    low, high = (k(Dual(rational(x, bits), one)).value for x in phase)
-    along = k(Dual(Enclosure.of(*phase, bits), one)).derivative
-    if not (low.hi < 0 < high.lo or high.hi < 0 < low.lo) or along.lo <= 0 <= along.hi:
-        raise Unproved("the bracket is not proved to contain one solution of (16)")
+    own_eta, own_nu, one = (rational(x, bits) for x in (eta, nu, Fraction(1)))
+    low, high, along = (
+        defect(own_eta, own_nu, sincos(Dual(Enclosure.of(*ends, bits), one)), _turn(eta, n, bits))
+        for ends in ((phase[0], phase[0]), (phase[1], phase[1]), phase)
+    )
+    if not low.value.hi < 0 < high.value.lo and not high.value.hi < 0 < low.value.lo:
+        raise Unproved("the bracket is not proved to contain a solution of (16)")
+    if along.derivative.lo <= 0 <= along.derivative.hi:
+        raise Unproved("the bracket is not proved to contain one solution of (16) alone")
     motion = Motion(1 if nu > 0 else -1, eta, nu, phase, bits)
-    start = motion.start()
+    start, whole = motion.start(), pi(bits) * (2 * n)
     early = None if early_of.is_null() else early_of.number()
-    whole = pi(bits) * (2 * n)
-    if early is not None:
-        if not 0 < early < whole.range[0]:
-            raise early_of.fail("not a time between 0 and 2 pi n")
-        if motion.gap(start, (early, early)).hi >= 0:
-            raise Unproved("the gap is not proved negative at the earlier time")
-    factor: Enclosure = slope(start, clock(own_eta, whole))
-    acceleration: Enclosure = launch_acceleration(start)
+    if early is not None and not 0 < early < whole.range[0]:
+        raise early_of.fail("not a time between 0 and 2 pi n")
+    if early is not None and motion.gap(start, (early, early)).hi >= 0:
+        raise Unproved("the gap is not proved negative at the earlier time")
+    factor, acceleration = slope(start, clock(own_eta, whole)), launch_acceleration(start)
     return Solution(at, n, phase, factor.range, acceleration.range, early)
 
 
@@ -192,7 +170,21 @@ def single_orbit(context: Context, reader: Reader) -> Orbit:
     return Orbit(solution.at, solution)
 
 
-# -- windows in eta --------------------------------------------------------------------------------
+# -- windows ---------------------------------------------------------------------------------------
+
+
+def _excess(eta: Fraction, nu: Fraction, n: int, end: int, bits: int = COVER_BITS) -> Enclosure:
+    found: Enclosure = excess(rational(eta, bits), rational(nu, bits), _turn(eta, n, bits), end)
+    return found
+
+
+def _bracketed(
+    n: int, end: int, below: tuple[Fraction, Fraction], above: tuple[Fraction, Fraction]
+) -> None:
+    """Require that excess is < 0 at one point (eta, nu) and > 0 at another."""
+    bits = _bits(max(abs(x - y) for x, y in zip(below, above, strict=True)), n)
+    if not _excess(*below, n, end, bits).hi < 0 < _excess(*above, n, end, bits).lo:
+        raise Unproved("an end of a window is not bracketed")
 
 
 @dataclass(frozen=True)
@@ -208,7 +200,6 @@ class EtaWindows(Conclusion):
     ends: tuple[tuple[Range, Range], ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the windows are apart and their ends known to nine places."""
         down = [end for flip, stick in self.ends for end in (stick, flip)]
         if any(high - low > _FINE for low, high in down):
             raise Unproved("the ends of windows are not known to nine places")
@@ -217,11 +208,9 @@ class EtaWindows(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        inner = [(max(flip[1], self.low), stick[0]) for flip, stick in self.ends]
         listed = "; ".join(
-            f"n = {n}: ({ceil_text(low, 8)}, {floor_text(high, 8)})"
-            for n, (low, high) in enumerate(inner, start=1)
+            f"n = {n}: ({ceil_text(max(flip[1], self.low), 8)}, {floor_text(stick[0], 8)})"
+            for n, (flip, stick) in enumerate(self.ends, start=1)
         )
         return (
             f"For nu = {show(self.nu)} (p < 0), plastic impacts and eta >= {show(self.low)}, "
@@ -232,7 +221,6 @@ class EtaWindows(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the ends."""
         return {
             f"eta_{name}_{n}": bounds
             for n, pair in enumerate(self.ends, start=1)
@@ -255,28 +243,18 @@ def eta_windows(context: Context, reader: Reader) -> EtaWindows:
     for n, entry in enumerate(ends_of.items(1, 1000), start=1):
         flip_low, flip_high, stick_low, stick_high = entry.numbers(4, 4)
         flip, stick = (flip_low, flip_high), (stick_low, stick_high)
-        for end, bracket in ((FLIP, flip), (STICK, stick)):
-            if not 0 < bracket[0] < bracket[1] < _HALF / n:
+        for end, (low, high) in ((FLIP, flip), (STICK, stick)):
+            if not 0 < low < high < _HALF / n:
                 raise entry.fail("a bracket in (0, 1/(2 n)) is expected")
-            bits = _bits(bracket[1] - bracket[0], n)
-            low, high = (_excess(eta, nu, n, end, bits) for eta in bracket)
-            if not low.hi < 0 < high.lo:
-                raise Unproved("an end of a window is not bracketed")
+            _bracketed(n, end, (low, nu), (high, nu))
         if stick_low <= least:
             raise entry.fail("a window that is not proved to reach beyond the least eta")
         ends.append((flip, stick))
     after = len(ends) + 1
-    if after * least < _HALF and _excess(least, nu, after, STICK, COVER_BITS).lo <= 0:
+    if after * least < _HALF and _excess(least, nu, after, STICK).lo <= 0:
         raise Unproved(f"windows for n = {after} are not excluded")
     return EtaWindows(nu, least, tuple(ends))
 
-
-def _excess(eta: Fraction, nu: Fraction, n: int, end: int, bits: int) -> Enclosure:
-    found: Enclosure = excess(rational(eta, bits), rational(nu, bits), _turn(eta, n, bits), end)
-    return found
-
-
-# -- windows in nu ---------------------------------------------------------------------------------
 
 Window = tuple[int, Range, Range]
 
@@ -296,35 +274,28 @@ class NuWindows(Conclusion):
     early: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless each window begins before it ends."""
         if any(first[1] >= last[0] for _, first, last in (*self.above, *self.below)):
             raise Unproved("a window is not proved to have a length")
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
         above, below = (
             "; ".join(
-                f"n = {n}, |nu| from {_within(first, 15)} to {_within(last, 15)}"
+                f"n = {n}, |nu| from {between(first, 15)} to {between(last, 15)}"
                 for n, first, last in windows
             )
             or "none"
             for windows in (self.above, self.below)
         )
-        early = ""
-        if self.early:
-            periods = ", ".join(map(str, self.early))
-            early = f" For nu < 0 and n = {periods} all solutions with slope <= 1 impact earlier."
         return (
             f"For eta = {show(self.eta)}, plastic impacts and 0 < |nu| < 1, {_LEAVING} with n and "
             f"|nu| in one of these open intervals. For nu > 0 (p < 0), from f' = 0 (sticking) to "
             f"f' = -1 (flip), or to 1: {above}. For nu < 0 (p > 0), from f' = 1 (saddle-node) to "
-            f"f' = 0 (sticking), or to 1: {below}.{early}"
+            f"f' = 0 (sticking), or to 1: {below}."
         )
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the ends."""
         sides = ((self.below, ("saddle", "stick")), (self.above, ("stick", "flip")))
         return {
             f"nu_{name}_{n}": bounds
@@ -349,13 +320,12 @@ def nu_windows(context: Context, reader: Reader) -> NuWindows:
         raise eta_of.fail(f"0 < eta < 1 and a denominator up to {_MOST_RECORDS} are expected")
     METER.get().spend(4 * eta.denominator)
     found = list(records(eta, eta.denominator))
-    later = [n for n in found if n * eta > 1]
-    least = list(range(1, (_HALF / eta).__ceil__()))
-    above = _windows(eta, least, (STICK, FLIP), above_of)
+    later = tuple(n for n in found if n * eta > 1)
+    above = _windows(eta, range(1, (_HALF / eta).__ceil__()), (STICK, FLIP), above_of)
     below = _windows(eta, [n for n in found if n * eta < 1], (SADDLE, STICK), below_of)
     for n, time in zip(later, early_of.items(len(later), len(later)), strict=True):
         _excluded(eta, n, time.number())
-    return NuWindows(eta, above, below, tuple(later))
+    return NuWindows(eta, above, below, later)
 
 
 def _windows(
@@ -364,26 +334,25 @@ def _windows(
     windows = []
     for n, entry in zip(periods, reader.items(len(periods), len(periods)), strict=True):
         first, last = (
-            _bracketed_nu(eta, n, end, one)
-            for end, one in zip(ends, entry.items(2, 2), strict=True)
+            _end_in_nu(eta, n, end, bracket)
+            for end, bracket in zip(ends, entry.items(2, 2), strict=True)
         )
         if first[0] < 1:
             windows.append((n, first, last))
     return tuple(windows)
 
 
-def _bracketed_nu(eta: Fraction, n: int, end: int, reader: Reader) -> Range:
+def _end_in_nu(eta: Fraction, n: int, end: int, reader: Reader) -> Range:
     """Enclose the |nu| of a solution with M = end; (1, 1) for null if it is 1 or more."""
     if reader.is_null():
-        if _excess(eta, Fraction(1), n, end, COVER_BITS).lo <= 0:
+        if _excess(eta, Fraction(1), n, end).lo <= 0:
             raise Unproved("an end of a window is not proved to be at |nu| >= 1")
         return Fraction(1), Fraction(1)
-    bracket = reader.range()
-    bits = _bits(bracket[1] - bracket[0], n)
-    low, high = (_excess(eta, nu, n, end, bits) for nu in bracket)
-    if not (bracket[0] > 0 and bracket[1] <= 1 and high.hi < 0 < low.lo):
-        raise Unproved("an end of a window is not bracketed")
-    return bracket
+    low, high = reader.range()
+    if low <= 0 or high > 1:
+        raise reader.fail("a bracket in (0, 1] is expected")
+    _bracketed(n, end, (eta, high), (eta, low))
+    return low, high
 
 
 def _excluded(eta: Fraction, n: int, time: Fraction) -> None:
