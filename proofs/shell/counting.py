@@ -243,7 +243,7 @@ _RULES = {
     "proofs.trusted.equations.return_map_derivative": _matrix,
     "proofs.trusted.equations.arrival": _formula,
     "proofs.trusted.paper.s4_single.single_facts.defect": _formula,
-    "proofs.trusted.paper.s4_single.single_facts.multiplier": _formula,
+    "proofs.motion.single_orbits.multiplier": _formula,
     "proofs.trusted.paper.s4_single.single_facts.excess": _formula,
     "proofs.trusted.paper.s4_single.single_facts.distance": _formula,
     "proofs.trusted.kernel.formula.Tape.evaluate": _formula,

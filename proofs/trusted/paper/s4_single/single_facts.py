@@ -65,12 +65,6 @@ def defect(eta: Number, nu: Number, phase: Pair, turn: Pair) -> Number:
     return nu * phase[1] * turn[1] - eta * (nu * phase[0] + 1) * turn[0]
 
 
-def multiplier(eta: Number, nu: Number, phase: Pair, turn: Pair) -> Number:
-    """Return M, the slope (18) where K = 0."""
-    lift = nu * phase[0]
-    return turn[1] * turn[1] * (1 - lift / ((lift + 1) * eta * eta))
-
-
 def excess(eta: Number, nu: Number, turn: Pair, end: int) -> Number:
     """Return c^4 (p^2 + e - nu^2 (1 - p)^2) at the p with M = end.
 
