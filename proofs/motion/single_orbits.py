@@ -1,6 +1,6 @@
 """Orbits with one impact in n table periods: all solutions of (16), and which of them are orbits.
 
-The lemmas are those of `s4_single.single_facts`; beyond |nu| < 1 and where they say nothing,
+The lemmas are those of `s4_single.orbits`; beyond |nu| < 1 and where they say nothing,
 the first impact is found by intervals.
 """
 
@@ -20,7 +20,7 @@ from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s4_single.single_facts import defect, distance, excess, records
+from proofs.trusted.paper.s4_single.orbits import defect, distance, excess, records
 
 Function = Callable[[Any], Any]
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:

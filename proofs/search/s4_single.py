@@ -32,8 +32,8 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution, Window
-from proofs.trusted.paper.s4_single.single_facts import FLIP, SADDLE, STICK, records
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Orbit, Solution, records
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 from proofs.trusted.parameters import PAPER, Parameters, Place
 
 _MOST = 40  # table periods in the search for examples

@@ -114,16 +114,12 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     corrected = (*found.all(GoldenMean), *nearby)
     known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
     if words or (short and edges_refute):
-        reasons = (*shortest(words), *short)
+        words.sort(key=lambda x: (len(set(x.word)), len(x.word), x.word))  # of the fewest symbols
+        reasons = (*words[:1], *short)
         return Decision(Verdict.REFUTED, reasons, corrected, quantities=known)
     briefs = [f"{each.brief}, at {each.at}" for each in edges]
     missing = "; ".join(["no proof about F on V1 and V2", *briefs])
     return Decision(Verdict.UNDECIDED, (), corrected, None, missing, known)
-
-
-def shortest(words: Sequence[BarredWord]) -> list[BarredWord]:
-    """Return the word that says most: of the fewest symbols, then the shortest."""
-    return sorted(words, key=lambda x: (len(set(x.word)), len(x.word), x.word))[:1]
 
 
 def _hyperbolic(of: Parameters, found: Found) -> Decision:

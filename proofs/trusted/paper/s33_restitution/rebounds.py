@@ -6,10 +6,8 @@ state before the next impact; its phase is taken on the line, less a fixed numbe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import (
@@ -34,20 +32,10 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import (
-    Phases,
-    Range,
-    between,
-    ceil_text,
-    floor_text,
-    hull,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phases, Range, between, hull, show_range, within
 from proofs.trusted.parameters import Place
 
 Entries = tuple[tuple[Range, Range], tuple[Range, Range]]  # DF: rows (phase, velocity)
-CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
 
 
 def size(values: Range) -> Fraction:
@@ -195,54 +183,3 @@ def rectangle(context: Context, reader: Reader) -> RectangleMap:
         left.phase,
         right.phase,
     )
-
-
-# -- cones -----------------------------------------------------------------------------------------
-
-
-class Rates(NamedTuple):
-    """How vectors (x, y) = (dphi, dgamma / CONE) grow and shrink under DF.
-
-    expansion: a lower bound > 1 on |x'| / |x| where |y| <= |x|; contraction: an upper bound < 1
-    on |y'| / |y| where |x'| <= |y'|.
-    """
-
-    expansion: Fraction
-    contraction: Fraction
-
-    def __str__(self) -> str:
-        return (
-            "uniformly hyperbolic: unstable directions have |dgamma| <= 2 |dphi| and are stretched "
-            f"at least {floor_text(self.expansion, 2)} times in phase by each step, stable ones "
-            f"have |dphi| <= |dgamma| / 2 and shrink to at most {ceil_text(self.contraction, 3)} "
-            "times in velocity"
-        )
-
-    @staticmethod
-    def worst(each: Sequence[Rates]) -> Rates:
-        """Return rates that hold for all."""
-        return Rates(min(x.expansion for x in each), max(x.contraction for x in each))
-
-
-def rates(maps: Sequence[RectangleMap]) -> Rates:
-    """Return the rates of hypothesis 3 of the rule `rectangle-horseshoe`, or Unproved.
-
-    They hold, as does the hypothesis, if p > 0 and the bounds are on the right sides of 1.
-    Proof. 1. The form is positive definite if its second diagonal entry, q^2 - s^2 + 1, and its
-    determinant, p^2 + s^2 - q^2 - r^2 - 1 - (p s - q r)^2, are positive. 2. Q increases, so vectors
-    with |y| <= |x| are mapped to such, and |x'| <= |y'| implies |x| <= |y|. 3. |x'| >= (|p| - |q|)
-    |x| if |y| <= |x|. 4. If |x'| <= |y'|, then |p x| <= |y'| + |q y| <= |r x| + (|q| + |s|) |y|,
-    which bounds |x|, then |y'| <= |r x| + |s y|.
-    """
-    found = []
-    for each in maps:
-        (p, q_range), (r_range, s_range) = each.derivative
-        q, r, s = CONE * size(q_range), size(r_range) / CONE, size(s_range)
-        determinant = p[0] ** 2 - q**2 - r**2 - 1 - (p[1] * s + q * r) ** 2
-        if p[0] <= r or s >= 1 or determinant <= 0:
-            raise Unproved("the cone condition is not proved")
-        found.append(Rates(p[0] - q, r * (q + s) / (p[0] - r) + s))
-    least = Rates.worst(found)
-    if least.expansion <= 1 or least.contraction >= 1:
-        raise Unproved("the rates are not proved hyperbolic")
-    return least

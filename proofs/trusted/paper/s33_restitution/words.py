@@ -13,8 +13,15 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import floor_text, within
-from proofs.trusted.paper.s33_restitution.horseshoes import Strips, crossing, read_maps, strips
-from proofs.trusted.paper.s33_restitution.rebounds import Rates, Rebound, RectangleMap, rates, sides
+from proofs.trusted.paper.s33_restitution.horseshoes import (
+    Rates,
+    Strips,
+    crossing,
+    rates,
+    read_maps,
+    strips,
+)
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.parameters import Place
 
 _LONGEST = 10  # symbols of a barred word

@@ -22,7 +22,8 @@ from proofs.trusted.paper.formulas import (
     derived_row,
     theorem,
 )
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Verdict, decided, undecided
 
@@ -124,7 +125,7 @@ def slope() -> str:
 
 @theorem(*LEMMAS)
 def orbits() -> str:
-    """Lemmas 1 to 3 of `single_facts`: 1. (16), the multiplier M and where it is 1, 0, -1 (lemma
+    """Lemmas 1 to 3 of `orbits.py`: 1. (16), the multiplier M and where it is 1, 0, -1 (lemma
     1). 2. Which n are possible (lemma 2), and that for the others stated nothing is hit before
     (lemma 3). 3. Leaving at once is side (p - eta^2) > 0, which gives the sign of M; on p > -e,
     A(p) = nu^2 grows, so that M < 1, the launch and M > -1 are bounds on nu^2.

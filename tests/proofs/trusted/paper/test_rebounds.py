@@ -12,12 +12,15 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.s33_restitution.horseshoes import (
+    CONE,
+    Rates,
     RectangleHorseshoe,
     Strips,
     crossing,
     hyperbolic,
+    rates,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import CONE, Rates, Rebound, RectangleMap, rates
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean, never_twice
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule

@@ -21,7 +21,8 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Value
 from proofs.trusted.paper.s4_single import single
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
