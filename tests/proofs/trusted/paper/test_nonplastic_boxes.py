@@ -392,28 +392,6 @@ def test_the_box_is_what_is_stated(reach):
         broken(made(WIDE, "N4"), renewed)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("field", "old", "new"),
-    [
-        ("verdict", "REFUTED", "UNDECIDED"),
-        ("verdict", "REFUTED", "VERIFIED"),
-        ("witness", "nu = -0.2,", "nu = -0.21,"),
-        ("witness", "V2 V2 V2 V2 V2", "V2 V2 V2 V2"),
-        ("corrected", "[0.005, 0.015]", "[0.004, 0.015]"),
-        ("corrected", "[1.26, 1.34]", "[1.27, 1.33]"),
-        ("statement", "exactly one", "at least one"),
-    ],
-)
-def test_texts_edited(field, old, new):
-    def change(certificate):
-        (claim,) = certificate["claims"]
-        assert old in claim[field]
-        claim[field] = claim[field].replace(old, new)
-
-    broken(made(PAPER, "N4"), change)
-
-
 @pytest.mark.parametrize("side", ["eta", "nu", "epsilon"])
 def test_parts_of_the_box_narrowed(side):
     """Rectangles for less than the box are proved all the same, the claim is not."""
