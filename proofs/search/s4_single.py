@@ -31,10 +31,9 @@ from proofs.trusted.equations import clock, launch_acceleration, slope
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.formulas import DerivedRow
 from proofs.trusted.paper.s4_single import single as claims
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution, Window
-from proofs.trusted.paper.s4_single.single_facts import FLIP, SADDLE, STICK, records
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Orbit, Solution, records
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 from proofs.trusted.parameters import PAPER, Parameters, Place
 
 _MOST = 40  # table periods in the search for examples
@@ -219,12 +218,8 @@ def prove(
         if row.id not in asked:
             continue
         tell(f"formulas and orbits of {row.id}")
-        if isinstance(row, DerivedRow):
-            needs, names = row.needs, []
-        else:
-            needs = tuple(need for each in claims.THEOREMS[row.id] for need in each.needs)
-            names = _FIND[row.id](single)
-        proved = [formulas.prove(need) for need in dict.fromkeys(needs)]
+        names = _FIND[row.id](single) if row.id in _FIND else []
+        proved = [formulas.prove(need) for need in row.needs]
         rest = [each for each in proved if each is not None]
         evidence.proofs[row.id] = [*rest, *((name, single.found[name]) for name in names)]
     return evidence
