@@ -69,8 +69,8 @@ def edge_images(strips: Strips, states: Sequence[Rebound]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
     images = []
     for each in states:
-        (phase, last), (velocity, top) = each.phases, each.velocities
-        if phase == last and velocity == top:
+        phase, velocity = each.phases[0], each.velocities[0]
+        if (each.phases, each.velocities) == ((phase, phase), (velocity, velocity)):
             with suppress(Unproved):
                 images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
     return images

@@ -172,14 +172,8 @@ def rectangle(context: Context, reader: Reader) -> RectangleMap:
         [hull([part.derivative[row][column] for part in parts]) for column in (0, 1)]
         for row in (0, 1)
     )
+    image = hull([part.phase for part in parts]), hull([part.velocity for part in parts])
+    states = Phases(low, high), left.velocities
     return RectangleMap(
-        left.at,
-        Phases(low, high),
-        left.velocities,
-        left.turns,
-        hull([part.phase for part in parts]),
-        hull([part.velocity for part in parts]),
-        ((p, q), (r, s)),
-        left.phase,
-        right.phase,
+        left.at, *states, left.turns, *image, ((p, q), (r, s)), left.phase, right.phase
     )
