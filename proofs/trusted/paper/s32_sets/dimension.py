@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.numbers import Phases, ceil_text, floor_text, hull, show_range, within
 from proofs.trusted.paper.s32_sets.invariant import InvariantSet, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.paper.s32_sets.repeller import Repeller
@@ -56,31 +56,26 @@ class StayingDimension(Conclusion):
         return self.staying.interval
 
     @property
+    def bounds(self) -> tuple[str, str]:
+        """The bounds of the dimension, to two places more than they decide."""
+        low, high = self.repeller.dimension
+        places = min(40, len(str(int(1 / (high - low)))) + 1)
+        return floor_text(low, places), ceil_text(high, places)
+
+    @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        flat, steep = hull(self.repeller.slopes)
-        words, places = ", ".join(self.repeller.words), _places(self.repeller.dimension)
+        (flat, steep), (low, high) = hull(self.repeller.slopes), self.bounds
         return (
-            f"{self.staying.sentence} The slopes of f along the words {words} are between "
-            f"{floor_text(flat, 2)} and {ceil_text(steep, 2)}, and the Hausdorff dimension of "
-            f"Lambda lies between {floor_text(self.repeller.dimension[0], places)} and "
-            f"{ceil_text(self.repeller.dimension[1], places)}."
+            f"{self.staying.sentence} The slopes of f along the words "
+            f"{', '.join(self.repeller.words)} are between {floor_text(flat, 2)} and "
+            f"{ceil_text(steep, 2)}, and the Hausdorff dimension of Lambda lies between {low} and "
+            f"{high}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the dimension."""
-        low, high = self.repeller.dimension
-        places = _places((low, high))
-        return (
-            f"{floor_text(low, places)} <= dim <= {ceil_text(high, places)} for I = "
-            f"{show_range(self.interval)}"
-        )
-
-
-def _places(bounds: Range) -> int:
-    """Return how many places to write: two more than bounds decide."""
-    return min(40, len(str(int(1 / (bounds[1] - bounds[0])))) + 1)
+        low, high = self.bounds
+        return f"{low} <= dim <= {high} for I = {show_range(self.interval)}"
 
 
 def _dimension(of: Parameters, found: Found) -> Decision:

@@ -20,11 +20,11 @@ from proofs.trusted.numbers import Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, StayingDimension
-from proofs.trusted.paper.s32_sets.invariant import Itinerary, invariant_set
+from proofs.trusted.paper.s32_sets.invariant import Itinerary, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import periodic_dimension, reference
 
@@ -222,15 +222,19 @@ def test_when_000_is_excluded():
     """By the orbit of the lower end of I, which leaves after 00; other words are not of the set."""
     base, orbit = one(Horseshoe), one(Itinerary)
     short = one(Repeller, words=WITHOUT_000)
-    assert StayingDimension(short, invariant_set(base, short.hull, [orbit])).interval == short.hull
+
+    def of(interval, *orbits):
+        return staying(interval, Found(PAPER, [base, *orbits]))
+
+    assert StayingDimension(short, of(short.hull, orbit)).interval == short.hull
     other = replace(orbit, orbit=(orbit.orbit[0], (Fraction("1.2"),) * 2))  # no 00 at all
-    for staying, repeller in (
-        (invariant_set(base, short.hull, [other]), short),
-        (invariant_set(base, base.interval, []), short),
-        (invariant_set(base, short.hull, [orbit]), replace(short, words=FULL)),
+    for known, repeller in (
+        (of(short.hull, other), short),
+        (of(base.interval), short),
+        (of(short.hull, orbit), replace(short, words=FULL)),
     ):
         with pytest.raises(Unproved):
-            StayingDimension(repeller, staying)
+            StayingDimension(repeller, known)
     found = [other if each is orbit else each for each in conclusions()]
     assert "dimension_of_I" not in decide(found).quantities
 

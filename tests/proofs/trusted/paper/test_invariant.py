@@ -25,12 +25,12 @@ from proofs.trusted.paper.s32_sets.invariant import (
     InvariantSet,
     Itinerary,
     follow,
-    invariant_set,
+    staying,
 )
 from proofs.trusted.paper.s32_sets.subshift import words
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.slopes import SlopeRange
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import Rejected, check
 
 ETA, NU = 0.2121, -0.2
@@ -86,7 +86,7 @@ def horseshoe(of, slopes=PAPER.slopes, at=PAPER.place):
 @pytest.fixture(scope="module")
 def proved():
     """The certificate at the paper's numbers."""
-    return json.loads(produce(wanted("sets"), PAPER, digits=12).certificate)
+    return json.loads(produce(wanted("sets", PAPER), PAPER, digits=12).certificate)
 
 
 @pytest.mark.parametrize(
@@ -102,8 +102,7 @@ def test_subshift_by_brute_force(points, left, right):
     """The orbits that stay in I are those of the words without a forbidden factor."""
     of = sets(left, right)
     found = [conclusion for _, conclusion in prove(of, ["H8"], digits=10).proofs["H8"]]
-    base, *orbits = found
-    shift = invariant_set(base, Phases(*of.interval), orbits).shift
+    shift = staying(of.interval, Found(of, found)).shift
     verdict = DECIDE["H7"](of, found).verdict
     assert verdict is (Verdict.REFUTED if shift.forbidden else Verdict.VERIFIED)
     low, high = map(float, of.interval)
@@ -270,7 +269,7 @@ def test_an_orbit_of_an_outer_end_is_not_taken():
 )
 def test_what_an_orbit_forbids(cut, factors):
     """Of the lower end of I: all words before its own."""
-    found = invariant_set(AROUND, Phases(*PAPER.interval), [orbit(cut)])
+    found = staying(PAPER.interval, Found(PAPER, [AROUND, orbit(cut)]))
     assert found.shift.factors == factors
 
 
@@ -378,7 +377,7 @@ FORGED = {
     "another L": (witness("excess-1", word="10"), None),
     "no word": (witness("excess-1", word=""), None),
     "letters": (witness("excess-1", word="12"), None),
-    "epsilon too large": (witness("excess-1", epsilon="19/100"), "not refuted"),
+    "epsilon too large": (witness("excess-1", epsilon="19/100"), "not about"),
     "epsilon 0": (witness("excess-1", epsilon="0"), None),
     "another root": (witness("linear-set-1", root="moran-root-2"), "moran-root|MoranRoot"),
     "root of no such step": (witness("linear-set-1", root="horseshoe-1"), "MoranRoot"),

@@ -290,7 +290,7 @@ def roots():
     return {"r": MoranRoot(EXACT, (ROOTS[EXACT] - reach, ROOTS[EXACT] + reach))}
 
 
-@pytest.mark.parametrize(("epsilon", "word"), [("17/100", "11"), ("1/10", "01"), ("1/100", "0110")])
+@pytest.mark.parametrize(("epsilon", "word"), [("17/100", "11"), ("1/100", "111")])
 def test_excess_of_the_checker_by_arb(roots, epsilon, word):
     ctx.prec = 200
     found = rule("excess", roots, root="r", epsilon=epsilon, word=word)
@@ -310,7 +310,15 @@ def test_measure_of_the_checker_by_arb(roots):
 
 @pytest.mark.parametrize(
     ("epsilon", "word"),
-    [("0", "11"), ("-1/10", "11"), ("1/10", ""), ("1/10", "12"), ("1/10", "0" * 13), ("1/10", "1")],
+    [
+        ("0", "11"),
+        ("-1/10", "11"),
+        ("1/10", ""),
+        ("1/10", "12"),
+        ("1/10", "01"),
+        ("1/10", "1" * 13),
+        ("1/10", "1"),
+    ],
 )
 def test_excess_of_nothing(roots, epsilon, word):
     with pytest.raises(Malformed):
@@ -346,7 +354,7 @@ def edited(evidence, claim, **changes):
     ],
 )
 def test_no_excess_that_refutes_nothing(evidence, changes):
-    with pytest.raises(Unproved, match="not refuted"):
+    with pytest.raises(Unproved, match=r"refuted|about"):
         edited(evidence, "H14", **changes)
 
 
