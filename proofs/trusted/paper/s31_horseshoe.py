@@ -126,9 +126,6 @@ def read_part(context: Context, reader: Reader) -> SlopeRange:
     return part
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
 def _slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
     """Return what is proved about f' on I0 and on I1, as far as it is known."""
     parts = []

@@ -39,9 +39,6 @@ class InHorseshoe(Conclusion):
         return self.base.at
 
 
-# -- orbits that leave the horseshoe ---------------------------------------------------------------
-
-
 def _spot(base: Horseshoe, x: Range) -> int:
     """Return which of `_SPOTS` an enclosed phase is in: 1 and 3 are the sets, 0, 2, 4 are not."""
     (a, b), (c, d) = base.left, base.right
@@ -122,9 +119,6 @@ def itinerary(context: Context, reader: Reader) -> Itinerary:
     return follow(context.step(base, Horseshoe), slopes, phase.number())
 
 
-# -- the invariant set -----------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class InvariantSet(InHorseshoe):
     """The phases of an interval J whose orbits stay in J, by orbits of its ends in a horseshoe.
@@ -197,9 +191,6 @@ def staying(interval: Range, found: Found) -> InvariantSet:
     known = {orbit.phase: orbit for orbit in found.all(Itinerary) if orbit.base == base}
     ends = sorted(set(interval) - set(base.interval))
     return InvariantSet(base, Phases(*interval), tuple(known[x] for x in ends if x in known))
-
-
-# -- the rows --------------------------------------------------------------------------------------
 
 
 def _around(interval: Range, found: Found) -> Horseshoe:

@@ -232,9 +232,6 @@ class Uncovered(LinearSet):
         )
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
 def linear_sets(of: Parameters) -> list[ExactMeasure]:
     """Return Claim 1 for the ratios 1 / slopes and, where they differ, for those printed."""
     pairs = dict.fromkeys((of.reciprocals, of.moran_ratios))

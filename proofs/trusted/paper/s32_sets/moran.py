@@ -104,9 +104,6 @@ class Digits(Conclusion):
         )
 
 
-# -- the row ---------------------------------------------------------------------------------------
-
-
 def _moran_root(of: Parameters, found: Found) -> Decision:
     ratios = of.moran_ratios
     if max(ratios) >= 1:

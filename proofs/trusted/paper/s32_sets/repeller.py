@@ -58,9 +58,6 @@ class Repeller(Conclusion):
         )
 
 
-# -- the rule --------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class _Branch:
     """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`."""
@@ -113,22 +110,44 @@ class _Branch:
         return Series(known.__getitem__)
 
 
-@dataclass(frozen=True)
+def _branch(context: Context, flight: Reader, phases: Reader, turns: Reader, bits: int) -> _Branch:
+    """Read a branch, and show that F' > 0: the slope's other factors have known signs."""
+    domain = Phases(*phases.range())
+    step = transversal_step(context, flight, domain)
+    if step.motion.clock(step.windows[0]).mass_sin.hi >= 0:
+        raise Unproved("f is not proved to increase on a domain")
+    return _Branch(step, domain, integer(turns, 0, 10**6), bits)
+
+
 class _System:
-    """The witness of the rule `dimension`.
+    """The witness of the rule `dimension`, as it is read.
 
     images: enclosures of g_w(x_0), ..., g_w(x_2n) for the words and their shorter ends w, x_i for
     the empty one. test: the coefficients of h, a polynomial in u = (x - middle) / half the width.
     """
 
-    branches: tuple[_Branch, _Branch]
-    hull: Phases
-    words: tuple[str, ...]
-    images: dict[str, list[Range]]
-    order: int
-    test: tuple[Fraction, ...]
-    dimension: Range
-    bits: int
+    def __init__(self, context: Context, reader: Reader) -> None:
+        flights, turns, whole, domains, words, inverse, radius_of, *rest = reader.fields(
+            "flights", "turns", "hull", "domains", "words", "inverse", "radius",
+            "pieces", "order", "test", "dimension",
+        )  # fmt: skip
+        pieces, order, test, span = rest
+        self.order, self.test = integer(order, 1, _MOST), test.numbers(1, _MOST)
+        self.hull, self.dimension = Phases(*whole.range()), span.range()
+        self.words = tuple(word.string() for word in words.items(2, _MOST_WORDS))
+        radius, steps = radius_of.number(), 2 * integer(pieces, 1, _MOST)
+        if radius <= 0 or not all(map(_WORD.fullmatch, self.words)):
+            raise reader.fail("a positive radius, and words over 0 and 1 of up to 16 letters")
+        self.bits = bits_for((-radius, radius))
+        parts = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
+        self.branches = [_branch(context, *part, self.bits) for part in parts]
+        self.step = (self.hull[1] - self.hull[0]) / steps
+        points = [self.hull[0] + self.step * j for j in range(steps + 1)]
+        self.images = {"": [(x, x) for x in points]}
+        ends = sorted({word[k:] for word in self.words for k in range(len(word))})
+        for word, each in zip(ends, inverse.items(len(ends), len(ends)), strict=True):
+            centres = each.numbers(len(points), len(points))
+            self.images[word] = [(y - radius, y + radius) for y in centres]
 
     def around(self, word: str, first: int, last: int) -> Range:
         """Return where g_word takes all phases from one x_i to another: it increases."""
@@ -166,8 +185,7 @@ class _System:
 
         The series are those at the middle of the piece and at all of its points.
         """
-        step = (self.hull[1] - self.hull[0]) / (len(self.images[""]) - 1)
-        total, h = whole[self.order], Enclosure.of(-step, step, self.bits)
+        total, h = whole[self.order], Enclosure.of(-self.step, self.step, self.bits)
         for k in reversed(range(self.order)):
             total = total * h + middle[k]
         return total.range
@@ -223,7 +241,7 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     over 1 for a large n. As g_W contract by r_W at most and have disjoint images,
     dim K >= l - t (Falconer, Fractal Geometry, Proposition 9.7).
     """
-    system = _read(context, reader)
+    system = _System(context, reader)
     system.require()
     above = below = Fraction(0)  # the extremes of (L_s h - h) / h, at least 0
     rates: dict[str, list[Range]] = {word: [] for word in system.words}
@@ -246,43 +264,3 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     if above > q or below * (1 + q) > q:
         raise Unproved("the operator is not proved near enough to 1")
     return found
-
-
-def _read(context: Context, reader: Reader) -> _System:
-    flights, turns, whole, domains, words_of, inverse, radius_of, *rest = reader.fields(
-        "flights", "turns", "hull", "domains", "words", "inverse", "radius",
-        "pieces", "order", "test", "dimension",
-    )  # fmt: skip
-    pieces, order, test, span = rest
-    radius, (low, high) = radius_of.number(), Phases(*whole.range())
-    words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
-    if radius <= 0 or not all(map(_WORD.fullmatch, words)):
-        raise reader.fail("a positive radius, and words over 0 and 1 of up to 16 letters")
-    bits, steps = bits_for((-radius, radius)), 2 * integer(pieces, 1, _MOST)
-    points = [low + (high - low) * j / steps for j in range(steps + 1)]
-    ends = sorted({word[k:] for word in words for k in range(len(word))})
-    images = {"": [(x, x) for x in points]}
-    for word, each in zip(ends, inverse.items(len(ends), len(ends)), strict=True):
-        centres = each.numbers(len(points), len(points))
-        images[word] = [(y - radius, y + radius) for y in centres]
-    parts = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
-    first, second = (_branch(context, *part, bits) for part in parts)
-    return _System(
-        (first, second),
-        Phases(low, high),
-        words,
-        images,
-        integer(order, 1, _MOST),
-        test.numbers(1, _MOST),
-        span.range(),
-        bits,
-    )
-
-
-def _branch(context: Context, flight: Reader, phases: Reader, turns: Reader, bits: int) -> _Branch:
-    """Read a branch, and show that F' > 0: the slope's other factors have known signs."""
-    domain = Phases(*phases.range())
-    step = transversal_step(context, flight, domain)
-    if step.motion.clock(step.windows[0]).mass_sin.hi >= 0:
-        raise Unproved("f is not proved to increase on a domain")
-    return _Branch(step, domain, integer(turns, 0, 10**6), bits)
