@@ -300,26 +300,17 @@ def test_an_empty_invariant_set():
 
 
 def test_certificate_is_accepted(proved):
-    report = check(render(proved))
-    verdicts = {claim.id: claim.verdict.value for claim in report.claims}
-    assert verdicts == {
-        "H7": "REFUTED",
-        "H8": "VERIFIED",
-        "H9": "VERIFIED",
-        "H10": "VERIFIED",
-        "H12": "VERIFIED",
-        "H14": "REFUTED",
-        "H15": "REFUTED",
-        "H17": "REFUTED",
-    }
+    verified = [x.id for x in check(render(proved)).claims if x.verdict is Verdict.VERIFIED]
+    refuted = [x.id for x in check(render(proved)).claims if x.verdict is Verdict.REFUTED]
+    assert (verified, refuted) == (["H8", "H9", "H10", "H12"], ["H7", "H14", "H15", "H17"])
 
 
 def witness(name, **fields):
     return lambda document: document["steps"][name]["witness"].update(fields)
 
 
-def part(side, *domain):
-    return lambda document: document["steps"]["horseshoe-1"]["witness"][side].update(
+def part(*domain):
+    return lambda document: document["steps"]["horseshoe-1"]["witness"]["left"].update(
         domain=list(domain)
     )
 
@@ -364,11 +355,11 @@ FORGED = {
     "slopes tightened below": (witness("horseshoe-1", slopes=["22/5", "619/100"]), "not within"),
     "slopes tightened above": (witness("horseshoe-1", slopes=["43/10", "6"]), "not within"),
     "slopes that do not expand": (witness("horseshoe-1", slopes=["1", "619/100"]), "do not expand"),
-    "the printed sets": (part("left", "111/100", "23/20"), "not covered"),
-    "wider than proved": (part("left", "109/100", "23/20"), "not two points"),
-    "a wider gap": (part("left", "11/10", "57/50"), None),
+    "the printed sets": (part("111/100", "23/20"), "not covered"),
+    "wider than proved": (part("109/100", "23/20"), "not two points"),
+    "a wider gap": (part("11/10", "57/50"), None),
     "I0 and I1 swapped": (swapped_sets, "before I1"),
-    "no slopes": (part("left"), None),
+    "no slopes": (part(), None),
     "gap of another rule": (witness("horseshoe-1", gap="first-impact-1"), "Avoids"),
     "another phase": (witness("itinerary-1", phase="28/25"), None),
     "the fixed point's side": (witness("itinerary-1", phase="11/10"), None),
