@@ -86,17 +86,16 @@ def _dimension(of: Parameters, found: Found) -> Decision:
     around = []
     for each in found.all(Repeller):
         with suppress(Unproved):
-            around.append(StayingDimension(each, staying(each.hull, found)))
-    around = [each for each in around if within(of.interval, each.interval)]
+            if within(of.interval, each.hull):
+                around.append(StayingDimension(each, staying(each.hull, found)))
     root = next((each for each in found.all(MoranRoot) if each.ratios == ratios), None)
     if root is None or not around:
         return undecided("no bracket of s_0, or no horseshoe around I with dimension")
-    itself = next((each for each in around if each.interval == of.interval), None)
-    best = around[0] if itself is None else itself
+    best = next((each for each in around if each.interval == of.interval), around[0])
     low, high = best.repeller.dimension
     known = {"dimension": around[0].repeller.dimension, "s0": root.root}
     known |= {} if best is around[0] else {"dimension_of_I": (low, high)}
-    if high < root.root[0] or (itself is not None and root.root[1] < low):
+    if high < root.root[0] or (best.interval == of.interval and root.root[1] < low):
         return decided(Verdict.REFUTED, best, root, corrected=around, known=known)
     return undecided(f"{best.brief}, and {root.brief}", known=known)
 

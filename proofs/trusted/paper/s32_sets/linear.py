@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
@@ -50,11 +49,6 @@ class LinearSet(Conclusion):
     @property
     def brief(self) -> str:
         return self.sentence.partition(". ")[0].rstrip(".")
-
-    def length(self, word: str) -> Fraction:
-        """Return |I_w|."""
-        sizes = [self.ratios[int(letter)] for letter in word]
-        return prod(sizes, start=self.interval[1] - self.interval[0])
 
 
 @dataclass(frozen=True)
@@ -128,9 +122,6 @@ def linear_set(context: Context, reader: Reader) -> LinearDimension:
     return LinearDimension(step.ratios, interval, step.root, measure)
 
 
-# -- where the paper's proof fails -----------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Excess(LinearSet):
     """(11) fails for L = I_w, w of n + 1 >= 2 ones, the longest of its level, and |L'| = |L| + d.
@@ -154,8 +145,9 @@ class Excess(LinearSet):
 
     @property
     def sentence(self) -> str:
-        n = len(self.word) - 1
-        beyond = self.length(self.word) + self.epsilon / 2 ** (n + 1) > self.length("1" * n)
+        n, longest = len(self.word) - 1, self.ratios[1]
+        most = longest**n * (self.interval[1] - self.interval[0])
+        beyond = longest * most + self.epsilon / 2 ** (n + 1) > most
         outside = "; |L'| > eta1^n |I|, so that L' is not in T_n" if beyond else ""
         return (
             f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])} for the linear set "
@@ -172,13 +164,13 @@ def excess(context: Context, reader: Reader) -> Excess:
     """
     root_of, epsilon_of, word_of = reader.fields("root", "epsilon", "word")
     step, epsilon, word = context.step(root_of, MoranRoot), epsilon_of.number(), word_of.string()
-    if not 2 <= len(word) <= _LONGEST_WORD or set(word) != {"1"} or epsilon <= 0:
+    if epsilon <= 0 or word not in ("1" * letters for letters in range(2, _LONGEST_WORD + 1)):
         raise reader.fail("a positive number and a word of ones are expected")
-    given, delta = LinearSet(step.ratios, context.of.interval), epsilon / 2 ** len(word)
-    size = given.length(word)
+    (low, high), delta = context.of.interval, epsilon / 2 ** len(word)
+    size = step.ratios[1] ** len(word) * (high - low)
     bounds = power(size + delta, step.root) - power(size, step.root)
     above = (bounds - rational(delta, bounds.bits)).range
-    return Excess(given.ratios, given.interval, epsilon, word, above)
+    return Excess(step.ratios, (low, high), epsilon, word, above)
 
 
 @dataclass(frozen=True)
@@ -240,11 +232,12 @@ def linear_sets(of: Parameters) -> list[ExactMeasure]:
 
 def _linear_dimension(of: Parameters, found: Found) -> Decision:
     """H12: the lines of these slopes must map I0 and I1 exactly onto I."""
-    given, (low, high) = LinearSet(of.reciprocals, of.interval), of.interval
-    if (of.left, of.right) != ((low, low + given.length("0")), (high - given.length("1"), high)):
+    (low, high), (first, second) = of.interval, of.reciprocals
+    ends = low + first * (high - low), high - second * (high - low)
+    if (of.left, of.right) != ((low, ends[0]), (ends[1], high)):
         return undecided("lines of these slopes do not map I0 and I1 exactly onto I")
     for each in found.all(LinearDimension):
-        if (each.ratios, each.interval) == (given.ratios, given.interval):
+        if (each.ratios, each.interval) == (of.reciprocals, of.interval):
             return decided(Verdict.VERIFIED, each)
     return undecided("no bracket of s_0 for the ratios 1 / slopes")
 

@@ -226,9 +226,7 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     By Taylor's formula of that `order` N on each piece, with Lagrange's remainder: coefficients
     at its middle below N, over the piece at N.
 
-    Conclusion: let K be the compact set with K = union of g_w(K) (Hutchinson). Its Hausdorff
-    dimension is in [l, u]; f, on the circle, takes no other points of domains[j] into the hull
-    than those of g_j. slopes: bounds of 1 / g_w' over [a, b], by word.
+    Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson).
 
     Proof (Bowen 1979; min-max: Pollicott, Vytnova 2022). L_(s+t) <= exp(-t m) L_s for t >= 0.
     So L_u h <= exp(-q) (1 + q) h <= h and L_l h >= (1 + q) (1 - q / (1 + q)) h = h.

@@ -66,12 +66,6 @@ def in_gap(found, word, at=Fraction(1, 3)):
     return low + at * (high - low)
 
 
-@BOTH
-def test_lengths_are_those_of_the_similarities(ratios):
-    for word, part in cylinders(ratios, 5).items():
-        assert LinearSet(ratios, I).length(word) == length(part)
-
-
 @pytest.mark.parametrize(
     ("ratios", "interval"),
     [
