@@ -95,6 +95,11 @@ class Digits(Conclusion):
         return tuple(low == 0 if low == high else None for low, high in (rounded, truncated))
 
     @property
+    def rounded(self) -> bool | None:
+        """The first of these readings."""
+        return self.readings[0]
+
+    @property
     def sentence(self) -> str:
         words = {True: "is", False: "is not", None: "may be"}
         rounded, truncated = (words[reading] for reading in self.readings)
@@ -110,7 +115,7 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
         return decided(Verdict.REFUTED, NoGap(ratios))
     for slope, ratio in zip(of.slopes[::-1], ratios, strict=True):
         digits = Digits(f"1/{show(slope)}", (1 / slope, 1 / slope), show(ratio))
-        if not digits.readings[0]:
+        if not digits.rounded:
             return decided(Verdict.REFUTED, digits)
     roots = {each.ratios: each for each in found.all(MoranRoot)}
     if ratios not in roots or of.reciprocals not in roots:
@@ -121,7 +126,7 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     read = [Digits("s_0", each.root, printed) for each in (given, exact) if printed]
     if {reading for each in read for reading in each.readings} == {False}:
         return decided(Verdict.REFUTED, *read, corrected=[given], known=known)
-    if not all(each.readings[0] for each in read):
+    if not all(each.rounded for each in read):
         return undecided("; ".join(each.brief for each in read), known)
     return decided(Verdict.VERIFIED, given, *read, known=known)
 
