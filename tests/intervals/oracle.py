@@ -29,6 +29,11 @@ def round_up(x, precision):
     return -round_down(-x, precision)
 
 
+def outward(low, high, precision):
+    """The tightest ends of `precision` bits around [low, high]."""
+    return round_down(low, precision), round_up(high, precision)
+
+
 def sqrt_down(x, precision):
     """The largest number of `precision` bits whose square is <= x."""
     if x == 0:
