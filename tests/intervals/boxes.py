@@ -10,7 +10,6 @@ from tests.effort import examples
 from tests.intervals.oracle import exponent, pi_bounds, round_down, round_up, ulp
 
 
-
 def for_all(*strategies, tries=50, at_length=None):
     """Do as `given`, with so many examples, `at_length` in the whole suite, and no deadline."""
 

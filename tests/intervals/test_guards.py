@@ -5,7 +5,6 @@ subnormal numbers to zero. Every public operation then encloses the truth, or re
 """
 
 import json
-import platform
 import subprocess
 import sys
 from fractions import Fraction
@@ -13,49 +12,20 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-
-pytestmark = pytest.mark.skipif(
-    platform.machine() != "x86_64" or platform.system() != "Linux", reason="needs glibc on x86-64"
+from tests.intervals.foreign_states import (
+    ANY_MODE,
+    MULTIPRECISION,
+    OPERATIONS,
+    RELATIONS,
+    STATES,
+    x86_linux,
 )
 
-STATES = {
-    "nearest": ("rounding", 0x000),
-    "downward": ("rounding", 0x400),
-    "upward": ("rounding", 0x800),
-    "toward zero": ("rounding", 0xC00),
-    "flush to zero": ("flush", 0x8000),
-    "denormals are zero": ("flush", 0x0040),
-    "both flushes": ("flush", 0x8040),
-}
-ANY_MODE = [
-    "from_exact",
-    "from_floats",
-    "x + y",
-    "x - y",
-    "x * y",
-    "x / y",
-    "s + s",
-    "s * s",
-    "s - s",
-    "x * s",
-    "3 * s",
-    "abs s",
-    "x ** 3",
-    "sum",
-    "prod",
-    "matmul",
-    "hull",
-    "intersection",
-    "sign",
-    "minimum",
-    "floor",
-    "round",
-    "sqrt",
-    "subset",
-    "positive",
-]
-MULTIPRECISION = ["interval", "interval third", "interval exp"]  # on integers
+ROOT = Path(__file__).parents[2]
+FLUSHED = "subnormal numbers are flushed to zero in this thread"
+NOT_NEAREST = "this thread does not round to nearest"
+
+pytestmark = x86_linux
 
 
 def run(state):
@@ -84,42 +54,27 @@ def encloses(outer, inner):
 
 def test_undisturbed_results_are_results(undisturbed):
     assert not [name for name, value in undisturbed.items() if isinstance(value, str)]
-    assert set(ANY_MODE + MULTIPRECISION) < set(undisturbed)
+    assert set(OPERATIONS) == set(undisturbed)
     assert undisturbed["positive"] == [True, False, True]
     assert undisturbed["subset"] == [False, False, False]
 
 
-@pytest.mark.parametrize(
-    "mode",
-    [
-        "upward",
-        pytest.param("downward", marks=pytest.mark.slow),
-        pytest.param("toward zero", marks=pytest.mark.slow),
-    ],
-)
+def slow(*names):
+    return [pytest.param(name, marks=pytest.mark.slow) for name in names]
+
+
+@pytest.mark.parametrize("mode", ["upward", *slow("downward", "toward zero")])
 def test_rounding_modes(mode, undisturbed):
-    found = run(mode)
-    for name, value in found.items():
-        if name in ("subset", "positive"):
+    for name, value in run(mode).items():
+        if name in RELATIONS:
             assert value == undisturbed[name]
-        elif name in ANY_MODE + MULTIPRECISION:
+        elif name in ANY_MODE | MULTIPRECISION:
             assert encloses(value, undisturbed[name]), name
         else:
-            assert value == "this thread does not round to nearest", name
+            assert value == NOT_NEAREST, name
 
 
-@pytest.mark.parametrize(
-    "state",
-    [
-        "flush to zero",
-        pytest.param("denormals are zero", marks=pytest.mark.slow),
-        pytest.param("both flushes", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.parametrize("state", ["flush to zero", *slow("denormals are zero", "both flushes")])
 def test_flushing_is_refused(state, undisturbed):
-    found = run(state)
-    for name, value in found.items():
-        if name in MULTIPRECISION:
-            assert value == undisturbed[name], name
-        else:
-            assert value == "subnormal numbers are flushed to zero in this thread", name
+    for name, value in run(state).items():
+        assert value == (undisturbed[name] if name in MULTIPRECISION else FLUSHED), name

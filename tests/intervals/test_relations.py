@@ -1,6 +1,7 @@
 """Relations, against their meaning in terms of the numbers inside."""
 
 import itertools
+import operator
 from fractions import Fraction
 
 import numpy as np
@@ -27,14 +28,6 @@ def some(x, y, relation):
     return any(relation(p, q) for p in x for q in y)
 
 
-def le(p, q):
-    return p <= q
-
-
-def lt(p, q):
-    return p < q
-
-
 MEANING = {
     "equal": lambda x, y: set(x) == set(y),
     "subset": lambda x, y: set(x) <= set(y),
@@ -47,12 +40,12 @@ MEANING = {
     "strictly_less": lambda x, y: (
         all(any(p < q for q in y) for p in x) and all(any(p < q for p in x) for q in y)
     ),
-    "precedes": lambda x, y: every(x, y, le),
-    "strictly_precedes": lambda x, y: every(x, y, lt),
-    "certainly_less": lambda x, y: every(x, y, lt),
-    "certainly_less_equal": lambda x, y: every(x, y, le),
-    "possibly_less": lambda x, y: some(x, y, lt),
-    "possibly_less_equal": lambda x, y: some(x, y, le),
+    "precedes": lambda x, y: every(x, y, operator.le),
+    "strictly_precedes": lambda x, y: every(x, y, operator.lt),
+    "certainly_less": lambda x, y: every(x, y, operator.lt),
+    "certainly_less_equal": lambda x, y: every(x, y, operator.le),
+    "possibly_less": lambda x, y: some(x, y, operator.lt),
+    "possibly_less_equal": lambda x, y: some(x, y, operator.le),
 }
 
 # IEEE 1788-2015, table 10.7, for nonempty intervals [a, b] and [c, d]
