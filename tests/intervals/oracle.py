@@ -74,7 +74,7 @@ def evaluate(function, bits, *arguments):
 
 FUNCTIONS = {
     "sqrt": lambda x: x.sqrt(),
-    "cbrt": lambda x: x.root(3) if x >= 0 else -((-x).root(3)),
+    "cbrt": lambda x: x.root(3) if x > 0 else -((-x).root(3)) if x < 0 else x,
     "exp": lambda x: x.exp(),
     "exp2": lambda x: flint.arb(2) ** x,
     "exp10": lambda x: flint.arb(10) ** x,
