@@ -5,7 +5,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import DomainError, Interval
@@ -13,7 +12,7 @@ from intervals.array import IntervalArray
 from intervals.generic import meet
 from intervals.krawczyk import krawczyk, newton_system
 from intervals.newton import Roots
-from tests.effort import examples
+from tests.intervals.boxes import for_all
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
 METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])
@@ -25,6 +24,12 @@ def circle_and_line(x, y):
 
 def square(low, high, precision=53):
     return [Interval(low, high, precision=precision)] * 2
+
+
+def outcomes(method, f, *sides):
+    """The outcomes for a box, and for it in an array of one."""
+    one = method(f, [Interval(*side) for side in sides]).outcome
+    return {one, method(f, [IntervalArray([side]) for side in sides]).outcomes[0]}
 
 
 # -- single systems --------------------------------------------------------------------------------
@@ -46,9 +51,8 @@ def test_one_box_and_many_agree(method):
     pairs = [("1/2", 1), (-1, "-1/2"), (2, 3), (-1, 1), ("0.7", "0.70710678")]
     x = IntervalArray(pairs)
     many = method(circle_and_line, [x, x])
-    assert many.outcomes.tolist() == [
-        *(Roots.UNIQUE, Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.NONE)
-    ]
+    unique, none, undecided = Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED
+    assert many.outcomes.tolist() == [unique, unique, none, undecided, none]
     for i, pair in enumerate(pairs):
         one = method(circle_and_line, square(*pair))
         assert (one.outcome, one.reason) == (many.outcomes[i], many.reasons[i])
@@ -61,12 +65,11 @@ def test_one_box_and_many_agree(method):
 
 @METHODS
 def test_one_equation_needs_no_list(method):
-    def f(x):
-        return x.sqr() - 2
-
-    assert method(f, [Interval(1, 2)]).outcome is Roots.UNIQUE
-    outcomes = method(f, [IntervalArray([(1, 2), (2, 3), (-2, 2), ("-1.5", "-1.4")])]).outcomes
-    assert outcomes.tolist() == [Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.UNIQUE]
+    for side, expected in (
+        *(((1, 2), Roots.UNIQUE), (("-1.5", "-1.4"), Roots.UNIQUE)),
+        *(((2, 3), Roots.NONE), ((-2, 2), Roots.UNDECIDED)),
+    ):
+        assert outcomes(method, lambda x: x.sqr() - 2, side) == {expected}
 
 
 @METHODS
@@ -83,9 +86,7 @@ def test_a_function_that_vanishes_identically_has_no_unique_zero(method):
 def test_a_proper_part_in_one_variable_only_is_no_proof(method):
     """The zeros of (x, 0) are a segment: the image is thin in x and whole in y."""
     for f in (lambda x, y: (x, 0 * y), lambda x, y: (0 * y, x)):
-        assert method(f, square(-1, 1)).outcome is not Roots.UNIQUE
-        arrays = [IntervalArray([(-1, 1)])] * 2
-        assert method(f, arrays).outcomes[0] is not Roots.UNIQUE
+        assert Roots.UNIQUE not in outcomes(method, f, (-1, 1), (-1, 1))
 
 
 @METHODS
@@ -141,9 +142,7 @@ def test_signs_of_dependent_equations_prove_nothing(method):
         lambda x, y: (x, x + d * y * y + d),
         lambda x, y: (x * y, x * y + d),
     ):
-        assert method(f, square(-1, 1)).outcome in (Roots.NONE, Roots.UNDECIDED)
-        outcome = method(f, [IntervalArray([(-1, 1)])] * 2).outcomes[0]
-        assert outcome in (Roots.NONE, Roots.UNDECIDED)
+        assert outcomes(method, f, (-1, 1), (-1, 1)) <= {Roots.NONE, Roots.UNDECIDED}
 
 
 @METHODS
@@ -247,24 +246,29 @@ def problems(draw, count):
     return f, roots, boxes
 
 
+def holds(box, point):
+    return all(side.contains(value) for side, value in zip(box, point, strict=True))
+
+
 def check(outcome, given_box, box, roots):
     """What is claimed about the given box must be true."""
-    inside = [
-        root for root in roots if all(s.contains(r) for s, r in zip(given_box, root, strict=True))
-    ]
+    inside = [root for root in roots if holds(given_box, root)]
     if outcome is Roots.NONE:
         assert not inside
         return
-    for root in inside:
-        assert all(side.contains(value) for side, value in zip(box, root, strict=True))
-    assert all(a.contains(b) for a, b in zip(given_box, box, strict=True))
+    assert all(holds(box, root) for root in inside)
+    assert holds(given_box, box)
     if outcome is Roots.UNIQUE:
         assert len(inside) == 1
     if outcome is Roots.AT_LEAST_ONE:
         assert inside
 
 
-def check_one(problem, method, precision):
+methods = st.sampled_from([krawczyk, newton_system])
+
+
+@for_all(problems(2), methods, st.sampled_from([10, 24, 53, 150]), tries=25, at_length=300)
+def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
     f, roots, boxes = problem
     for pair in boxes:
         box = [Interval(*side, precision=precision) for side in pair]
@@ -273,42 +277,14 @@ def check_one(problem, method, precision):
         check(outcome, box, smaller, roots)
 
 
-def check_many(problem, method):
+@for_all(problems(8), methods, tries=25, at_length=150)
+def test_what_is_claimed_of_many_boxes_is_true(problem, method):
     f, roots, boxes = problem
     arrays = [IntervalArray(list(column)) for column in zip(*boxes, strict=True)]
     results = method(f, arrays)
     for i, outcome in enumerate(results.outcomes):
         box, smaller = ([x[i].item() for x in side] for side in (arrays, results.boxes))
         check(outcome, box, smaller, roots)
-
-
-methods = st.sampled_from([krawczyk, newton_system])
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
-def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
-    check_one(problem, method, precision)
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(problems(8), methods)
-def test_what_is_claimed_of_many_boxes_is_true(problem, method):
-    check_many(problem, method)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=300)
-@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
-def test_what_is_claimed_of_one_box_is_true_at_length(problem, method, precision):
-    check_one(problem, method, precision)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=150)
-@given(problems(8), methods)
-def test_what_is_claimed_of_many_boxes_is_true_at_length(problem, method):
-    check_many(problem, method)
 
 
 @METHODS
@@ -349,6 +325,5 @@ def test_four_variables(method):
     box = [Interval(t - Fraction(1, 500), t + Fraction(1, 300)) for t in target]
     outcome, smaller, _ = method(f, box)
     assert outcome is Roots.UNIQUE
-    assert all(
-        x.contains(t) and x.wid < Fraction(1, 2**40) for x, t in zip(smaller, target, strict=True)
-    )
+    assert holds(smaller, target)
+    assert max(x.wid for x in smaller) < Fraction(1, 2**40)

@@ -7,7 +7,6 @@ from itertools import product
 import flint
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import DomainError, Interval, search
@@ -16,8 +15,8 @@ from intervals.branch import clusters, evaluated, one_box, split
 from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
 from intervals.zeros import _examined, zeros
-from tests.effort import examples
 from tests.intervals import oracle
+from tests.intervals.boxes import for_all
 
 rationals = st.fractions(-2, 2, max_denominator=8)
 dyadics = st.integers(-32, 32).map(lambda k: Fraction(k, 16))
@@ -63,8 +62,10 @@ def test_parts_outside_the_domain_are_isolated():
         list(evaluated(lambda b: 1 // 0, boxes))
 
 
-@settings(deadline=None, max_examples=examples(40))
-@given(st.lists(st.tuples(*[st.tuples(st.integers(0, 30), st.integers(0, 6))] * 2), max_size=12))
+@for_all(
+    st.lists(st.tuples(*[st.tuples(st.integers(0, 30), st.integers(0, 6))] * 2), max_size=12),
+    tries=40,
+)
 def test_clusters_are_disjoint_and_hold_their_members(sides):
     lower = np.array([[x, y] for (x, _), (y, _) in sides], dtype=float).reshape(-1, 2)
     upper = lower + np.array([[a, b] for (_, a), (_, b) in sides], dtype=float).reshape(-1, 2)
@@ -225,7 +226,8 @@ def polynomials(draw):
     return roots, draw(st.booleans()), Interval(low, high)
 
 
-def check_polynomial(problem):
+@for_all(polynomials(), tries=30, at_length=250)
+def test_all_zeros_of_a_polynomial(problem):
     roots, lifted, box = problem
     results = zeros(
         lambda x: from_roots(roots, x) * (x.sqr() + Fraction(1, 5) if lifted else 1), box
@@ -239,25 +241,10 @@ def check_polynomial(problem):
         assert simple <= unique
 
 
-@settings(deadline=None, max_examples=examples(30))
-@given(polynomials())
-def test_all_zeros_of_a_polynomial(problem):
-    check_polynomial(problem)
+few = st.lists(rationals, min_size=1, max_size=2)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=250)
-@given(polynomials())
-def test_all_zeros_of_a_polynomial_at_length(problem):
-    check_polynomial(problem)
-
-
-@settings(deadline=None, max_examples=examples(10))
-@given(
-    st.lists(rationals, min_size=1, max_size=2, unique=True),
-    st.lists(rationals, min_size=1, max_size=2),
-    st.sampled_from([0, 1, -2]),
-)
+@for_all(few, few, st.sampled_from([0, 1, -2]), tries=10)
 def test_all_zeros_of_a_system(first, second, shear):
     def f(x, y):
         p, q = from_roots(first, x - shear * y), from_roots(second, y)
@@ -344,7 +331,8 @@ def ranges(draw):
     return coefficients, low, high
 
 
-def check_range(problem):
+@for_all(ranges(), tries=25, at_length=250)
+def test_ranges_and_signs_of_polynomials(problem):
     coefficients, low, high = problem
     box, tiny = Interval(low, high), Fraction(1, 2**24)
 
@@ -378,19 +366,6 @@ def check_range(problem):
         (Sign.ZERO, bottom < -tiny and top > tiny),
     ):
         assert not holds or sign.sign is proved
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(ranges())
-def test_ranges_and_signs_of_polynomials(problem):
-    check_range(problem)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=250)
-@given(ranges())
-def test_ranges_and_signs_of_polynomials_at_length(problem):
-    check_range(problem)
 
 
 def test_signs():
