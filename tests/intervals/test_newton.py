@@ -1,7 +1,7 @@
 """Interval Newton on functions whose zeros are known: it may fail to decide, never lie."""
 
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 
 import flint
 import pytest
@@ -12,6 +12,7 @@ from intervals import Interval
 from intervals.newton import Roots, derivative, newton
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all
+from tests.intervals.claims import check_claim, horner
 from tests.intervals.oracle import pi_bounds, sqrt_down, sqrt_up, ulp
 
 
@@ -166,13 +167,6 @@ def product(a, b):
     return result
 
 
-def polynomial(coefficients):
-    def value(x):
-        return reduce(lambda total, c: total * x + c, reversed(coefficients), x * 0)
-
-    return value
-
-
 rationals = st.fractions(-2, 2, max_denominator=12)
 
 
@@ -197,19 +191,10 @@ def problems(draw):
 
 def check_newton(coefficients, roots, box):
     slopes = [k * c for k, c in enumerate(coefficients)][1:] or [Fraction(0)]
-    result = newton(polynomial(coefficients), polynomial(slopes), box)
+    result = newton(partial(horner, coefficients), partial(horner, slopes), box)
     assert result.reason
-    inside = [root for root in roots if box.inf <= root <= box.sup]
-    if result.outcome is Roots.NONE:
-        assert result.box is None
-        assert inside == []
-    else:
-        assert box.contains(result.box)
-        assert all(result.box.contains(root) for root in inside)
-    if result.outcome is Roots.UNIQUE:
-        assert len(inside) == 1
-    if result.outcome is Roots.AT_LEAST_ONE:
-        assert inside
+    assert (result.box is None) == (result.outcome is Roots.NONE)
+    check_claim(result.outcome, [box], [result.box], {(root,) for root in roots})
     return result
 
 

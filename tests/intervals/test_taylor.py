@@ -2,7 +2,6 @@
 
 import random
 from fractions import Fraction
-from functools import reduce
 
 import flint
 import numpy as np
@@ -14,6 +13,7 @@ from intervals.array import IntervalArray
 from intervals.taylor import polynomial_range, taylor
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all
+from tests.intervals.claims import horner
 
 FUNCTIONS = {
     "wave": lambda x: x.sin() * x + 1 / (x * x + 2),
@@ -21,10 +21,6 @@ FUNCTIONS = {
     "square": lambda x: (3 * x - 1) * (3 * x + 2),
     "root": lambda x: (x * x + x + 1).sqrt() * x.cos(),
 }
-
-
-def horner(coefficients, t):
-    return reduce(lambda total, c: total * t + c, reversed(coefficients), 0 * t)
 
 
 def sharp_range(name, low, high):
