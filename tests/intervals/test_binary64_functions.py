@@ -5,13 +5,11 @@ import math
 import flint
 import numpy as np
 import pytest
-from hypothesis import strategies as st
 
 from intervals.elementary import binary64
 from intervals.elementary.binary64.monotone import FUNCTIONS
 from tests.effort import examples
-from tests.intervals.binary64_oracle import DOMAIN, ETA, MAX, distances, points, rows
-from tests.intervals.boxes import for_all
+from tests.intervals.binary64_oracle import ETA, MAX, distances, points, rows
 from tests.intervals.measure_errors import errors, proved
 
 QUICK = 1200
@@ -113,18 +111,6 @@ def test_overflow_is_refused(name):
     for x in (1100.0, 1e9, MAX, *([-1e5] if name == "sinh" else [])):
         with pytest.raises(OverflowError):
             enclosed(name, np.array([0.5, x]))
-
-
-@every_function
-@for_all(st.data(), tries=25)
-def test_any_interval(name, data):
-    lower, upper = sorted(data.draw(st.floats(*DOMAIN[name])) for _ in range(2))
-    low, high = enclosed(name, np.array([lower]), np.array([upper]))
-    assert low[0] <= high[0]
-    t = data.draw(st.floats(0, 1))
-    inner = min(max(lower * (1 - t) + upper * t, lower), upper)
-    x = np.array([lower, inner, upper])
-    distances(name, [x], rows(low.repeat(3), high.repeat(3)))
 
 
 def test_a_bad_candidate_for_the_cube_root_is_not_believed(monkeypatch):

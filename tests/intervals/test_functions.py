@@ -257,16 +257,6 @@ def test_bisection_of_an_interval_that_cannot_be_halved():
     assert fine.bisect()[0].hull(fine.bisect()[1]) == fine
 
 
-def test_constants():
-    for precision in (2, 53, 500):
-        for constant, true in (
-            (intervals.pi(precision=precision), oracle.evaluate(flint.arb.pi, 2000)),
-            (intervals.e(precision=precision), oracle.evaluate(flint.arb.const_e, 2000)),
-        ):
-            assert constant.inf <= true[0] and true[1] <= constant.sup
-            assert constant.wid <= Fraction(4, 2**precision)
-
-
 @pytest.mark.parametrize("value", [0.5, 1, Fraction(1, 2), "0.5", None])
 def test_functions_of_what_is_no_interval(value):
     for call in (lambda: intervals.sin(value), lambda: intervals.atan2(value, 1)):

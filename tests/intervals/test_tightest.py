@@ -262,11 +262,14 @@ def test_next_to_one(k):
         assert exact(FUNCTIONS[name](raw(x), p)) == outward(low, high, p)
 
 
-def test_tan_next_to_its_poles():
-    for n, places in itertools.product((1, 3, -7, 2**300 + 1), (60, 500, 2000)):
-        low, _ = oracle.pi_bounds(places + 400)
+@pytest.mark.parametrize("name", ["sin", "cos", "tan"])
+@pytest.mark.parametrize("places", [60, 500, 2000])
+def test_next_to_the_multiples_of_a_quarter_turn(name, places):
+    low, _ = oracle.pi_bounds(places + 400)
+    for n in (1, 2, 3, -7, 58, 2**61, 2**300 + 1):
         x = Fraction(round(n * low / 2 * 2**places), 2**places)
-        check("tan", x, 53)
+        for precision in (2, 53, 400):
+            check(name, x, precision)
         _, _, quadrant = tightest.sincos(raw(x), 53)
         assert quadrant == quarter_turns(x)
 
