@@ -1,11 +1,9 @@
 """sin and cos in binary64: the constants, the error bound, containment, extrema, the far range."""
 
 import math
-import random
 from fractions import Fraction
 from math import factorial
 
-import flint
 import numpy as np
 
 from intervals.array import IntervalArray
@@ -117,29 +115,19 @@ def intervals(seed, count):
     return IntervalArray.from_floats(np.minimum(x, y), np.minimum(np.maximum(x, y), LIMIT))
 
 
-def inner_points(low, high, rng):
-    """The ends, a random point, and a multiple of pi/2 inside if there is one."""
-    yield from (low, high, min(high, max(low, low + (high - low) * rng.random())))
-    n = math.ceil(low / (math.pi / 2)) + rng.randrange(4)
-    x = float(n * HALF_PI)
-    if low <= x <= high:
-        yield x
+def members(x):
+    """The ends, points between them, and a multiple of pi/2 where there is one."""
+    rng = np.random.default_rng(0)
+    yield from (x.inf, x.sup, np.clip(x.inf + (x.sup - x.inf) * rng.random(x.shape), x.inf, x.sup))
+    n = np.ceil(x.inf / (math.pi / 2)) + rng.integers(0, 4, x.shape)
+    yield np.clip(n * (math.pi / 2), x.inf, x.sup)
 
 
-def assert_contains(x, sin, cos, seed=0):
-    rng = random.Random(seed)
-    columns = (x.inf, x.sup, sin.inf, sin.sup, cos.inf, cos.sup)
-    with flint.ctx.workprec(200):
-        for low, high, s0, s1, c0, c1 in zip(*(c.tolist() for c in columns), strict=True):
-            assert -1 <= s0 <= s1 <= 1
-            assert -1 <= c0 <= c1 <= 1
-            for point in inner_points(low, high, rng):
-                s, c = flint.arb(point).sin_cos()
-                assert flint.arb(s0) <= s, (low, high, point)
-                assert s <= flint.arb(s1), (low, high, point)
-                # for tiny points Arb's ball of cos reaches beyond 1
-                assert not c < flint.arb(c0), (low, high, point)
-                assert not c > flint.arb(c1), (low, high, point)
+def assert_contains(x, sin, cos):
+    for name, y in (("sin", sin), ("cos", cos)):
+        assert (y.inf >= -1).all() and (y.sup <= 1).all()
+        for points_inside in members(x):
+            distances(name, [points_inside], rows(y.inf, y.sup))
 
 
 def test_bounds_at_points_are_within_the_stated_ulps():
@@ -196,7 +184,7 @@ def test_inclusion_isotonicity_up_to_the_error_bound():
     upper = np.clip(x.mid + (x.sup - x.mid) * rng.random(x.shape), x.mid, x.sup)
     part = IntervalArray.from_floats(lower, upper)
     for small, large in zip(part.sincos(), x.sincos(), strict=True):
-        gap = 6 * 2.0**-53 * np.maximum(abs(large.inf), abs(large.sup)) + 2 * ETA
+        gap = 6 * 2.0**-53 * large.mag + 2 * ETA
         assert (small.inf >= large.inf - gap).all()
         assert (small.sup <= large.sup + gap).all()
 
@@ -222,7 +210,7 @@ def random_points(count, seed):
 
 
 def test_measured_error_is_within_the_proved_bound():
-    x = random_points(examples(60_000, 600_000), 8)
+    x = random_points(examples(60_000, 300_000), 8)
     assert max(largest_error(name, x) for name in ("sin", "cos")) <= BOUND
     # what this scheme of evaluation is known to reach: a term left out would show
     central = np.random.default_rng(9).uniform(-math.pi / 4, math.pi / 4, 20_000)

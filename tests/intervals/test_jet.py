@@ -135,22 +135,29 @@ def half(x, sign):
     return (x.exp() + sign * (-x).exp()) / 2
 
 
-# name: (with our method, the same from functions that Arb's series have)
-BY_FORMULA = {
-    "sinh": (lambda x: x.sinh(), lambda x: half(x, -1)),
-    "cosh": (lambda x: x.cosh(), lambda x: half(x, 1)),
-    "tanh": (lambda x: x.tanh(), lambda x: half(x, -1) / half(x, 1)),
-    "expm1": (lambda x: x.expm1(), lambda x: x.exp() - 1),
-    "log1p": (lambda x: (x * x).log1p(), lambda x: (1 + x * x).log()),
-    "asinh": (lambda x: x.asinh(), lambda x: (x + (x * x + 1).sqrt()).log()),
-    "acosh": (
-        lambda x: (x * x + 2).acosh(),
-        lambda x: (x * x + 2 + ((x * x + 2) ** 2 - 1).sqrt()).log(),
-    ),
-    "atanh": (lambda x: (x / 5).atanh(), lambda x: ((5 + x) / (5 - x)).log() / 2),
-    "quotient of powers": (lambda x: (x + 5) ** -2, lambda x: 1 / ((x + 5) * (x + 5))),
+OURS = {
+    "sinh": lambda x: x.sinh(),
+    "cosh": lambda x: x.cosh(),
+    "tanh": lambda x: x.tanh(),
+    "expm1": lambda x: x.expm1(),
+    "log1p": lambda x: (x * x).log1p(),
+    "asinh": lambda x: x.asinh(),
+    "acosh": lambda x: (x * x + 2).acosh(),
+    "atanh": lambda x: (x / 5).atanh(),
+    "quotient of powers": lambda x: (x + 5) ** -2,
 }
-FUNCTIONS |= {name: ours for name, (ours, _) in BY_FORMULA.items()}
+THEIRS = FUNCTIONS | {  # the same from functions that Arb's series have
+    "sinh": lambda x: half(x, -1),
+    "cosh": lambda x: half(x, 1),
+    "tanh": lambda x: half(x, -1) / half(x, 1),
+    "expm1": lambda x: x.exp() - 1,
+    "log1p": lambda x: (1 + x * x).log(),
+    "asinh": lambda x: (x + (x * x + 1).sqrt()).log(),
+    "acosh": lambda x: (x * x + 2 + ((x * x + 2) ** 2 - 1).sqrt()).log(),
+    "atanh": lambda x: ((5 + x) / (5 - x)).log() / 2,
+    "quotient of powers": lambda x: 1 / ((x + 5) * (x + 5)),
+}
+FUNCTIONS |= OURS
 
 
 def series(name, point, bits):
@@ -159,7 +166,7 @@ def series(name, point, bits):
         x = flint.arb_series([oracle.arb(point), 1], prec=ORDER + 1)
         cap, flint.ctx.cap = flint.ctx.cap, ORDER + 1
         try:
-            y = (BY_FORMULA[name][1] if name in BY_FORMULA else FUNCTIONS[name])(x)
+            y = THEIRS[name](x)
         finally:
             flint.ctx.cap = cap
         return [oracle.ends(y[k]) for k in range(ORDER + 1)]
@@ -233,12 +240,10 @@ def test_inverse_pairs(order, point):
             assert a.wid < Fraction(1, 2**150)
 
 
-@pytest.mark.parametrize(
-    "name", ["sin", "cos", "exp", "log", "sqrt", "tan", "atan", "sinh", "tanh", "acosh"]
-)
-def test_functions_keep_the_order(name):
-    for order in range(ORDER + 1):
-        assert getattr(Jet(*[Interval(2)] * (order + 1)), name)().order == order
+def test_functions_keep_the_order():
+    for name in ("sin", "cos", "exp", "log", "sqrt", "tan", "atan", "sinh", "tanh", "acosh"):
+        for order in range(ORDER + 1):
+            assert getattr(Jet(*[Interval(2)] * (order + 1)), name)().order == order
 
 
 # -- over IntervalArrays ---------------------------------------------------------------------------

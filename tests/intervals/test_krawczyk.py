@@ -213,22 +213,18 @@ def problems(draw, count):
     return f, roots, boxes
 
 
-methods = st.sampled_from([krawczyk, newton_system])
+methods, precisions = st.sampled_from([krawczyk, newton_system]), st.sampled_from([10, 24, 53, 150])
 
 
-@for_all(problems(2), methods, st.sampled_from([10, 24, 53, 150]), tries=25, at_length=300)
-def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
+@for_all(problems(4), methods, precisions, tries=30, at_length=150)
+def test_what_is_claimed_is_true(problem, method, precision):
+    """Of each box at some precision, and of all of them in arrays."""
     f, roots, boxes = problem
     for pair in boxes:
         box = [Interval(*side, precision=precision) for side in pair]
         outcome, smaller, reason = method(f, box)
         assert reason
         check_claim(outcome, box, smaller, roots)
-
-
-@for_all(problems(8), methods, tries=25, at_length=150)
-def test_what_is_claimed_of_many_boxes_is_true(problem, method):
-    f, roots, boxes = problem
     arrays = [IntervalArray(list(column)) for column in zip(*boxes, strict=True)]
     results = method(f, arrays)
     for i, outcome in enumerate(results.outcomes):

@@ -62,12 +62,39 @@ def test_the_derivative_comes_from_a_jet():
     assert derivative(lambda x: 3 * x)(Interval(1, 2)) == Interval(3)
 
 
-@pytest.mark.parametrize(
-    "ends", [("1.42", 2), ("1.415", "1.416"), (3, 4), ("-1.41", "-1.3"), (1, "1.414")]
-)
-def test_no_zero_in_the_box(ends):
-    result = newton(square_minus_two, twice, Interval(*ends))
-    assert result == (Roots.NONE, None, "the Newton image is disjoint from the box")
+def cube(x):
+    return x * x * x
+
+
+NOISE = Interval(Fraction(-1, 2**40), Fraction(1, 2**40))
+DISJOINT, UNKNOWN, SIGNS = "disjoint from the box", "enclosure contains 0", "changes its sign"
+CASES = [  # f, f', a box, the outcome and its reason
+    *(
+        (square_minus_two, twice, ends, Roots.NONE, DISJOINT)
+        for ends in (("1.42", 2), ("1.415", "1.416"), (3, 4), ("-1.41", "-1.3"), (1, "1.414"))
+    ),
+    (square_minus_two, twice, (-2, 2), Roots.UNDECIDED, UNKNOWN),
+    (Interval.sqr, twice, ("-0.3", "0.5"), Roots.UNDECIDED, UNKNOWN),
+    (Interval.sqr, twice, (0, 1), Roots.AT_LEAST_ONE, SIGNS),
+    (Interval.sqr, twice, (-1, "-0.01"), Roots.NONE, DISJOINT),
+    *(
+        (f, derivative(f), ends, Roots.AT_LEAST_ONE, SIGNS)
+        for f in (cube, lambda x: -cube(x))
+        for ends in ((-1, 2), (-2, 1), (0, 1), (-1, 0), (0, 0))
+    ),
+    (lambda x: cube(x) - x, derivative(lambda x: cube(x) - x), (-2, 2), Roots.AT_LEAST_ONE, SIGNS),
+    # the enclosure of f(0) is [-2^-40, 2^-40]: the sign at this end is open
+    (lambda x: cube(x) + NOISE, derivative(cube), (0, 1), Roots.UNDECIDED, UNKNOWN),
+    (lambda x: x.sqr() + 1, twice, (-1, 1), Roots.NONE, "f over the box excludes 0"),
+]
+
+
+@pytest.mark.parametrize(("f", "df", "ends", "outcome", "reason"), CASES)
+def test_outcomes(f, df, ends, outcome, reason):
+    box = Interval(*ends)
+    result = newton(f, df, box)
+    assert result[:2] == (outcome, None if outcome is Roots.NONE else box)
+    assert reason in result.reason
 
 
 @pytest.mark.parametrize("precision", [53, 200])
@@ -83,46 +110,6 @@ def test_an_image_that_overlaps_the_box_proves_nothing():
     result = newton(square_minus_two, twice, Interval("1.42", 2), steps=1)
     assert result.outcome is Roots.UNDECIDED
     assert result.box.inf == Interval("1.42").inf and result.box.sup < Fraction("1.49")
-
-
-def test_a_double_zero_is_not_decided():
-    box = Interval("-0.3", "0.5")
-    result = newton(Interval.sqr, twice, box)
-    assert result == (Roots.UNDECIDED, box, "the derivative's enclosure contains 0")
-    assert newton(Interval.sqr, twice, Interval(0, 1)).outcome is Roots.AT_LEAST_ONE
-    assert newton(Interval.sqr, twice, Interval(-1, "-0.01")).outcome is Roots.NONE
-
-
-def test_two_zeros_are_not_decided():
-    assert newton(square_minus_two, twice, Interval(-2, 2)).outcome is Roots.UNDECIDED
-
-
-def cube(x):
-    return x * x * x
-
-
-def test_opposite_signs_at_the_ends_prove_a_zero():
-    slope = derivative(cube)
-    for ends in ((-1, 2), (-2, 1), (0, 1), (-1, 0), (0, 0)):
-        box = Interval(*ends)
-        result = newton(cube, slope, box)
-        assert (result.outcome, result.box) == (Roots.AT_LEAST_ONE, box)
-        assert "changes its sign" in result.reason
-        assert newton(lambda x: -cube(x), lambda x: -slope(x), box).outcome is Roots.AT_LEAST_ONE
-    three = newton(lambda x: cube(x) - x, derivative(lambda x: cube(x) - x), Interval(-2, 2))
-    assert three.outcome is Roots.AT_LEAST_ONE
-
-
-def test_signs_that_are_not_strictly_known_prove_nothing():
-    """The enclosure of f(0) is [-2^-40, 2^-40]: the sign at this end is open."""
-    noise = Interval(Fraction(-1, 2**40), Fraction(1, 2**40))
-    result = newton(lambda x: cube(x) + noise, derivative(cube), Interval(0, 1))
-    assert result.outcome is Roots.UNDECIDED
-
-
-def test_the_enclosure_of_f_excludes_a_zero_where_the_slope_is_not_known():
-    result = newton(lambda x: x.sqr() + 1, twice, Interval(-1, 1))
-    assert result == (Roots.NONE, None, "the enclosure of f over the box excludes 0")
 
 
 def test_a_zero_at_the_end_of_the_box():
