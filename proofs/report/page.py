@@ -76,9 +76,8 @@ def ledger(rows: Sequence[dict[str, Any]]) -> str:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    first, *others = (
-        f"| {' | '.join(cell.replace('|', '\\|') for cell in row)} |" for row in (head, *rows)
-    )
+    cells = [[cell.replace("|", "\\|") for cell in row] for row in (head, *rows)]
+    first, *others = (f"| {' | '.join(row)} |" for row in cells)
     return "\n".join([first, "|" + "---|" * len(head), *others])
 
 
