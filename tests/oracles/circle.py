@@ -135,8 +135,8 @@ def absorption(view, rng):
     return told
 
 
-def separation_flight(view, rng):
-    """The flight from phi_s with relative velocity 0, at every epsilon."""
+def superstable_motion(view, rng):
+    """The flight from phi_s; impacts near its end lead to others that end before phi_s."""
     away, found = _released(view)
     if away is None:
         return ["there is no separation phase"]
@@ -150,36 +150,22 @@ def separation_flight(view, rng):
     ):
         if not inside(own, given):
             told.append(f"the {name} of the impact is {own.str(15)}")
-    low, high = (float(away) - TURN, float(away))
-    if not low < float(found.turned(view.turns)) < high:
+    if not float(away) - TURN < float(found.turned(view.turns)) < float(away):
         told.append("the impact is counted in another turn")
-    return told
-
-
-def chatter(view, rng):
-    """Impacts near that of the flight are followed by others that end before phi_s."""
-    after, told = view.after, separation_flight(_about(view.after, view), rng)
-    away = separation(view.eta, view.nu)
-    if away is None or not view.rest < after.separation[1] or not view.spread > 0:
-        return [*told, "no time to come to rest before phi_s"]
-    if not 0 <= view.epsilon[0] < view.epsilon[1] < 1:
+    if not (view.rest < view.separation[1] and view.spread > 0):
+        told.append("no time to come to rest before phi_s")
+    if not 0 == view.box[2][0] < view.box[2][1] < 1:
         told.append("no coefficients of restitution")
     for phase, speed, share in ((0, 0, 1), (1, 1, 1), (rng.random(), rng.random(), rng.random())):
         state = [
             ball(between((low - view.spread, high + view.spread), Fraction(s)))
-            for (low, high), s in ((after.impact, phase), (after.speed, speed))
+            for (low, high), s in ((view.impact, phase), (view.speed, speed))
         ]
         if not state[1] > 0:
             told.append("a speed that is not positive")
             continue
-        epsilon = between(view.epsilon, Fraction(share))
-        told += _bounces(view, state, epsilon)
+        told += _bounces(view, state, between(view.box[2], Fraction(share)))
     return told
-
-
-def _about(record, view):
-    record.eta, record.nu = view.eta, view.nu
-    return record
 
 
 def _bounces(view, state, epsilon):
@@ -219,11 +205,10 @@ def stable_pair(view, rng):
 
 
 JUDGES = {
-    "separation": separation_arc,
-    "lands": lands,
-    "never_impacts": never_impacts,
-    "absorption": absorption,
-    "separation_flight": separation_flight,
-    "chatter": chatter,
-    "stable_pair": stable_pair,
+    "Separation": separation_arc,
+    "Lands": lands,
+    "NeverImpacts": never_impacts,
+    "Absorption": absorption,
+    "SuperstableMotion": superstable_motion,
+    "StablePair": stable_pair,
 }

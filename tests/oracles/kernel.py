@@ -45,12 +45,12 @@ def _wrong(kind, statement, q):
     """Whether a value contradicts a statement about a quantity."""
     if not q.is_finite():
         return True
-    if kind == "within":
+    if kind == "Within":
         return bool(q < exact(statement.bounds[0]) or q > exact(statement.bounds[1]))
-    if kind == "expands":
+    if kind == "Expands":
         return bool(abs(q) < exact(statement.bound))
-    small = 0 if kind == "sign" else exact(Fraction(1, 10**30))
-    return bool(statement.sign * q < -small or (kind == "sign" and q == 0))
+    small = 0 if kind == "Sign" else exact(Fraction(1, 10**30))
+    return bool(statement.sign * q < -small or (kind == "Sign" and q == 0))
 
 
 def inequality(view, rng):
@@ -297,16 +297,16 @@ def _closed(edges, rng, most=2):
 
 
 JUDGES = {
-    **dict.fromkeys(("sign", "monotone", "within", "expands"), inequality),
-    "refuted": refuted,
-    "zero": zero,
-    "root": root,
-    "no_zero": no_zero,
-    "unique_zero": unique_zero,
-    "identity": identity,
-    "h_set": h_set,
-    "covers": covers,
-    "graph": graph,
-    "entropy": entropy,
-    "conjugacy": conjugacy,
+    **dict.fromkeys(("Sign", "Monotone", "Within", "Expands"), inequality),
+    "Refuted": refuted,
+    "Zero": zero,
+    "Root": root,
+    "NoZero": no_zero,
+    "UniqueZero": unique_zero,
+    "Identity": identity,
+    "HSet": h_set,
+    "Covers": covers,
+    "Graph": graph,
+    "Entropy": entropy,
+    "Conjugacy": conjugacy,
 }

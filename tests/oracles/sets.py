@@ -1,8 +1,7 @@
-"""Judges of conclusions about Cantor sets and dimensions (section 3.2) and measures (A.2)."""
+"""Judges of conclusions about Cantor sets and dimensions (section 3.2)."""
 
 from fractions import Fraction
 from itertools import pairwise
-from math import inf
 
 import flint
 import numpy as np
@@ -187,32 +186,13 @@ def _dimension(images, rates, nodes, hull):
     return low
 
 
-def method_one(view, rng):
-    """Infima over covers: brute force over the families of different sets."""
-    masks = [sum(1 << int(point) for point in each) for each in view.sets]
-    best = {0: Fraction(0)}
-    for mask, value in zip(masks, view.values, strict=True):
-        for covered, total in list(best.items()):
-            both, cost = covered | mask, total + max(value, 0)
-            best[both] = min(best.get(both, cost), cost)
-    below = min(view.values, default=0) < 0
-    for wanted, given in enumerate(view.outer):
-        sums = [total for covered, total in best.items() if covered & wanted == wanted]
-        own = min(sums, default=inf)
-        own = -inf if below and own < inf else own
-        if own != given or len(view.outer) != 1 << int(view.points):
-            return [f"the infimum over the covers of the set {wanted:b} is {own}"]
-    return []
-
-
 JUDGES = {
-    "moran_root": moran_root,
-    "no_gap": no_gap,
-    "gap_function": gap_function,
-    "unlike": unlike,
-    "digits": digits,
-    "linear_set": linear_set,
-    "excess": excess,
-    "repeller": repeller,
-    "method_one": method_one,
+    "MoranRoot": moran_root,
+    "NoGap": no_gap,
+    "GapFunction": gap_function,
+    "Unlike": unlike,
+    "Digits": digits,
+    "LinearSet": linear_set,
+    "Excess": excess,
+    "Repeller": repeller,
 }
