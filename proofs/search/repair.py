@@ -33,13 +33,22 @@ def moves(total: int) -> list[tuple[int, ...]]:
     return [move for move in product(span, repeat=4) if sum(map(abs, move)) == total]
 
 
-def nearest_sets(of: Parameters) -> Iterator[Parameters]:
-    """Yield sets on which each image seems to cover I, nearest first; the slopes are kept.
+def moved_ends(ends: tuple[Fraction, ...]) -> Iterator[tuple[Fraction, ...]]:
+    """Yield four ends in order, nearest to the given ones first, which come before all.
 
-    First in units of the last printed place, then in units ten times smaller. The given sets
-    themselves come first if they seem right.
+    First in units of the last printed place, then in units ten times smaller.
     """
-    ends = (*of.left, *of.right)
+    for count in (places(ends), places(ends) + 1):
+        unit = Fraction(1, 10**count)
+        for total in range(REACH + 1):
+            for move in moves(total):
+                moved = tuple(end + unit * step for end, step in zip(ends, move, strict=True))
+                if sorted(set(moved)) == list(moved) and moved[0] >= 0:
+                    yield moved
+
+
+def nearest_sets(of: Parameters) -> Iterator[Parameters]:
+    """Yield sets on which each image seems to cover I, nearest first; the slopes are kept."""
     system = System(of.eta, of.nu)
 
     @cache
@@ -47,17 +56,15 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
         found = next_impact(system, float(end))
         return None if found is None else found[1:]
 
-    for count in (places(ends), places(ends) + 1):
-        unit = Fraction(1, 10**count)
-        for total in range(REACH + 1):
-            for move in moves(total):
-                moved = [end + unit * step for end, step in zip(ends, move, strict=True)]
-                if sorted(set(moved)) == moved and moved[0] >= 0 and _covers(moved, image):
-                    left, right = (moved[0], moved[1]), (moved[2], moved[3])
-                    yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
+    for moved in moved_ends((*of.left, *of.right)):
+        if _covers(moved, image):
+            left, right = (moved[0], moved[1]), (moved[2], moved[3])
+            yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
 
 
-def _covers(ends: list[Fraction], image: Callable[[Fraction], tuple[float, float] | None]) -> bool:
+def _covers(
+    ends: tuple[Fraction, ...], image: Callable[[Fraction], tuple[float, float] | None]
+) -> bool:
     """Whether, in floating point, f is expanding and increasing at the ends and covers I."""
     targets = (ends[0], ends[3], ends[0], ends[3])
     for index, (end, target) in enumerate(zip(ends, targets, strict=True)):

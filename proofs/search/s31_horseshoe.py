@@ -190,6 +190,7 @@ def prove(
         if claim in _DECIDE and run._verdict(claim, proof) is Verdict.REFUTED
     ]
     correction = run.correction() if refuted else None
-    for claim in refuted if correction is not None else ():
-        found.proofs[claim] += [correction] if correction else []
+    if correction is not None:
+        for claim in refuted:
+            found.proofs[claim].append(correction)
     return found

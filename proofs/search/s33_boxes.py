@@ -9,10 +9,9 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
-from proofs.search.evidence import FAILED
 from proofs.search.s33_rectangles import (
     Sets,
-    images_over,
+    image_phases,
     is_short,
     nearest_rectangles,
     overshoot,
@@ -46,7 +45,7 @@ def on_box(prover: ReboundProver, box: Place) -> tuple[list[str], str]:
 
 def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> str:
     """Prove the horseshoe on rectangles for a box, in parts while it must be; or Unproved."""
-    if not stays(prover.of, box, sets):
+    if not stays(box, prover.velocities, sets):
         raise Unproved("an image velocity leaves the rectangles")
     with prover.attempt():
         return _covered(prover, box, sets, iter(range(attempts)))
@@ -55,7 +54,7 @@ def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> str:
 def _covered(prover: ReboundProver, box: Place, sets: Sets, attempts: Iterator[int]) -> str:
     if next(attempts, None) is None:
         raise Unproved("the box is not proved in as many parts as are tried")
-    if overshoot((*sets[0], *sets[1]), images_over(prover.of, box)) <= 0:
+    if overshoot((*sets[0], *sets[1]), image_phases(box, prover.velocities)) <= 0:
         raise Unproved("an edge falls short at a corner of the box")
     with suppress(Unproved):
         return prover.horseshoe(box, sets)
@@ -72,7 +71,8 @@ def _halves(prover: ReboundProver, box: Place, sets: Sets) -> list[Place]:
         low, high = getattr(box, side)
         if low < high:
             one, two = (
-                images_over(prover.of, replace(middle, **{side: (end, end)})) for end in (low, high)
+                image_phases(replace(middle, **{side: (end, end)}), prover.velocities)
+                for end in (low, high)
             )
             pairs = [(one(end), two(end)) for end in ends]
             move = sum(abs(a[0] - b[0]) if a and b else math.inf for a, b in pairs)
@@ -105,7 +105,7 @@ def _points(box: Place) -> list[Place]:
 def _failure(prover: ReboundProver, box: Place, sets: Sets) -> list[str]:
     """Prove that a word has no orbit at a point of the box; else which edges fail there."""
     ends = (*sets[0], *sets[1])
-    images = {point: images_over(prover.of, point) for point in _points(box)}
+    images = {point: image_phases(point, prover.velocities) for point in _points(box)}
     short = [point for point, each in images.items() if is_short(ends, each)]
     likely = short[:: max(1, len(short) // _WORDS)]
     failing = [p for p, each in images.items() if -math.inf < overshoot(ends, each) < 0]
@@ -115,17 +115,10 @@ def _failure(prover: ReboundProver, box: Place, sets: Sets) -> list[str]:
     for point in dict.fromkeys(likely):
         with suppress(Unproved):
             word = prover.missing_word(prover.pair(point, sets))
-            return [word, *_states(prover, point, sets)]
+            return [word, *prover.corners(point, sets, short=True)]
     for point in failing[:_WORDS]:
-        if states := _states(prover, point, sets):
+        if states := prover.corners(point, sets, short=True):
             return states
-    return []
-
-
-def _states(prover: ReboundProver, point: Place, sets: Sets) -> list[str]:
-    """Prove the images of states on edges that fall short at a point, if it can be done."""
-    with suppress(*FAILED):
-        return prover.refuting_states(point, sets)
     return []
 
 
@@ -133,7 +126,7 @@ def _instead(prover: ReboundProver, box: Place) -> list[str]:
     """Prove the horseshoe on the nearest rectangles for the box, else for half of it, and so on."""
     for halvings in range(_SHRUNK + 1):
         smaller = Place(*(_scaled(side, Fraction(1, 2**halvings)) for side in sides(box)))
-        nearest = nearest_rectangles(prover.of, images_over(prover.of, smaller))
+        nearest = nearest_rectangles(prover.of, image_phases(smaller, prover.velocities))
         for sets in islice(nearest, _NEAREST):
             with suppress(Unproved):
                 return [over(prover, smaller, sets, 1)]

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import product
 
-from proofs.search.repair import REACH, moves, places
+from proofs.search.repair import moved_ends, places
 from proofs.trusted.equations import (
     arrival,
     clock,
@@ -61,39 +60,21 @@ def state_after(
     return None
 
 
-def image_phases(of: Parameters) -> Images:
+def image_phases(at: Place, velocities: Range) -> Images:
     """Return a function: about the least and the greatest next phase of the states of a phase.
 
-    From the lowest and the highest velocity, as the next phase is monotone between.
+    For all oscillators of a box and all velocities, as its corners and the ends of these have it.
     """
+    corners = list(product(*(sorted({float(end) for end in side}) for side in sides(at))))
 
     @cache
     def images(phase: Fraction) -> tuple[float, float] | None:
-        if of.epsilon is None or of.velocities is None:
-            return None
+        states = [(float(phase), float(end)) for end in velocities]
         ends = [
-            state_after(float(of.eta), float(of.nu), float(of.epsilon), (float(phase), float(x)))
-            for x in of.velocities
+            state_after(eta, nu, epsilon, state) for eta, nu, epsilon in corners for state in states
         ]
         phases = [end[0] for end in ends if end is not None]
-        return (min(phases), max(phases)) if len(phases) == 2 else None
-
-    return images
-
-
-def images_over(of: Parameters, at: Place) -> Images:
-    """Return such a function for all oscillators of a box, as its corners have it."""
-    corners = [
-        image_phases(replace(of, eta=eta, nu=nu, epsilon=epsilon, reach=None))
-        for eta, nu, epsilon in product(*(sorted(set(side)) for side in sides(at)))
-    ]
-
-    @cache
-    def images(phase: Fraction) -> tuple[float, float] | None:
-        found = [each for corner in corners if (each := corner(phase)) is not None]
-        if len(found) < len(corners):
-            return None
-        return min(low for low, _ in found), max(high for _, high in found)
+        return (min(phases), max(phases)) if len(phases) == len(ends) else None
 
     return images
 
@@ -122,12 +103,12 @@ def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
     return any(ends[0] < low and high < ends[3] for low, high in known)
 
 
-def stays(of: Parameters, at: Place, sets: Sets) -> bool:
+def stays(at: Place, velocities: Range, sets: Sets) -> bool:
     """Whether image velocities seem to stay in the rectangles, for the middle of a box."""
-    eta, nu, epsilon = (float(low + high) / 2 for low, high in sides(at))
-    low, high = map(float, of.velocities or (0, 0))
+    middle = [float(low + high) / 2 for low, high in sides(at)]
+    low, high = map(float, velocities)
     images = [
-        state_after(eta, nu, epsilon, (float(phi), gamma))
+        state_after(middle[0], middle[1], middle[2], (float(phi), gamma))
         for ends in sets
         for phi, gamma in product(ends, (low, high))
     ]
@@ -135,35 +116,25 @@ def stays(of: Parameters, at: Place, sets: Sets) -> bool:
 
 
 def nearest_rectangles(of: Parameters, images: Images) -> Iterator[Sets]:
-    """Yield phases of rectangles that seem to be mapped across both, nearest first.
-
-    In units of the last printed place, then in units ten times smaller.
-    """
-    ends = (*of.left, *of.right)
-    for count in (places(ends), places(ends) + 1):
-        unit = Fraction(1, 10**count)
-        for total in range(REACH + 1):
-            for move in moves(total):
-                moved = tuple(end + unit * step for end, step in zip(ends, move, strict=True))
-                ordered = sorted(set(moved)) == list(moved) and moved[0] >= 0
-                if ordered and overshoot(moved, images) > 0:
-                    yield (moved[0], moved[1]), (moved[2], moved[3])
+    """Yield phases of rectangles that seem to be mapped across both, nearest first."""
+    for ends in moved_ends((*of.left, *of.right)):
+        if overshoot(ends, images) > 0:
+            yield (ends[0], ends[1]), (ends[2], ends[3])
 
 
-def widened(of: Parameters, sets: Sets, corners: Sequence[Parameters]) -> Iterator[Sets]:
+def widened(of: Parameters, sets: Sets, corners: Sequence[Images]) -> Iterator[Sets]:
     """Yield the sets with ends moved outward, by up to two units of the last printed place.
 
-    Those first whose edges seem to be mapped beyond them by most at the parameters `corners`.
+    Those first whose edges seem to be mapped beyond them by most at all the corners.
     """
     ends = (*sets[0], *sets[1])
     unit = Fraction(1, 10 ** places((*of.left, *of.right)))
-    images = [image_phases(corner) for corner in corners]
     choices = []
     for steps in product(range(_MOST_UNITS + 1), repeat=4):
         moves = (-steps[0], steps[1], -steps[2], steps[3])
         moved = tuple(end + unit * move for end, move in zip(ends, moves, strict=True))
         if sorted(set(moved)) == list(moved) and moved[0] >= 0:
-            choices.append((min(overshoot(moved, each) for each in images), moved))
+            choices.append((min(overshoot(moved, each) for each in corners), moved))
     for margin, moved in sorted(choices, reverse=True):
         if margin > 0:
             yield (moved[0], moved[1]), (moved[2], moved[3])

@@ -18,6 +18,7 @@ from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
 from proofs.search.s33_boxes import on_box
 from proofs.search.s33_rectangles import (
+    Images,
     Sets,
     image_phases,
     narrowed,
@@ -68,7 +69,7 @@ def _at_exact_numbers(
 ) -> tuple[dict[str, list[str]], dict[str, str]]:
     """Return the names of steps for N1, N2 and N3, and why there are no more."""
     of = prover.of
-    images, sets = image_phases(of), (of.left, of.right)
+    images, sets = image_phases(at, prover.velocities), (of.left, of.right)
     nearest = next(nearest_rectangles(of, images), None)
     cuts = sorted({end for pair in (sets, nearest or sets) for ends in pair for end in ends})
     tell("impacts on V1 and V2")
@@ -86,7 +87,7 @@ def _at_exact_numbers(
         common = _attempt(lambda: prover.horseshoe(at, sets, cuts))
     elif {"N1", "N3"} & set(claims):
         tell("which itineraries are missing")
-        common = _attempt(lambda: _never_repeats(prover, pair))
+        common = _attempt(lambda: _never_repeats(prover, pair, images))
     for claim in {"N1", "N3"} & set(claims):
         named[claim] += common
     if "N1" in named and nearest != sets:
@@ -107,8 +108,8 @@ def _attempt(make: Callable[[], str]) -> list[str]:
         return []
 
 
-def _never_repeats(prover: ReboundProver, pair: Sequence[str]) -> str:
-    ends = narrowed(prover.of, image_phases(prover.of))
+def _never_repeats(prover: ReboundProver, pair: Sequence[str], images: Images) -> str:
+    ends = narrowed(prover.of, images)
     if ends is None:
         raise Unproved("no part of V2 has an edge beyond V1 and within the images of V1")
     third = (ends[1] - ends[0]) / 3
@@ -128,7 +129,10 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
     half, unit = _half_unit(epsilon), _half_unit(nu) / 50
     etas = eta - _half_unit(eta), eta + _half_unit(eta)
     epsilons = max(Fraction(0), epsilon - 2 * half), epsilon + half
-    corners = [replace(of, eta=x, epsilon=y, reach=None) for x, y in product(etas, epsilons)]
+    corners = [
+        image_phases(replace(exact, eta=(x, x), epsilon=(y, y)), prover.velocities)
+        for x, y in product(etas, epsilons)
+    ]
     box = Place(etas, (nu - unit, nu + unit), epsilons)
     for sets in islice(widened(of, nearest, corners), _ATTEMPTS):
         with suppress(Unproved):

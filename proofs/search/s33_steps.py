@@ -233,31 +233,23 @@ class ReboundProver:
 
     # -- states on edges -----------------------------------------------------------------------
 
-    def corners(self, at: Place, sets: Sets) -> list[str]:
-        """Prove impacts of the corners that decide whether the edges go beyond both sets."""
-        low, high = self.velocities
-        names = []
-        for phi, gamma in (state for a, b in sets for state in ((a, high), (b, low))):
-            with suppress(*FAILED):
-                names.append(self.rebound(at, (phi, phi), (gamma, gamma))[0])
-        return names
+    def corners(self, at: Place, sets: Sets, *, short: bool = False) -> list[str]:
+        """Prove, for each edge, the impact of the corner that seems to overshoot least.
 
-    def refuting_states(self, at: Place, sets: Sets) -> list[str]:
-        """Prove impacts of corners of rectangles whose images seem to be between the outer edges.
-
-        One corner of each edge that has such, with the velocity that makes it fail most.
+        short: only of those whose images seem to be between the outer edges.
         """
         names = []
         eta, nu, epsilon = (float(low) for low, _ in sides(at))
-        for ends in sets:
-            for end, wanted in zip(ends, (max, min), strict=True):
-                images = {
-                    image[0]: gamma
-                    for gamma in self.velocities
-                    if (image := state_after(eta, nu, epsilon, (float(end), float(gamma))))
-                }
-                if images and sets[0][0] < wanted(images) < sets[1][1]:
-                    gamma = images[wanted(images)]
+        edges = [(end, least) for ends in sets for end, least in zip(ends, (max, min), strict=True)]
+        for end, least in edges:
+            images = {
+                image[0]: gamma
+                for gamma in self.velocities
+                if (image := state_after(eta, nu, epsilon, (float(end), float(gamma))))
+            }
+            if images and (not short or sets[0][0] < least(images) < sets[1][1]):
+                gamma = images[least(images)]
+                with suppress(*FAILED):
                     names.append(self.rebound(at, (end, end), (gamma, gamma))[0])
         return names
 
@@ -285,7 +277,7 @@ class ReboundProver:
         for count in range(1, _MOST_SLABS):
             value = begin + count * step / _FINEST
             if abs(value) < 1:
-                states = self.refuting_states(replace(at, **{side: (value, value)}), sets)
+                states = self.corners(replace(at, **{side: (value, value)}), sets, short=True)
                 if states:
                     return states
         return []

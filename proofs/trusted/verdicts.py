@@ -10,6 +10,7 @@ from itertools import groupby
 from types import MappingProxyType
 from typing import TypeVar
 
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, floor_text
 from proofs.trusted.parameters import Parameters, Place
@@ -150,7 +151,10 @@ class Row:
 
     def decide(self, of: Parameters, conclusions: Sequence[Conclusion]) -> Decision:
         """Decide the claim by what is proved; where it is not asked, tell what is true instead."""
-        decision = self.decide_by(of, Found(of, conclusions))
+        try:
+            decision = self.decide_by(of, Found(of, conclusions))
+        except Unproved as failure:  # a hypothesis of a theorem
+            return undecided(str(failure))
         if self.is_asked(of):
             return decision
         missing = f"the printed numbers are about {self.printed_at}: not asked here"

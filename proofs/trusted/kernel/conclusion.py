@@ -31,8 +31,8 @@ class Conclusion:
 
     @property
     def brief(self) -> str:
-        """Return it in a line, its numbers first."""
-        return self.sentence
+        """Return it in a line, its numbers first, without the full stop."""
+        return self.sentence.rstrip(".")
 
     @property
     def latex(self) -> str:

@@ -7,15 +7,11 @@ checker reach conclusions by arithmetic of their own and decide by the same func
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from types import MappingProxyType
 
-from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range
-from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Row, Verdict
+from proofs.trusted.verdicts import Row
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -36,10 +32,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "s31_horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6"),
-        "s32_sets.moran": ("H11", "H16"),
+        "s32_sets.invariant": ("H7", "H8", "H9", "H10"),
+        "s32_sets.moran": ("H11",),
+        "s32_sets.linear": ("H12", "H14", "H15", "H16", "H17"),
         "s2_foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9"),
         "s33_restitution.nonplastic": GROUPS["nonplastic"],
-        "s32_sets.sets": GROUPS["sets"],
         "s32_sets.dimension": GROUPS["dimension"],
         "s34_circle.other_sets": ("G5",),
         "s34_circle.entropy": ("G9",),
@@ -54,50 +51,15 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 
 
-@dataclass(frozen=True)
-class Decision:
-    """What conclusions prove about a claim: of the sections that are not yet rows."""
-
-    verdict: Verdict
-    why: str
-    witness: str | None = None
-    corrected: str | None = None
-    quantities: Mapping[str, Range] = field(default_factory=dict)
-
-    @property
-    def theorem(self) -> str | None:
-        """The strongest true statement nearby."""
-        return self.corrected
-
-
-def undecided(missing: str) -> Decision:
-    """Return that nothing is decided, and what is missing."""
-    return Decision(Verdict.UNDECIDED, missing)
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A claim of the sections that are not yet rows."""
-
-    id: str
-    text: str
-    decide: Callable[[Parameters, Sequence[Conclusion]], Decision]
-
-    def says(self, of: Parameters) -> str:
-        """Return the claim in words at the given numbers."""
-        return of.fill(self.text)
-
-
 def group_of(claim: str) -> str | None:
     """Return the group that a claim belongs to, None for an unknown id."""
     return next((group for group, claims in GROUPS.items() if claim in claims), None)
 
 
-def find(claim: str) -> Row | Claim | None:
+def find(claim: str) -> Row | None:
     """Return the row of a claim by its id; only its own module is imported."""
     for name, claims in _MODULES.items():
         if claim in claims:
-            module = import_module(f"{__name__}.{name}")
-            rows: Sequence[Row | Claim] = getattr(module, "ROWS", None) or module.CLAIMS
+            rows: Sequence[Row] = import_module(f"{__name__}.{name}").ROWS
             return next(row for row in rows if row.id == claim)
     return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,21 +12,10 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import (
-    Phases,
-    Range,
-    ceil_text,
-    decimal_between,
-    show,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phases, Range, ceil_text, show, show_range, within
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-
-_NO_SLOPES = "no proof that f is differentiable on I0 and I1 with bounded slope"
-
 
 # -- the theorem -----------------------------------------------------------------------------------
 
@@ -40,6 +29,13 @@ class Horseshoe(Conclusion):
     right: Phases
     slopes: Range
 
+    def __post_init__(self) -> None:
+        """Raise Unproved unless I0 lies before I1, and f expands."""
+        if self.left[1] >= self.right[0]:
+            raise Unproved("I0 does not lie before I1")
+        if not 1 < self.slopes[0] <= self.slopes[1]:
+            raise Unproved("the slopes do not expand")
+
     @property
     def interval(self) -> Phases:
         """I, from the left end of I0 to the right end of I1."""
@@ -51,9 +47,15 @@ class Horseshoe(Conclusion):
         return self.left[1], self.right[0]
 
     @property
+    def is_null(self) -> bool:
+        """Whether the set has measure zero: 2^n intervals of |I| / g^(n-1) cover it, g > 2."""
+        return self.slopes[0] > 2
+
+    @property
     def sentence(self) -> str:
         """Return the theorem."""
         low, high = map(show, self.slopes)
+        null = " of Lebesgue measure zero" if self.is_null else ""
         return (
             f"let I = {show_range(self.interval)}, I0 = {show_range(self.left)}, I1 = "
             f"{show_range(self.right)}. The impact map f is continuously differentiable and "
@@ -62,8 +64,8 @@ class Horseshoe(Conclusion):
             "Hence, for every n, each of the 2^n words w_1 ... w_n over {0, 1} has its own closed "
             "interval of phases phi with f^(k-1)(phi) in I_(w_k) for k = 1, ..., n, disjoint from "
             f"those of the other words and at most |I| / {low}^(n-1) long; the set of phases whose "
-            "orbit stays in I is a Cantor set, and on it f is topologically conjugate to the full "
-            "one-sided shift on two symbols: 2^n points are fixed by f^n, there are periodic "
+            f"orbit stays in I is a Cantor set{null}; on it f is topologically conjugate to the "
+            "full one-sided shift on two symbols: 2^n points are fixed by f^n, there are periodic "
             "orbits of every period, uncountably many nonperiodic ones, and a dense one."
         )
 
@@ -90,10 +92,6 @@ def horseshoe(
     the shift. Raises Unproved where a hypothesis is not proved.
     """
     found = Horseshoe(left.at, left.domain, right.domain, slopes)
-    if found.left[1] >= found.right[0]:
-        raise Unproved("I0 does not lie before I1")
-    if not 1 < slopes[0] <= slopes[1]:
-        raise Unproved("the slopes do not expand")
     for part in (left, right):
         if part.minimum[0] < slopes[0] or part.maximum[1] > slopes[1]:
             raise Unproved(f"{part.brief}, not within {show_range(slopes)}")
@@ -108,9 +106,7 @@ def horseshoe(
 
 def escapes(avoided: Avoids, gap: Range, interval: Range) -> bool:
     """Whether f is proved to map all phases of a gap outside an interval."""
-    phases, target = avoided.phases, avoided.target
-    outside = target[0] <= interval[0] and interval[1] <= target[1]
-    return outside and phases[0] <= gap[0] and gap[1] <= phases[1]
+    return within(gap, avoided.phases) and within(interval, avoided.target)
 
 
 def prove_horseshoe(context: Context, reader: Reader) -> Horseshoe:
@@ -131,49 +127,15 @@ def prove_horseshoe(context: Context, reader: Reader) -> Horseshoe:
 def read_part(context: Context, reader: Reader) -> SlopeRange:
     """Read {slopes: a slope-range step, domain: two of its points}: what it says in between."""
     name, domain = reader.fields("slopes", "domain")
-    step = context.step(name, SlopeRange)
-    METER.get().spend(len(step.points))
-    part = step.over(domain.range())
+    whole = context.step(name, SlopeRange)
+    METER.get().spend(8 * len(whole.points))
+    part = whole.over(domain.range())
     if part is None:
         raise domain.fail("not two points of the step")
     return part
 
 
 # -- the rows --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Missed(Conclusion):
-    """f is monotone on `domain`, and no phase of it has its first impact in `missed`."""
-
-    at: Place
-    arc: ImageArc
-    missed: Phases
-
-    def __post_init__(self) -> None:
-        """Raise Unproved unless the image misses the interval."""
-        if not self.arc.misses(self.missed):
-            raise Unproved("the image is not proved to miss the interval")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"{show_range(self.missed)} has no preimage in {show_range(self.arc.domain)}."
-
-    @property
-    def brief(self) -> str:
-        """Return the statement."""
-        return self.sentence.rstrip(".")
-
-
-def missed(arc: ImageArc, of: Parameters) -> Missed | None:
-    """Return an interval at the lower end of I0, or the upper one of I1, that an image misses."""
-    (first, end), (begin, last) = of.left, of.right
-    if arc.is_interval and first < arc.low[0]:
-        return Missed(arc.at, arc, Phases(first, decimal_between(first, min(arc.low[0], end))))
-    if arc.is_interval and arc.high[1] < last:
-        return Missed(arc.at, arc, Phases(decimal_between(max(arc.high[1], begin), last), last))
-    return None
 
 
 def slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
@@ -195,25 +157,23 @@ def inside(of: Parameters, found: Found) -> list[Impact]:
 
 
 def _bounded(
-    of: Parameters, found: Found, margin: Callable[[Range], Fraction], strict: bool = False
+    of: Parameters,
+    found: Found,
+    margin: Callable[[Range], Fraction],
+    strict: bool = False,
+    asked: Callable[[Impact], bool] = lambda point: True,
 ) -> Decision:
     """Decide that f' is bounded on I0 and I1, by bounds on both or by one point.
 
     margin: how far bounds (low, high) on f' are inside; of (high, low) it is how far at most.
+    asked: whether a point of I0 or I1 is one of those that the claim is about.
     """
     for point in inside(of, found):
-        if margin(point.slope[::-1]) < 0:
+        if asked(point) and margin(point.slope[::-1]) < 0:
             return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
-    return _everywhere(of, found, margin, strict)
-
-
-def _everywhere(
-    of: Parameters, found: Found, margin: Callable[[Range], Fraction], strict: bool
-) -> Decision:
-    """Decide that f' is bounded on I0 and I1, by bounds on both."""
     parts = slopes_on(of, found)
     if len(parts) < 2:
-        return undecided(_NO_SLOPES)
+        return undecided("no proof that f is differentiable on I0 and I1 with bounded slope")
     least = min(margin((part.minimum[0], part.maximum[1])) for part in parts)
     known: dict[str, Range] = {
         f"slope_{name}_I{index}": bounds
@@ -221,31 +181,15 @@ def _everywhere(
         for name, bounds in (("min", part.minimum), ("max", part.maximum))
     }
     if least < 0 or (strict and least == 0):
-        return undecided(f"{_listed(parts)}: {ceil_text(-least)} short", known=known)
+        briefs = "; ".join(part.brief for part in parts)
+        return undecided(f"{briefs}: {ceil_text(-least)} short", known=known)
     return decided(Verdict.VERIFIED, *parts, margin=least, known=known)
-
-
-def _listed(conclusions: Iterable[Conclusion]) -> str:
-    return "; ".join(each.brief for each in conclusions)
-
-
-def _lower_slope(of: Parameters, found: Found) -> Decision:
-    return _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0])
-
-
-def _upper_slope(of: Parameters, found: Found) -> Decision:
-    return _bounded(of, found, lambda bounds: of.slopes[1] - bounds[1])
-
-
-def _increasing(of: Parameters, found: Found) -> Decision:
-    return _bounded(of, found, lambda bounds: bounds[0], strict=True)
 
 
 def _gap_escapes(of: Parameters, found: Found) -> Decision:
     """H4: the closed gap avoids I, or a phase of the open gap is mapped into I."""
-    low, high = of.interval
     for point in found.all(Impact):
-        if of.gap[0] < point.phase < of.gap[1] and within(point.image, (low, high)):
+        if of.gap[0] < point.phase < of.gap[1] and within(point.image, of.interval):
             return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
     for avoided in found.all(Avoids):
         if escapes(avoided, of.gap, of.interval):
@@ -263,27 +207,24 @@ def arcs_on(of: Parameters, found: Found) -> list[ImageArc]:
 
 
 def _two_preimages(of: Parameters, found: Found) -> Decision:
-    """H5: both images cover I and the gap leaves it, or an interval has no preimage in one."""
+    """H5: both images cover I and the gap leaves it; or one misses an end of I0 or of I1."""
     arcs = arcs_on(of, found)
     known: dict[str, Range] = {
         f"image_{name}_I{0 if arc.domain == of.left else 1}": end
         for arc in arcs
         for name, end in (("low", arc.low), ("high", arc.high))
     }
+    low, high = of.left[0], of.right[1]
     for arc in arcs:
-        lost = missed(arc, of)
-        if lost is not None:
-            return decided(Verdict.REFUTED, lost, corrected=found.all(Horseshoe)[:1], known=known)
+        if arc.is_interval and (low < arc.low[0] or arc.high[1] < high):
+            return decided(Verdict.REFUTED, arc, corrected=found.all(Horseshoe)[:1], known=known)
     if len(arcs) < 2:
         return undecided("no proof that f is monotone on I0 and on I1")
-    low, high = of.interval
     margin = min(min(low - arc.low[1], arc.high[0] - high) for arc in arcs)
     if margin < 0:
         return undecided(f"an image falls short of I by up to {ceil_text(-margin)}", known=known)
-    if of.interval != (of.left[0], of.right[1]):
-        return undecided(
-            "I reaches beyond I0 and I1: nothing is proved about the rest", known=known
-        )
+    if of.interval != (low, high):
+        return undecided("I reaches beyond I0 and I1, where nothing is proved", known=known)
     for avoided in found.all(Avoids):
         if escapes(avoided, of.gap, of.interval):
             return decided(Verdict.VERIFIED, *arcs, avoided, margin=margin, known=known)
@@ -292,13 +233,12 @@ def _two_preimages(of: Parameters, found: Found) -> Decision:
 
 def _short_preimages(of: Parameters, found: Found) -> Decision:
     """H6: by the mean value theorem, an arc of f(I_i) being covered once."""
-    bound = of.slopes[0]
-    for point in inside(of, found):
+
+    def lands(point: Impact) -> bool:
         low, high = point.image
-        lands = any(begin < low and high < end for begin, end in (of.left, of.right))
-        if lands and point.slope[0] > 0 and point.slope[1] < bound:
-            return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
-    decision = _everywhere(of, found, lambda bounds: bounds[0] - bound, strict=True)
+        return point.slope[0] > 0 and any(a < low and high < b for a, b in (of.left, of.right))
+
+    decision = _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0], True, lands)
     if decision.verdict is Verdict.VERIFIED and len(arcs_on(of, found)) < 2:
         return undecided("an image may be longer than the circle, a preimage in several pieces")
     return decision
@@ -311,21 +251,21 @@ ROWS = (
         "3.1, Figure 2",
         "df/dphi >= gamma_2 := 4.2",
         _AT + "f' >= {lo} on the interiors of I0 = {i0} and I1 = {i1}.",
-        _lower_slope,
+        lambda of, found: _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0]),
     ),
     Row(
         "H2",
         "3.1, Figure 2",
         "gamma_1 := 5.25 >= df/dphi",
         _AT + "f' <= {hi} on the interiors of I0 = {i0} and I1 = {i1}.",
-        _upper_slope,
+        lambda of, found: _bounded(of, found, lambda bounds: of.slopes[1] - bounds[1]),
     ),
     Row(
         "H3",
         "3.1",
         "monotonically increasing on I_0 and I_1",
         _AT + "f, lifted to a continuous function, increases on I0 = {i0} and on I1 = {i1}.",
-        _increasing,
+        lambda of, found: _bounded(of, found, lambda bounds: bounds[0], strict=True),
     ),
     Row(
         "H4",

@@ -1,4 +1,4 @@
-"""Section 3.2: Moran's equation, and the digits printed for its root. Claims H11 and H16."""
+"""Section 3.2: Moran's equation, and the digits printed for its root. Claim H11."""
 
 from __future__ import annotations
 
@@ -36,13 +36,6 @@ class MoranRoot(Conclusion):
         """Return the bounds."""
         return f"{floor_text(self.root[0])} <= s_0 <= {ceil_text(self.root[1])}"
 
-    @property
-    def latex(self) -> str:
-        """Return the equation and the bounds."""
-        first, second = map(show, self.ratios)
-        low, high = floor_text(self.root[0], 9), ceil_text(self.root[1], 9)
-        return rf"{first}^s + {second}^s = 1,\ s \in [{low}, {high}]"
-
 
 def moran_root(context: Context, reader: Reader) -> MoranRoot:
     """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
@@ -63,12 +56,9 @@ def moran_root(context: Context, reader: Reader) -> MoranRoot:
     return MoranRoot((ratios[0], ratios[1]), root)
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class NoGap(Conclusion):
-    """The two ratios, both positive, leave no linear Cantor set, or Moran's equation no root."""
+    """Two positive ratios leave no linear Cantor set, or Moran's equation no root."""
 
     ratios: Range
 
@@ -80,102 +70,57 @@ class NoGap(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the statement."""
+        first, second = map(show, self.ratios)
         if max(self.ratios) >= 1:
-            return "a ratio is at least 1, so the sum exceeds 1 for every s > 0: there is no s_0."
-        return (
-            f"eta0 + eta1 = {show(sum(self.ratios, Fraction(0)))} >= 1: s_0 >= 1, q does not "
-            "decrease, and the two parts of I are not disjoint."
-        )
+            return f"({first})^s + ({second})^s > 1 for every s > 0: there is no s_0."
+        return f"eta0 + eta1 >= 1 for {first} and {second}: s_0 >= 1, and q does not decrease."
 
 
-@dataclass(frozen=True)
-class Unlike(Conclusion):
-    """1 / slope does not round to the ratio that is given."""
-
-    slope: Fraction
-    given: Fraction
-
-    def __post_init__(self) -> None:
-        """Raise Unproved where it does."""
-        if 1 / self.slope == self.given or rounds_to(1 / self.slope, show(self.given)):
-            raise Unproved("the ratio is 1 / slope, rounded")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"1/{show(self.slope)} does not round to {show(self.given)}."
+# -- the row ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Digits(Conclusion):
-    """Printed digits against the roots for given and for exact ratios."""
+    """A number in `value` against printed digits; a fraction p/q stands for itself alone.
 
+    Rounded they stand for the numbers within half a unit of the last place, truncated for those
+    from the printed one on, up to a unit more. Decided where all of `value` is inside or outside.
+    """
+
+    name: str
+    value: Range
     printed: str
-    given: MoranRoot
-    exact: MoranRoot
 
     @property
-    def readings(self) -> list[tuple[bool | None, bool | None]]:
-        """Whether they are the digits of each root, (rounded, truncated); None: not decided."""
-        return [readings(each.root, self.printed) for each in (self.given, self.exact)]
+    def unit(self) -> Fraction:
+        """The unit of the last place of a decimal; 0 for a fraction, which is exact."""
+        return Fraction("/" not in self.printed, 10 ** len(self.printed.partition(".")[2]))
+
+    @property
+    def rounded(self) -> bool | None:
+        """Whether the digits are those of the number, rounded; None: not decided."""
+        (low, high), middle, half = self.value, Fraction(self.printed), self.unit / 2
+        if (middle - half < low and high < middle + half) or low == middle == high:
+            return True
+        return False if high <= middle - half or middle + half <= low else None
+
+    @property
+    def truncated(self) -> bool | None:
+        """Whether the digits are those of the number, truncated; None: not decided."""
+        (low, high), first = self.value, Fraction(self.printed)
+        if (first <= low and high < first + self.unit) or low == first == high:
+            return True
+        return False if high < first or first + self.unit <= low else None
 
     @property
     def sentence(self) -> str:
         """Return which readings of the digits hold."""
-        if all(rounded for rounded, _ in self.readings):
-            cut = "also" if all(truncated for _, truncated in self.readings) else "not"
-            return f"{self.given.brief}: {self.printed} if rounded, {cut} if truncated."
-        if all(reading == (False, False) for reading in self.readings):
-            return f"{self.given.brief}: not {self.printed} in any reading."
-        return f"{self.given.brief}: the readings of {self.printed} differ between the ratios."
-
-    @property
-    def brief(self) -> str:
-        """Return the statement."""
-        return self.sentence.rstrip(".")
-
-
-@dataclass(frozen=True)
-class GapFunction(Conclusion):
-    """eta0 + eta1 < 1, so that 0 < s_0 < 1: q decreases, and q(eta1/eta0) = 0."""
-
-    ratios: Range
-
-    def __post_init__(self) -> None:
-        """Raise Unproved where the ratios leave no gap."""
-        if min(self.ratios) <= 0 or sum(self.ratios) >= 1:
-            raise Unproved("the ratios do not sum to less than 1")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"0 < s_0 < 1, because eta0 + eta1 = {show(sum(self.ratios, Fraction(0)))} < 1."
-
-
-def _last_place(printed: str) -> Fraction:
-    """Return the unit of the last place of a decimal; 0 for a fraction, which is exact."""
-    return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
-
-
-def rounds_to(value: Fraction, printed: str) -> bool:
-    """Whether printed digits are those of a number, rounded."""
-    return 2 * abs(value - Fraction(printed)) < _last_place(printed)
-
-
-def readings(root: Range, printed: str) -> tuple[bool | None, bool | None]:
-    """Return whether the printed digits are the root's, (rounded, truncated); None: undecided.
-
-    Rounded they stand for the numbers within half a unit of the last place, truncated for those
-    from the printed one on, up to a unit more: decided where the bracket is inside or outside.
-    """
-    (low, high), value, unit = root, Fraction(printed), _last_place(printed)
-    nearest: bool | None = (value - unit / 2 < low and high < value + unit / 2) or None
-    if high <= value - unit / 2 or low >= value + unit / 2:
-        nearest = False
-    first: bool | None = (value <= low and high < value + unit) or None
-    if high < value or low >= value + unit:
-        first = False
-    return nearest, first
+        words = {True: "is", False: "is not", None: "may be"}
+        return (
+            f"{self.name}, in [{floor_text(self.value[0])}, {ceil_text(self.value[1])}], "
+            f"{words[self.rounded]} {self.printed} if rounded, and {words[self.truncated]} if "
+            "truncated."
+        )
 
 
 def _moran_root(of: Parameters, found: Found) -> Decision:
@@ -183,49 +128,30 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     if max(ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(ratios))
     for slope, ratio in zip(of.slopes[::-1], ratios, strict=True):
-        if 1 / slope != ratio and not rounds_to(1 / slope, show(ratio)):
-            return decided(Verdict.REFUTED, Unlike(slope, ratio))
+        digits = Digits(f"1/{show(slope)}", (1 / slope, 1 / slope), show(ratio))
+        if not digits.rounded:
+            return decided(Verdict.REFUTED, digits)
     roots = {each.ratios: each for each in found.all(MoranRoot)}
     if ratios not in roots or of.reciprocals not in roots:
         return undecided("no bracket of s_0")
     given, exact = roots[ratios], roots[of.reciprocals]
     known = {"s0": given.root, "s0_reciprocal_slopes": exact.root}
-    if of.printed_s0 is None:
-        return decided(Verdict.VERIFIED, given, known=known)
-    return _digits_read(Digits(of.printed_s0, given, exact), known)
-
-
-def _digits_read(digits: Digits, known: dict[str, Range]) -> Decision:
-    """Decide whether printed digits are those of s_0, for given and for exact ratios."""
-    if all(rounded for rounded, _ in digits.readings):
-        return decided(Verdict.VERIFIED, digits, known=known)
-    if all(reading == (False, False) for reading in digits.readings):
-        return decided(Verdict.REFUTED, digits, corrected=[digits.given], known=known)
-    return undecided(digits.brief, known=known)
-
-
-def _gap_function(of: Parameters, found: Found) -> Decision:
-    del found  # exact arithmetic on the ratios decides
-    if sum(of.moran_ratios) >= 1:
-        return decided(Verdict.REFUTED, NoGap(of.moran_ratios))
-    return decided(Verdict.VERIFIED, GapFunction(of.moran_ratios))
+    pair = dict.fromkeys((given, exact)) if of.printed_s0 else ()
+    read = [Digits("s_0", each.root, of.printed_s0 or "") for each in pair]
+    if read and all(each.rounded is each.truncated is False for each in read):
+        return decided(Verdict.REFUTED, *read, corrected=[given], known=known)
+    if not all(each.rounded for each in read):
+        return undecided("; ".join(each.brief for each in read), known=known)
+    return decided(Verdict.VERIFIED, given, *read, known=known)
 
 
 ROWS = (
     Row(
         "H11",
         "3.2",
-        "s_o = 0.449...",
+        "s_o evaluates to 0.449...",
         "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
         "to the places given.",
         _moran_root,
-    ),
-    Row(
-        "H16",
-        "3.2, Claim 1, 3.",
-        "q is a decreasing function",
-        "With eta0 = {r0}, eta1 = {r1} and eta0^s_0 + eta1^s_0 = 1, the function q(x) = "
-        "((1 - eta1)/eta0 + x)^s_0 - 1 - x^s_0 decreases on x > 0 and q(eta1/eta0) = 0.",
-        _gap_function,
     ),
 )

@@ -1,16 +1,15 @@
-"""Sequences over 0 and 1 without certain words: subshifts of finite type. Trusted, and shared."""
+"""Subshifts of finite type: sequences over 0 and 1 without certain words."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
 
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
 
-_PLACES = 10**30
 _ROUNDS = 200
 
 
@@ -32,14 +31,14 @@ class Subshift:
     forbidden: frozenset[str]
 
     @classmethod
-    def without(cls, factors: Iterable[str]) -> Subshift:
-        """Return the subshift without these factors, which are written at one length.
+    def between(cls, low: str, high: str) -> Subshift:
+        """Return the sequences of which no factor comes before `low` and all come before `high`.
 
-        In an infinite sequence a word stands exactly if one of its extensions does.
+        Factors as long as these are compared, in lexicographic order; "0" and "2" bound nothing.
         """
-        given = set(factors)
-        length = max((2, *map(len, given)))
-        return cls(length, frozenset(w for w in words(length) if any(map(w.startswith, given))))
+        length = max(2, len(low), len(high))
+        cut = (w for w in words(length) if w[: len(low)] < low or w[: len(high)] >= high)
+        return cls(length, frozenset(cut))
 
     @cached_property
     def arrows(self) -> dict[str, list[str]]:
@@ -68,36 +67,10 @@ class Subshift:
         return " or ".join(shortest)
 
     @cached_property
-    def missing(self) -> str | None:
-        """The first of the shortest words that begin no sequence; None if there is no such word."""
-        for length in range(1, self.length + 1):
-            for word in words(length):
-                if not self.begins(word):
-                    return word
-        return None
-
-    def begins(self, word: str) -> bool:
-        """Whether some sequence begins with a word."""
-        head, rest = word[: self.length - 1], word[self.length - 1 :]
-        states = [state for state in self.arrows if state.startswith(head)]
-        for letter in rest:
-            states = [then for one in states for then in self.arrows[one] if then[-1] == letter]
-        return bool(states)
-
-    @cached_property
-    def irreducible(self) -> bool:
-        """Whether there is a path from every state to every state, and at least one state.
-
-        It is enough that one state is reached from all states and reaches all.
-        """
-        return bool(self.arrows) and all(
-            _reached(graph) == set(graph) for graph in (self.arrows, _reversed(self.arrows))
-        )
-
-    @property
     def chaotic(self) -> bool:
-        """Whether the graph is irreducible and some state has two successors.
+        """Whether a path leads from every state to every one, and some state has two successors.
 
+        It is enough that one state reaches all states and is reached from all.
         Then, for the shift on the set X of sequences:
 
         1. X is a Cantor set. It is compact, and any two points differ in a letter, which splits X
@@ -110,59 +83,37 @@ class Subshift:
            countably many, X is not countable.
         4. Some orbit is dense: that of a path that follows all finite paths one after another.
         """
-        return self.irreducible and any(len(after) == 2 for after in self.arrows.values())
+        ahead = set(list(self.arrows)[:1])
+        behind = set(ahead)
+        while new := {then for state in ahead for then in self.arrows[state]} - ahead:
+            ahead |= new
+        while new := {x for x, after in self.arrows.items() if behind.intersection(after)} - behind:
+            behind |= new
+        splits = any(len(after) == 2 for after in self.arrows.values())
+        return splits and ahead == behind == set(self.arrows)
 
     def fixed_points(self, period: int) -> int:
-        """Return how many sequences the shift's iterate fixes: the closed paths of this length."""
-        total = 0
-        for start in self.arrows:
-            paths = {start: 1}
-            for _ in range(period):
-                following: dict[str, int] = {}
-                for state, count in paths.items():
-                    for then in self.arrows[state]:
-                        following[then] = following.get(then, 0) + count
-                paths = following
-            total += paths.get(start, 0)
-        return total
+        """Return how many sequences the shift's iterate fixes: w w w ... for words w."""
+        periodic = [w * self.length for w in words(period)]
+        factors = [{x[k : k + self.length] for k in range(period)} for x in periodic]
+        return sum(not self.forbidden & each for each in factors)
 
     @cached_property
     def growth(self) -> Range:
-        """Bounds on the spectral radius of an irreducible graph; its log is the entropy.
+        """Bounds on the spectral radius of a chaotic graph; its log is the entropy.
 
         min (A v)_i / v_i <= radius <= max (A v)_i / v_i for any positive vector v (Collatz and
         Wielandt); v is iterated under 1 + A, in integers that stay positive.
         """
-        if not self.irreducible:
-            raise ValueError("the graph is not irreducible")
+        if not self.chaotic:
+            raise Unproved("the graph is not proved irreducible")
         vector = dict.fromkeys(self.arrows, 1 << 200)
         for _ in range(_ROUNDS):
             image = self._image(vector)
             vector = {state: 1 + (vector[state] + image[state]) // 2 for state in vector}
         image = self._image(vector)
         quotients = [Fraction(image[state], vector[state]) for state in vector]
-        low, high = min(quotients), max(quotients)
-        return Fraction(low * _PLACES // 1, _PLACES), -Fraction(-high * _PLACES // 1, _PLACES)
+        return min(quotients), max(quotients)
 
     def _image(self, vector: dict[str, int]) -> dict[str, int]:
         return {state: sum(map(vector.__getitem__, after)) for state, after in self.arrows.items()}
-
-
-def _reached(graph: dict[str, list[str]]) -> set[str]:
-    """Return what is reached from the first state."""
-    first = next(iter(graph))
-    reached, waiting = {first}, [first]
-    while waiting:
-        new = set(graph[waiting.pop()]) - reached
-        reached |= new
-        waiting += new
-    return reached
-
-
-def _reversed(graph: dict[str, list[str]]) -> dict[str, list[str]]:
-    """Return the graph with its arrows turned round."""
-    turned: dict[str, list[str]] = {state: [] for state in graph}
-    for state, after in graph.items():
-        for then in after:
-            turned[then].append(state)
-    return turned

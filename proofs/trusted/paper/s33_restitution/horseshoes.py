@@ -24,11 +24,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import (
-    RectangleMap,
-    restitution,
-    size,
-)
+from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, restitution, size
 from proofs.trusted.parameters import Place
 
 CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
@@ -135,88 +131,30 @@ def rates(on: RectangleMap) -> Rates:
     return found
 
 
-@dataclass(frozen=True)
-class Hyperbolic(Conclusion):
-    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
-    `shrink`, and is hyperbolic where it stays there.
-    """
+# -- horseshoes ------------------------------------------------------------------------------------
 
-    at: Place
+
+class Crossing(NamedTuple):
+    """What `crossing` finds: the rectangles, by how far edges overshoot, and how vectors grow."""
+
     strips: Strips
-    grow: Fraction
-    shrink: Fraction
+    margin: Fraction
     rates: Rates
 
-    @property
-    def sentence(self) -> str:
-        """Return the theorem."""
-        return (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), and F is "
-            "smooth on them. The images of two states on one horizontal line of a rectangle are at "
-            f"least {floor_text(self.grow, 2)} times as far apart (phases on the line), of two on "
-            f"one vertical line at most {ceil_text(self.shrink, 3)} times. For every compact set K "
-            f"in V1 and V2 with F(K) = K, F on K is {self.rates}."
-        )
 
-    @property
-    def brief(self) -> str:
-        """Return the factors."""
-        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
-        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
-
-
-def hyperbolic(maps: Maps) -> Hyperbolic:
-    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
-    |q| + |s| < 1.
-
-    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
-    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
-    on a compact invariant set makes it hyperbolic.
-    """
-    grow = min(each.derivative[0][0][0] for each in maps)
-    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
-    if grow <= 1 or shrink >= 1:
-        raise Unproved("distances are not proved to grow and to shrink")
-    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, worst(map(rates, maps)))
-
-
-# -- covering --------------------------------------------------------------------------------------
-
-
-def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Fraction:
-    """Return by how far edges overshoot: F maps rectangle i across the rectangles arrows[i].
-
-    Theorem. Let image velocities lie in the interior of G, the velocities of both rectangles, and
-    of each i the left edge go to the left and the right edge to the right of all N_j, j in
-    arrows[i]; let `strips` and `rates` hold. Let A be the compact set of states whose full orbits
-    x_(n+1) = F(x_n) exist and follow these arrows. Each two-sided path of arrows is the itinerary
-    of exactly one full orbit in A, which is hyperbolic. If epsilon > 0, F is one-to-one, and F on
-    A is conjugate to the two-sided shift on paths. If epsilon = 0, phases alone are a map f, and
-    each one-sided path is the itinerary of exactly one phase.
-
-    Proof. 1. Call the graph of a function gamma(phi) over the phases of N_i, with Lipschitz
-    constant CONE, a curve. By `rates` the image of a curve is such a graph, over an interval that
-    contains N_j's phases, with velocities in G: it contains a curve of N_j. So finite paths are
-    followed, by compactness all. 2. The difference of the images of two states of N_i is D times
-    theirs, D a mean of DF. So along two orbits of one itinerary Q(z_n) increases and is bounded,
-    z_n -> 0 at both ends, Q(z_n) = 0 and z = 0. 3. F is one-to-one for epsilon > 0: from the state
-    before an impact the flight is run back to its launch, the last zero of the gap before; phase
-    and velocity there determine gamma, as epsilon != 0. The itinerary is then a continuous
-    bijection of compact sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See Gidea and
-    Zgliczynski, Covering relations for multidimensional dynamical systems, J. Differential
-    Equations 202 (2004).
-    """
-    margins = []
+def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Crossing:
+    """Check the hypotheses of the rule `rectangle-horseshoe`, for these arrows, or Unproved."""
+    found, margins = strips(maps), []
     for each, targets in zip(maps, arrows, strict=True):
         low, high = hull([maps[target].phases for target in targets])
         margins += [low - each.left[1], each.right[0] - high]
-        lowest, highest = each.velocities
+        lowest, highest = found.velocities
         if not lowest < each.velocity[0] <= each.velocity[1] < highest:
             raise Unproved("an image velocity is not in the interior of the velocities")
     if min(margins) <= 0:
         short = ceil_text(-min(margins))
         raise Unproved(f"an edge is not mapped beyond the rectangles: up to {short} short")
-    return min(margins)
+    return Crossing(found, min(margins), worst(map(rates, maps)))
 
 
 @dataclass(frozen=True)
@@ -265,11 +203,34 @@ class RectangleHorseshoe(Conclusion):
 def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     """Rule `rectangle-horseshoe`: {rectangles: two names}.
 
-    Conclusion: `crossing` with all arrows.
+    Hypotheses: 1. N_0 lies left of N_1, both about the same oscillators and with the same
+    velocities G; in both the next phase increases with phi, and images do not reach around the
+    circle. 2. Image velocities lie in the interior of G, and of each N_i the left edge goes to the
+    left and the right edge to the right of all N_j, i -> j being all arrows (for other arrows see
+    `golden-mean`). 3. With (x, y) = (dphi, dgamma / 2), Q = x^2 - y^2 and D any matrix of numbers
+    within the bounds on DF in these coordinates, p > 0 and D^T Q D - Q is positive definite; if
+    |y| <= |x|, |x'| >= expansion |x|, expansion > 1; if |x'| <= |y'|, |y'| <= contraction |y|,
+    contraction < 1.
+
+    Conclusion: let A be the compact set of states whose full orbits x_(n+1) = F(x_n) exist and
+    follow the arrows. Each two-sided path of arrows is the itinerary of exactly one full orbit in
+    A, which is hyperbolic. If epsilon > 0, F is one-to-one, and F on A is conjugate to the
+    two-sided shift on paths. If epsilon = 0, phases alone are a map f, and each one-sided path is
+    the itinerary of exactly one phase.
+
+    Proof. 1. Call the graph of a function gamma(phi) over the phases of N_i, with Lipschitz
+    constant 2, a curve. By 3 the image of a curve is such a graph, over an interval that contains
+    N_j's phases, with velocities in G: it contains a curve of N_j. So finite paths are followed, by
+    compactness all. 2. The difference of the images of two states of N_i is D times theirs, D a
+    mean of DF. So along two orbits of one itinerary Q(z_n) increases and is bounded, z_n -> 0 at
+    both ends, Q(z_n) = 0 and z = 0. 3. F is one-to-one for epsilon > 0: from the state before an
+    impact the flight is run back to its launch, the last zero of the gap before; phase and velocity
+    there determine gamma, as epsilon != 0. The itinerary is then a continuous bijection of compact
+    sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See Gidea and Zgliczynski, Covering
+    relations for multidimensional dynamical systems, J. Differential Equations 202 (2004).
     """
     maps = read_maps(context, *reader.fields("rectangles"))
-    margin = crossing(maps, ((0, 1), (0, 1)))
-    return RectangleHorseshoe(maps[0].at, strips(maps), margin, worst(map(rates, maps)))
+    return RectangleHorseshoe(maps[0].at, *crossing(maps, ((0, 1), (0, 1))))
 
 
 def union(context: Context, reader: Reader) -> RectangleHorseshoe:

@@ -3,23 +3,73 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, floor_text, show, within
+from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, within
 from proofs.trusted.paper.s33_restitution.horseshoes import (
+    Maps,
+    Rates,
     RectangleHorseshoe,
     Strips,
-    hyperbolic,
+    rates,
+    strips,
+    worst,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, outward
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, outward, size
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _NO_RECTANGLES = "epsilon > 0 and velocities are needed: without restitution see H7 to H9"
+
+
+@dataclass(frozen=True)
+class Hyperbolic(Conclusion):
+    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
+    `shrink`, and is hyperbolic where it stays there.
+    """
+
+    at: Place
+    strips: Strips
+    grow: Fraction
+    shrink: Fraction
+    rates: Rates
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem."""
+        return (
+            f"let {self.strips}. All their states are physically possible (gap' <= 0), and F is "
+            "smooth on them. The images of two states on one horizontal line of a rectangle are at "
+            f"least {floor_text(self.grow, 2)} times as far apart (phases on the line), of two on "
+            f"one vertical line at most {ceil_text(self.shrink, 3)} times. For every compact set K "
+            f"in V1 and V2 with F(K) = K, F on K is {self.rates}."
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the factors."""
+        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
+        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
+
+
+def hyperbolic(maps: Maps) -> Hyperbolic:
+    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
+    |q| + |s| < 1.
+
+    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
+    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
+    on a compact invariant set makes it hyperbolic.
+    """
+    grow = min(each.derivative[0][0][0] for each in maps)
+    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
+    if grow <= 1 or shrink >= 1:
+        raise Unproved("distances are not proved to grow and to shrink")
+    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, worst(map(rates, maps)))
 
 
 @dataclass(frozen=True)
@@ -31,6 +81,12 @@ class EdgeImage(Conclusion):
     phase: Fraction
     velocity: Fraction
     image: Range
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the state is a corner."""
+        ends = (*self.strips.left, *self.strips.right)
+        if self.phase not in ends or self.velocity not in self.strips.velocities:
+            raise Unproved("the state is no corner of a rectangle")
 
     @property
     def edge(self) -> tuple[str, int]:
@@ -70,12 +126,12 @@ class EdgeImage(Conclusion):
 
 def edge_images(strips: Strips, found: Sequence[Rebound]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
-    ends = (*strips.left, *strips.right)
     images = []
     for each in found:
-        (phase, high), (velocity, top) = each.phases, each.velocities
-        if phase == high in ends and velocity == top in strips.velocities:
-            images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
+        (phase, last), (velocity, top) = each.phases, each.velocities
+        if phase == last and velocity == top:
+            with suppress(Unproved):
+                images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
     return images
 
 

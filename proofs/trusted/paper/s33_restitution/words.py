@@ -17,10 +17,8 @@ from proofs.trusted.paper.s33_restitution.horseshoes import (
     Rates,
     Strips,
     crossing,
-    rates,
     read_maps,
     strips,
-    worst,
 )
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, restitution
 from proofs.trusted.parameters import Place
@@ -39,6 +37,11 @@ class BarredWord(Conclusion):
     strips: Strips
     word: tuple[int, ...]
     short: Fraction
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless it falls short."""
+        if self.short <= 0:
+            raise Unproved("an orbit along the word is not excluded")
 
     @property
     def brief(self) -> str:
@@ -62,12 +65,13 @@ class BarredWord(Conclusion):
 def barred_word(context: Context, reader: Reader) -> BarredWord:
     """Rule `barred-word`: {rectangles: two names, word of 0 and 1, images: rebound steps, from}.
 
-    from: "above" or "below". Hypotheses, from above: image k is about the states {b_k} x G_k at
-    least, b_k a phase of the rectangle word[k], G_0 its velocities, G_(k+1) the image velocities
-    of the rectangle word[k]; with e_0 the right end of word[0] and e_(k+1) the greatest phase of
-    image k, min(e_k, right end of word[k]) <= b_k; the last e_n is left of word[n]. From below:
-    with left for right and <= for >=. Conclusion: no orbit follows the word.
-    Proof. The next phase increases with phi (`strips`). So if phi_k <= b_k and gamma_k is in G_k,
+    from: "above" or "below". Hypotheses: 1 of `rectangle-horseshoe`; from above, image k is about
+    the states {b_k} x G_k at least, b_k a phase of the rectangle word[k], G_0 its velocities,
+    G_(k+1) the image velocities of the rectangle word[k]; with e_0 the right end of word[0] and
+    e_(k+1) the greatest phase of image k, min(e_k, right end of word[k]) <= b_k; the last e_n is
+    left of word[n]. From below: with left for right and <= for >=. Conclusion: no orbit x_0, ...,
+    x_n has x_k in the rectangle word[k] for all k.
+    Proof. The next phase increases with phi. So if phi_k <= b_k and gamma_k is in G_k,
     then phi_(k+1) <= e_(k+1), and phi_(k+1) <= b_(k+1) if it is in the rectangle.
     """
     maps_of, word_of, images_of, side = reader.fields("rectangles", "word", "images", "from")
@@ -95,8 +99,6 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
             raise Unproved("an image velocity leaves the rectangles")
     low, high = path[-1].phases
     short = low - extreme if above else extreme - high
-    if short <= 0:
-        raise Unproved("an orbit along the word is not excluded")
     return BarredWord(maps[0].at, strips(maps), tuple(map(int, word)), short)
 
 
@@ -130,11 +132,12 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     """Rule `golden-mean`: {rectangles: two names, part: a rectangle, words: barred-word steps}.
 
     Hypotheses: epsilon > 0; every word of some length that ends in 11 (V2 twice) contains a barred
-    word; V1 and N = `part`, a part of V2 with the same left edge, have the arrows 0 -> 0, 0 -> 1,
-    1 -> 0. Conclusion: `GoldenMean.sentence`.
+    word; V1 and N = `part`, a part of V2 with the same left edge, obey the hypotheses of
+    `rectangle-horseshoe` with the arrows V1 -> V1, V1 -> N, N -> V1. Conclusion: F on the states
+    whose full orbits stay in V1 and V2 is conjugate to the two-sided shift on sequences without 22.
     Proof. 1. V2 is never followed by V2 in a full orbit, thus by V1. 2. The right edge of N goes to
     the right of V1 and the next phase increases on V2, so a state of V2 outside N does not go to
-    V1. So full orbits in V1 and V2 follow the arrows, and `crossing` describes those.
+    V1. So full orbits in V1 and V2 follow the arrows, and `rectangle-horseshoe` describes those.
     """
     names, part_of, words_of = reader.fields("rectangles", "part", "words")
     maps, part = read_maps(context, names), context.step(part_of, RectangleMap)
@@ -149,9 +152,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     same = part.turns == second.turns and part.phases[0] == second.phases[0]
     if not same or part.phases[1] > second.phases[1]:
         raise Unproved("N is no part of V2 with the same left edge")
-    strips((first, part))
-    crossing((first, part), ((0, 1), (0,)))
-    return GoldenMean(first.at, found, worst([rates(first), rates(part)]))
+    return GoldenMean(first.at, found, crossing((first, part), ((0, 1), (0,))).rates)
 
 
 def never_twice(words: Sequence[tuple[int, ...]]) -> bool:

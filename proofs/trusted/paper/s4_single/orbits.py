@@ -76,6 +76,11 @@ class Solution(Conclusion):
     acceleration: Range
     early: Fraction | None
 
+    def __post_init__(self) -> None:
+        """Raise Unproved where n is none, or all phases solve (16)."""
+        if not 1 <= self.n <= _MOST_PERIODS or self.n * self.at.eta[0] % 1 == 0:
+            raise Unproved("n >= 1 is a whole number, n eta is none")
+
     @property
     def contracts(self) -> bool:
         """Whether |slope| < 1."""
@@ -122,9 +127,9 @@ class Orbit(Conclusion):
     def sentence(self) -> str:
         """Return the statement."""
         return (
-            f"the phase in {_within(self.solution.phase, 20)} is such an orbit for n = "
-            f"{self.solution.n}, with slope in {_within(self.solution.multiplier, 12)}: the mass "
-            "leaves at once, and its first impact, a transversal one, is 2 pi n later."
+            f"a phase in {_within(self.solution.phase, 20)} is a fixed point of f, with slope in "
+            f"{_within(self.solution.multiplier, 12)}: the mass leaves the table at once, and its "
+            f"first impact, a transversal one, is 2 pi n later, n = {self.solution.n}."
         )
 
 
@@ -138,8 +143,8 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     eta_of, nu_of, n_of, phase_of, early_of = reader.fields("eta", "nu", "n", "phase", "early")
     eta, nu, periods, phase = eta_of.number(), nu_of.number(), n_of.number(), phase_of.range()
     n, at = int(periods), Place.plastic(eta, nu)
-    if n != periods or not 1 <= n <= _MOST_PERIODS or n * eta % 1 == 0:
-        raise Unproved("n is a whole number, n eta is none")
+    if n != periods:
+        raise n_of.fail("a whole number is expected")
     if phase[0] < -TURN or phase[1] > TURN:
         raise phase_of.fail("phases lie between -2 pi and 2 pi")
     bits = _bits(phase[1] - phase[0], n)
@@ -219,7 +224,7 @@ class EtaWindows(Conclusion):
             for n, (low, high) in enumerate(inner, start=1)
         )
         return (
-            f"for nu = {show(self.nu)} (p < 0), plastic impacts and eta >= {show(self.low)}, "
+            f"For nu = {show(self.nu)} (p < 0), plastic impacts and eta >= {show(self.low)}, "
             f"{_LEAVING} for n = 1, ..., {len(self.ends)} if eta is in one of as many disjoint "
             "open intervals, one for each n, from f' = -1 (flip) up to f' = 0 (sticking), or what "
             f"of it is above {show(self.low)}. Rounded inward, by less than 2e-8: {listed}."
@@ -247,7 +252,7 @@ def eta_windows(context: Context, reader: Reader) -> EtaWindows:
     if not (0 < nu < 1 and 0 < least < 1):
         raise Unproved("nu and the least eta must lie between 0 and 1")
     ends = []
-    for n, entry in enumerate(ends_of.items(0, 1000), start=1):
+    for n, entry in enumerate(ends_of.items(1, 1000), start=1):
         flip_low, flip_high, stick_low, stick_high = entry.numbers(4, 4)
         flip, stick = (flip_low, flip_high), (stick_low, stick_high)
         for end, bracket in ((FLIP, flip), (STICK, stick)):
@@ -311,7 +316,7 @@ class NuWindows(Conclusion):
             periods = ", ".join(map(str, self.early))
             early = f" For nu < 0 and n = {periods} all solutions with slope <= 1 impact earlier."
         return (
-            f"for eta = {show(self.eta)}, plastic impacts and 0 < |nu| < 1, {_LEAVING} with n and "
+            f"For eta = {show(self.eta)}, plastic impacts and 0 < |nu| < 1, {_LEAVING} with n and "
             f"|nu| in one of these open intervals. For nu > 0 (p < 0), from f' = 0 (sticking) to "
             f"f' = -1 (flip), or to 1: {above}. For nu < 0 (p > 0), from f' = 1 (saddle-node) to "
             f"f' = 0 (sticking), or to 1: {below}.{early}"

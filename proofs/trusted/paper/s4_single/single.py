@@ -184,9 +184,8 @@ def _counterexamples(found: Found) -> list[Solution]:
     return [each for each in found.elsewhere(Solution) if each.contracts]
 
 
-def _stability(of: Parameters, found: Found) -> Decision:
+def _stability(_: Parameters, found: Found) -> Decision:
     """P4: two solutions with |slope| < 1 that are no orbits; orbits that are."""
-    del of
     known = _proved("P4", found)
     hits = [each for each in _counterexamples(found) if each.hits]
     stuck = [each for each in _counterexamples(found) if each.sticks]
@@ -197,9 +196,8 @@ def _stability(of: Parameters, found: Found) -> Decision:
     return decided(Verdict.CONDITIONAL, hits[0], stuck[0], corrected=nearby, known=bounds)
 
 
-def _figure_a(of: Parameters, found: Found) -> Decision:
+def _figure_a(_: Parameters, found: Found) -> Decision:
     """P5: solutions above all windows, for p < 0 one that sticks, for p > 0 one that hits."""
-    del of
     known = _proved("P5", found)
     asked = FIGURE_NU, FIGURE_ETAS[0]
     windows = [each for each in found.all(EtaWindows) if (each.nu, each.low) == asked]
@@ -211,9 +209,8 @@ def _figure_a(of: Parameters, found: Found) -> Decision:
     return decided(Verdict.REFUTED, stuck[0], hits[0], corrected=[*known, windows[0]])
 
 
-def _figure_b(of: Parameters, found: Found) -> Decision:
+def _figure_b(_: Parameters, found: Found) -> Decision:
     """P6: the windows, all below |nu| = 0.9, and a solution that is no orbit."""
-    del of
     known = _proved("P6", found)
     windows = [each for each in found.all(NuWindows) if each.eta == FIGURE_ETA]
     low, high = FIGURE_NUS

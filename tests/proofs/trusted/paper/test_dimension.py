@@ -1,6 +1,5 @@
 """H13: the dimension of the impact map's invariant sets, and what decides the claim."""
 
-import copy
 import json
 from dataclasses import replace
 from fractions import Fraction
@@ -16,11 +15,15 @@ from proofs.motion.system import System
 from proofs.search import s32_dimension as dimension
 from proofs.shell import groups
 from proofs.trusted.certificate import render
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Phases
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, Repeller
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, StayingDimension
+from proofs.trusted.paper.s32_sets.invariant import Itinerary, invariant_set
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Avoids, Impact
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import periodic_dimension, reference
@@ -142,8 +145,8 @@ def test_overlapping_images_are_seen():
 
 def test_the_paper_is_refuted():
     found = decide(conclusions())
-    assert found.verdict is Verdict.REFUTED and found.witness
-    assert "three images in a row in [1.11, 1.15]" in found.corrected
+    assert found.verdict is Verdict.REFUTED and "without the factor 000" in found.witness
+    assert found.theorem.count("the Hausdorff dimension of Lambda lies between") == 2
     for name, value in (
         ("dimension", "0.425083744300103"),
         ("dimension_of_I", "0.367465319782449"),
@@ -151,16 +154,13 @@ def test_the_paper_is_refuted():
     ):
         low, high = found.quantities[name]
         assert low < Fraction(value) + Fraction(1, 10**15) and Fraction(value) < high
-    low, high = found.quantities["dimension_crude"]
-    assert low < found.quantities["dimension"][0] and found.quantities["dimension"][1] < high
-    assert high - low < Fraction(1, 10)
 
 
 def test_a_set_around_i_bounds_from_above():
-    found = [each for each in conclusions() if not isinstance(each, Impact)]
+    found = [each for each in conclusions() if getattr(each, "words", None) != WITHOUT_000]
     decision = decide(found)
     assert decision.verdict is Verdict.REFUTED
-    assert "dimension_of_I" not in decision.quantities and "at most" in decision.corrected
+    assert "dimension_of_I" not in decision.quantities and "full shift" in decision.theorem
 
 
 def test_the_proved_sets_themselves():
@@ -170,11 +170,24 @@ def test_the_proved_sets_themselves():
     assert "0.42508" in decision.why
 
 
-@pytest.mark.parametrize("kind", [Avoids, MoranRoot, Repeller])
+@pytest.mark.parametrize("ratios", [("0.7", "0.8"), ("1/2", "1/2")])
+def test_without_a_linear_set_none_is_spoken_of(ratios):
+    """s_0 > 1 is a root of Moran's equation, and the dimension of no linear Cantor set."""
+    pair = tuple(map(Fraction, ratios))
+    root = MoranRoot(pair, (Fraction(1), Fraction(3)))
+    decision = decide([*conclusions(), root], replace(PAPER, ratios=pair))
+    assert decision.verdict is Verdict.REFUTED
+    assert "linear" not in decision.witness + decision.theorem
+
+
+@pytest.mark.parametrize("kind", [Horseshoe, MoranRoot, Repeller])
 def test_nothing_is_decided_without(kind):
     found = [each for each in conclusions() if not isinstance(each, kind)]
     assert decide(found).verdict is Verdict.UNDECIDED
-    assert decide([]).verdict is Verdict.UNDECIDED
+    elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
+    if kind is not MoranRoot:
+        moved = [replace(x, at=elsewhere) if isinstance(x, kind) else x for x in conclusions()]
+        assert decide(moved).verdict is Verdict.UNDECIDED
 
 
 def changed(kind, change, **fields):
@@ -182,23 +195,58 @@ def changed(kind, change, **fields):
     return [replace(old, **change) if each is old else each for each in conclusions()]
 
 
+def end(low, high):
+    return Phases(Fraction(low), Fraction(high))
+
+
 FALSE_STEPS = {
-    "the gap is not covered": (Avoids, {"phases": (Fraction("1.15"), Fraction("1.26"))}),
-    "the target is not all of I": (Avoids, {"target": (Fraction("1.11"), HULL[1])}),
-    "I is not inside": (Repeller, {"hull": (Fraction("1.12"), HULL[1])}),
-    "a domain begins after I": (Repeller, {"domains": ((Fraction("1.105"), LEFT[1]), RIGHT)}),
-    "a domain ends before I": (Repeller, {"domains": (LEFT, (RIGHT[0], Fraction("1.31")))}),
-    "other words": (Repeller, {"words": ("0", "11")}),
-    "s_0 may be the dimension": (Repeller, {"dimension": (Fraction("0.4"), Fraction("0.449"))}),
+    "I is not inside": {"hull": end("1.12", "1.32")},
+    "a domain begins after I": {"domains": (end("1.105", "1.15"), end("1.27", "1.32"))},
+    "a domain ends before I": {"domains": (end("1.1", "1.15"), end("1.27", "1.31"))},
+    "a domain without a part of I0": {"domains": (end("1.1", "1.14"), end("1.27", "1.32"))},
+    "a domain without a part of I1": {"domains": (end("1.1", "1.15"), end("1.28", "1.32"))},
+    "other words": {"words": ("0", "11")},
+    "words without 000": {"words": WITHOUT_000},
+    "s_0 may be the dimension": {"dimension": (Fraction("0.4"), Fraction("0.449"))},
 }
 
 
 @pytest.mark.parametrize("name", FALSE_STEPS)
 def test_what_a_decision_needs(name):
-    kind, change = FALSE_STEPS[name]
-    found = changed(kind, change, **({"words": FULL} if kind is Repeller else {}))
-    found = [each for each in found if not isinstance(each, Impact)]
+    found = changed(Repeller, FALSE_STEPS[name], words=FULL)
+    found = [each for each in found if not isinstance(each, Itinerary)]
     assert decide(found).verdict is Verdict.UNDECIDED
+
+
+def test_when_000_is_excluded():
+    """By the orbit of the lower end of I, which leaves after 00; other words are not of the set."""
+    base, orbit = one(Horseshoe), one(Itinerary)
+    short = one(Repeller, words=WITHOUT_000)
+    assert StayingDimension(short, invariant_set(base, short.hull, [orbit])).interval == short.hull
+    other = replace(orbit, orbit=(orbit.orbit[0], (Fraction("1.2"),) * 2))  # no 00 at all
+    for staying, repeller in (
+        (invariant_set(base, short.hull, [other]), short),
+        (invariant_set(base, base.interval, []), short),
+        (invariant_set(base, short.hull, [orbit]), replace(short, words=FULL)),
+    ):
+        with pytest.raises(Unproved):
+            StayingDimension(repeller, staying)
+    found = [other if each is orbit else each for each in conclusions()]
+    assert "dimension_of_I" not in decide(found).quantities
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"domains": (end("1.27", "1.32"), end("1.1", "1.15"))},
+        {"domains": (end("1.1", "1.28"), end("1.27", "1.32"))},
+        {"slopes": ((Fraction(1), Fraction(2)),) * 2},
+        {"dimension": (Fraction("0.4"), Fraction("0.4"))},
+    ],
+)
+def test_a_repeller_is_canonical(change):
+    with pytest.raises(Unproved):
+        replace(one(Repeller, words=FULL), **change)
 
 
 def test_a_larger_interval_is_not_bounded():
@@ -207,33 +255,8 @@ def test_a_larger_interval_is_not_bounded():
 
 
 def test_a_root_for_other_ratios_is_not_s_0():
-    found = changed(
-        MoranRoot, {"ratios": (Fraction("0.19"), Fraction("0.24"))}, ratios=PAPER.ratios
-    )
+    found = changed(MoranRoot, {"ratios": (Fraction("0.19"), Fraction("0.24"))})
     assert decide(found).verdict is Verdict.UNDECIDED
-
-
-@pytest.mark.parametrize(
-    "points",
-    [
-        [],
-        [("1.11", "1.129", "1.13"), ("1.13", "1.2", "1.3")],  # f(1.11) >= 1.13 is not proved
-        [("1.11", "1.129", "1.13"), ("1.12", "1.149", "1.3")],  # f(1.12) > 1.15 is not
-        [("1.111", "1.129", "1.13"), ("1.12", "1.2", "1.3")],  # not the end of I
-        [("1.11", "1.13", "1.4"), ("1.12", "1.2", "1.3")],  # f(1.11) may be beyond I
-        [("1.11", "1.129", "1.13"), ("1.12", "1.2", "6.29")],  # f may be beyond phase 0
-        [("1.11", "1.2", "1.3"), ("1.16", "1.2", "1.3")],  # 1.16 is not in I0
-    ],
-)
-def test_when_000_is_excluded(points):
-    found = [each for each in conclusions() if not isinstance(each, Impact)]
-    for numbers in points:
-        phase, low, high = map(Fraction, numbers)
-        found.append(Impact(phase, (Fraction(4), Fraction(5)), (low, high)))
-    assert "dimension_of_I" not in decide(found).quantities
-    right = Impact(Fraction("1.11"), (Fraction(4), Fraction(5)), (Fraction("1.129"),) * 2)
-    then = Impact(Fraction("1.12"), (Fraction(4), Fraction(5)), (Fraction("1.2"),) * 2)
-    assert "dimension_of_I" in decide([*found, right, then]).quantities
 
 
 def test_no_root_no_dimension():
@@ -246,27 +269,26 @@ def test_no_root_no_dimension():
 
 @cache
 def document():
-    row, entry = groups.decide("H13", PAPER, evidence().proofs["H13"], DIGITS)
-    assert row.verdict is Verdict.REFUTED
-    return json.loads(render(groups.certificate(PAPER, evidence().steps, [entry])))
+    line, entry = groups.decide("H13", PAPER, evidence(), DIGITS)
+    assert line.verdict is Verdict.REFUTED
+    return render(groups.certificate(PAPER, evidence().steps, [entry]))
 
 
 def test_the_certificate_is_accepted_and_small():
-    text = render(document())
-    (claim,) = check(text).claims
+    (claim,) = check(document()).claims
     assert (claim.id, claim.verdict) == ("H13", Verdict.REFUTED)
-    assert len(text) < 20_000
+    assert len(document()) < 30_000
 
 
 def test_narrower_bounds_are_rejected():
-    false = copy.deepcopy(document())
-    bounds = {"lower": "0.425083", "upper": "0.425084"}
-    false["claims"][0]["quantities"]["dimension"] = bounds
+    false = json.loads(document())
+    false["claims"][0]["quantities"]["dimension"] = {"lower": "0.425083", "upper": "0.425084"}
     with pytest.raises(Rejected, match="bounds"):
         check(render(false))
 
 
 def test_other_parameters_without_a_horseshoe():
     of = replace(PAPER, nu=Fraction("-0.05"))
-    rows, _ = groups.settle("dimension", of, digits=5, tell=lambda stage: None)
-    assert rows[0].verdict is Verdict.UNDECIDED
+    made = groups.produce({"dimension": ["H13"]}, of, digits=5)
+    assert made.lines[0].verdict is Verdict.UNDECIDED
+    assert check(made.certificate).claims[0].verdict is Verdict.UNDECIDED

@@ -13,11 +13,13 @@ from proofs.search import s32_dimension as dimension
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.flights import RULES as BASIC
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.paper.s32_sets.dimension import FULL, Repeller
-from proofs.trusted.paper.s32_sets.dimension_rules import RULES, _Branch
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.paper.s32_sets.dimension import FULL
+from proofs.trusted.paper.s32_sets.repeller import Repeller, _Branch
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.paper import reference
 
 DIGITS = 5
@@ -38,7 +40,7 @@ def proved():
 def flights():
     steps, name, _ = proved()
     return {
-        other: BASIC[step["rule"]](PAPER, {}, Reader(step["witness"]))
+        other: find_rule(step["rule"])(Context(PAPER), Reader(step["witness"]))
         for other, step in steps.items()
         if other != name
     }
@@ -50,7 +52,8 @@ def witness():
 
 
 def conclude(given, known=None):
-    return RULES["dimension"](PAPER, flights() if known is None else known, Reader(given))
+    context = Context(PAPER, {}, flights() if known is None else known)
+    return find_rule("dimension")(context, Reader(given))
 
 
 @pytest.mark.slow
@@ -118,8 +121,8 @@ def negated(given):
     given["test"] = [str(-Fraction(c)) for c in given["test"]]
 
 
-def swapped(name):
-    return lambda given: given[name].reverse()
+def swapped(*names):
+    return lambda given: [given[name].reverse() for name in names]
 
 
 def true_images(words=FULL, hull=SETS.interval):
@@ -144,6 +147,11 @@ def true_images(words=FULL, hull=SETS.interval):
 
 BOUND, PLACE, ONCE = "the operator is only proved", "where it is said", "only once"
 UNPROVED = {
+    "a hull that is a point": (put(hull=["11/10", "11/10"]), "no interval of phases"),
+    "domains in the wrong order": (
+        swapped("domains", "flights", "turns", "inverse"),
+        "not in order",
+    ),
     "higher": (move_dimension("1e-5"), BOUND),
     "lower": (move_dimension("-1e-5"), BOUND),
     "much higher": (move_dimension("1/10"), BOUND),
@@ -188,9 +196,7 @@ MALFORMED = {
     "half a piece": put(pieces="5/2"),
     "order 0": put(order="0"),
     "an enormous order": put(order="1000"),
-    "too much work": put(order="200", test=["1"] * 200, radius="1/" + str(10**400)),
     "no coefficients": put(test=[]),
-    "a hull that is a point": put(hull=["11/10", "11/10"]),
     "a hull beyond the circle": put(hull=["11/10", "7"]),
     "a hull reversed": put(hull=["33/25", "11/10"]),
     "no radius": put(radius="0"),
@@ -220,6 +226,11 @@ def test_is_malformed(name):
     MALFORMED[name](given)
     with pytest.raises(Malformed):
         conclude(given)
+
+
+def test_work_is_counted():
+    with metered(10**4), pytest.raises(Exhausted):
+        conclude(witness())
 
 
 def test_the_side_of_a_point_may_stay_undecided():

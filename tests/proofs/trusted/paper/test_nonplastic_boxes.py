@@ -1,7 +1,6 @@
 """What claims N1 to N4 make of conclusions, and N4 for a user's box of parameters."""
 
 import json
-import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -27,7 +26,7 @@ from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
-from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.test_nonplastic import image
 from tests.proofs.trusted.paper.test_rebounds import (
     EXACT,
     GAMMA,
@@ -246,24 +245,6 @@ def test_sentences_carry_place_sets_and_numbers():
 
 
 # -- what is proved for boxes, against other arithmetic --------------------------------------------
-
-
-def image(numbers, state):
-    """F in floating point, by a scan of (14) from just after the launch."""
-    phi, gamma = state
-
-    def height(t):
-        return -reference.left_side_14(*numbers, phi, gamma, t, math.sin, math.cos)
-
-    t = 0.1
-    while height(t + 0.01) > 0:
-        t += 0.01
-    low, high = t, t + 0.01
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if height(middle) > 0 else (low, middle)
-    velocity = reference.right_side_15(*numbers, phi, gamma, low, math.sin, math.cos)
-    return (phi + low) % math.tau, velocity
 
 
 def least_overshoot(of, sets):

@@ -18,12 +18,50 @@ from proofs.trusted.flights import (
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log, pi, rational
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.series import Series, polynomial
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s32_sets.dimension import Repeller
+from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.parameters import Place
 
 _MOST_WORDS, _LONGEST_WORD, _MOST_PIECES, _HIGHEST = 16, 16, 200, 200
+
+
+@dataclass(frozen=True)
+class Repeller(Conclusion):
+    """The compact set K = union of g_w(K) over the words; g_w is g_j after g_v where w = jv.
+
+    f increases on both domains; g_j is its inverse from `hull` into domains[j], for letters that
+    end a word, and on its part that g_v reaches for others; f takes no other points of domains[j]
+    there. The g_w map the hull into itself, to disjoint images; 1 / g_w' lies in the range that
+    `slopes` has for w, all above 1. The Hausdorff dimension of K lies in `dimension`.
+    """
+
+    at: Place
+    hull: Phases
+    domains: tuple[Phases, Phases]
+    words: tuple[str, ...]
+    slopes: tuple[Range, ...]
+    dimension: Range
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless domains and bounds are in order."""
+        if self.domains[0][1] >= self.domains[1][0] or self.dimension[0] >= self.dimension[1]:
+            raise Unproved("the domains or the bounds of the dimension are not in order")
+        if min(low for low, _ in self.slopes) <= 1:
+            raise Unproved("the inverse branches are not proved to contract")
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        domains, (low, high) = " and ".join(map(show_range, self.domains)), self.dimension
+        return (
+            f"let g_0, g_1 be the inverse branches of f from {show_range(self.hull)} into {domains}"
+            f". The compact set that is the union of its images by {', '.join(self.words)}, which "
+            "are disjoint, has a Hausdorff dimension in "
+            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
+        )
 
 
 @dataclass(frozen=True)
@@ -31,7 +69,7 @@ class _Branch:
     """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`."""
 
     step: FirstImpact
-    domain: Range
+    domain: Phases
     turns: int
     bits: int
 
@@ -55,8 +93,10 @@ class _Branch:
 
     def brackets(self, around: Range, image: Range) -> bool:
         """Whether for each x in `image` the domain has one y with F(y) = x, and it is around."""
-        inside = self.domain[0] <= around[0] and around[1] <= self.domain[1]
-        return inside and self.excess(around[0], image) < 0 < self.excess(around[1], image)
+        low, high = around
+        return within(around, self.domain) and self.excess(low, image) < 0 < self.excess(
+            high, image
+        )
 
     def inverse(self, x: Series, value: Range, order: int) -> Series:
         """Return g(x) up to an order, where F(g) = id and g(x_0) is in `value`.
@@ -80,22 +120,26 @@ class _Branch:
 
 @dataclass(frozen=True)
 class _System:
-    """The inverse branches of some words over the hull, and where they are known to be."""
+    """The inverse branches of words over the hull, where they are known to be, and a test h, s.
 
-    hull: Range
+    test: the coefficients of h, a polynomial in u = (x - middle of the hull) / half its width.
+    """
+
     branches: tuple[_Branch, _Branch]
+    hull: Phases
     words: tuple[str, ...]
-    pieces: int
     centres: dict[str, tuple[Fraction, ...]]
     radius: Fraction
+    pieces: int
     order: int
+    test: tuple[Fraction, ...]
+    s: Fraction
     bits: int
 
     @cached_property
     def points(self) -> list[Fraction]:
         """The ends and the middles of the pieces, in order."""
-        low, high = self.hull
-        steps = 2 * self.pieces
+        (low, high), steps = self.hull, 2 * self.pieces
         return [low + (high - low) * j / steps for j in range(steps + 1)]
 
     def around(self, suffix: str, first: int, last: int) -> Range:
@@ -107,10 +151,9 @@ class _System:
 
     def show(self) -> None:
         """Show that all inverse branches are where the witness puts them, and disjoint."""
-        low, high = self.hull
+        (low, high), turn = self.hull, whole_turns(1, self.bits)
+        last, first = (high - turn[1], high - turn[0]), (low + turn[0], low + turn[1])
         for branch in self.branches:
-            turn = whole_turns(1, self.bits)
-            last, first = (high - turn[1], high - turn[0]), (low + turn[0], low + turn[1])
             bottom, top = branch.domain
             if not branch.excess(bottom, last) > 0 > branch.excess(top, first):
                 raise Unproved("f is not proved to pass the hull only once on a domain")
@@ -120,20 +163,22 @@ class _System:
                 if not branch.brackets(self.around(suffix, j, j), self.around(suffix[1:], j, j)):
                     raise Unproved(f"an inverse image by {suffix} is not proved where it is said")
         images = sorted(self.around(word, 0, 2 * self.pieces) for word in self.words)
-        if not (low <= images[0][0] and max(top for _, top in images) <= high):
+        if not within(hull(images), self.hull):
             raise Unproved("the inverse branches leave the hull")
         if any(before[1] >= after[0] for before, after in pairwise(images)):
             raise Unproved("the images of the inverse branches are not proved disjoint")
 
-    def germs(self, first: int, last: int) -> tuple[Series, dict[str, Series]]:
-        """Return the series of x and of g_w(x) at all points of [points[first], points[last]]."""
-        one = rational(Fraction(1), self.bits)
-        found = {"": Series.polynomial(Enclosure.of(*self.around("", first, last), self.bits), one)}
+    def germs(self, first: int, last: int) -> dict[str, Series]:
+        """Return the series of g_w(x) at all points of [points[first], points[last]], x for ""."""
+        x, one = (
+            Enclosure.of(*self.around("", first, last), self.bits),
+            rational(Fraction(1), self.bits),
+        )
+        found = {"": Series.polynomial(x, one)}
         for suffix in sorted(self.centres, key=len):
-            branch = self.branches[int(suffix[0])]
-            value = self.around(suffix, first, last)
+            branch, value = self.branches[int(suffix[0])], self.around(suffix, first, last)
             found[suffix] = branch.inverse(found[suffix[1:]], value, self.order + 1)
-        return found[""], {word: found[word] for word in self.words}
+        return found
 
     def range(self, middle: Series, whole: Series) -> Range:
         """Enclose a function on a piece by Taylor's formula, with Lagrange's remainder.
@@ -146,28 +191,18 @@ class _System:
             total = total * h + middle[k]
         return total.range
 
-
-@dataclass(frozen=True)
-class _Test:
-    """A function h, a polynomial in u = (x - middle of the hull) / half its width; and s."""
-
-    hull: Range
-    coefficients: tuple[Fraction, ...]
-    s: Fraction
-    bits: int
-
     def h(self, x: Series) -> Series:
         """Return h(x)."""
         low, high = self.hull
         middle, scale = (rational(z, self.bits) for z in ((low + high) / 2, 2 / (high - low)))
         u = (x - Series.constant(middle)) * Series.constant(scale)
-        return polynomial(self.coefficients, u)
+        return polynomial(self.test, u)
 
-    def defect(self, x: Series, inverses: dict[str, Series]) -> Series:
+    def defect(self, germs: dict[str, Series]) -> Series:
         """Return L_s h - h, L_s h the sum of (g_w')^s h(g_w)."""
-        total = -self.h(x)
-        s = Series.constant(rational(self.s, self.bits))
-        for y in inverses.values():
+        total, s = -self.h(germs[""]), Series.constant(rational(self.s, self.bits))
+        for word in self.words:
+            y = germs[word]
             total = total + (y.derivative().log() * s).exp() * self.h(y)
         return total
 
@@ -178,7 +213,8 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     f is the impact map; for j = 0, 1 flights[j] is a transversal first-impact step that contains
     domains[j], F = phase + time of flight - 2 pi turns[j]. x_0, ..., x_2n are equidistant on
     hull = [a, b], n `pieces`. inverse: a list y_0, ..., y_2n for each word and each shorter end of
-    a word, in alphabetical order; r is `radius`.
+    a word, in alphabetical order; r is `radius`. Special, since inverse branches of the impact map
+    have no formula: their series come from gap = 0 by Newton's method (`_Branch.inverse`).
 
     Hypotheses. (1) F' > 0, by sin(eta t) < 0 in the window; F > b - 2 pi at the lower and
     F < a + 2 pi at the upper end of the domain. (2) Let g_w(x) for a word w = jv be the y in
@@ -207,93 +243,76 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     over 1 for a large n. As g_W contract by r_W at most and have disjoint images,
     dim K >= l - t (Falconer, Fractal Geometry, Proposition 9.7).
     """
-    system, test, span = _read(context, reader)
+    system, span = _read(context, reader)
     system.show()
     above = below = Fraction(0)  # the extremes of (L_s h - h) / h, at least 0
-    slopes: dict[str, Range] = {}
+    slopes: dict[str, list[Range]] = {word: [] for word in system.words}
     for j in range(0, 2 * system.pieces, 2):
-        x, inverses = system.germs(j, j + 2)
-        least = test.h(x)[0].range[0]
+        whole, middle = system.germs(j, j + 2), system.germs(j + 1, j + 1)
+        least = system.h(whole[""])[0].range[0]
         if least <= 0:
             raise Unproved("the test function is not proved positive")
-        middle, images = system.germs(j + 1, j + 1)
-        low, high = system.range(test.defect(middle, images), test.defect(x, inverses))
+        low, high = system.range(system.defect(middle), system.defect(whole))
         above, below = max(above, high / least), max(below, -low / least)
-        for word, y in inverses.items():
-            rates = system.range(images[word].derivative(), y.derivative())
+        for word, bounds in slopes.items():
+            rates = system.range(middle[word].derivative(), whole[word].derivative())
             if rates[0] <= 0:
                 raise Unproved("the inverse branches are not proved to increase")
-            flat, steep = 1 / rates[1], 1 / rates[0]
-            before = slopes.get(word, (flat, steep))
-            slopes[word] = min(before[0], flat), max(before[1], steep)
-    least_slope = min(low for low, _ in slopes.values())
-    if least_slope <= 1:
-        raise Unproved("the inverse branches are not proved to contract")
-    q = (span[1] - span[0]) / 2 * log(least_slope, system.bits).range[0]
+            bounds.append((1 / rates[1], 1 / rates[0]))
+    bounds_of = tuple(hull(bounds) for bounds in slopes.values())
+    domains = (system.branches[0].domain, system.branches[1].domain)
+    at = system.branches[0].step.at
+    found = Repeller(at, system.hull, domains, system.words, bounds_of, span)
+    q = (span[1] - span[0]) / 2 * log(hull(bounds_of)[0], system.bits).range[0]
     if above > q or below * (1 + q) > q:
         worst = float(min(Fraction(1), max(above, below)))  # a larger one may be no float
         raise Unproved(f"the operator is only proved within {worst:.1e} of 1")
-    return Repeller(
-        system.hull,
-        (system.branches[0].domain, system.branches[1].domain),
-        system.words,
-        tuple(slopes[word] for word in system.words),
-        span,
-    )
+    return found
 
 
-def _read(context: Context, reader: Reader) -> tuple[_System, _Test, Range]:
+def _read(context: Context, reader: Reader) -> tuple[_System, Range]:
     """Read a witness of the rule `dimension`; return what it is about, and [l, u]."""
     flights, turns, hull_of, domains, words_of, inverse, radius_of, *rest = reader.fields(
         "flights", "turns", "hull", "domains", "words", "inverse", "radius",
         "pieces", "order", "test", "dimension",
     )  # fmt: skip
-    pieces_of, order_of, test_of, dimension_of = rest
-    hull, radius, span = read_phases(hull_of), radius_of.number(), dimension_of.range()
-    if radius <= 0 or hull[0] == hull[1] or not 0 < span[0] < span[1]:
-        raise reader.fail("an empty hull, no radius, or no bounds of a dimension")
+    pieces_of, order_of, test, span_of = rest
+    radius, span = radius_of.number(), span_of.range()
+    words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
+    if not all(1 <= len(x) <= _LONGEST_WORD and set(x) <= {"0", "1"} for x in words):
+        raise words_of.fail("words over 0 and 1 are expected")
+    if radius <= 0 or len(set(words)) != len(words) or not 0 < span[0] < span[1]:
+        raise reader.fail("no radius, a word that is there twice, or no bounds of a dimension")
     bits = bits_for((-radius, radius))
-    pieces, order = _whole(pieces_of, 1, _MOST_PIECES), _whole(order_of, 1, _HIGHEST)
-    words = _words(words_of)
-    suffixes = {word[k:] for word in words for k in range(len(word))}
-    centres = {
-        suffix: each.numbers(2 * pieces + 1, 2 * pieces + 1)
-        for suffix, each in zip(
-            sorted(suffixes), inverse.items(len(suffixes), len(suffixes)), strict=True
-        )
-    }
-    coefficients = test_of.numbers(1, _HIGHEST)
-    # two series for each piece and suffix, a product of series is order^2 / 2 products
-    entries = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
-    first, second = (_branch(context, *entry, bits) for entry in entries)
-    system = _System(hull, (first, second), words, pieces, centres, radius, order, bits)
-    return system, _Test(hull, coefficients, (span[0] + span[1]) / 2, bits), span
+    pieces, order = integer(pieces_of, 1, _MOST_PIECES), integer(order_of, 1, _HIGHEST)
+    suffixes = sorted({word[k:] for word in words for k in range(len(word))})
+    lists = inverse.items(len(suffixes), len(suffixes))
+    steps = 2 * pieces + 1
+    system = _System(
+        _branches(context, flights, domains, turns, bits),
+        Phases(*read_phases(hull_of)),
+        words,
+        {name: each.numbers(steps, steps) for name, each in zip(suffixes, lists, strict=True)},
+        radius,
+        pieces,
+        order,
+        test.numbers(1, _HIGHEST),
+        (span[0] + span[1]) / 2,
+        bits,
+    )
+    return system, span
 
 
-def _branch(context: Context, flight: Reader, domain: Reader, turns: Reader, bits: int) -> _Branch:
-    """Read one branch, and show that F' > 0 on it: the slope's other factors have known signs."""
-    phases = read_phases(domain)
-    step = transversal_step(context, flight, phases)
-    eta = rational(step.motion.eta, step.motion.bits)
-    if (eta * Enclosure.of(*step.windows[0], step.motion.bits)).sincos()[0].hi >= 0:
-        raise Unproved("f is not proved to increase on a domain")
-    return _Branch(step, phases, _whole(turns, 0, 10**6), bits)
-
-
-def _words(reader: Reader) -> tuple[str, ...]:
-    """Read some different words in the letters 0 and 1."""
-    words = tuple(word.string() for word in reader.items(2, _MOST_WORDS))
-    for word in words:
-        if not 1 <= len(word) <= _LONGEST_WORD or set(word) - {"0", "1"}:
-            raise reader.fail(f"not a word in 0 and 1: {word[:40]!r}")
-    if len(set(words)) != len(words):
-        raise reader.fail("a word is there twice")
-    return words
-
-
-def _whole(reader: Reader, least: int, most: int) -> int:
-    """Read a whole number."""
-    value = reader.number()
-    if value.denominator != 1 or not least <= value <= most:
-        raise reader.fail(f"a whole number from {least} to {most} is expected")
-    return int(value)
+def _branches(
+    context: Context, flights: Reader, domains: Reader, turns: Reader, bits: int
+) -> tuple[_Branch, _Branch]:
+    """Read both branches, and show that F' > 0: the slope's other factors have known signs."""
+    found = []
+    for each in zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True):
+        domain = Phases(*read_phases(each[1]))
+        step = transversal_step(context, each[0], domain)
+        eta, time = (rational(step.motion.eta, step.motion.bits), step.windows[0])
+        if (eta * Enclosure.of(*time, step.motion.bits)).sincos()[0].hi >= 0:
+            raise Unproved("f is not proved to increase on a domain")
+        found.append(_Branch(step, domain, integer(each[2], 0, 10**6), bits))
+    return found[0], found[1]

@@ -1,0 +1,299 @@
+"""Section 3.1, Theorems 2 to 4: the set of phases whose orbits stay in I. Claims H7 to H10.
+
+Lambda is the set of phases of I whose orbits stay in I; f^-n(I) is read as the phases of I whose
+n-th image is in I, since f maps phases outside I into it too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, show_range, within
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.s32_sets.subshift import Subshift
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+_LONGEST = 10
+_BESIDE = ("below I0", "between I0 and I1", "above I1")
+
+
+@dataclass(frozen=True)
+class InHorseshoe(Conclusion):
+    """What is about the sets I0 and I1 of a horseshoe."""
+
+    base: Horseshoe
+
+    @property
+    def place(self) -> Place:
+        """The oscillators of the horseshoe."""
+        return self.base.at
+
+    @property
+    def sets(self) -> str:
+        """Name both sets."""
+        return f"I0 = {show_range(self.base.left)} and I1 = {show_range(self.base.right)}"
+
+
+# -- orbits that leave the horseshoe ---------------------------------------------------------------
+
+
+def where(base: Horseshoe, x: Range) -> str:
+    """Return in which set, "0" or "1", or beside which an enclosed phase is."""
+    spots = {
+        _BESIDE[0]: x[1] < base.left[0],
+        "0": within(x, base.left),
+        _BESIDE[1]: base.gap[0] < x[0] and x[1] < base.gap[1],
+        "1": within(x, base.right),
+        _BESIDE[2]: base.right[1] < x[0],
+    }
+    known = [spot for spot, holds in spots.items() if holds]
+    if not known:
+        raise Unproved("it is not decided in which of I0 and I1 an image is")
+    return known[0]
+
+
+@dataclass(frozen=True)
+class Itinerary(InHorseshoe):
+    """A phase follows a word in I0 and I1 of a horseshoe and then leaves both.
+
+    orbit: the phase, and enclosures of its images up to the one that is in neither.
+    """
+
+    orbit: tuple[Range, ...]
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless the orbit is in the sets, but for its last point."""
+        beside = [spot in _BESIDE for spot in self.spots]
+        if self.orbit[0] != (self.phase,) * 2 or beside != [False] * (len(beside) - 1) + [True]:
+            raise Unproved("an orbit starts at one phase and ends where it leaves I0 and I1")
+
+    @cached_property
+    def spots(self) -> list[str]:
+        """Where the phase and its images are; all but the last are the letters of the word."""
+        return [where(self.base, x) for x in self.orbit]
+
+    @property
+    def phase(self) -> Fraction:
+        """The phase that is followed."""
+        return self.orbit[0][0]
+
+    @property
+    def cut(self) -> str:
+        """The word, and then 0, 1 or 2 as the orbit ends below I0, between, or above I1."""
+        return "".join(self.spots[:-1]) + str(_BESIDE.index(self.spots[-1]))
+
+    @property
+    def sentence(self) -> str:
+        """Return the orbit."""
+        word, last, x = self.cut[:-1], self.orbit[-1], show(self.phase)
+        return (
+            f"the orbit of {x} has the itinerary {word or 'of no letter'} in {self.sets}; then "
+            f"f^{len(word)}({x}), in [{floor_text(last[0])}, {ceil_text(last[1])}], is "
+            f"{self.spots[-1]}."
+        )
+
+
+def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary:
+    """Follow a phase through a horseshoe, f being known at points of `slopes`.
+
+    f increases on I0 and I1, and f(I0), f(I1) do not pass phase 0. So where p <= x <= q are
+    points of one set, f(p) <= f(x) <= f(q). Raises Unproved where that does not decide.
+    """
+    parts = [each for each in slopes if each.at == base.at]
+    known = [pair for each in parts for pair in zip(each.points, each.images, strict=True)]
+    orbit = [(phase, phase)]
+    while (spot := where(base, orbit[-1])) not in _BESIDE:
+        if len(orbit) > _LONGEST:
+            raise Unproved(f"the orbit of {show(phase)} stays in I0 and I1 for {_LONGEST} steps")
+        METER.get().spend(len(known))
+        domain, (low, high) = (base.left, base.right)[int(spot)], orbit[-1]
+        below = [image[0] for p, image in known if domain[0] <= p <= low]
+        above = [image[1] for p, image in known if high <= p <= domain[1]]
+        if not below or not above:
+            raise Unproved("f is not known on both sides of an image")
+        orbit.append((max(below), min(above)))
+    return Itinerary(base, tuple(orbit))
+
+
+def itinerary(context: Context, reader: Reader) -> Itinerary:
+    """Rule `itinerary`: {horseshoe, slopes: names of slope-range steps, phase}.
+
+    Hypothesis: by f at the points of these steps, and as f increases on I0 and on I1, the orbit
+    of the phase is enclosed until it leaves both, within 10 steps. Conclusion: where it went.
+    """
+    base, names, phase = reader.fields("horseshoe", "slopes", "phase")
+    slopes = [context.step(name, SlopeRange) for name in names.items(most=10)]
+    return follow(context.step(base, Horseshoe), slopes, phase.number())
+
+
+# -- the invariant set -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class InvariantSet(InHorseshoe):
+    """The phases of an interval J whose orbits stay in J, by orbits of its ends in a horseshoe.
+
+    Theorem. Let f be a horseshoe on I0 and I1 within I, and J within I. Let L be its invariant set,
+    which itineraries conjugate to the full shift, and L_J = {phi : f^n(phi) in J for n >= 0}. Let
+    the orbit of each end of J, unless it is one of I, follow a word w_0 ... w_(k-1) in I0 and I1
+    and then be in neither; c = 0, 1, 2 as it is then below I0, between I0 and I1, or above I1. Then
+    itineraries conjugate f on L_J to the subshift of the sequences of which no factor u_0 ... u_k
+    comes before w_0 ... w_(k-1) c of the lower end, and each comes before that of the upper end.
+
+    Proof. 1. L_J is in L, for it stays in I. 2. A point x of L with the itinerary u is below an end
+    phi exactly if u_0 ... u_k comes before w_0 ... w_(k-1) c, in lexicographic order: if u_j is the
+    first letter that differs from w_j, j < k, then f^j(x), f^j(phi) are in different sets, in that
+    order, and j times the inverse of an increasing branch keeps it. If none differs, f^k(x) is in
+    the set of u_k, and f^k(phi) is beside it, in the order of u_k and c. 3. So L_J = {x in L : no
+    iterate is below the one end or above the other} is as stated; a restriction of the conjugacy.
+    """
+
+    interval: Phases
+    orbits: tuple[Itinerary, ...]
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless J is in I, and the orbits are those of its other ends, in order."""
+        if not within(self.interval, self.base.interval):
+            raise Unproved("the horseshoe is not around the interval")
+        ends = sorted(set(self.interval) - set(self.base.interval))
+        if [(x.base, x.phase) for x in self.orbits] != [(self.base, end) for end in ends]:
+            raise Unproved("the ends of I are not followed until they leave I0 and I1")
+
+    @cached_property
+    def shift(self) -> Subshift:
+        """The sequences that are itineraries."""
+        cuts = {orbit.phase: orbit.cut for orbit in self.orbits}
+        low, high = self.interval
+        return Subshift.between(cuts.get(low, "0"), cuts.get(high, "2"))
+
+    @property
+    def sentence(self) -> str:
+        """Return the theorem, and what `Subshift.chaotic` adds."""
+        text = (
+            f"let Lambda be the set of phases whose orbits stay in {show_range(self.interval)}, "
+            f"{self.sets}. The itinerary phi -> alpha_0 alpha_1 ..., f^k(phi) in I_(alpha_k) for "
+            f"k >= 0, is a homeomorphism from Lambda onto the one-sided {self._kind}, and "
+            "conjugates f to it."
+        )
+        if not self.shift.arrows:
+            return f"{text} There are none: Lambda is empty."
+        if not self.shift.chaotic:
+            return text
+        low, high = self.shift.growth
+        return (
+            f"{text} This subshift is irreducible: Lambda is a Cantor set, with periodic orbits of "
+            "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; "
+            f"{self._counts}; the topological entropy of f on Lambda is the log of a number in "
+            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
+        )
+
+    @property
+    def brief(self) -> str:
+        """Return the subshift."""
+        counts = f"; {self._counts}" if self.shift.chaotic else ""
+        return f"the itineraries of Lambda are the {self._kind}{counts}"
+
+    @property
+    def _kind(self) -> str:
+        factors = self.shift.factors
+        kind = f"subshift of the sequences without the factor {factors}"
+        return kind if factors else "full shift on 0 and 1"
+
+    @property
+    def _counts(self) -> str:
+        counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
+        return f"f^n has {counts} fixed points in Lambda for n = 1, ..., 8"
+
+    @property
+    def quantities(self) -> Mapping[str, Range]:
+        """Return the bounds of the growth."""
+        return {"growth": self.shift.growth} if self.shift.chaotic else {}
+
+
+def invariant_set(base: Horseshoe, interval: Phases, orbits: Iterable[Itinerary]) -> InvariantSet:
+    """Return the set of an interval, by orbits of its ends among those given."""
+    known = {orbit.phase: orbit for orbit in orbits if orbit.base == base}
+    ends = sorted(set(interval) - set(base.interval))
+    return InvariantSet(base, interval, tuple(known[end] for end in ends if end in known))
+
+
+# -- the rows --------------------------------------------------------------------------------------
+
+
+def around(interval: Range, found: Found) -> Horseshoe:
+    """Return a horseshoe whose interval contains this one; Unproved if there is none."""
+    for base in found.all(Horseshoe):
+        if within(interval, base.interval):
+            return base
+    raise Unproved("no horseshoe is proved on sets around the given interval I")
+
+
+def staying(interval: Range, found: Found) -> InvariantSet:
+    """Return the set that stays in an interval, by the conclusions found."""
+    return invariant_set(around(interval, found), Phases(*interval), found.all(Itinerary))
+
+
+def _homeomorphism(of: Parameters, found: Found) -> Decision:
+    """H7: h is a homeomorphism onto a subshift, which is all exactly if no word is forbidden."""
+    known = staying(of.interval, found)
+    if not within(of.gap, known.base.gap) or of.interval != (of.left[0], of.right[1]):
+        return undecided("I0 and I1 do not hold all points of Lambda on their sides of the gap")
+    if not known.shift.forbidden:
+        return decided(Verdict.VERIFIED, known)
+    return decided(Verdict.REFUTED, known, *known.orbits, corrected=[known.base, known])
+
+
+def _chaotic(of: Parameters, found: Found) -> Decision:
+    """H8 and H9: the subshift is irreducible; or Lambda is empty."""
+    known = staying(of.interval, found)
+    if not known.shift.arrows:
+        return decided(Verdict.REFUTED, known)
+    if not known.shift.chaotic:
+        return undecided(f"the subshift is not proved irreducible: {known.brief}")
+    return decided(Verdict.VERIFIED, known)
+
+
+def _measure_zero(of: Parameters, found: Found) -> Decision:
+    base = around(of.interval, found)
+    if not base.is_null:
+        return undecided(f"{base.brief}, not above 2")
+    return decided(Verdict.VERIFIED, base)
+
+
+_AT = "At (eta, nu) = ({eta}, {nu}), for Lambda = {{phi in I : f^n(phi) in I for all n}}, I = {i}: "
+ROWS = (
+    Row(
+        "H7",
+        "3.1, Theorem 2",
+        "is a homeomorphism",
+        _AT + "the itinerary map h from Lambda to the sequences alpha_0 alpha_1 ... over 0, 1, "
+        "alpha_k = 0 or 1 where f^k(phi) is in I0 = {i0} or I1 = {i1}, is a homeomorphism.",
+        _homeomorphism,
+    ),
+    Row(
+        "H8",
+        "3.1, Theorem 3",
+        "countably many periodic orbits of arbitrarily high periods",
+        _AT + "f has in Lambda countably many periodic orbits of arbitrarily high periods, "
+        "uncountably many nonperiodic orbits, and an orbit dense in Lambda.",
+        _chaotic,
+    ),
+    Row("H9", "3.2, Theorem 4", "is a Cantor set", _AT + "Lambda is a Cantor set.", _chaotic),
+    Row(
+        "H10",
+        "3.4",
+        "this set has zero Lebesgue measure",
+        _AT + "Lambda has Lebesgue measure zero.",
+        _measure_zero,
+    ),
+)

@@ -1,0 +1,416 @@
+"""The invariant set of the map: by brute force on itineraries, and by edited certificates.
+
+Phases with a given itinerary come from bisection on equation (10), typed by hand: a flight from
+I0 takes 4 turns of the table, one from I1 takes 9.
+"""
+
+import copy
+import json
+from dataclasses import replace
+from fractions import Fraction
+from math import cos, sin, tau
+
+import pytest
+
+from proofs.search.s32_sets import prove
+from proofs.shell.groups import produce, wanted
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.paper.s31_horseshoe import Horseshoe, prove_horseshoe
+from proofs.trusted.paper.s32_sets.invariant import (
+    ROWS,
+    InvariantSet,
+    Itinerary,
+    follow,
+    invariant_set,
+)
+from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import Rejected, check
+
+ETA, NU = 0.2121, -0.2
+TURNS = {"0": 4, "1": 9}
+DECIDE = {row.id: row.decide for row in ROWS}
+UPPER_FIXED_POINT = 1.316386182666309667  # mpmath, 50 digits
+
+
+def distance(phase, time):
+    """Equation (10), the left side."""
+    return (
+        (1 + NU * sin(phase)) * cos(ETA * time)
+        + NU / ETA * cos(phase) * sin(ETA * time)
+        - 1
+        - NU * sin(phase + time)
+    )
+
+
+def preimage(letter, image):
+    """The phase of I0 or I1 whose next impact is at `image`."""
+    low, high = (1.1, 1.15) if letter == "0" else (1.27, 1.32)
+    flight = tau * TURNS[letter] + image
+
+    def ahead(phase):
+        return distance(phase, flight - phase) > 0
+
+    assert ahead(low) is not ahead(high)
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if ahead(middle) is ahead(low) else (low, middle)
+    return low
+
+
+@pytest.fixture(scope="module")
+def points():
+    """The phase with the itinerary w 1 1 1 ... for each word w of at most 8 letters."""
+    found = {"": UPPER_FIXED_POINT}
+    for size in range(1, 9):
+        for word in words(size):
+            found[word] = preimage(word[0], found[word[1:]])
+    return found
+
+
+def sets(left, right):
+    low, high = (tuple(map(Fraction, part)) for part in (left, right))
+    return Parameters(PAPER.eta, PAPER.nu, low, high, (low[0], high[1]), PAPER.slopes)
+
+
+def horseshoe(of, slopes=PAPER.slopes, at=PAPER.place):
+    return Horseshoe(at, Phases(*of.left), Phases(*of.right), slopes)
+
+
+@pytest.fixture(scope="module")
+def proved():
+    """The certificate at the paper's numbers."""
+    return json.loads(produce(wanted("sets"), PAPER, digits=12).certificate)
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        (("1.11", "1.15"), ("1.27", "1.32")),
+        (("1.105", "1.15"), ("1.27", "1.316")),
+        (("1.1", "1.15"), ("1.27", "1.31")),
+        (("1.1", "1.15"), ("1.27", "1.32")),
+    ],
+)
+def test_subshift_by_brute_force(points, left, right):
+    """The orbits that stay in I are those of the words without a forbidden factor."""
+    of = sets(left, right)
+    found = [conclusion for _, conclusion in prove(of, ["H8"], digits=10).proofs["H8"]]
+    base, *orbits = found
+    shift = invariant_set(base, Phases(*of.interval), orbits).shift
+    verdict = DECIDE["H7"](of, found).verdict
+    assert verdict is (Verdict.REFUTED if shift.forbidden else Verdict.VERIFIED)
+    low, high = map(float, of.interval)
+    for word in words(8):
+        stays = all(low <= points[word[k:]] <= high for k in range(9))
+        assert stays is all(factor not in word + "1" * 12 for factor in shift.forbidden)
+
+
+def test_printed_set_has_no_000(proved):
+    """1.11 lies between the phases with the itineraries 000... and those with 001..."""
+    entry = next(each for each in proved["claims"] if each["id"] == "H7")
+    assert entry["verdict"] == "REFUTED"
+    assert "without the factor 000," in entry["witness"]
+    assert "orbit of 1.11 has the itinerary 00 in I0 = [1.1, 1.15]" in entry["witness"]
+    assert "Lebesgue measure zero" in entry["corrected"]
+    assert "1, 3, 7, 11, 21, 39, 71, 131 fixed points" in entry["corrected"]
+
+
+def test_order_of_phases_is_the_order_of_itineraries(points):
+    assert sorted(words(8), key=points.__getitem__) == words(8)
+
+
+# -- following an orbit ----------------------------------------------------------------------------
+
+BASE = horseshoe(sets(("1", "1.2"), ("1.3", "1.4")))
+
+
+def known(*pairs, at=PAPER.place):
+    """f at points, as a slope-range step has it."""
+    images = tuple(Phase(Fraction(a), Fraction(b)) for _, (a, b) in pairs)
+    nothing = (Fraction(0), Fraction(9))
+    return SlopeRange(
+        at,
+        tuple(Fraction(p) for p, _ in pairs),
+        (nothing,) * len(pairs),
+        images,
+        (nothing,) * (len(pairs) - 1),
+    )
+
+
+STEPS = known(("1", ("0.8", "0.9")), ("1.1", ("1.25", "1.26")), ("1.2", ("1.5", "1.6")))
+
+
+def test_follow_takes_the_nearest_points():
+    found = follow(BASE, [STEPS], Fraction("1.1"))
+    assert found == Itinerary(BASE, ((Fraction("1.1"),) * 2, (Fraction("1.25"), Fraction("1.26"))))
+    assert found.cut == "01"
+    assert follow(BASE, [STEPS], Fraction("0.9")).cut == "0"
+    assert follow(BASE, [STEPS], Fraction("1.5")).cut == "2"
+
+
+@pytest.mark.parametrize(
+    ("steps", "phase"),
+    [
+        (STEPS, "1.15"),  # anywhere in [1.25, 1.6]
+        (STEPS, "1.35"),  # nothing is known there
+        (known(("1.1", ("1.1", "1.1")), ("1.2", ("1.5", "1.6"))), "1.1"),  # it stays
+        (replace(STEPS, at=replace(PAPER, eta=Fraction("0.21")).place), "1.1"),
+        *(
+            (known(("1.1", image), ("1.2", ("1.5", "1.6"))), "1.1")
+            for image in (("1.19", "1.21"), ("1.15", "1.35"), ("0.99", "1.01"), ("1.39", "1.41"))
+        ),
+    ],
+)
+def test_follow_gives_up_where_the_set_is_not_decided(steps, phase):
+    with pytest.raises(Unproved):
+        follow(BASE, [steps], Fraction(phase))
+
+
+def test_an_image_beyond_phase_zero_is_no_phase():
+    with pytest.raises(Unproved, match="straddles"):
+        known(("1.1", ("6.2", "6.3")), ("1.2", ("1.5", "1.6")))
+
+
+def test_points_within_the_uncertainty_bound_nothing():
+    """x in [1.11, 1.13], f(1.12) = 1.25: f(x) is between f(1.1) and f(1.2) only."""
+    steps = [
+        known(("1.1", ("1.11", "1.13")), ("1.12", ("1.25", "1.25")), ("1.2", ("1.26", "1.27")))
+    ]
+    assert follow(BASE, steps, Fraction("1.12")).cut == "01"
+    with pytest.raises(Unproved):
+        follow(BASE, steps, Fraction("1.1"))
+
+
+def test_every_step_of_an_orbit_counts_the_points_it_looks_at():
+    """A file with many points and many itineraries cannot be slow unseen."""
+    images = [(str(Fraction(k, 1000)), ("1.25", "1.26")) for k in range(1000, 1200)]
+    with metered(1000) as meter:
+        follow(BASE, [known(*images)], Fraction("1.1"))
+    assert meter.spent >= 200
+    part = {"slopes": "s", "domain": ["1", "1199/1000"]}
+    witness = Reader({"left": part, "right": part, "gap": "g", "slopes": ["2", "3"]})
+    with metered(1000), pytest.raises(Exhausted):
+        prove_horseshoe(Context(PAPER, {}, {"s": known(*images)}), witness)
+
+
+@pytest.mark.parametrize(
+    "orbit",
+    [
+        [("1.1", "1.1"), ("1.1", "1.1")],  # never leaves
+        [("1.1", "1.11"), ("1.25", "1.25")],  # no phase
+        [("1.1", "1.1"), ("1.25", "1.25"), ("1.26", "1.26")],  # leaves before
+        [("1.1", "1.1"), ("1.19", "1.21")],  # perhaps in I0
+    ],
+)
+def test_no_itinerary_without_its_orbit(orbit):
+    with pytest.raises(Unproved):
+        Itinerary(BASE, tuple((Fraction(a), Fraction(b)) for a, b in orbit))
+
+
+# -- decisions -------------------------------------------------------------------------------------
+
+AROUND = horseshoe(sets(("1.1", "1.15"), ("1.27", "1.32")))
+LEAVES = {"0": "1.05", "1": "1.2", "2": "1.5"}
+INSIDE = {"0": "1.12", "1": "1.3"}
+END = Fraction("1.11")
+
+
+def orbit(cut, phase=END, base=AROUND):
+    """An orbit that follows a word, whose first letter must be right, and then leaves."""
+    places = [*(INSIDE[letter] for letter in cut[1:-1]), LEAVES[cut[-1]]]
+    return Itinerary(base, ((phase, phase), *((Fraction(x),) * 2 for x in places)))
+
+
+CUT = orbit("001")
+
+
+@pytest.mark.parametrize("claim", ["H7", "H8", "H9", "H10"])
+@pytest.mark.parametrize(
+    "found",
+    [
+        [],
+        [CUT],
+        [horseshoe(sets(("1.115", "1.15"), ("1.27", "1.32")))],
+        [horseshoe(sets(("1.1", "1.15"), ("1.27", "1.319")))],
+        [replace(AROUND, at=replace(PAPER, nu=Fraction("-0.21")).place), CUT],
+    ],
+)
+def test_nothing_without_a_horseshoe_around_the_interval(claim, found):
+    assert DECIDE[claim](PAPER, found).verdict is Verdict.UNDECIDED
+
+
+@pytest.mark.parametrize("claim", ["H7", "H8", "H9"])
+@pytest.mark.parametrize(
+    "other",
+    [
+        orbit("001", phase=Fraction("1.12")),
+        orbit("001", base=replace(AROUND, slopes=(Fraction(3),) * 2)),
+    ],
+)
+def test_the_end_itself_must_be_followed(claim, other):
+    assert DECIDE[claim](PAPER, [AROUND, other]).verdict is Verdict.UNDECIDED
+    with pytest.raises(Unproved, match="not followed"):
+        InvariantSet(AROUND, Phases(*PAPER.interval), (other,))
+
+
+def test_an_orbit_of_an_outer_end_is_not_taken():
+    with pytest.raises(Unproved, match="not followed"):
+        InvariantSet(AROUND, AROUND.interval, (CUT,))
+
+
+@pytest.mark.parametrize(
+    ("cut", "factors"), [("001", "000"), ("000", ""), ("002", "00"), ("01", "00")]
+)
+def test_what_an_orbit_forbids(cut, factors):
+    """Of the lower end of I: all words before its own."""
+    found = invariant_set(AROUND, Phases(*PAPER.interval), [orbit(cut)])
+    assert found.shift.factors == factors
+
+
+def test_gap_of_another_width():
+    """Points of Lambda that are in neither printed set have no symbol there."""
+    narrow = sets(("1.11", "1.14"), ("1.27", "1.32"))
+    assert DECIDE["H7"](narrow, [AROUND, CUT]).verdict is Verdict.UNDECIDED
+    assert DECIDE["H9"](narrow, [AROUND, CUT]).verdict is Verdict.VERIFIED
+
+
+def test_slopes_of_two_are_not_enough_for_measure_zero():
+    slow = replace(AROUND, slopes=(Fraction(2), Fraction(7)))
+    assert DECIDE["H10"](PAPER, [slow]).verdict is Verdict.UNDECIDED
+    assert "measure" not in slow.sentence
+    assert DECIDE["H10"](PAPER, [AROUND]).verdict is Verdict.VERIFIED
+
+
+def test_an_empty_invariant_set():
+    """If the orbit of the lower end is above that of all points, nothing stays in I."""
+    low = sets(("1.28", "1.29"), ("1.3", "1.32"))
+    gone = orbit("12", phase=Fraction("1.28"))
+    for claim in ("H8", "H9"):
+        decision = DECIDE[claim](low, [AROUND, gone])
+        assert decision.verdict is Verdict.REFUTED and "Lambda is empty" in decision.witness
+
+
+# -- certificates ----------------------------------------------------------------------------------
+
+
+def test_certificate_is_accepted(proved):
+    report = check(render(proved))
+    verdicts = {claim.id: claim.verdict.value for claim in report.claims}
+    assert verdicts == {
+        "H7": "REFUTED",
+        "H8": "VERIFIED",
+        "H9": "VERIFIED",
+        "H10": "VERIFIED",
+        "H12": "VERIFIED",
+        "H14": "REFUTED",
+        "H15": "REFUTED",
+        "H17": "REFUTED",
+    }
+
+
+def witness(name, **fields):
+    return lambda document: document["steps"][name]["witness"].update(fields)
+
+
+def part(side, *domain):
+    return lambda document: document["steps"]["horseshoe-1"]["witness"][side].update(
+        domain=list(domain)
+    )
+
+
+def claim(name, **fields):
+    def edit(document):
+        entry = next(entry for entry in document["claims"] if entry["id"] == name)
+        entry.update({key: value(entry[key]) for key, value in fields.items()})
+
+    return edit
+
+
+def always(value):
+    return lambda before: value
+
+
+def without(name):
+    return lambda names: [each for each in names if each != name]
+
+
+def dropped_point(document):
+    """f at a phase beside an image of 1.11 is not known any more."""
+    step = document["steps"]["slope-range-1"]["witness"]
+    middle = len(step["points"]) // 2
+    del step["points"][middle], step["pieces"][middle]
+
+
+def fewer_flights(document):
+    """The end of the gap is not proved to escape."""
+    document["steps"]["avoids-1"]["witness"]["flights"].pop()
+
+
+def swapped_sets(document):
+    """I1 in the place of I0: their order is the order of phases."""
+    given = document["steps"]["horseshoe-1"]["witness"]
+    given["left"], given["right"] = given["right"], given["left"]
+
+
+FORGED = {
+    "a part of the gap": (fewer_flights, "gap"),
+    "escape from a part of I": (witness("avoids-1", target=["6/5", "33/25"]), "gap"),
+    "slopes tightened below": (witness("horseshoe-1", slopes=["22/5", "619/100"]), "not within"),
+    "slopes tightened above": (witness("horseshoe-1", slopes=["43/10", "6"]), "not within"),
+    "slopes that do not expand": (witness("horseshoe-1", slopes=["1", "619/100"]), "do not expand"),
+    "the printed sets": (part("left", "111/100", "23/20"), "not covered"),
+    "wider than proved": (part("left", "109/100", "23/20"), "not two points"),
+    "a wider gap": (part("left", "11/10", "57/50"), None),
+    "I0 and I1 swapped": (swapped_sets, "before I1"),
+    "no slopes": (part("left"), None),
+    "gap of another rule": (witness("horseshoe-1", gap="first-impact-1"), "Avoids"),
+    "another phase": (witness("itinerary-1", phase="28/25"), None),
+    "the fixed point's side": (witness("itinerary-1", phase="11/10"), None),
+    "orbit without slopes": (witness("itinerary-1", slopes=[]), "not known"),
+    "orbit in no horseshoe": (witness("itinerary-1", horseshoe="avoids-1"), "Horseshoe"),
+    "another L": (witness("excess-1", word="10"), None),
+    "no word": (witness("excess-1", word=""), None),
+    "letters": (witness("excess-1", word="12"), None),
+    "epsilon too large": (witness("excess-1", epsilon="19/100"), "not refuted"),
+    "epsilon 0": (witness("excess-1", epsilon="0"), None),
+    "another root": (witness("linear-set-1", root="moran-root-2"), "moran-root|MoranRoot"),
+    "root of no such step": (witness("linear-set-1", root="horseshoe-1"), "MoranRoot"),
+    "onto after all": (claim("H7", verdict=always("VERIFIED")), "REFUTED"),
+    "chaos denied": (claim("H8", verdict=always("REFUTED")), "VERIFIED"),
+    "another word": (claim("H7", witness=lambda text: text.replace("000", "010")), None),
+    "a larger subshift": (claim("H7", corrected=lambda text: text.replace("000", "0000")), None),
+    "no correction": (claim("H15", corrected=always(None)), None),
+    "correction of a true claim": (claim("H9", corrected=always("Lambda is empty.")), None),
+    "another pair": (claim("H15", witness=lambda text: text.replace("5/21", "6/21")), None),
+    "another reason": (claim("H10", why=always("f' >= 5")), None),
+    "no orbit": (claim("H8", proof=without("itinerary-1")), "H8"),
+    "no horseshoe": (claim("H10", proof=always([])), "H10"),
+    "an L for one pair of ratios": (claim("H14", proof=without("excess-2")), "H14"),
+    "statement softened": (claim("H17", statement=lambda x: x.replace("keeps", "may keep")), None),
+    "entropy tightened": (
+        claim("H7", quantities=always({"growth": {"lower": "1.8393", "upper": "1.84"}})),
+        "bounds",
+    ),
+    "dimension tightened": (
+        claim("H12", quantities=always({"dimension": {"lower": "0.4489694", "upper": "0.449"}})),
+        "bounds",
+    ),
+    "points dropped": (dropped_point, None),
+    "another eta": (lambda document: document["parameters"].update(eta="53/250"), None),
+}
+
+
+@pytest.mark.parametrize("name", FORGED)
+def test_forged_certificates_are_refused(proved, name):
+    document, (edit, reason) = copy.deepcopy(proved), FORGED[name]
+    edit(document)
+    assert document != proved
+    with pytest.raises((Rejected, Malformed), match=reason):
+        check(render(document))

@@ -1,0 +1,422 @@
+"""The linear Cantor set: its witnesses by brute force over words, its numbers by Arb."""
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise, product
+
+import pytest
+from flint import arb, ctx
+
+from proofs.search.s32_sets import prove
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper.s32_sets.linear import (
+    ROWS,
+    ExactMeasure,
+    LinearDimension,
+    LinearSet,
+    ShortGap,
+    Uncovered,
+    linear_sets,
+)
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.rules import find_rule
+from proofs.trusted.verdicts import Verdict
+
+DECIDE = {row.id: row.decide for row in ROWS}
+EXACT = (Fraction(4, 21), Fraction(5, 21))
+ROUNDED = (Fraction("0.1905"), Fraction("0.2381"))
+ROOTS = {  # mpmath, 50 digits
+    EXACT: Fraction("0.44896935113647966112"),
+    ROUNDED: Fraction("0.44898970740667915010"),
+}
+BOTH = pytest.mark.parametrize("ratios", [EXACT, ROUNDED])
+I = PAPER.interval  # noqa: E741
+VERIFIED, REFUTED, UNDECIDED = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
+
+
+def length(part):
+    return part[1] - part[0]
+
+
+def inside(part, whole):
+    return whole[0] < part[0] and part[1] < whole[1]
+
+
+def cylinders(ratios, deepest):
+    """All intervals of up to so many letters, by the similarities themselves."""
+    low, high = I
+    found = {"": I}
+    for size in range(1, deepest + 1):
+        for word in words(size):
+            end = found[word[1:]]
+            r = ratios[int(word[0])]
+            fixed = high if word[0] == "1" else low
+            found[word] = tuple(fixed + r * (x - fixed) for x in end)
+    return found
+
+
+def in_gap(found, word, at=Fraction(1, 3)):
+    """A phase of the gap of an interval."""
+    low, high = found[word + "0"][1], found[word + "1"][0]
+    return low + at * (high - low)
+
+
+@BOTH
+def test_lengths_are_those_of_the_similarities(ratios):
+    for word, part in cylinders(ratios, 5).items():
+        assert LinearSet(ratios, I).length(word) == length(part)
+
+
+@pytest.mark.parametrize(
+    ("ratios", "interval"),
+    [
+        (("7/10", "4/5"), I),
+        (("1/2", "1/2"), I),
+        (("2/5", "1/5"), I),  # not in order
+        (("0", "1/2"), I),
+        (("-1/5", "1/5"), I),
+        (("1/5", "1/4"), (I[1], I[0])),
+        (("1/5", "1/4"), (I[0], I[0])),
+    ],
+)
+@pytest.mark.parametrize("kind", [LinearSet, ExactMeasure, ShortGap, Uncovered])
+def test_there_is_no_other_linear_set(kind, ratios, interval):
+    with pytest.raises(Unproved):
+        kind(tuple(map(Fraction, ratios)), interval)
+
+
+# -- the witnesses ---------------------------------------------------------------------------------
+
+
+def largest(found, interval):
+    """The words of the intervals inside an open interval that are in no other one inside."""
+    chosen = []
+    for word in sorted(found, key=len):
+        if inside(found[word], interval) and not any(map(word.startswith, chosen)):
+            chosen.append(word)
+    return sorted(chosen, key=lambda word: found[word])
+
+
+@pytest.mark.parametrize("place", [Fraction(1, 100), Fraction(99, 100)])
+@BOTH
+def test_gap_estimates_fail_at_the_witness(ratios, place):
+    """Every J from the gap of I_00 to that of I; and the exchanged names of the text."""
+    found = cylinders(ratios, 10)
+    left, right = largest(found, (in_gap(found, "00", place), in_gap(found, "", place)))
+    assert (left, right) == ("001", "01")
+    longer = max(length(found[left]), length(found[right]))
+    gap = found[right][0] - found[left][1]
+    assert gap == (1 - sum(ratios)) / ratios[1] * longer < (1 - sum(ratios)) / ratios[0] * longer
+    text = ShortGap(ratios, I).sentence
+    w, v = (part.split(",")[0].split(" ")[0] for part in text.split("= I_")[2:4])
+    chosen = largest(found, (in_gap(found, w[:-1], place), in_gap(found, v[:-1], place)))
+    assert w in chosen and v in chosen
+    assert length(found[w]) == max(length(found[x]) for x in chosen if x[0] == "0")
+    assert length(found[v]) == max(length(found[x]) for x in chosen if x[0] == "1")
+    shorter, longer = length(found[w]), length(found[v])
+    assert ratios[0] / ratios[1] * longer < shorter < longer
+
+
+def test_exchanged_names_may_help():
+    """1/4, 1/2: an interval of length 2^-a beside one of 2^-b is at most twice as long."""
+    assert "exchange" not in ShortGap((Fraction(1, 4), Fraction(1, 2)), I).sentence
+
+
+@pytest.mark.parametrize("place", [Fraction(1, 100), Fraction(99, 100)])
+@BOTH
+def test_no_two_intervals_replace_the_witness(ratios, place):
+    found = cylinders(ratios, 7)
+    cut = in_gap(found, "11", place)
+    first, second = (I[0] - 1, cut), (cut, I[1] + 1)
+    level = [word for word in found if len(word) == 7]
+    assert [w for w in level if inside(found[w], first) or inside(found[w], second)] == level
+    pieces = [word for word in found if len(word) < 6 and inside(found[word], first)]
+    rest = [word for word in level if not inside(found[word], second)]
+    for one, other in product(pieces, repeat=2):
+        assert any(not w.startswith((one, other)) for w in rest)
+
+
+# -- H15: pair by pair -----------------------------------------------------------------------------
+
+
+def at(slopes, ratios=None):
+    pair = ratios and tuple(map(Fraction, ratios))
+    return replace(PAPER, slopes=tuple(map(Fraction, slopes)), ratios=pair, printed_s0=None)
+
+
+@pytest.mark.parametrize(
+    ("slopes", "ratios", "expected"),
+    [
+        (("5", "5"), None, VERIFIED),
+        (("5", "5"), ("1/5", "1/5"), VERIFIED),
+        (("4.95", "5.05"), ("0.2", "0.2"), UNDECIDED),  # false as defined, true as printed
+        (("5", "5"), ("0.2", "0.21"), UNDECIDED),
+        (("4.2", "5.25"), ("0.1905", "0.2381"), REFUTED),
+        (("5", "5.0000001"), None, REFUTED),
+        (("6/5", "3/2"), None, UNDECIDED),  # no linear set
+        (("4", "5"), ("7/10", "4/5"), UNDECIDED),
+        (("2", "2"), None, UNDECIDED),
+    ],
+)
+def test_gap_estimates_for_both_pairs(slopes, ratios, expected):
+    of = at(slopes, ratios)
+    decision = DECIDE["H15"](of, [])
+    assert decision.verdict is expected
+    if expected is UNDECIDED and sum(of.moran_ratios) < 1 and sum(of.reciprocals) < 1:
+        assert "true with (eta0, eta1) = (" in decision.why and "false with" in decision.why
+
+
+def test_gap_estimates_by_brute_force_for_equal_ratios():
+    """All J between gaps of level 4: the two largest intervals side by side, and their gap."""
+    ratio = Fraction(1, 5)
+    found = cylinders((ratio, ratio), 5)
+    ends = sorted(in_gap(found, word) for word in found if len(word) < 4)
+    seen = 0
+    for low, high in product(ends, ends):
+        chosen = largest(found, (low, high)) if low < high else []
+        for left, right in pairwise(chosen):
+            sizes = [length(found[left]), length(found[right])]
+            if sorted(sizes) == sorted(length(found[w]) for w in chosen)[-2:]:
+                gap = found[right][0] - found[left][1]
+                assert gap >= (1 - 2 * ratio) / ratio * max(sizes)
+                seen += 1
+    assert seen > 50
+
+
+@pytest.mark.parametrize("claim", ["H12", "H14", "H15", "H17"])
+@pytest.mark.parametrize("slopes", [("1", "3"), ("6/5", "3/2"), ("10/8", "10/7")])
+def test_nothing_is_said_of_a_set_that_does_not_exist(claim, slopes):
+    decision = DECIDE[claim](at(slopes), [])
+    assert decision.verdict is UNDECIDED and decision.theorem is decision.witness is None
+
+
+@pytest.mark.parametrize("claim", ["H12", "H14", "H15", "H16", "H17"])
+@pytest.mark.parametrize("power", [60, 390])
+def test_tiny_ratios_end_at_once(claim, power):
+    of = at((Fraction(10) ** power, Fraction(10) ** power + 1))
+    proof = prove(of, [claim]).proofs.get(claim, []) if power < 100 else []
+    decision = DECIDE[claim](of, [found for _, found in proof])
+    assert decision.verdict is {"H12": UNDECIDED, "H14": UNDECIDED, "H16": VERIFIED}.get(
+        claim, REFUTED
+    )
+    assert len(decision.why) < 5000
+
+
+# -- the lemma and the numbers ---------------------------------------------------------------------
+
+
+@BOTH
+def test_theorem_on_random_intervals(ratios):
+    """|J|^s is at least the sum over the cylinders in J, with equality for J = I."""
+    s = float(ROOTS[ratios])
+    parts = [(float(a), float(b)) for w, (a, b) in cylinders(ratios, 8).items() if len(w) == 8]
+    powers = [(b - a) ** s for a, b in parts]
+    assert sum(powers) == pytest.approx(float(length(I)) ** s)
+    draw = random.Random(4)
+    ends = [x for part in parts for x in part]
+    for _ in range(500):
+        low, high = sorted(draw.sample(ends, 2))
+        total = sum(p for p, (a, b) in zip(powers, parts, strict=True) if low <= a and b <= high)
+        assert (high - low) ** s >= total * (1 - 1e-9)
+
+
+@BOTH
+def test_covers_of_the_theorem(ratios):
+    """(4): intervals as much longer as allowed, at n = 0, 1, 2."""
+    s, size = float(ROOTS[ratios]), float(length(I))
+    for n, epsilon in product(range(3), (1e-3, 0.1, 1.0)):
+        longest = float(ratios[1]) ** n * size
+        more = min((epsilon / 2 ** (n + 1)) ** (1 / s), longest * (1 - float(ratios[1])))
+        level = [float(length(x)) for w, x in cylinders(ratios, n + 1).items() if len(w) == n + 1]
+        assert max(level) + more <= longest * (1 + 1e-12)
+        assert sum((x + more) ** s for x in level) <= size**s + epsilon
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    return prove(PAPER, ["H12", "H14"])
+
+
+def exact_arb(value):
+    return arb(value.numerator) / value.denominator
+
+
+def test_dimension_and_measure_by_arb(evidence):
+    ctx.prec = 200
+    ((_, found),) = evidence.proofs["H12"]
+    assert isinstance(found, LinearDimension)
+    low, high = map(exact_arb, found.root)
+    r0, r1 = map(exact_arb, found.ratios)
+    assert r0**low + r1**low > 1 > r0**high + r1**high
+    assert exact_arb(found.measure[0]) < exact_arb(length(I)) ** high
+    assert exact_arb(found.measure[1]) > exact_arb(length(I)) ** low
+    assert found.measure[1] - found.measure[0] < Fraction(1, 10**29)
+
+
+def value_of(ratios, epsilon, word):
+    """(|L| + d)^s - |L|^s - d."""
+    s, part = exact_arb(ROOTS[ratios]), length(cylinders(ratios, len(word))[word])
+    delta = Fraction(epsilon) / 2 ** len(word)
+    return exact_arb(part + delta) ** s - exact_arb(part) ** s - exact_arb(delta)
+
+
+def test_excess_by_arb(evidence):
+    ctx.prec = 200
+    assert [found.ratios for _, found in evidence.proofs["H14"]] == [EXACT, ROUNDED]
+    for _, found in evidence.proofs["H14"]:
+        value = value_of(found.ratios, found.epsilon, found.word)
+        assert exact_arb(found.excess[0]) - arb("1e-18") < value
+        assert value < exact_arb(found.excess[1]) + arb("1e-18")
+        r1 = found.ratios[1]
+        assert found.epsilon < r1 - r1**2
+        assert r1 * r1 * length(I) + found.epsilon / 4 > r1 * length(I)
+
+
+# -- the rules of the checker ----------------------------------------------------------------------
+
+
+def rule(name, known, **witness):
+    return find_rule(name)(Context(PAPER, {}, known), Reader(witness))
+
+
+@pytest.fixture(scope="module")
+def roots():
+    reach = Fraction(1, 10**19)
+    return {"r": MoranRoot(EXACT, (ROOTS[EXACT] - reach, ROOTS[EXACT] + reach))}
+
+
+@pytest.mark.parametrize(("epsilon", "word"), [("17/100", "11"), ("1/10", "01"), ("1/100", "0110")])
+def test_excess_of_the_checker_by_arb(roots, epsilon, word):
+    ctx.prec = 200
+    found = rule("excess", roots, root="r", epsilon=epsilon, word=word)
+    value = value_of(EXACT, epsilon, word)
+    assert exact_arb(found.excess[0]) < value < exact_arb(found.excess[1])
+    assert found.excess[1] - found.excess[0] < Fraction(1, 10**17)
+    assert (found.ratios, found.epsilon, found.word) == (EXACT, Fraction(epsilon), word)
+
+
+def test_measure_of_the_checker_by_arb(roots):
+    ctx.prec = 200
+    found = rule("linear-set", roots, root="r")
+    value = exact_arb(length(I)) ** exact_arb(ROOTS[EXACT])
+    assert exact_arb(found.measure[0]) < value < exact_arb(found.measure[1])
+    assert found.measure[1] - found.measure[0] < Fraction(1, 10**17)
+
+
+@pytest.mark.parametrize(
+    ("epsilon", "word"),
+    [("0", "11"), ("-1/10", "11"), ("1/10", ""), ("1/10", "12"), ("1/10", "0" * 13), ("1/10", "1")],
+)
+def test_excess_of_nothing(roots, epsilon, word):
+    with pytest.raises(Malformed):
+        rule("excess", roots, root="r", epsilon=epsilon, word=word)
+
+
+@pytest.mark.parametrize("name", ["linear-set", "excess"])
+def test_parts_that_overlap_are_no_cantor_set(name):
+    more = {} if name == "linear-set" else {"epsilon": "1/10", "word": "11"}
+    for ratios in ((Fraction(1, 2),) * 2, (Fraction(7, 10), Fraction(4, 5))):
+        whole = {"r": MoranRoot(ratios, (Fraction(1, 2), Fraction(4)))}
+        with pytest.raises(Unproved, match="no linear Cantor set"):
+            rule(name, whole, root="r", **more)
+    for known in ({}, {"r": LinearSet(EXACT, I)}):
+        with pytest.raises(Malformed, match="MoranRoot"):
+            rule(name, known, root="r", **more)
+
+
+# -- decisions -------------------------------------------------------------------------------------
+
+
+def edited(evidence, claim, **changes):
+    return [replace(found, **changes) for _, found in evidence.proofs[claim]]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"epsilon": Fraction("0.19")},  # above eta1 - eta1^2
+        {"epsilon": Fraction(0)},
+        {"word": "1"},  # n = 0
+        {"excess": (Fraction(0), Fraction(1))},
+    ],
+)
+def test_no_excess_that_refutes_nothing(evidence, changes):
+    with pytest.raises(Unproved, match="not refuted"):
+        edited(evidence, "H14", **changes)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"ratios": (Fraction(1, 5), Fraction(1, 4))}, {"interval": (Fraction(1), I[1])}]
+)
+def test_no_refutation_by_another_set(evidence, changes):
+    found = edited(evidence, "H14", **changes)
+    assert DECIDE["H14"](PAPER, found).verdict is UNDECIDED
+    own = [step for _, step in evidence.proofs["H14"]]
+    assert DECIDE["H14"](PAPER, own[:1]).verdict is UNDECIDED
+    assert DECIDE["H14"](PAPER, [*found, *own]).verdict is REFUTED
+
+
+def test_a_small_epsilon_refutes_the_sum_alone(evidence):
+    """L' is in T_n then; the sum is in the wrong order all the same."""
+    decision = DECIDE["H14"](PAPER, edited(evidence, "H14", epsilon=Fraction(1, 10)))
+    assert decision.verdict is REFUTED
+    assert "T_n" not in decision.witness
+    assert "T_n" in DECIDE["H14"](PAPER, edited(evidence, "H14")).witness
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"left": (Fraction("1.1"), Fraction("1.15")), "interval": (Fraction("1.1"), I[1])},
+        {"left": (I[0], Fraction("1.16"))},
+        {"right": (Fraction("1.28"), I[1])},
+        {"slopes": (Fraction("4.2"), Fraction("5.2"))},
+    ],
+)
+def test_lines_that_are_not_onto_leave_the_dimension_open(evidence, change):
+    found = [step for _, step in evidence.proofs["H12"]]
+    assert DECIDE["H12"](PAPER, found).verdict is VERIFIED
+    assert DECIDE["H12"](PAPER, []).verdict is UNDECIDED
+    assert DECIDE["H12"](replace(PAPER, **change), found).verdict is UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("ratios", "expected"),
+    [
+        (("0.1905", "0.2381"), VERIFIED),
+        (("0.3", "0.69999"), VERIFIED),
+        (("0.3", "0.7"), REFUTED),  # s_0 = 1: q is constant
+        (("0.5", "0.6"), REFUTED),
+        (("0.5", "1"), REFUTED),
+        (("2", "3"), REFUTED),
+    ],
+)
+def test_gap_function(ratios, expected):
+    of = replace(PAPER, ratios=tuple(map(Fraction, ratios)))
+    decision = DECIDE["H16"](of, [])
+    assert decision.verdict is expected
+    assert expected is VERIFIED or "linear" not in decision.witness
+
+
+@pytest.mark.parametrize(("eta0", "eta1", "falls"), [(0.1905, 0.2381, True), (0.5, 0.6, False)])
+def test_gap_function_against_values(eta0, eta1, falls):
+    """q(x) = ((1 - eta1)/eta0 + x)^s - 1 - x^s at the two sides of eta0 + eta1 = 1."""
+    low, high = 0.0, 50.0
+    for _ in range(100):
+        s = (low + high) / 2
+        low, high = (s, high) if eta0**s + eta1**s > 1 else (low, s)
+
+    def q(x):
+        return ((1 - eta1) / eta0 + x) ** low - 1 - x**low
+
+    assert (q(0.5) > q(1) > q(3)) is falls
+    assert abs(q(eta1 / eta0)) < 1e-12
+
+
+def test_both_pairs_of_ratios():
+    assert [each.ratios for each in linear_sets(PAPER)] == [EXACT, ROUNDED]
