@@ -13,9 +13,10 @@ _BLIND = {"tape", "roots", "parts", "work"}  # the checker's machinery inside of
 _MORE = {  # properties that sentences or rows rest on
     "Horseshoe": ("interval",),
     "Separation": ("returns",),
-    "Digits": ("readings",),
-    "Itinerary": ("place",),
-    "Absorption": ("place",),
+    "Digits": ("rounded", "truncated"),
+    "Itinerary": ("cut",),
+    "InvariantSet": ("shift", "sentence"),
+    "Subshift": ("factors",),
 }
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",
@@ -33,9 +34,8 @@ def plain(value, share=0):
         name = type(value).__name__
         names = [f.name for f in fields(value) if f.name not in _BLIND]
         record = {each: plain(getattr(value, each), share) for each in names if each != "at"}
-        for each in ("at", *_MORE.get(name, ())):
-            inner = getattr(value, each, None)
-            record |= place(inner, share) if each in ("at", "place") else {each: plain(inner)}
+        record |= {each: plain(getattr(value, each), share) for each in _MORE.get(name, ())}
+        record |= place(getattr(value, "at", None), share)
         return SimpleNamespace(**record, kind=name)
     raise TypeError(f"nothing is known about {type(value).__name__}")
 
@@ -60,5 +60,5 @@ def parameters(of):
 
 def view(conclusion, of=None, share=0):
     """A plain record of a conclusion; of: the numbers of the document, where it has some."""
-    beside = {"interval": plain(getattr(of, "interval", None)), **place(of)}
+    beside = {"numbers": of and parameters(of), **place(of)}
     return SimpleNamespace(**{**beside, **vars(plain(conclusion, share))})

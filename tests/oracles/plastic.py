@@ -325,12 +325,6 @@ def image_arc(view, rng):
     return told
 
 
-def missed(view, rng):
-    """No phase of the domain lands in the target."""
-    about = {**vars(view), "phases": view.arc.domain, "target": view.missed}
-    return avoids(SimpleNamespace(**about), rng)
-
-
 def horseshoe_faults(sets, rng):
     """What is wrong with H1 to H6 at these numbers, each complaint beginning with its id."""
     told = []
@@ -367,9 +361,9 @@ def _covered(images, interval):
 
 
 def itinerary(view, rng):
-    """The orbit of a phase, and which of the sets it visits."""
-    sets, told, _word, lift = view.sets, [], "", ball(view.phase)
-    if len(view.orbit) != len(view.word) + 1:
+    """The orbit of a phase, and which of the sets it visits; `cut`: the word, where it leaves."""
+    sets, told, lift, *word = view.base, [], ball(view.orbit[0][0]), *map(int, view.cut)
+    if len(view.orbit) != len(word):
         return ["the lengths do not fit"]
     with flint.ctx.workprec(PRECISION):
         for k, bounds in enumerate(view.orbit):
@@ -377,16 +371,16 @@ def itinerary(view, rng):
                 return [f"f^{k} of the phase is {float(lift) % TURN:.15g}"]
             phase = lift - int(float(lift) // TURN) * two_pi()
             where = [inside(phase, sets.left), inside(phase, sets.right)]
-            if k < len(view.word):
-                if not where[int(view.word[k])]:
-                    return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{view.word[k]}"]
+            if k < len(word) - 1:
+                if not where[word[k]]:
+                    return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{word[k]}"]
                 found = next_impact(sets.eta, sets.nu, phase)
                 if not isinstance(found, Impact):
                     return told
                 lift = found.lifted
             else:
                 place = (phase > ball(sets.left[0])) + (phase > ball(sets.right[0]))
-                if any(where) or int(place) != view.leaves:
+                if any(where) or int(place) != word[k]:
                     told.append(f"f^{k} of the phase, {float(phase):.12g}, is elsewhere")
         return told
 
@@ -403,7 +397,6 @@ JUDGES = {
     "StayingOrbit": staying_orbit,
     "FixedPoint": fixed_point,
     "ImageArc": image_arc,
-    "Missed": missed,
     "Horseshoe": horseshoe,
     "Itinerary": itinerary,
 }

@@ -79,15 +79,16 @@ def barred_word(view, rng):
     return [f"an orbit along {view.word} comes within {short:.9g} of the last rectangle"]
 
 
-def _shortfall(view, word, rng):
+def _shortfall(view, word, rng, shares=(0, 1, None)):
     """By how much the orbits found that follow a word miss its last set; 0: one does not; None.
 
     The next phase increases with the phase; so the phases (at one velocity) whose images follow
     part of a word are an interval, found by bisection.
     """
     least, sets = None, (view.strips.left, view.strips.right)
-    for share in (0, 1, rng.random()):
-        eta, nu, epsilon = (between(side, Fraction(share)) for side in view.box)
+    for share in shares:
+        share = Fraction(rng.random() if share is None else share)
+        eta, nu, epsilon = (between(side, share) for side in view.box)
         gamma = between(view.strips.velocities, Fraction(rng.choice((0, 1, rng.random()))))
         at = SimpleNamespace(eta=eta, nu=nu, epsilon=epsilon, gamma=gamma)
         low, high = (float(end) for end in sets[word[0]])
@@ -122,7 +123,7 @@ def _after(at, phase, count, goal):
 
 def _solve(at, ends, count, goal, wanted):
     low, high = ends
-    for _ in range(40):
+    for _ in range(32):
         middle = (low + high) / 2
         found = _after(at, middle, count, goal)
         if found is None:
@@ -163,7 +164,7 @@ def rectangle_horseshoe(view, rng):
             told += [one for one in (found, *edges) if isinstance(one, str)]
             continue
         told += _rates(found.derivative(), view.rates)
-        turns = round(float(sum(one.lifted for one in edges) / 2 - (low + high) / 2) / TURN)
+        turns = round((float(edges[0].lifted + edges[1].lifted) - float(low + high)) / 2 / TURN)
         first, last = (one.turned(turns) for one in edges)
         if first > ball(low - view.margin) or last < ball(high + view.margin):
             told.append(f"edges are mapped to {first.str(9)}, {last.str(9)}, not beyond both sets")
@@ -183,9 +184,9 @@ def golden_mean(view, rng):
     word = (0,)
     while len(word) < 6:
         word += (0,) if word[-1] else (rng.randint(0, 1),)
-    if _shortfall(view, word, rng):
+    if _shortfall(view, word, rng, (None,)):
         told.append(f"no orbit follows {word}")
-    if _shortfall(view, (*word, 0, 1, 1), rng) == 0:
+    if _shortfall(view, (*word, 0, 1, 1), rng, (None,)) == 0:
         told.append(f"an orbit follows {word}, 0, 1, 1")
     return told
 
