@@ -163,4 +163,3 @@ def theorem(view, rng):
 
 
 JUDGES = {"Equal": equal, "Series": series, "Value": value, "Theorem": theorem}
-

@@ -63,7 +63,10 @@ def exact_measure(view, rng):
     n, epsilon = rng.randint(0, 5), rng.random()
     more = min((epsilon / 2 ** (n + 1)) ** (1 / s), r1**n - r1 ** (n + 1))
     for size in (r0 ** (n + 1), r1 ** (n + 1)):
-        if size + more > r1**n + 1e-9 or (size + more) ** s > size**s + epsilon / 2 ** (n + 1) + 1e-9:
+        if (
+            size + more > r1**n + 1e-9
+            or (size + more) ** s > size**s + epsilon / 2 ** (n + 1) + 1e-9
+        ):
             told.append("(4) fails")
     return told
 
