@@ -33,7 +33,7 @@ from intervals.branch import Boxes, evaluated, one_box, select
 from intervals.generic import meet, middle
 from intervals.systems import Function, components, dot, jacobian
 from proofs.methods.formulas import Intervals
-from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.kernel.formulas import Formulas
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -41,7 +41,7 @@ Floats = NDArray[np.float64]
 _MOST_ARROWS = 4_000_000
 
 
-def function_of(formula: Formula) -> Function:
+def function_of(formula: Formulas) -> Function:
     """Return a formula of the checker as a function of intervals, arrays of these, and jets."""
     numbers: Any = Intervals()
     return lambda *x: formula.tape.evaluate(formula.roots, numbers, x)

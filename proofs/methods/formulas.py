@@ -9,9 +9,9 @@ from typing import Any
 
 import intervals
 from intervals import Interval, IntervalError, Undecided
+from proofs.trusted.kernel.covers import HSet, Rows
 from proofs.trusted.kernel.enclose import ARITHMETIC, Box, centre_of, point_box
-from proofs.trusted.kernel.formula import Formula
-from proofs.trusted.kernel.hset import HSet
+from proofs.trusted.kernel.formulas import Formulas
 
 _MOST_BOXES = 10_000
 _DEEPEST = 40
@@ -26,25 +26,25 @@ class Intervals:
 
     precision: int = 53
 
-    def apply(self, op: str, arguments: list[Interval], datum: Fraction | None) -> Interval:
+    def apply(self, op: str, arguments: list[Interval], datum: Fraction) -> Interval:
         """Enclose op(arguments)."""
         if op == "number":
-            return Interval(datum or 0, precision=self.precision)
+            return Interval(datum, precision=self.precision)
         if op == "pi":
             return Interval.pi(precision=self.precision)
         if op == "^":
-            return arguments[0] ** int(datum or 0)
+            return arguments[0] ** int(datum)
         function = ARITHMETIC.get(op) or getattr(intervals, op)
         result: Interval = function(*arguments)
         return result
 
 
-def values(formula: Formula, x: Values, roots: tuple[int, ...] | None = None) -> Values:
+def values(formula: Formulas, x: Values, roots: tuple[int, ...] | None = None) -> Values:
     """Enclose a function's components, or other roots on its tape."""
     return formula.tape.evaluate(roots or formula.roots, Intervals(x[0].precision), x)
 
 
-def jacobian(formula: Formula, x: Values, roots: tuple[int, ...] | None = None) -> Matrix:
+def jacobian(formula: Formulas, x: Values, roots: tuple[int, ...] | None = None) -> Matrix:
     """Enclose the partial derivatives of the components, or of other roots."""
     n = len(formula.variables)
     rows = [[formula.tape.derivative(r, v) for v in range(n)] for r in roots or formula.roots]
@@ -72,11 +72,16 @@ def dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
     return sum((a * b for a, b in zip(row, column, strict=True)), 0)
 
 
+def enclosed(formula: Formulas, box: Box) -> Values:
+    """Enclose the components on a box."""
+    return mean_value_form(lambda x: values(formula, x), lambda x: jacobian(formula, x), box)
+
+
 @dataclass(frozen=True)
 class Local:
     """The k-th iterate of a function from one h-set to another, in their coordinates."""
 
-    formula: Formula
+    formula: Formulas
     power: int
     source: HSet
     target: HSet
@@ -109,6 +114,22 @@ class Local:
 def _multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:
     columns = list(zip(*b, strict=True))
     return [[dot(row, column) for column in columns] for row in a]
+
+
+def inverse(matrix: Rows) -> Rows:
+    """Return the exact inverse (Gauss and Jordan), or raise Undecided."""
+    n = len(matrix)
+    rows = [[*row, *(Fraction(int(i == j)) for j in range(n))] for i, row in enumerate(matrix)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            raise Undecided("a singular matrix")
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [entry / rows[k][k] for entry in rows[k]]
+        for i in range(n):
+            if i != k and (factor := rows[i][k]):
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
+    return tuple(tuple(row[n:]) for row in rows)
 
 
 def subdivide(box: Box, decided: Callable[[Box], bool], scale: Box | None = None) -> Tree:

@@ -7,30 +7,33 @@ where no witness is found.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from intervals import Interval, Undecided
+from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.formulas import (
+    Tree,
     Values,
     dot,
+    enclosed,
+    inverse,
     jacobian,
-    mean_value_form,
     subdivide,
     values,
 )
 from proofs.trusted.certificate import SCHEMA, Reader, texts
-from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import Box
-from proofs.trusted.kernel.formula import Formula, read_formula
-from proofs.trusted.kernel.hset import inverse
+from proofs.trusted.kernel.formulas import Formulas, read_formulas, read_function
+from proofs.trusted.numbers import Range
 
+_COARSE_DIGITS = 3
 _PLACES = 2**40  # candidates are rounded to multiples of 1 / _PLACES
 
 Number = Fraction | int | str
 Sides = Sequence[tuple[Number, Number]]
+Named = Mapping[str, tuple[Number, Number]]  # sides of a box, by the names of variables
 
 
 def exact(sides: Sides) -> Box:
@@ -43,11 +46,39 @@ def written(box: Box) -> list[list[str]]:
     return [texts(side) for side in box]
 
 
+def bounds_of(text: str, box: Mapping[str, Range], sign: int) -> tuple[Range, Tree]:
+    """Bound a formula that has a sign on a box; return bounds with room, and a subdivision."""
+    found: list[Range] = []
+
+    def decided(part: Values) -> bool:
+        low, high = sorted((sign * part[0].inf, sign * part[0].sup))
+        if low > 0:
+            found.append((low, high))
+        return low > 0
+
+    tree = _divided(text, box, decided)
+    lower, upper = decimal_bounds(
+        min(low for low, _ in found) / 2, max(high for _, high in found) * 2, _COARSE_DIGITS
+    )
+    low, high = sorted((sign * Fraction(lower), sign * Fraction(upper)))
+    return (low, high), tree
+
+
+def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Values], bool]) -> Tree:
+    """Divide a box until the enclosures of a formula decide; variables are in alphabetical order.
+
+    Those that are substituted away have the side [0, 0], as in the checker.
+    """
+    formulas = read_formulas(Reader(text))
+    sides = tuple(box.get(name, (Fraction(0), Fraction(0))) for name in formulas.variables)
+    return subdivide(sides, lambda part: decided(enclosed(formulas, part)))
+
+
 @dataclass
 class Lemmas:
-    """A lemma file in the making: functions {name: (variables, expressions)}, and its steps."""
+    """A lemma file in the making: functions {name: (variables, texts)}, and its steps."""
 
-    functions: Mapping[str, tuple[Sequence[str], Sequence[Any]]]
+    functions: Mapping[str, tuple[Sequence[str], Sequence[str]]] = field(default_factory=dict)
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def document(self, *claims: str) -> dict[str, Any]:
@@ -62,90 +93,83 @@ class Lemmas:
         }
 
     def _json(self, name: str) -> dict[str, Any]:
-        variables, expressions = self.functions[name]
-        return {"variables": list(variables), "values": list(expressions)}
+        variables, texts_of = self.functions[name]
+        return {"variables": list(variables), "values": list(texts_of)}
 
-    def formula(self, name: str) -> Formula:
+    def function(self, name: str) -> Formulas:
         """Return a function as the checker reads it."""
-        return read_formula(name, Reader(self._json(name)))
+        return read_function(name, Reader(self._json(name)))
 
     def add(self, rule: str, witness: dict[str, Any]) -> str:
         """Add a step, return its name."""
+        kind = rule.removeprefix("formula-")
         number = 1 + sum(step["rule"] == rule for step in self.steps.values())
-        self.steps[f"{rule}-{number}"] = {"rule": rule, "witness": witness}
-        return f"{rule}-{number}"
+        self.steps[f"{kind}-{number}"] = {"rule": rule, "witness": witness}
+        return f"{kind}-{number}"
 
-    # -- inequalities --------------------------------------------------------------------------
+    # -- values and equations ------------------------------------------------------------------
 
-    def inequality(self, rule: str, claim: dict[str, Any]) -> str:
-        """Add a step by `sign`, `monotone`, `range` or `expansion`, of which the claim is given."""
-        formula = self.formula(claim["function"])
-        component = int(claim.get("component", "1")) - 1
-        variable = claim.get("variable", formula.variables[0] if rule == "expansion" else None)
-        root = formula.roots[component]
-        if variable is not None:
-            root = formula.tape.derivative(root, formula.variables.index(variable))
-        sides: Sides = claim["box"] if "box" in claim else [claim["interval"]]
+    def value(self, text: str, bounds: tuple[Number, Number], **box: tuple[Number, Number]) -> str:
+        """Add a step `formula-value`: closed bounds on a formula on a box.
 
-        def decided(box: Box) -> bool:
-            (value,) = mean_value_form(
-                lambda x: values(formula, x, (root,)), lambda x: jacobian(formula, x, (root,)), box
-            )
-            return _holds(rule, claim, value)
+        (The checker has exact values at points, of what is rational.)
+        """
+        (low, high), sides, tree = exact([bounds])[0], _sides(box), None
+        if any(first < last for first, last in sides.values()):
+            tree = _divided(text, sides, lambda v: low <= v[0].inf and v[0].sup <= high)
+        return self._value(text, sides, (low, high), tree)
 
-        return self.add(rule, {"claim": claim, "tree": subdivide(exact(sides), decided)})
+    def sign(self, text: str, sign: int, **box: tuple[Number, Number]) -> str:
+        """Add a step `formula-value` with bounds of one sign, 1 or -1."""
+        sides = _sides(box)
+        return self._value(text, sides, *bounds_of(text, sides, sign))
 
-    def no_zero(self, function: str, sides: Sides) -> str:
-        """Add a step `no-zero`."""
-        formula, box = self.formula(function), exact(sides)
-        tree = subdivide(box, lambda part: not all(v.contains_zero() for v in _on(formula, part)))
-        return self.add("no-zero", {"function": function, "box": written(box), "tree": tree})
+    def _value(self, text: str, sides: Mapping[str, Range], bounds: Range, tree: Tree) -> str:
+        box = {name: texts(side) for name, side in sides.items()}
+        witness = {"function": text, "box": box, "tree": tree, "bounds": texts(bounds)}
+        return self.add("formula-value", witness)
 
-    def refute_at(self, rule: str, claim: dict[str, Any], point: Sequence[Number]) -> str:
-        """Add a step `refute-at`."""
-        witness = {"rule": rule, "claim": claim, "point": [str(Fraction(x)) for x in point]}
-        return self.add("refute-at", witness)
+    def equal(self, left: str, right: str) -> str:
+        """Add a step `formula-equal`."""
+        return self.add("formula-equal", {"left": left, "right": right})
 
-    def identity(self, function: str, left: int, right: int, derivative: Sequence[str] = ()) -> str:
-        """Add a step `identity`; components are counted from 1."""
-        sides = {"left": str(left), "derivative": list(derivative), "right": str(right)}
-        return self.add("identity", {"function": function, **sides})
+    def series(self, text: str, variable: str, *coefficients: str, nonzero: Any = ()) -> str:
+        """Add a step `formula-series`."""
+        witness = {"function": text, "variable": variable, "coefficients": list(coefficients)}
+        return self.add("formula-series", {**witness, "nonzero": list(nonzero)})
 
     # -- zeros ---------------------------------------------------------------------------------
 
-    def zero(self, function: str, component: int, interval: tuple[Number, Number]) -> str:
-        """Add a step `zero`."""
-        formula, box = self.formula(function), exact([interval])
-        tree = subdivide(box, lambda part: bool(_on(formula, part)))
-        place = {"function": function, "component": str(component)}
-        return self.add("zero", {**place, "interval": texts(box[0]), "tree": tree})
+    def zero(self, text: str, value: str, bracket: tuple[Number, Number]) -> str:
+        """Add a step `zero`, about the function of a step by `value` or its derivative."""
+        witness = {"function": text, "value": value, "bracket": texts(exact([bracket])[0])}
+        return self.add("zero", witness)
 
-    def root(self, monotone: str, tolerance: Number = "1/1000000000000") -> str:
-        """Add a step `root`: halve the interval of a `monotone` step, as long as signs decide."""
-        claim = self.steps[monotone]["witness"]["claim"]
-        formula, width = self.formula(claim["function"]), Fraction(tolerance)
-        (low, high), rises = exact(claim["box"])[0], claim["sign"] == "+"
+    def root(self, text: str, sign: int, tolerance: Number = "1/1000000000000", **box: Any) -> str:
+        """Add a step `zero` with a bracket of this width, where the derivative has a sign."""
+        (name,) = box
+        value, width = self.sign(f"D({text}, {name})", sign, **box), Fraction(tolerance)
+        formulas, ((low, high),) = read_formulas(Reader(text)), exact(list(box.values()))
         bits = 60 + (1 / width).__ceil__().bit_length()
-        root = (formula.roots[int(claim["component"]) - 1],)
+        first, last = low, high
         while high - low > width / 4:
-            middle = (low + high) / 2
-            (value,) = values(formula, [Interval(middle, precision=bits)], root)
-            if value.contains_zero():  # next to the root, or at it: take another point
-                middle = (low + 2 * high) / 3
-                (value,) = values(formula, [Interval(middle, precision=bits)], root)
-            if value.contains_zero():
+            # next to the root, or at it, take another point
+            for middle in ((low + high) / 2, (low + 2 * high) / 3):
+                (found,) = values(formulas, [Interval(middle, precision=bits)])
+                if not found.contains_zero():
+                    break
+            else:
                 raise Undecided("the sign beside the root")
-            if (value.inf > 0) == rises:
+            if (found.inf > 0) == (sign > 0):
                 high = middle
             else:
                 low = middle
-        first, last = exact(claim["box"])[0]
         bracket = max(first, low // width * width), min(last, -(-high // width) * width)
-        return self.add("root", {"monotone": monotone, "bracket": texts(bracket)})
+        return self.zero(text, value, bracket)
 
     def unique_zero(self, function: str, guess: Sequence[Number], radius: Number) -> str:
         """Add a step `unique-zero`: Newton's method from the guess, then a cube around its end."""
-        formula, reach = self.formula(function), Fraction(radius)
+        formula, reach = self.function(function), Fraction(radius)
         centre = [Fraction(x) for x in guess]
         for _ in range(8):
             matrix = _inverse_at(formula, centre)
@@ -160,30 +184,17 @@ class Lemmas:
         return self.add("unique-zero", {**witness, "matrix": [texts(row) for row in matrix]})
 
 
-def _on(formula: Formula, box: Box) -> Values:
-    """Enclose the components on a box."""
-    return mean_value_form(lambda x: values(formula, x), lambda x: jacobian(formula, x), box)
-
-
-def _holds(rule: str, claim: dict[str, Any], value: Interval) -> bool:
-    """Whether a claim follows where its quantity has these values."""
-    if rule == "range":
-        low, high = map(Fraction, claim["bounds"])
-        return low <= value.inf and value.sup <= high
-    if rule == "expansion":
-        return value.inf >= Fraction(claim["bound"]) or value.sup <= -Fraction(claim["bound"])
-    return value.inf > 0 if claim["sign"] == "+" else value.sup < 0
+def _sides(box: Named) -> dict[str, Range]:
+    """Return a box with exact ends, in alphabetical order."""
+    return dict(zip(sorted(box), exact([box[name] for name in sorted(box)]), strict=True))
 
 
 def _rounded(value: Fraction) -> Fraction:
     return Fraction(round(value * _PLACES), _PLACES)
 
 
-def _inverse_at(formula: Formula, point: Sequence[Fraction]) -> list[list[Fraction]]:
+def _inverse_at(formula: Formulas, point: Sequence[Fraction]) -> list[list[Fraction]]:
     """Return about the inverse of the derivative at a point."""
     rows = jacobian(formula, [Interval(x) for x in point])
-    try:
-        exact_inverse = inverse(tuple(tuple(entry.mid for entry in row) for row in rows))
-    except Unproved:
-        raise Undecided("a singular derivative") from None
+    exact_inverse = inverse(tuple(tuple(entry.mid for entry in row) for row in rows))
     return [[_rounded(entry) for entry in row] for row in exact_inverse]

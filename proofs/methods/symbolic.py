@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from intervals import Interval, Undecided
-from proofs.methods.formulas import Local, Values, dot, subdivide
+from proofs.methods.formulas import Local, Values, dot, inverse, subdivide
 from proofs.methods.lemmas import Lemmas, Number, written
 from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.covers import HSet
 from proofs.trusted.kernel.enclose import Box
-from proofs.trusted.kernel.hset import HSet, inverse
 from proofs.trusted.numbers import Range
 
 _CUBE_SIDE = (Fraction(-1), Fraction(1))
@@ -28,14 +28,16 @@ class SymbolicLemmas(Lemmas):
         """Add a step `h-set`; the first column is the unstable direction."""
         middle = tuple(Fraction(x) for x in centre)
         rows = tuple(tuple(Fraction(x) for x in row) for row in matrix)
-        witness = {"centre": texts(middle), "matrix": [texts(row) for row in rows]}
-        name = self.add("h-set", witness)
-        self.h_sets[name] = HSet(middle, rows, inverse(rows))
+        found = HSet(middle, rows, inverse(rows))
+        parts = {"matrix": found.matrix, "inverse": found.inverse}
+        witness = {name: [texts(row) for row in part] for name, part in parts.items()}
+        name = self.add("h-set", {"centre": texts(middle), **witness})
+        self.h_sets[name] = found
         return name
 
     def local(self, function: str, power: int, source: str, target: str) -> Local:
         """Return an iterate in the coordinates of two h-sets."""
-        return Local(self.formula(function), power, self.h_sets[source], self.h_sets[target])
+        return Local(self.function(function), power, self.h_sets[source], self.h_sets[target])
 
     def covers(self, function: str, power: int, source: str, target: str) -> str:
         """Add a step `covers`."""

@@ -14,27 +14,19 @@ from typing import Any
 
 from intervals import Interval, decimal_bounds
 from proofs.methods import derive
-from proofs.methods.formulas import (
-    Intervals,
-    Tree,
-    jacobian,
-    mean_value_form,
-    subdivide,
-    values,
-)
+from proofs.methods.formulas import Tree, values
+from proofs.methods.lemmas import bounds_of
 from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.derivation import Formulas
-from proofs.trusted.kernel.enclose import Box, size
-from proofs.trusted.kernel.formula import Formula
+from proofs.trusted.kernel.enclose import size
+from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
-_COARSE_DIGITS = 3
 
 
 def enclose(formula: str, digits: int, **point: Fraction) -> Range:
@@ -42,38 +34,12 @@ def enclose(formula: str, digits: int, **point: Fraction) -> Range:
 
     The precision has room for what digits of the point's coordinates cancel.
     """
-    formulas = Formulas()
-    root = formulas.read(Reader(formula))
+    formulas = read_formulas(Reader(formula))
     bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
     inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
-    (found,) = formulas.tape.evaluate((root,), Intervals(bits), inputs)
+    (found,) = values(formulas, inputs)
     lower, upper = decimal_bounds(found.inf, found.sup, digits)
     return Fraction(lower), Fraction(upper)
-
-
-def bound(asked: Asked) -> tuple[Range, Tree]:
-    """Bound a formula that has a sign on a box; return bounds with room, and a subdivision."""
-    formulas = Formulas()
-    root = formulas.read(Reader(asked.function))
-    sides = dict(asked.box)
-    names = tuple(formulas.variables)
-    formula = Formula("F", names, formulas.tape, (root,), ("",))
-    sign = asked.signs[0]
-    found: list[Range] = []
-
-    def decided(box: Box) -> bool:
-        (part,) = mean_value_form(lambda x: values(formula, x), lambda x: jacobian(formula, x), box)
-        low, high = sorted((sign * part.inf, sign * part.sup))
-        if low > 0:
-            found.append((low, high))
-        return low > 0
-
-    tree = subdivide(tuple(sides.get(name, (Fraction(0),) * 2) for name in names), decided)
-    lower, upper = decimal_bounds(
-        min(low for low, _ in found) / 2, max(high for _, high in found) * 2, _COARSE_DIGITS
-    )
-    ends = sorted((sign * Fraction(lower), sign * Fraction(upper)))
-    return (ends[0], ends[1]), tree
 
 
 @dataclass
@@ -109,14 +75,16 @@ class Steps:
             point = {name: low for name, (low, _) in asked.box}
             bounds = enclose(asked.function, self.digits, **point)
         else:
-            bounds, tree = bound(asked)
+            bounds, tree = bounds_of(asked.function, dict(asked.box), asked.signs[0])
         witness = {
             "function": asked.function,
             "box": {name: texts(side) for name, side in asked.box},
             "tree": tree,
             "bounds": texts(bounds),
         }
-        self._add(asked, Value(asked.function, asked.box, bounds), "formula-value", witness)
+        self._add(
+            asked, Value(asked.function, tuple(sorted(asked.box)), bounds), "formula-value", witness
+        )
 
     def _add(
         self, wanted: Lemma | Asked, found: Conclusion, rule: str, witness: dict[str, Any]

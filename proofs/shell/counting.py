@@ -246,7 +246,7 @@ _RULES = {
     "proofs.trusted.paper.s4_single.single_facts.multiplier": _formula,
     "proofs.trusted.paper.s4_single.single_facts.excess": _formula,
     "proofs.trusted.paper.s4_single.single_facts.distance": _formula,
-    "proofs.trusted.kernel.formula.Tape.evaluate": _formula,
+    "proofs.trusted.kernel.expression.Tape.evaluate": _formula,
     "proofs.motion.impact.march": _impact,
     "proofs.motion.slope_cover._in_binary64": _boxes,
     "intervals.bilinear.bilinear": _grid,

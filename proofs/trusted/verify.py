@@ -24,7 +24,7 @@ from proofs.trusted.certificate import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.formula import read_formula
+from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.kernel.meter import DEFAULT, metered
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import find
@@ -91,7 +91,7 @@ def premises(source: str) -> Context:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     context = Context(
         None if parameters_of.is_null() else parameters_from_json(parameters_of),
-        {name: read_formula(name, each) for name, each in functions_of.members()},
+        {name: read_function(name, each) for name, each in functions_of.members()},
     )
     derive(context, steps_of)
     return context
@@ -118,10 +118,13 @@ def _conclude(context: Context, claims_of: Reader, used: set[str]) -> Report:
     entries = claims_of.items(least=1)
     if context.parameters is None:
         names = _named(context, claims_of, used)
-        sentences = tuple(context.known[name].sentence for name in names)
-        if sum(map(len, sentences)) > _MAX_TEXT:
-            raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
-        return Report(None, sentences=sentences)
+        sentences, length = [], 0
+        for name in names:
+            sentences.append(context.known[name].sentence)
+            length += len(sentences[-1])
+            if length > _MAX_TEXT:
+                raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
+        return Report(None, sentences=tuple(sentences))
     claims = tuple(_check_claim(context, entry, used) for entry in entries)
     if len({claim.id for claim in claims}) != len(claims):
         raise claims_of.fail("a claim appears twice")

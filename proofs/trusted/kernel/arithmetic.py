@@ -12,6 +12,8 @@ from functools import lru_cache
 
 from proofs.trusted.kernel.meter import METER
 
+_MIXED = "enclosures of different precision do not mix"
+
 
 class Unproved(ArithmeticError):
     """A hypothesis of a rule could not be established."""
@@ -41,7 +43,7 @@ class Enclosure:
         if isinstance(other, int):
             return Enclosure(other << self.bits, other << self.bits, self.bits)
         if other.bits != self.bits:
-            raise ValueError("enclosures of different precision do not mix")
+            raise ValueError(_MIXED)
         return other
 
     def __neg__(self) -> Enclosure:
@@ -65,20 +67,18 @@ class Enclosure:
         return -self + value
 
     def __mul__(self, value: Enclosure | int) -> Enclosure:
+        bits = self.bits
+        if isinstance(value, Enclosure):
+            if value.bits != bits:
+                raise ValueError(_MIXED)
+            METER.get().spend(1 + (bits >> 7))
+            a, b, c, d = self.lo, self.hi, value.lo, value.hi
+            products = (a * c, a * d, b * c, b * d)
+            return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
-            return Enclosure(min(ends), max(ends), self.bits)
-        if isinstance(value, Dual):
-            return NotImplemented
-        other = self._like(value)
-        METER.get().spend(1 + (self.bits >> 6))
-        products = (
-            self.lo * other.lo,
-            self.lo * other.hi,
-            self.hi * other.lo,
-            self.hi * other.hi,
-        )
-        return Enclosure(min(products) >> self.bits, -(-max(products) >> self.bits), self.bits)
+            return Enclosure(min(ends), max(ends), bits)
+        return NotImplemented
 
     __rmul__ = __mul__
 
@@ -88,7 +88,7 @@ class Enclosure:
         other = self._like(value)
         if other.lo <= 0 <= other.hi:
             raise Unproved("division by an enclosure of 0")
-        METER.get().spend(2 + (self.bits >> 6))
+        METER.get().spend(3 + (self.bits >> 6) + ((self.bits >> 8) ** 2 >> 1))
         quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
         low = min(a // b for a, b in quotients)
         return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
@@ -174,7 +174,7 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
     """
     guard = 12 + max(0, abs(x).bit_length() - bits)
     work = bits + guard
-    METER.get().spend(20 + (work >> 6) ** 2)  # about work / 4 steps
+    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> 2))  # about work / 4 steps
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
     x <<= guard
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about

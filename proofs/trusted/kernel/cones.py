@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
+from itertools import product
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context, read_box, read_point
-from proofs.trusted.kernel.enclose import PRECISIONS, Box, Matrix, decide, enclosed, leaves, shown
-from proofs.trusted.kernel.graph import Graph, beyond, cube
-from proofs.trusted.kernel.hset import LocalMap
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.covers import LocalMap, beyond, cube
+from proofs.trusted.kernel.enclose import (
+    Box,
+    Enclosures,
+    Matrix,
+    decide,
+    enclosed,
+    leaves,
+    read_box,
+    shown,
+    tried,
+)
+from proofs.trusted.kernel.graph import Graph
+from proofs.trusted.numbers import within
 
 Form = tuple[Fraction, ...]
 
@@ -31,13 +43,13 @@ class Conjugacy(Conclusion):
             return (
                 f"{self.graph.described}; each infinite path of these arrows is followed by "
                 "exactly one point, and the map on the compact set of these points is conjugate "
-                "to the one-sided shift on paths"
+                "to the one-sided shift on paths."
             )
         return (
             f"{self.graph.described}; each bi-infinite path of these arrows is followed by "
             "exactly one full orbit, and the shift on these orbits is conjugate to the two-sided "
             "shift on paths (so is the map on the compact set of their points, if it is "
-            "one-to-one there)"
+            "one-to-one there)."
         )
 
 
@@ -68,7 +80,7 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     graph_of, forms_of, relations_of = reader.fields("graph", "forms", "relations")
     of = context.step(graph_of, Graph)
     n, count = len(of.nodes[0].centre), len(of.nodes)
-    forms = [read_point(form, n) for form in forms_of.items(count, count)]
+    forms = [form.numbers(n, n) for form in forms_of.items(count, count)]
     relations = relations_of.items(len(of.covers), len(of.covers))
     for step, (i, j), relation in zip(of.covers, of.edges, relations, strict=True):
         jacobian = _derivatives(step.local, relation, n)
@@ -88,63 +100,40 @@ def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:
         raise box_of.fail("the box leaves [-1, 1]^n")
     for leaf in leaves(outside, cube(n)):
         if not _inside(leaf, box):
-            decide(local, leaf, _misses)
+            decide(local, leaf, lambda found: any(map(beyond, found)))
     for leaf in leaves(tree, box):
-        if not any(_inside(entries, jacobian) for entries in _jacobians(local, leaf)):
+        if not any(_inside(entries, jacobian) for entries in tried(partial(_entries, local, leaf))):
             raise Unproved(f"the derivatives are not proved within bounds on {shown(leaf)}")
     return jacobian
 
 
-def _jacobians(local: LocalMap, box: Box) -> Iterator[Box]:
-    """Enclose f' on a box in better and better ways."""
-    for bits in PRECISIONS:
-        try:
-            rows = local.jacobian(enclosed(box, bits))
-        except Unproved:
-            continue
-        yield tuple(entry.range for row in rows for entry in row)
+def _entries(local: LocalMap, box: Box, bits: int) -> Box:
+    """Enclose the entries of f' on a box, row by row."""
+    return tuple(entry.range for row in local.jacobian(enclosed(box, bits)) for entry in row)
 
 
 def _inside(one: Box, two: Box) -> bool:
-    return all(b[0] <= a[0] and a[1] <= b[1] for a, b in zip(one, two, strict=True))
-
-
-def _misses(values: list[Enclosure]) -> bool:
-    return any(beyond(value, way) for value in values for way in (1, -1))
+    return all(map(within, one, two))
 
 
 def _check_cone(matrices: Box, before: Form, after: Form) -> None:
     """Prove D^T Q_M D - Q_N positive definite for all D within bounds."""
-    n = len(before)
-    for bits in PRECISIONS:
-        entries = enclosed(matrices, bits)
-        rows = [entries[i * n : (i + 1) * n] for i in range(n)]
-        if positive_definite(_difference(rows, before, after)):
-            return
-    raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")
+    if not any(tried(lambda bits: positive_definite(_difference(matrices, before, after, bits)))):
+        raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")
 
 
-def _difference(d: Matrix, before: Form, after: Form) -> Matrix:
+def _difference(matrices: Box, before: Form, after: Form, bits: int) -> Matrix:
     """Enclose D^T Q_M D - Q_N, on and below the diagonal; squares are those of one number."""
-    n, bits = len(d), d[0][0].bits
-    result = []
-    for i in range(n):
-        row = []
-        for j in range(i + 1):
-            entry = rational(-before[i] if i == j else Fraction(0), bits)
-            for k in range(n):
-                product = _square(d[k][i]) if i == j else d[k][i] * d[k][j]
-                entry = entry + product * rational(after[k], bits)
-            row.append(entry)
-        result.append(row)
+    n, numbers = len(before), Enclosures(bits)
+    entries = enclosed(matrices, bits)
+    result = [[entries[0] * 0 for _ in range(i + 1)] for i in range(n)]
+    for i, row in enumerate(result):
+        row[i] = rational(-before[i], bits)
+        for j, (d, weight) in product(range(i + 1), zip(range(n), after, strict=True)):
+            a, b = entries[d * n + i], entries[d * n + j]
+            squared = numbers.apply("^", [a], Fraction(2)) if i == j else a * b
+            row[j] = row[j] + squared * rational(weight, bits)
     return result
-
-
-def _square(x: Enclosure) -> Enclosure:
-    """Enclose x^2 for x in X."""
-    if x.lo <= 0 <= x.hi:
-        return Enclosure(0, max((x * x).hi, 0), x.bits)
-    return x * x
 
 
 def positive_definite(lower: Matrix) -> bool:

@@ -1,4 +1,4 @@
-"""What the rules about formulas compute with: enclosures on boxes, and exact rationals.
+"""What rules about formulas compute with: enclosures on boxes and their parts, exact rationals.
 
 Precision adapts: 64 bits first, then twice as many while a question is undecided."""
 
@@ -6,15 +6,14 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
-from proofs.trusted.kernel.formula import Formula, Tape
+from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024)
@@ -22,9 +21,10 @@ _LARGEST = 256  # results beyond 2^256 are not followed
 _MOST_DIGITS = 20_000  # bits of an exact rational
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
+_NO_DATUM = Fraction(0)
 
 Box = tuple[Range, ...]
-
+T = TypeVar("T")
 
 ARITHMETIC: dict[str, Callable[..., Any]] = {
     "+": operator.add,
@@ -41,9 +41,9 @@ class Enclosures:
     def __init__(self, bits: int) -> None:
         self.bits = bits
 
-    def apply(self, op: str, arguments: list[Enclosure], datum: Fraction | None) -> Enclosure:
+    def apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         """Enclose op(arguments)."""
-        result = self._apply(op, arguments, datum or Fraction(0))
+        result = self._apply(op, arguments, datum)
         if max(-result.lo, result.hi) >> (self.bits + _LARGEST):
             raise Unproved("a value beyond 2^256")
         return result
@@ -53,6 +53,7 @@ class Enclosures:
             result: Enclosure = ARITHMETIC[op](*arguments)
             return result
         if op == "number":
+            METER.get().spend(size(datum) >> 8)
             return rational(datum, self.bits)
         if op == "pi":
             return arithmetic.pi(self.bits)
@@ -71,9 +72,9 @@ class Enclosures:
     def _power_of_point(self, x: Enclosure, n: int) -> Enclosure:
         result = x
         for bit in bin(n)[3:]:
-            result = self.apply("*", [result, result], None)
+            result = self.apply("*", [result, result], _NO_DATUM)
             if bit == "1":
-                result = self.apply("*", [result, x], None)
+                result = self.apply("*", [result, x], _NO_DATUM)
         return result
 
 
@@ -111,21 +112,20 @@ _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
 class Exact:
     """The operations on rationals; Unproved where a result is no rational, or a huge one."""
 
-    def apply(self, op: str, arguments: list[Fraction], datum: Fraction | None) -> Fraction:
+    def apply(self, op: str, arguments: list[Fraction], datum: Fraction) -> Fraction:
         """Return op(arguments)."""
-        if any(size(value) > _MOST_DIGITS for value in arguments):
+        digits = sum(map(size, arguments)) * (abs(int(datum)) if op == "^" else 1)
+        METER.get().spend(2 + (digits >> 6))
+        if digits > _MOST_DIGITS:
             raise Unproved("a rational with too many digits")
-        n = datum or Fraction(0)
-        base = arguments[0] if arguments else n
-        if op == "number":
-            result = n
-        elif op == "^" and size(base) * abs(n) <= _MOST_DIGITS and (base or n > 0):
-            result = Fraction(base ** int(n))
-        elif op in ARITHMETIC and (op != "/" or arguments[1]):
-            result = ARITHMETIC[op](*arguments)
-        else:
-            raise Unproved(f"no exact value of {op!r}")
-        return result
+        try:
+            if op == "number":
+                return datum
+            if op == "^":
+                return Fraction(arguments[0] ** int(datum))
+            return Fraction(ARITHMETIC[op](*arguments))
+        except (KeyError, ZeroDivisionError):
+            raise Unproved(f"no exact value of {op!r}") from None
 
 
 def size(value: Fraction) -> int:
@@ -146,37 +146,9 @@ class Map(Protocol):
         """Enclose the partial derivatives, a row a component."""
 
 
-@dataclass(frozen=True)
-class Components:
-    """The map given by some roots on a formula's tape."""
-
-    tape: Tape
-    variables: int
-    roots: tuple[int, ...]
-
-    @classmethod
-    def of(cls, formula: Formula) -> Components:
-        """Return the whole function."""
-        return cls(formula.tape, len(formula.variables), formula.roots)
-
-    def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        """Enclose the values."""
-        return self._enclose(self.roots, x)
-
-    def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose the partial derivatives, and prove the map defined on the box."""
-        n = self.variables
-        partials = [self.tape.derivative(root, v) for root in self.roots for v in range(n)]
-        entries = self._enclose((*partials, *self.roots), x)
-        return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
-
-    def _enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
-        bits = x[0].bits
-        return self.tape.evaluate(roots, Enclosures(bits), x)
-
-
 def enclosed(box: Box, bits: int) -> list[Enclosure]:
     """Enclose each side of a box."""
+    METER.get().spend(len(box) + (sum(size(end) for side in box for end in side) >> 8))
     return [Enclosure.of(low, high, bits) for low, high in box]
 
 
@@ -190,6 +162,15 @@ def point_box(point: Sequence[Fraction]) -> Box:
     return tuple((value, value) for value in point)
 
 
+def tried(compute: Callable[[int], T]) -> Iterator[T]:
+    """Compute something at better and better precisions, where it is defined, while asked."""
+    for bits in PRECISIONS:
+        try:
+            yield compute(bits)
+        except Unproved:
+            continue
+
+
 def attempts(map_: Map, box: Box) -> Iterator[list[Enclosure]]:
     """Enclose the map on a box in better and better ways, as long as the caller asks.
 
@@ -201,10 +182,7 @@ def attempts(map_: Map, box: Box) -> Iterator[list[Enclosure]]:
         try:
             values = map_.values(x)
             yield values
-            yield [
-                Enclosure(max(a.lo, b.lo), min(a.hi, b.hi), bits)
-                for a, b in zip(values, _mean_value_form(map_, box, x), strict=True)
-            ]
+            yield list(map(Enclosure.meet, values, _mean_value_form(map_, box, x)))
         except Unproved:
             continue
 
@@ -248,6 +226,11 @@ def leaves(tree: Reader, box: Box) -> Iterator[Box]:
             raise cut_of.fail("the cut is not inside")
         for side, ends in ((right, (cut, high)), (left, (low, cut))):
             waiting.append((side, (*part[:axis], ends, *part[axis + 1 :]), depth + 1))
+
+
+def read_box(reader: Reader, dimension: int) -> Box:
+    """Read a closed box with exact ends; a side may be a point."""
+    return tuple(side.range() for side in reader.items(dimension, dimension))
 
 
 def integer(reader: Reader, least: int, most: int) -> int:

@@ -1,15 +1,18 @@
-"""Exact normal forms of formulas: quotients of polynomials over the rationals.
+"""Exact normal forms of formulas: polynomials, without rounding.
 
-Polynomials are over generators: the variables, pi, and one for each function of an argument that
-occurs, as cos(t) or sqrt(1 - x^2). Two arguments are one where their difference has the normal
-form 0, and sin and cos of -a are reduced to those of a. A normal form has no square of a sine, by
-sin(a)^2 = 1 - cos(a)^2, and none of a root, by sqrt(a)^2 = a. No number is rounded.
+They have rational coefficients, and integer powers, negative ones too, of generators: the
+variables; pi; i with i^2 = -1; the inverse of a polynomial; roots and logarithms of arguments; and
+exponentials exp(b), exp(i b) of monomials b, of which rational powers occur: exp(i a) is the
+product of the powers exp(i b)^q over the terms q b of a. So sin(a) = (exp(i a) - exp(-i a)) / (2 i)
+and cos(a) = (exp(i a) + exp(-i a)) / 2 obey the addition theorem and sin^2 + cos^2 = 1 by
+themselves. Where a formula is defined, no divisor is 0 and the normal form has the same value.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import reduce
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -18,46 +21,232 @@ from proofs.trusted.kernel.meter import METER
 
 _MOST_DIGITS = 20_000  # bits of a coefficient
 
-Monomial = tuple[tuple[int, int], ...]  # (generator, exponent > 0), generators increasing
+Exponent = Fraction | int
+Monomial = tuple[tuple[int, Exponent], ...]  # (generator, exponent not 0), generators increasing
 Polynomial = dict[Monomial, Fraction]  # no coefficient is 0
 
 
-class Quotient(NamedTuple):
-    """A quotient of normal forms: equal to the formula wherever that is defined."""
+class Exponential(NamedTuple):
+    """exp of a monomial, or of i times a monomial."""
 
-    top: Polynomial
-    bottom: Polynomial
+    circular: bool
+    monomial: Monomial
 
 
-class Generator(NamedTuple):
-    """A function of an argument, and its place among the generators."""
+class Inverse(NamedTuple):
+    """1 over a polynomial without inverses, given by its terms, sorted, the first coefficient 1."""
+
+    terms: tuple[tuple[Monomial, Fraction], ...]
+
+
+class Function(NamedTuple):
+    """A root or a logarithm."""
 
     op: str
-    argument: Quotient
-    place: int
+    argument: tuple[tuple[Monomial, Fraction], ...]
 
 
-def constant(value: Fraction) -> Polynomial:
+def number(value: Fraction | int) -> Polynomial:
     """Return a constant polynomial."""
-    return {(): value} if value else {}
+    return {(): Fraction(value)} if value else {}
 
 
-def generator(place: int) -> Quotient:
-    """Return a generator as a quotient."""
-    return Quotient({((place, 1),): Fraction(1)}, constant(Fraction(1)))
+def power(place: int, n: Exponent = 1) -> Polynomial:
+    """Return a power of a generator."""
+    return {((place, n),): Fraction(1)}
 
 
-def plus(a: Polynomial, b: Polynomial, factor: int = 1) -> Polynomial:
+def plus(a: Polynomial, b: Polynomial, factor: Fraction | int = 1) -> Polynomial:
     """Return a + factor b."""
+    METER.get().spend(5 * (len(a) + len(b)))
     result = dict(a)
     for monomial, value in b.items():
         _accumulate(result, monomial, factor * value)
     return result
 
 
+def over(a: Polynomial, divisor: Monomial) -> Polynomial:
+    """Divide a polynomial by a monomial."""
+    inverse = tuple((place, -n) for place, n in divisor)
+    return {_merge(monomial, inverse): value for monomial, value in a.items()} if divisor else a
+
+
+def lowest(polynomial: Polynomial) -> dict[int, Exponent]:
+    """Return the least exponent of each generator in a polynomial, where that is not 0."""
+    powers: dict[int, Exponent] | None = None
+    for monomial in polynomial:
+        others = dict(monomial)
+        if powers is None:
+            powers = others
+        powers = {g: min(powers.get(g, 0), others.get(g, 0)) for g in powers | others}
+    return {g: n for g, n in (powers or {}).items() if n}
+
+
+@dataclass
+class NormalForms:
+    """The operations of formulas on normal forms; generators are the variables, pi, i, others."""
+
+    variables: int
+    generators: dict[int, Exponential | Inverse | Function] = field(default_factory=dict)
+    _places: dict[Exponential | Inverse | Function, int] = field(default_factory=dict)
+    _squares: dict[int, Polynomial] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._squares[self.imaginary] = number(-1)
+
+    @property
+    def imaginary(self) -> int:
+        """The place of i."""
+        return self.variables + 1
+
+    def inputs(self) -> list[Polynomial]:
+        """Return the variables."""
+        return [power(place) for place in range(self.variables)]
+
+    def apply(self, op: str, arguments: list[Polynomial], datum: Fraction) -> Polynomial:
+        """Return op(arguments)."""
+        match op:
+            case "number":
+                result = number(datum)
+            case "pi":
+                result = power(self.variables)
+            case "+" | "-":
+                result = plus(arguments[0], arguments[1], 1 if op == "+" else -1)
+            case "negative":
+                result = plus({}, arguments[0], -1)
+            case "*":
+                result = self.times(*arguments)
+            case "/":
+                result = self.times(arguments[0], self._inverse(arguments[1]))
+            case "^":
+                base = arguments[0] if datum > 0 else self._inverse(arguments[0])
+                result = self._power(base, abs(int(datum)))
+            case "exp":
+                result = self._exponential(arguments[0])
+            case "sin" | "cos":
+                result = self._circular(op, arguments[0])
+            case _:
+                result = self._function(op, arguments[0])
+        return result
+
+    def is_zero(self, polynomial: Polynomial) -> bool:
+        """Whether a normal form is found to be 0, wherever it is defined."""
+        return not self.cleared(polynomial)[0]
+
+    def cleared(self, polynomial: Polynomial) -> tuple[Polynomial, dict[int, int]]:
+        """Return it times powers of polynomials, without inverses; and these: place, exponent.
+
+        The places are those of the inverses, and of i and roots, of which no negative power is
+        left. None of the polynomials is 0 where the normal form is defined.
+        """
+        factors: dict[int, int] = {}
+        while places := {g for monomial in polynomial for g, n in monomial if self._left(g, n)}:
+            place = max(places)
+            parts: dict[int, Polynomial] = {}
+            for monomial, value in polynomial.items():
+                powers = dict(monomial)
+                parts.setdefault(int(powers.pop(place, 0)), {})[tuple(powers.items())] = value
+            known = self.generators.get(place)
+            factors[place] = max(0, *parts) if isinstance(known, Inverse) else -min(parts)
+            if isinstance(known, Inverse):  # Horner: the sum of part_k d^(n - k)
+                d, polynomial = dict(known.terms), {}
+                for k in range(min(parts), factors[place] + 1):
+                    polynomial = plus(self.times(polynomial, d), parts.get(k, {}))
+            else:
+                polynomial = self.times(polynomial, power(place, factors[place]))
+        return polynomial, factors
+
+    def _left(self, place: int, n: Exponent) -> bool:
+        inverse = isinstance(self.generators.get(place), Inverse)
+        return inverse or (n < 0 and place in self._squares)
+
+    def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        """Return the product, with the squares of i and of roots replaced."""
+        product: Polynomial = {}
+        for one, c in a.items():
+            for two, d in b.items():
+                METER.get().spend(12 + 3 * (len(one) + len(two)) + (size(c) + size(d) >> 4))
+                _accumulate(product, _merge(one, two), c * d)
+        while places := {g for m in product for g, n in m if n > 1 and g in self._squares}:
+            product = self._without_square(product, max(places))
+        if any(size(value) > _MOST_DIGITS for value in product.values()):
+            raise Unproved("a coefficient with too many digits")
+        return product
+
+    def _without_square(self, polynomial: Polynomial, place: int) -> Polynomial:
+        """Replace one square of a generator in each term: that brings in earlier ones only."""
+        result: Polynomial = {}
+        for monomial, value in polynomial.items():
+            if dict(monomial).get(place, 0) < 2:
+                _accumulate(result, monomial, value)
+                continue
+            (rest,) = over({monomial: value}, ((place, 2),))
+            for other, factor in self._squares[place].items():
+                METER.get().spend(12 + 3 * len(monomial) + (size(value) + size(factor) >> 4))
+                _accumulate(result, _merge(rest, other), value * factor)
+        return result
+
+    def _power(self, base: Polynomial, n: int) -> Polynomial:
+        result = base
+        for bit in bin(n)[3:]:
+            result = self.times(result, result)
+            if bit == "1":
+                result = self.times(result, base)
+        return result
+
+    def _inverse(self, a: Polynomial) -> Polynomial:
+        """Return 1 / a: a number, a monomial, and the inverse of what is left of a."""
+        rest, factors = self.cleared(a)
+        if not rest:
+            raise Unproved("a division by the polynomial 0")
+        divisor = tuple(sorted(lowest(rest).items()))
+        terms = sorted(over(rest, divisor).items())
+        scaled = tuple((monomial, value / terms[0][1]) for monomial, value in terms)
+        result = over(number(1 / terms[0][1]), divisor)
+        for place, n in factors.items():
+            inverse = isinstance(self.generators.get(place), Inverse)
+            result = over(result, ((place, n if inverse else -n),) if n else ())
+        return self.times(result, self._generator(Inverse(scaled)) if scaled[1:] else number(1))
+
+    def _generator(self, of: Exponential | Inverse | Function, n: Exponent = 1) -> Polynomial:
+        place = self._places.setdefault(of, self.variables + 2 + len(self._places))
+        self.generators[place] = of
+        return power(place, n)
+
+    def _exponential(
+        self, argument: Polynomial, circular: bool = False, sign: int = 1
+    ) -> Polynomial:
+        """Return exp of sign * argument, or of i times that."""
+        powers = [
+            self._generator(Exponential(circular, monomial), sign * value)
+            for monomial, value in argument.items()
+        ]
+        return reduce(self.times, powers, number(1))
+
+    def _circular(self, op: str, argument: Polynomial) -> Polynomial:
+        """Return sin or cos of an argument."""
+        one, other = (self._exponential(argument, True, sign) for sign in (1, -1))
+        if op == "cos":
+            return plus({}, plus(one, other), Fraction(1, 2))
+        return self.times(plus(one, other, -1), {((self.imaginary, 1),): Fraction(-1, 2)})  # / 2i
+
+    def _function(self, op: str, argument: Polynomial) -> Polynomial:
+        """Return log or sqrt of an argument: a generator."""
+        for place, known in self.generators.items():
+            if isinstance(known, Function) and known.op == op and self._same(known, argument):
+                return power(place)
+        result = self._generator(Function(op, tuple(sorted(argument.items()))))
+        if op == "sqrt":
+            self._squares[max(self.generators)] = argument
+        return result
+
+    def _same(self, known: Function, argument: Polynomial) -> bool:
+        return self.is_zero(plus(dict(known.argument), argument, -1))
+
+
 def _accumulate(polynomial: Polynomial, monomial: Monomial, value: Fraction) -> None:
     """Add a term in place."""
-    total = polynomial.get(monomial, Fraction(0)) + value
+    total = polynomial.get(monomial, 0) + value
     if total:
         polynomial[monomial] = total
     else:
@@ -65,147 +254,10 @@ def _accumulate(polynomial: Polynomial, monomial: Monomial, value: Fraction) -> 
 
 
 def _merge(a: Monomial, b: Monomial) -> Monomial:
-    powers = dict(a)
+    """Multiply two monomials."""
+    if not (a and b):
+        return a or b
+    powers: dict[int, Exponent] = dict(a)
     for place, n in b:
         powers[place] = powers.get(place, 0) + n
-    return tuple(sorted(powers.items()))
-
-
-@dataclass
-class NormalForms:
-    """The operations of formulas on quotients; the first generators are the variables, then pi."""
-
-    variables: int
-    _known: list[Generator] = field(default_factory=list)
-    _squares: dict[int, Polynomial] = field(default_factory=dict)
-
-    def inputs(self) -> list[Quotient]:
-        """Return the variables."""
-        return [generator(place) for place in range(self.variables)]
-
-    def apply(self, op: str, arguments: list[Quotient], datum: Fraction | None) -> Quotient:
-        """Return op(arguments)."""
-        match op:
-            case "number":
-                result = Quotient(constant(datum or Fraction(0)), constant(Fraction(1)))
-            case "pi":
-                result = generator(self.variables)
-            case "+" | "-":
-                result = self._sum(arguments[0], arguments[1], 1 if op == "+" else -1)
-            case "negative":
-                result = Quotient(plus({}, arguments[0].top, -1), arguments[0].bottom)
-            case "*":
-                result = self._product(*arguments)
-            case "/":
-                result = self._product(arguments[0], self._inverse(arguments[1]))
-            case "^":
-                result = self._power(arguments[0], int(datum or 0))
-            case "sin" | "cos":
-                result = self._circular(op, arguments[0])
-            case _:
-                result = self._function(op, arguments[0])
-        return result
-
-    # -- quotients -----------------------------------------------------------------------------
-
-    def _sum(self, a: Quotient, b: Quotient, factor: int) -> Quotient:
-        METER.get().spend(4 * (len(a.top) + len(b.top)))
-        if a.bottom == b.bottom:
-            return Quotient(plus(a.top, b.top, factor), a.bottom)
-        top = plus(self._times(a.top, b.bottom), self._times(b.top, a.bottom), factor)
-        return self._quotient(top, self._times(a.bottom, b.bottom))
-
-    def _product(self, a: Quotient, b: Quotient) -> Quotient:
-        return self._quotient(self._times(a.top, b.top), self._times(a.bottom, b.bottom))
-
-    def _inverse(self, a: Quotient) -> Quotient:
-        return self._quotient(a.bottom, a.top)
-
-    def _power(self, base: Quotient, n: int) -> Quotient:
-        if n < 0:
-            return self._inverse(self._power(base, -n))
-        result = base
-        for bit in bin(n)[3:]:
-            result = self._product(result, result)
-            if bit == "1":
-                result = self._product(result, base)
-        return result
-
-    def _quotient(self, top: Polynomial, bottom: Polynomial) -> Quotient:
-        """Return a quotient; one by a number as a polynomial."""
-        if not bottom:
-            raise Unproved("a division by the polynomial 0")
-        if set(bottom) == {()}:
-            top = {monomial: value / bottom[()] for monomial, value in top.items()}
-            bottom = constant(Fraction(1))
-        return Quotient(top, bottom)
-
-    # -- functions -----------------------------------------------------------------------------
-
-    def _circular(self, op: str, argument: Quotient) -> Quotient:
-        """Return sin or cos of an argument: generators, cos just before sin."""
-        for known in self._known:
-            for sign in (1, -1):
-                if known.op == "cos" and not self._sum(known.argument, argument, -sign).top:
-                    if op == "cos":
-                        return generator(known.place)
-                    sine = generator(known.place + 1)
-                    return sine if sign > 0 else self.apply("negative", [sine], None)
-        place = self._new("cos", argument)
-        self._new("sin", argument)
-        one = constant(Fraction(1))
-        self._squares[place + 1] = plus(one, {((place, 2),): Fraction(1)}, -1)
-        return generator(place + (op == "sin"))
-
-    def _function(self, op: str, argument: Quotient) -> Quotient:
-        """Return exp, log or sqrt of an argument: a generator."""
-        for known in self._known:
-            if known.op == op and not self._sum(known.argument, argument, -1).top:
-                return generator(known.place)
-        place = self._new(op, argument)
-        if op == "sqrt":
-            if argument.bottom != constant(Fraction(1)):
-                raise Unproved("the square root of a quotient")
-            self._squares[place] = argument.top
-        return generator(place)
-
-    def _new(self, op: str, argument: Quotient) -> int:
-        place = self.variables + 1 + len(self._known)
-        self._known.append(Generator(op, argument, place))
-        return place
-
-    # -- polynomials ---------------------------------------------------------------------------
-
-    def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        """Return the normal form of a product."""
-        product: Polynomial = {}
-        for one, c in a.items():
-            for two, d in b.items():
-                METER.get().spend(15 + (size(c) + size(d)) / 5)
-                _accumulate(product, _merge(one, two), c * d)
-        while places := self._squared(product):
-            product = self._without_square(product, max(places))
-        if any(size(value) > _MOST_DIGITS for value in product.values()):
-            raise Unproved("a coefficient with too many digits")
-        return product
-
-    def _squared(self, polynomial: Polynomial) -> set[int]:
-        """Return the places of the generators of which a square is to be replaced."""
-        METER.get().spend(4 * len(polynomial))
-        powers = {power for monomial in polynomial for power in monomial}
-        return {place for place, n in powers if n > 1 and place in self._squares}
-
-    def _without_square(self, polynomial: Polynomial, place: int) -> Polynomial:
-        """Replace one square of a generator in each term: that brings in earlier ones only."""
-        result: Polynomial = {}
-        for monomial, value in polynomial.items():
-            powers = dict(monomial)
-            if powers.get(place, 0) < 2:
-                _accumulate(result, monomial, value)
-                continue
-            powers[place] -= 2
-            rest = tuple((g, n) for g, n in powers.items() if n)
-            for other, factor in self._squares[place].items():
-                METER.get().spend(15 + (size(value) + size(factor)) / 5)
-                _accumulate(result, _merge(rest, other), value * factor)
-        return result
+    return tuple(sorted((place, n) for place, n in powers.items() if n))

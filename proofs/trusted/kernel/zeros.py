@@ -1,4 +1,4 @@
-"""Rules: zeros of formulas: existence, uniqueness, brackets."""
+"""Rules: zeros of functions, their existence, uniqueness, brackets."""
 
 from __future__ import annotations
 
@@ -8,121 +8,88 @@ from fractions import Fraction
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context, Quantity, read_box, read_point, where
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
-    PRECISIONS,
     Box,
-    Components,
     add,
     attempts,
-    decide,
+    box_text,
     enclosed,
-    leaves,
     point_box,
-    shown,
+    read_box,
+    tried,
 )
-from proofs.trusted.kernel.formula import Formula
-from proofs.trusted.kernel.inequalities import Monotone, excludes_zero
-from proofs.trusted.numbers import Range, show_range
+from proofs.trusted.kernel.formulas import Formulas, read_formulas
+from proofs.trusted.kernel.values import Value
+from proofs.trusted.numbers import Range, show_range, within
 
 
 @dataclass(frozen=True)
 class Zero(Conclusion):
-    """A function of one variable has a zero inside an interval."""
+    """A function of one variable has a zero in a bracket; perhaps the only one in an interval."""
 
-    quantity: Quantity
-    interval: Range
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        of = self.quantity
-        return f"{where(of.formula, (self.interval,), of.component)}: {of.name} has a zero"
-
-
-@dataclass(frozen=True)
-class Root(Conclusion):
-    """A function of one variable has exactly one zero in an interval, and it lies in a bracket."""
-
-    quantity: Quantity
+    function: str
+    variable: str
     interval: Range
     bracket: Range
+    only: bool
 
     @property
     def sentence(self) -> str:
         """Return the statement."""
-        of = self.quantity
+        place = f"{self.function} has a zero {self.variable} in {show_range(self.bracket)}"
         return (
-            f"{where(of.formula, (self.interval,), of.component)}: {of.name} has exactly one zero, "
-            f"and it lies in {show_range(self.bracket)}"
+            f"{place}, and no other in {show_range(self.interval)}." if self.only else f"{place}."
         )
 
 
 @dataclass(frozen=True)
 class UniqueZero(Conclusion):
-    """F has exactly one zero in a box."""
+    """F = (F_1, ..., F_n) has exactly one zero in a box."""
 
-    formula: Formula
+    function: Formulas
     box: Box
 
     @property
     def sentence(self) -> str:
         """Return the statement."""
-        return f"{where(self.formula, self.box)}: {self.formula.name} has exactly one zero"
+        box = box_text(self.box, self.function.variables)
+        return (
+            f"for {self.function.definition} and {box}: {self.function.name} has exactly one zero."
+        )
 
 
-def _sign_at(context: Context, quantity: Quantity, point: Fraction) -> int:
-    """Return the strict sign of a component at a point, or raise Unproved."""
-    for values in attempts(quantity.map(), point_box((point,))):
-        if excludes_zero(values[0]):
-            return 1 if values[0].lo > 0 else -1
-    raise Unproved(f"the sign is not decided at {shown(point_box((point,)))}")
-
-
-def _change(context: Context, quantity: Quantity, bracket: Range) -> int:
-    """Return the sign at the upper end of a bracket, opposite to that at the lower end."""
-    low, high = (_sign_at(context, quantity, end) for end in bracket)
-    if low == high:
-        raise Unproved(f"the same sign at both ends of {shown((bracket,))}")
-    return high
+def _sign_at(function: Formulas, point: Fraction) -> int:
+    """Return the strict sign of a function at a point, or raise Unproved."""
+    for (value,) in attempts(function, point_box((point,))):
+        if value.lo > 0 or value.hi < 0:
+            return 1 if value.lo > 0 else -1
+    raise Unproved("the sign at an end is not decided")
 
 
 def zero(context: Context, reader: Reader) -> Zero:
-    """Rule `zero`: {function of one variable, component, interval, tree}.
+    """Rule `zero`: {function F of one variable x, value, bracket}.
 
-    Hypotheses: F_i has opposite strict signs at the ends, and is defined on each leaf of the tree,
-    hence continuous on the interval. Conclusion: F_i has a zero inside (Bolzano).
+    Hypotheses: `value` is a `formula-value` step about F, or about D(F, x), on an interval that
+    contains the bracket; F has opposite strict signs at the ends of the bracket. Conclusion: F has
+    a zero in the bracket (Bolzano: it is defined on the interval, hence continuous); if the step
+    bounds D(F, x), and away from 0, then it is the only zero in the interval (F is monotone).
     """
-    function, component, interval_of, tree = reader.fields(
-        "function", "component", "interval", "tree"
-    )
-    quantity = Quantity.read(context, function, component)
-    if len(quantity.formula.variables) != 1:
-        raise function.fail("a function of one variable is expected")
-    interval = interval_of.range()
-    _change(context, quantity, interval)
-    for leaf in leaves(tree, (interval,)):
-        decide(quantity.map(), leaf, lambda values: True)
-    return Zero(quantity, interval)
-
-
-def root(context: Context, reader: Reader) -> Root:
-    """Rule `root`: {monotone, bracket}: a `monotone` step about a function of one variable.
-
-    Hypotheses: the bracket lies in the interval of that step, and F_i has opposite strict signs
-    at its ends. Conclusion: F_i has exactly one zero in the interval of the step, and it lies in
-    the bracket: one exists there by Bolzano's theorem, and F_i is injective.
-    """
-    name, bracket_of = reader.fields("monotone", "bracket")
-    step, bracket = context.step(name, Monotone), bracket_of.range()
-    if len(step.box) != 1:
-        raise name.fail("a function of one variable is expected")
-    if not step.box[0][0] <= bracket[0] <= bracket[1] <= step.box[0][1]:
+    function, value_of, bracket_of = reader.fields("function", "value", "bracket")
+    formulas, step = read_formulas(function), context.step(value_of, Value)
+    if len(step.box) != 1 or formulas.variables != tuple(step.sides):
+        raise value_of.fail("a step about a function of this variable alone is expected")
+    text, bracket = function.string(), bracket_of.range()
+    ((variable, interval),) = step.box
+    slope = f"D({text}, {variable})"
+    if step.function not in (text, slope):
+        raise value_of.fail("the step is about another function")
+    if not within(bracket, interval):
         raise bracket_of.fail("the bracket leaves the interval of the step")
-    quantity = Quantity(step.quantity.formula, step.quantity.component)
-    if _change(context, quantity, bracket) != step.sign:
-        raise Unproved("the signs contradict the monotone step")
-    return Root(quantity, step.box[0], bracket)
+    if _sign_at(formulas, bracket[0]) == _sign_at(formulas, bracket[1]):
+        raise Unproved(f"the same sign at both ends of {show_range(bracket)}")
+    only = step.function == slope and not step.bounds[0] <= 0 <= step.bounds[1]
+    return Zero(text, variable, interval, bracket, only)
 
 
 def unique_zero(context: Context, reader: Reader) -> UniqueZero:
@@ -141,42 +108,36 @@ def unique_zero(context: Context, reader: Reader) -> UniqueZero:
     the fixed points are the zeros. Source: Krawczyk 1969; Moore 1977; for n = 1 with
     C = 1 / F'(m) this is Newton's method with a remainder.
     """
-    function, box_of, centre_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
-    formula = context.formula(function)
-    n = len(formula.variables)
-    if len(formula.roots) != n:
-        raise function.fail("as many values as variables are expected")
-    box, centre = read_box(box_of, n), read_point(centre_of, n)
+    function_of, box_of, centre_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
+    function = context.function(function_of)
+    n = len(function.variables)
+    if len(function.roots) != n:
+        raise function_of.fail("as many values as variables are expected")
+    box, centre = read_box(box_of, n), centre_of.numbers(n, n)
     if not all(low <= m <= high for m, (low, high) in zip(centre, box, strict=True)):
         raise centre_of.fail("the centre is not in the box")
-    matrix = [read_point(row, n) for row in matrix_of.items(n, n)]
-    for bits in PRECISIONS:
-        try:
-            image = _krawczyk(context.map_of(formula), box, centre, matrix, bits)
-        except Unproved:
-            continue
+    matrix = [row.numbers(n, n) for row in matrix_of.items(n, n)]
+    for image in tried(lambda bits: _krawczyk(function, box, centre, matrix, bits)):
         if all(a[0] < b[0] and b[1] < a[1] for a, b in zip(box, image, strict=True)):
-            return UniqueZero(formula, box)
+            return UniqueZero(function, box)
     raise Unproved("the Krawczyk operator does not map the box strictly inside")
 
 
 def _krawczyk(
-    map_: Components,
+    function: Formulas,
     box: Box,
     centre: tuple[Fraction, ...],
     matrix: list[tuple[Fraction, ...]],
     bits: int,
 ) -> list[Range]:
     """Enclose K = m - C F(m) + (I - C J) (X - m)."""
-    x = enclosed(box, bits)
-    middle = [rational(m, bits) for m in centre]
+    x, middle = enclosed(box, bits), enclosed(point_box(centre), bits)
     steps = [a - m for a, m in zip(x, middle, strict=True)]
-    values = map_.values(middle)
-    columns = list(zip(*map_.jacobian(x), strict=True))
+    values, nothing = function.values(middle), rational(Fraction(0), bits)
+    columns = list(zip(*function.jacobian(x), strict=True))
     image = []
     for i, row in enumerate(matrix):
         c = [rational(entry, bits) for entry in row]
-        nothing = rational(Fraction(0), bits)
         defect = [int(i == j) - add(nothing, c, column) for j, column in enumerate(columns)]
         image.append(add(middle[i] - add(nothing, c, values), defect, steps).range)
     return image

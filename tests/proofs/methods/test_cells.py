@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from intervals import Interval, IntervalArray
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.formula import read_formula
+from proofs.trusted.kernel.formulas import read_function
 
 LINE = Region((Interval(-1, 1),))
 PLANE = Region((Interval(-1, 1), Interval(-1, 1)))
@@ -137,8 +137,8 @@ def test_a_polygon_clockwise_is_no_region():
 
 
 def test_formulas_of_the_checker():
-    expression = ["+", ["*", "2", ["sin", "x"]], ["/", ["^", "x", "2"], "3"]]
-    f = function_of(read_formula("F", Reader({"variables": ["x"], "values": [expression]})))
+    function = {"variables": ["x"], "values": ["2*sin(x) + x**2/3"]}
+    f = function_of(read_function("F", Reader(function)))
     (value,) = f(IntervalArray.from_floats(np.array([0.0, 1.0])))
     assert value[0].item().contains(0)
     assert value[1].item().contains("2.0162753029") is False

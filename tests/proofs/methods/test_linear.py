@@ -10,11 +10,11 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from proofs.trusted.kernel.lemma import check_lemma
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.kernel.lemma import check_lemma
 from proofs.trusted.verify import Rejected
 
 MODULUS = ["sqrt", ["^", "x", "2"]]

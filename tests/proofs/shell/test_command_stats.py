@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from proofs.trusted.kernel.formula import Tape
 
 from intervals import Interval, Jet
 from proofs import impact, orbits, period_doubling, resonance, single_impact
@@ -44,7 +45,6 @@ from proofs.shell.counting import (
     counted,
 )
 from proofs.trusted import equations
-from proofs.trusted.kernel.formula import Tape
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single_facts
 from proofs.trusted.parameters import PAPER

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from proofs.trusted.certificate import render
+from proofs.trusted.certificate import SCHEMA, render
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
 FOLDER = Path(__file__).parents[3] / "certificates" / "lemmas"
@@ -45,19 +45,33 @@ def set_in(step: str, **fields: Any) -> Callable[[Document], Any]:
     return lambda document: witness(document, step).update(fields)
 
 
-def claim_in(step: str, **fields: Any) -> Callable[[Document], Any]:
-    """Return the edit that replaces fields of a claim."""
-    return lambda document: witness(document, step)["claim"].update(fields)
-
-
-def formula(name: str, *values: Any) -> Callable[[Document], Any]:
+def formula(name: str, *values: str) -> Callable[[Document], Any]:
     """Return the edit that replaces the values of a function."""
     return lambda document: document["functions"][name].update(values=list(values))
 
 
+def value_of(text: str, bounds: list[str], tree: Any = None, **box: list[str]) -> Callable[[], str]:
+    """Return the maker of a file with one step about a value."""
+    step = {"function": text, "box": box, "tree": tree, "bounds": bounds}
+    return single("formula-value", step)
+
+
+def single(rule: str, step: Document) -> Callable[[], str]:
+    """Return the maker of a file with one step."""
+
+    def make() -> str:
+        steps = {"step": {"rule": rule, "witness": step}}
+        return render(
+            {"schema": SCHEMA, "parameters": None, "functions": {}, "steps": steps}
+            | {"claims": ["step"]}
+        )
+
+    return make
+
+
 def moved_bracket(document: Document) -> None:
-    low, high = map(Fraction, witness(document, "root-1")["bracket"])
-    witness(document, "root-1")["bracket"] = [str(high), str(2 * high - low)]
+    low, high = map(Fraction, witness(document, "zero-1")["bracket"])
+    witness(document, "zero-1")["bracket"] = [str(high), str(2 * high - low)]
 
 
 def twin_sets(document: Document) -> None:
@@ -73,38 +87,37 @@ def twin_sets(document: Document) -> None:
 
 
 def pole(document: Document) -> None:
-    formula("F", ["/", "1", "x"])(document)
-    zero = {"function": "F", "component": "1", "interval": ["-1", "1"], "tree": None}
-    document["steps"] = {"zero-1": {"rule": "zero", "witness": zero}}
+    """1/x on both sides of 0 has values of both signs."""
+    value = {"function": "1/x", "box": {"x": ["-1", "1"]}, "bounds": ["-9", "9"]}
+    tree = ["1", "1/3", None, None]
+    zero = {"function": "1/x", "value": "value-1", "bracket": ["-1", "1"]}
+    document["steps"] = {
+        "value-1": {"rule": "formula-value", "witness": {**value, "tree": tree}},
+        "zero-1": {"rule": "zero", "witness": zero},
+    }
     document["claims"] = ["zero-1"]
 
 
-def deep(document: Document) -> None:
-    value: Any = "x"
-    for _ in range(100):
-        value = ["sin", value]
-    formula("F", value)(document)
-
-
-def swapped_identity(document: Document) -> None:
-    witness(document, "identity-1").update(right="3")
+def first_rate(document: Document) -> str:
+    text: str = witness(document, "equal-1")["right"]
+    return text
 
 
 REJECTED = {
     "false_sign": (
         "the cubic > 0 on an interval that contains its root",
         "not proved on",
-        changed("cubic", claim_in("sign-1", box=[["3/2", "3"]])),
+        changed("cubic", set_in("value-5", box={"x": ["3/2", "3"]})),
     ),
     "range_too_narrow": (
         "the cubic's range on [-2, 2] without its maximum 3 and its value 3 at 2",
         "not proved on",
-        changed("cubic", claim_in("range-1", bounds=["-2", "29/10"])),
+        changed("cubic", set_in("value-4", bounds=["-2", "29/10"])),
     ),
     "monotone_past_the_turn": (
         "the cubic increasing from -2 to beyond its maximum at -1",
         "not proved on",
-        changed("cubic", claim_in("monotone-1", box=[["-2", "-9/10"]])),
+        changed("cubic", set_in("value-1", box={"x": ["-2", "-9/10"]})),
     ),
     "bracket_moved": (
         "the bracket of a root moved up by its width",
@@ -119,7 +132,25 @@ REJECTED = {
     "logarithm_of_negatives": (
         "the logarithm of numbers that may be negative",
         "not proved on",
-        changed("cubic", formula("F", ["log", "x"])),
+        value_of("log(x)", ["-9", "9"], x=["-1", "2"]),
+    ),
+    "derivative_without_function": (
+        "the derivative 1 of x + 0 sqrt(y) where y is negative",
+        "not proved on",
+        value_of("D(x + 0*sqrt(y), x)", ["1", "1"], x=["0", "1"], y=["-1", "2"]),
+    ),
+    "series_with_another_term": (
+        "sin(x)/x = 1 + x/6 + O(x^2)",
+        "begins otherwise",
+        changed("refutations", set_in("series-1", coefficients=["1", "1/6"])),
+    ),
+    "series_without_condition": (
+        "x/(a x + x^2) = 1/a + O(x), without a other than 0",
+        "nonzero",
+        single(
+            "formula-series",
+            {"function": "x/(a*x + x**2)", "variable": "x", "coefficients": ["1/a"], "nonzero": []},
+        ),
     ),
     "two_zeros": (
         "one box around both fixed points of the Henon map",
@@ -134,22 +165,29 @@ REJECTED = {
     "false_identity": (
         "the second time derivative of the gap given as the first",
         "differ",
-        changed("gap_identities", swapped_identity),
+        changed("gap_identities", lambda d: witness(d, "equal-3").update(right=first_rate(d))),
     ),
-    "refuted_where_true": (
-        "a refutation at a point where the claim holds",
-        "not proved false",
-        changed("refutations", set_in("refute-at-1", point=["0"])),
+    "value_moved": (
+        "an exact value at a point, another digit",
+        "not proved on",
+        changed("refutations", set_in("value-3", bounds=["1/100", "1/100"])),
     ),
     "singular_h_set": (
         "an h-set without volume",
-        "singular",
+        "inverse",
         changed("henon_horseshoe", set_in("h-set-1", matrix=[["1", "2"], ["2", "4"]])),
     ),
     "target_too_wide": (
         "an h-set that its images do not cross",
         "not proved on",
-        changed("henon_horseshoe", set_in("h-set-1", matrix=[["47/100", "0"], ["0", "1/5"]])),
+        changed(
+            "henon_horseshoe",
+            set_in(
+                "h-set-1",
+                matrix=[["47/100", "0"], ["0", "1/5"]],
+                inverse=[["100/47", "0"], ["0", "5"]],
+            ),
+        ),
     ),
     "orientation_reversed": (
         "a covering relation of the other degree",
@@ -159,7 +197,7 @@ REJECTED = {
     "no_horseshoe": (
         "the Henon map at a = 2, where the same sets have no such relations",
         "not proved on",
-        changed("henon_horseshoe", formula("F", ["-", "1", ["*", "2", ["^", "x", "2"]]], "x")),
+        changed("henon_horseshoe", formula("F", "1 - 2*x**2", "x")),
     ),
     "sets_not_disjoint": (
         "two equal sets in one graph",
@@ -179,7 +217,7 @@ REJECTED = {
     "expansion_overstated": (
         "|F'| >= 2.11 where it is 2.1 at an end",
         "not proved on",
-        changed("logistic", claim_in("expansion-1", bound="211/100")),
+        changed("logistic", set_in("value-1", bounds=["211/100", "6"])),
     ),
 }
 
@@ -187,63 +225,87 @@ MALFORMED = {
     "huge_exponent": (
         "x^1000000000",
         "exponents",
-        changed("cubic", formula("F", ["^", "x", "1000000000"])),
+        changed("logistic", formula("F", "x**1000000000")),
     ),
-    "nested_deeply": ("100 sines in one another", "deep", changed("cubic", deep)),
+    "nested_deeply": (
+        "160 sines in one another",
+        "deep",
+        changed("logistic", formula("F", "sin(" * 160 + "x" + ")" * 160)),
+    ),
     "unknown_variable": (
         "a variable that is not declared",
         "unknown variable",
-        changed("cubic", formula("F", "z")),
+        changed("logistic", formula("F", "z")),
     ),
     "unknown_operation": (
         "a function that the format does not have",
-        "no operation",
-        changed("cubic", formula("F", ["tan", "x"])),
+        "no formula has",
+        changed("logistic", formula("F", "tan(x)")),
+    ),
+    "white_space": (
+        "a formula whose spaces suggest another reading",
+        "canonical",
+        changed("logistic", formula("F", "x+1 * 2")),
+    ),
+    "comment": (
+        "a formula with a comment that says more",
+        "canonical",
+        changed("logistic", formula("F", "x # + 1")),
+    ),
+    "hexadecimal": (
+        "a number 0x10 that is 16 and looks like 0 times x10",
+        "canonical",
+        changed("logistic", formula("F", "0x10*x")),
     ),
     "number_not_canonical": (
-        "6/4 in a formula",
+        "6/4 as a bound",
         "lowest terms",
-        changed("cubic", formula("F", "6/4")),
+        changed("cubic", set_in("value-4", bounds=["-2", "6/4"])),
     ),
     "variable_named_like_a_function": (
         "a variable exp",
         "not a name for a variable",
-        changed("cubic", lambda d: d["functions"]["F"].update(variables=["exp"])),
+        changed("logistic", lambda d: d["functions"]["F"].update(variables=["exp"])),
     ),
     "cut_outside": (
         "a subdivision whose cut is not in the box",
         "cut",
-        changed("cubic", set_in("sign-1", tree=["1", "5", None, None])),
+        changed("cubic", set_in("value-5", tree=["1", "5", None, None])),
     ),
     "part_missing": (
         "a subdivision with one part",
         "entries",
-        changed("cubic", set_in("sign-1", tree=["1", "2", None])),
+        changed("cubic", set_in("value-5", tree=["1", "2", None])),
     ),
     "reversed_box": (
         "a box from 3 to 8/5",
         "reversed",
-        changed("cubic", claim_in("sign-1", box=[["3", "8/5"]])),
+        changed("cubic", set_in("value-5", box={"x": ["3", "8/5"]})),
     ),
-    "point_outside": (
-        "a refutation at a point beside the box",
-        "not in the box",
-        changed("refutations", set_in("refute-at-1", point=["2"])),
+    "side_missing": (
+        "a box without one of the variables",
+        "a side for each",
+        changed("refutations", set_in("value-4", box={"x": ["1", "1"]})),
+    ),
+    "slope_of_another": (
+        "a zero proved the only one by the derivative of another function",
+        "another function",
+        changed("cubic", set_in("zero-1", function="x**3 - 3*x")),
     ),
     "later_step": (
-        "a root whose monotone step comes later",
+        "a root whose step about the derivative comes later",
         "no earlier step",
         changed("cubic", lambda d: d.update(steps=dict(reversed(d["steps"].items())))),
     ),
     "unused_step": (
         "a true step that no claim uses",
         "nothing uses",
-        changed("cubic", lambda d: d["claims"].remove("sign-1")),
+        changed("cubic", lambda d: d["claims"].remove("value-5")),
     ),
     "claim_twice": (
         "a claim given twice",
         "twice",
-        changed("cubic", lambda d: d["claims"].append("sign-1")),
+        changed("cubic", lambda d: d["claims"].append("value-5")),
     ),
     "relation_twice": (
         "a covering relation twice in a graph",
@@ -253,12 +315,12 @@ MALFORMED = {
     "other_schema": (
         "a schema of the future",
         "schema",
-        changed("cubic", lambda d: d.update(schema="impact-proofs.lemma/2")),
+        changed("cubic", lambda d: d.update(schema="impact-proofs.certificate/9")),
     ),
     "note_added": (
         "a field that the rule does not know",
         "unknown field",
-        changed("cubic", set_in("sign-1", note="trust me")),
+        changed("cubic", set_in("value-5", note="trust me")),
     ),
 }
 
@@ -284,7 +346,7 @@ def readme() -> str:
         [
             "# Lemma files that the checker must accept, reject, or call malformed",
             "",
-            "All are made by `python -m tests.proofs.trusted.kernel.lemma_corpus`; tests prove",
+            "All are made by `python -m tests.proofs.trusted.kernel.lemma_corpus`; `tests` prove",
             "them up to date.",
             "",
             "| file | what it is |",

@@ -1,51 +1,45 @@
 """Lemma files made by the prover: textbook maps, and the gap of the impact model."""
 
 from functools import cache
-from typing import Any
 
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
 
-LOGISTIC = (["x"], [["*", "5", "x", ["-", "1", "x"]]])
-CUBIC = (["x"], [["+", ["-", ["^", "x", "3"], ["*", "3", "x"]], "1"]])
+LOGISTIC = (["x"], ["5*x*(1 - x)"])
+CUBIC = "x**3 - 3*x + 1"
 
 
 def henon(a, b):
-    return (["x", "y"], [["+", ["-", "1", ["*", a, ["^", "x", "2"]]], "y"], ["*", b, "x"]])
+    return (["x", "y"], [f"1 - {a}*x**2 + y", f"{b}*x"])
 
 
-HENON_FIXED = (
-    ["x", "y"],
-    [
-        ["-", ["+", ["-", "1", ["*", "7/5", ["^", "x", "2"]]], "y"], "x"],
-        ["-", ["*", "3/10", "x"], "y"],
-    ],
-)
+HENON_FIXED = (["x", "y"], ["1 - 7/5*x**2 + y - x", "3/10*x - y"])
 
 
 class Written:
-    """A number type that writes down what is computed: the shared equations as an expression."""
+    """A number type that writes down what is computed: the shared equations as a text."""
 
-    def __init__(self, expression: Any) -> None:
-        self.expression = expression
+    def __init__(self, text):
+        self.text = text
 
     def _with(self, op, other, swapped=False):
-        pair = [self.expression, other.expression if isinstance(other, Written) else str(other)]
-        return Written([op, *(pair[::-1] if swapped else pair)])
+        pair = [self.text, other.text if isinstance(other, Written) else str(other)]
+        left, right = (part if part.isalnum() else f"({part})" for part in pair[:: 1 - 2 * swapped])
+        return Written(f"{left}{op}{right}")
 
     def __add__(self, other):
-        return self._with("+", other)
+        return self._with(" + ", other)
 
     def __radd__(self, other):
-        return self._with("+", other, True)
+        return self._with(" + ", other, True)
 
     def __sub__(self, other):
-        return self._with("-", other)
+        return self._with(" - ", other)
 
     def __rsub__(self, other):
-        return self._with("-", other, True)
+        return self._with(" - ", other, True)
 
     def __mul__(self, other):
         return self._with("*", other)
@@ -57,24 +51,13 @@ class Written:
         return self._with("/", other)
 
     def __pow__(self, n):
-        return Written(["^", self.expression, str(n)])
+        return Written(f"({self.text})**{n}")
 
     def __neg__(self):
-        return Written(["-", self.expression])
+        return Written(f"-({self.text})")
 
     def sincos(self):
-        return Written(["sin", self.expression]), Written(["cos", self.expression])
-
-
-def impact_gap():
-    """The gap, its derivatives in time, the slope theorem of `proofs.trusted.equations.slope`."""
-    eta, nu, phi, t = map(Written, ("eta", "nu", "phi", "t"))
-    start, now = launch(1, eta, nu, phi), clock(eta, t)
-    g, rate, acceleration = (gap(start, now, order) for order in range(3))
-    right = now.mass_sin / eta * launch_acceleration(start)
-    values = (g, rate, acceleration, rate - right, slope(start, now) * rate, right)
-    launched = gap(start, AT_LAUNCH, 2)
-    return ["eta", "nu", "phi", "t"], [*(v.expression for v in values), launched.expression]
+        return Written(f"sin({self.text})"), Written(f"cos({self.text})")
 
 
 # -- the files -------------------------------------------------------------------------------------
@@ -87,9 +70,9 @@ def logistic():
     graph = file.graph([file.covers("F", 1, a, b) for a in sets for b in sets])
     file.entropy(graph)
     file.cone(graph, ["1"])
-    for interval in (["-1/100", "29/100"], ["71/100", "101/100"]):
-        claim = {"function": "F", "interval": interval, "bound": "209/100"}
-        file.inequality("expansion", claim)
+    slope_of = f"D({LOGISTIC[1][0]}, x)"
+    file.value(slope_of, ("209/100", "6"), x=("-1/100", "29/100"))
+    file.value(slope_of, ("-6", "-209/100"), x=("71/100", "101/100"))
     return file
 
 
@@ -98,7 +81,8 @@ def henon_fixed_points():
     file = Lemmas({"P": HENON_FIXED})
     file.unique_zero("P", ["0.63", "0.19"], "1/100")
     file.unique_zero("P", ["-1.13", "-0.34"], "1/100")
-    file.no_zero("P", [("-1", "1/2"), ("-1", "1")])
+    first, second = HENON_FIXED[1]
+    file.sign(f"({first})**2 + ({second})**2", 1, x=("-1", "1/2"), y=("-1", "1"))
     return file
 
 
@@ -115,7 +99,7 @@ def henon_horseshoe():
 
 def golden_mean():
     """x -> 3.9 x (1 - x) with the arrows 12, 21, 22: entropy of the golden mean."""
-    file = SymbolicLemmas({"F": (["x"], [["*", "39/10", "x", ["-", "1", "x"]]])})
+    file = SymbolicLemmas({"F": (["x"], ["39/10*x*(1 - x)"])})
     one, two = file.h_set(["61/200"], [["27/200"]]), file.h_set(["303/400"], [["79/400"]])
     graph = file.graph([file.covers("F", 1, a, b) for a, b in ((one, two), (two, one), (two, two))])
     file.entropy(graph, 24)
@@ -131,47 +115,40 @@ def second_iterate():
 
 
 def cubic():
-    """x^3 - 3 x + 1: three roots, each in an interval where the cubic is monotone."""
-    file = Lemmas({"F": CUBIC})
-    base = {"function": "F", "component": "1", "variable": "x"}
-    for box, sign in ((["-2", "-11/10"], "+"), (["-9/10", "9/10"], "-"), (["11/10", "2"], "+")):
-        name = file.inequality("monotone", {**base, "box": [box], "sign": sign})
-        file.root(name)
-    file.zero("F", 1, ("-2", "2"))
-    claim = {"function": "F", "component": "1", "box": [["8/5", "3"]], "sign": "+"}
-    file.inequality("sign", claim)
-    file.inequality(
-        "range", {**base, "variable": None, "box": [["-2", "2"]], "bounds": ["-2", "4"]}
-    )
-    file.inequality("range", {**base, "box": [["-1", "2"]], "bounds": ["-4", "10"]})
+    """x^3 - 3 x + 1: three roots, each in an interval where the cubic is monotone; bounds."""
+    file = Lemmas()
+    for side, sign in ((("-2", "-11/10"), 1), (("-9/10", "9/10"), -1), (("11/10", "2"), 1)):
+        file.root(CUBIC, sign, x=side)
+    file.zero(CUBIC, file.value(CUBIC, ("-2", "4"), x=("-2", "2")), ("-2", "2"))
+    file.sign(CUBIC, 1, x=("8/5", "3"))
+    file.value(f"D({CUBIC}, x)", ("-4", "10"), x=("-1", "2"))
     return file
 
 
 def gap_identities():
     """d gap / dt, d^2 gap / dt^2, and d gap / dt - d gap / d phi, by exact normal forms."""
-    file = Lemmas({"G": impact_gap()})
-    file.identity("G", 1, 2, ["t"])
-    file.identity("G", 2, 3, ["t"])
-    file.identity("G", 1, 3, ["t", "t"])
-    file.identity("G", 1, 4, ["phi"])
-    file.identity("G", 5, 6)
+    eta, nu, phi, t = map(Written, ("eta", "nu", "phi", "t"))
+    start, now = launch(1, eta, nu, phi), clock(eta, t)
+    g, rate, acceleration = (gap(start, now, order) for order in range(3))
+    right = now.mass_sin / eta * launch_acceleration(start)
+    file = Lemmas()
+    file.equal(f"D({g.text}, t)", rate.text)
+    file.equal(f"D({rate.text}, t)", acceleration.text)
+    file.equal(f"D({g.text}, t, t)", acceleration.text)
+    file.equal(f"D({g.text}, phi)", (rate - right).text)
+    file.equal((slope(start, now) * rate).text, right.text)
+    file.equal(f"at({acceleration.text}, t=0)", gap(start, AT_LAUNCH, 2).text)
     return file
 
 
 def refutations():
-    """False inequalities, each with a point."""
-    file = Lemmas({"F": CUBIC, "S": (["x", "y"], [["-", ["sin", "x"], "y"]])})
-    base = {"function": "F", "component": "1"}
-    sign = {**base, "box": [["0", "1"]], "sign": "+"}
-    file.refute_at("sign", sign, ["1/2"])
-    monotone = {**base, "variable": "x", "box": [["-2", "2"]], "sign": "+"}
-    file.refute_at("monotone", monotone, ["0"])
-    bounds = {**base, "variable": None, "box": [["-2", "2"]], "bounds": ["-2", "1"]}
-    file.refute_at("range", bounds, ["2"])
-    expansion = {"function": "F", "interval": ["-2", "2"], "bound": "3/2"}
-    file.refute_at("expansion", expansion, ["1"])
-    below = {"function": "S", "component": "1", "box": [["0", "2"], ["0", "1"]], "sign": "-"}
-    file.refute_at("sign", below, ["3/2", "99/100"])
+    """What contradicts false inequalities: values at points, one exact; and a series."""
+    file = Lemmas()
+    file.value(CUBIC, ("-3/8", "-3/8"), x=("1/2", "1/2"))
+    file.value(f"D({CUBIC}, x)", ("-3", "-3"), x=("0", "0"))
+    file.value("3*x - 1", ("0", "0"), x=("1/3", "1/3"))
+    file.sign("sin(x) - y", 1, x=("3/2", "3/2"), y=("99/100", "99/100"))
+    file.series("sin(x)/x", "x", "1", "0", "-1/6")
     return file
 
 

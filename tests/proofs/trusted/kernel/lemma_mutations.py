@@ -4,14 +4,15 @@
 proved by the checker, for the reason given; all others must be refused.
 """
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 from typing import Any
 
 from proofs.trusted.certificate import render
-from proofs.trusted.kernel.lemma import RULES
-from tests.proofs.trusted.mutations import Document, Mutation, drop, edited, put, swap, walk
+from proofs.trusted.rules import RULES
+from tests.proofs.trusted.edits import Document, Mutation, drop, edited, put, swap, walk
 
 HARMLESS = {
     "tree replaced by a leaf": "a simpler subdivision may do",
@@ -23,20 +24,21 @@ HARMLESS = {
     "number moved a lot": "another statement or witness, and true: the sentence shows it",
     "entry doubled in place": "another statement, and true: the sentence shows it",
     "numbers swapped": "another statement or witness, and true: the sentence shows it",
-    "integer changed": "another power, component or bound, and true: the sentence shows it",
+    "integer changed": "another power or bound, and true: the sentence shows it",
     "reference changed": "another relation, and true: the sentence shows it",
     "claim dropped": "says less",
     "claims reordered": "the same claims",
     "steps reordered": "the same steps, where none needs another",
     "covers swapped": "the same graph, where the sets keep their places",
-    "formula changed": "another function for which the witness holds: the sentence shows it",
+    "formula changed": "another formula for which the witness holds: the sentence shows it",
     "sign changed": "two relations or inequalities may hold at once only if said so",
 }
-PATHS = ("tree", "left", "right", "support", "outside", "matrices")
+PATHS = ("tree", "support", "outside", "matrices")
 
 
 def is_tree(path):
-    return any(part in PATHS for part in path)
+    covers = len(path) > 3 and path[1].startswith("covers") and path[3] in ("left", "right")
+    return covers or any(part in PATHS for part in path)
 
 
 def trees(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
@@ -71,7 +73,7 @@ def is_number(value):
 
 def numbers(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
     for path, value in walk(document["steps"], ("steps",)):
-        if is_tree(path) or path[-1] == "rule":
+        if is_tree(path) or {"rule", "coefficients"} & {*path}:
             continue
         if isinstance(value, list) and len(value) > 1 and all(map(is_number, value)):
             yield "numbers swapped", path, put(path, value[::-1])
@@ -81,7 +83,7 @@ def numbers(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
         if not is_number(value):
             continue
         number = Fraction(value)
-        if path[-1] in ("component", "left", "power", "length", "growth"):
+        if path[-1] in ("power", "length", "growth"):
             for by in (-1, 1, 5):
                 yield "integer changed", path, put(path, str(number + by))
             yield "integer nonsense", path, put(path, str(number + Fraction(1, 2)))
@@ -127,7 +129,7 @@ def references(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]
             if isinstance(value, str) and value in document["functions"]:
                 yield "reference unknown", inner, put(inner, "Nothing")
             for other in (None, [], {}, True, {"value": value}):
-                allowed = other is None and (is_tree(inner) or inner[-1] == "variable")
+                allowed = other is None and is_tree(inner)
                 if other != value and not allowed:
                     yield "other type", inner, put(inner, other)
 
@@ -142,19 +144,36 @@ def claims(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
         yield "claim unknown", ("claims", index), put(("claims", index), "nowhere")
 
 
+OTHERS = {
+    " + ": [" - ", "*"],
+    " - ": [" + ", "*"],
+    "*": [" + ", "/"],
+    "/": ["*", " - "],
+    "sin": ["cos", "exp"],
+    "cos": ["sin"],
+    "t": ["phi"],
+}
+
+
+def texts_in(document: Document) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """The texts of steps."""
+    for path, value in walk(document["steps"], ("steps",)):
+        named = {"function", "left", "right", "coefficients"} & {*path[3:]}
+        if named and not is_tree(path) and value not in ([], *document["functions"]):
+            yield path, value
+
+
 def formulas(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
-    for path, value in walk(document["functions"], ("functions",)):
-        if "values" not in path or not isinstance(value, str):
+    for path, value in (*walk(document["functions"], ("functions",)), *texts_in(document)):
+        if not isinstance(value, str) or "variables" in path:
             continue
-        if is_number(value):
-            for by in (1, -1, Fraction(1, 10**6)):
-                yield "formula changed", path, put(path, str(Fraction(value) + by))
-        elif value in ("+", "-", "*", "/", "sin", "cos"):
-            for other in ("+", "-", "*", "/", "sin", "cos", "exp"):
-                if other != value:
-                    yield "formula changed", path, put(path, other)
-            yield "operation unknown", path, put(path, "tan")
-        yield "variable unknown", path, put(path, "zeta")
+        tokens = re.findall(r"\w+|\*\*| ?[-+*/(),=] ?", value)
+        for index, token in enumerate(tokens):
+            for other in OTHERS.get(token, ["3" * len(token)] if token.isdigit() else []):
+                changed = "".join([*tokens[:index], other, *tokens[index + 1 :]])
+                yield "formula changed", path, put(path, changed)
+        for other in (f"{value} ", f"({value}", f"tan({value})", f"0x10*({value})", f"{value}#"):
+            yield "formula malformed", path, put(path, other)
 
 
 def relations(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:

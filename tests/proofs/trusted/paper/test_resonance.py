@@ -7,6 +7,7 @@ from fractions import Fraction as F
 
 import pytest
 from mpmath import mp, mpf
+from proofs.trusted.kernel.derivation import equal as rule_equal
 
 from proofs.methods import derive
 from proofs.search.s6_resonance import CLAIMS, prove
@@ -14,7 +15,6 @@ from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.derivation import equal as rule_equal
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.formulas import Asked, Equal, Value
 from proofs.trusted.paper.s6_resonance import displayed as eq

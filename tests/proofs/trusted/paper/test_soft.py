@@ -6,6 +6,7 @@ import random
 from fractions import Fraction
 
 import pytest
+from proofs.trusted.kernel.derivation import Formulas, equal
 
 from proofs.methods import derive
 from proofs.search.derivations import Steps
@@ -14,7 +15,6 @@ from proofs.shell import groups
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.derivation import Formulas, equal
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.formulas import differ
 from proofs.trusted.paper.s5_soft import displayed as eq

@@ -1,0 +1,324 @@
+"""Files that would keep a checker busy, each of a few MB at most: where could work hide?
+
+From the root, `python -m tests.proofs.trusted.kernel.hostile` prints how each ends, how soon, and
+with how much memory.
+"""
+
+import json
+import resource
+import subprocess
+import sys
+import time
+from fractions import Fraction
+
+from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.verify import Rejected, check
+from tests.proofs.trusted.kernel.lemma_examples import text
+
+
+def document(steps, functions=None, claims=None):
+    return {
+        "schema": SCHEMA,
+        "parameters": None,
+        "functions": functions or {},
+        "steps": {name: {"rule": rule, "witness": witness} for name, rule, witness in steps},
+        "claims": claims or [name for name, _, _ in steps],
+    }
+
+
+def many(rule, witnesses):
+    return document([(f"s{i}", rule, witness) for i, witness in enumerate(witnesses)])
+
+
+def value(function, bounds=("0", "0"), tree=None, **box):
+    return {"function": function, "box": box, "tree": tree, "bounds": list(bounds)}
+
+
+def equal(left, right="0"):
+    return {"left": left, "right": right}
+
+
+def balanced(low, high, levels):
+    """A balanced tree of 2^levels leaves."""
+    if levels == 0:
+        return None
+    cut = (low + high) / 2
+    return ["1", str(cut), balanced(low, cut, levels - 1), balanced(cut, high, levels - 1)]
+
+
+UNIT = balanced(Fraction(0), Fraction(1), 15)
+LONG = "9" * 2990
+LONG_TEXT = "*".join(["(" + "*".join("x" * 70) + ")"] * 70)
+
+
+def polynomial_bomb():
+    bomb = "x"
+    for _ in range(4):
+        bomb = f"({bomb} + y + 1)**1000"
+    return many("formula-equal", [equal(bomb, "x")])
+
+
+def many_generators():
+    terms = " + ".join(f"sin({k}/x)*sqrt(x + {k})" for k in range(1, 60))
+    return many("formula-equal", [equal(f"D(({terms})**9, x)", "x")])
+
+
+def many_inverses():
+    terms = " + ".join(f"1/(x**{k} + y + {k})" for k in range(1, 80))
+    return many("formula-equal", [equal(terms, "1")])
+
+
+def nested_inverses():
+    nested = "x"
+    for k in range(60):
+        nested = f"1/({nested} + y**{k + 1})"
+    return many("formula-equal", [equal(nested, "1")])
+
+
+def many_roots():
+    terms = " + ".join(f"sqrt((x + y + {k})**3)" for k in range(140))
+    return many("formula-equal", [equal(terms, "x")] * 100)
+
+
+def long_coefficients():
+    big = LONG[:800]
+    return many("formula-equal", [equal(f"(x + {big})**6", f"({big} + x)**6")] * 2000)
+
+
+def wild_series():
+    function = "*".join(f"sin({k}*x + a{k})/cos(x*a{k})" for k in range(1, 9))
+    lists = {"coefficients": ["0"] * 12, "nonzero": [f"cos(a{k})" for k in range(1, 9)]}
+    return many("formula-series", [{"function": function, "variable": "x", **lists}])
+
+
+def long_texts():
+    return many("formula-equal", [equal(LONG_TEXT, LONG_TEXT)] * 190)
+
+
+def long_sums():
+    long = "(" + "x + " * 140 + "x)*x"
+    return many("formula-equal", [equal(long, "141*x**2")] * 5000)
+
+
+def many_derivatives():
+    names = ", x" * 3000
+    return many("formula-equal", [equal(f"D(sin(x**2)*exp(x)*y{names})", "0")] * 200)
+
+
+def many_substitutions():
+    nested = "sin(x)"
+    for _ in range(60):
+        nested = f"at({nested}*x, x=x + 1)"
+    box = {"x": ["0", "0"]}
+    return many("formula-value", [value(f"D({nested}, x)", ("-1", "9" * 99), **box)] * 3000)
+
+
+def doubling():
+    """x -> x*x written as substitutions: 2^140 products, 140 on the tape."""
+    nested = "x"
+    for _ in range(140):
+        nested = f"at(x*x, x={nested})"
+    return many("formula-value", [value(nested, ("-1", "2"), x=["1/2", "1"])] * 1500)
+
+
+def wide_tree():
+    sines = "sin(" * 50 + "x" + ")" * 50
+    return many("formula-value", [value(sines, ("-2", "9"), UNIT, x=["0", "1"])])
+
+
+def wide_tree_of_sums():
+    return many("formula-value", [value("x + " * 140 + "x", ("0", "999"), UNIT, x=["0", "1"])])
+
+
+def wide_tree_of_powers():
+    return many("formula-value", [value("(x/2)**1000", ("-1", "999"), UNIT, x=["0", "1"])])
+
+
+def wide_tree_of_constants():
+    number = f"{LONG}/{LONG[:-1]}1"
+    return many(
+        "formula-value", [value(f"({number})*x*({number})", ("-1", "999"), UNIT, x=["0", "1"])]
+    )
+
+
+def wide_tree_of_long_sides():
+    names = [f"x{i:02}" for i in range(30)]
+    box = {name: ["0", f"1/{LONG}"] for name in names}
+    box["x00"] = ["0", "1"]
+    return many("formula-value", [value("*".join(names), ("-1", "1"), UNIT, **box)])
+
+
+def undecided_leaves():
+    """Every precision is tried in vain."""
+    names = list("uvwxyz")
+    terms = " + ".join(f"sin({names[k % 6]}*{names[k % 5]}*{k + 1})" for k in range(100))
+    box = {name: ["0", "1"] for name in names}
+    return many("formula-value", [value(f"({terms}) - ({terms})", **box)])
+
+
+def functions_of_many_bits():
+    """log(exp(x)) - x at a point, at all precisions, in many steps."""
+    box = {"x": ["1/3", "1/3"]}
+    return many("formula-value", [value("log(exp(x)) - x", ("1/7", "1/7"), **box)] * 1)
+
+
+def many_logarithms():
+    steps = [value("log(x)", ("-99999", "9"), x=[f"1/{LONG}", "1"])] * 1200
+    return many("formula-value", steps)
+
+
+def many_exact_values():
+    point = [f"{LONG[:1000]}/{LONG[:999]}1"] * 2
+    return many("formula-value", [value("(x + 1)*(x - 1) + x*x - x/(x + 3)", x=point)] * 1)
+
+
+def many_exact_steps():
+    point = [f"{LONG[:1400]}/{LONG[:1399]}1"] * 2
+    function = "/".join(["x"] * 140)
+    steps = [value(function, ("0", f"1{LONG[:10]}"), x=point)] * 600
+    return many("formula-value", steps)
+
+
+def long_h_sets():
+    """1 + a nilpotent matrix of long numbers, and its inverse."""
+    n, big = 6, LONG[:300]
+    first = [["1", *[f"{sign}{big}{j}" for j in range(1, n)]] for sign in ("", "-")]
+    rest = [[str(int(i == j)) for j in range(n)] for i in range(1, n)]
+    matrices = {"matrix": [first[0], *rest], "inverse": [first[1], *rest]}
+    return many("h-set", [{"centre": ["0"] * n, **matrices}] * 1000)
+
+
+def many_h_sets(count=3000):
+    wave = {"variables": ["x"], "values": ["x + 1/10*sin(2*pi*x)"]}
+    radius = 10**20 + 7
+    steps = []
+    for i in range(count):
+        h_set = {"centre": [str(i)], "matrix": [[f"1/{radius}"]], "inverse": [[str(radius)]]}
+        covers = {"function": "F", "power": "1", "source": f"n{i}", "target": f"n{i}", "sign": "+"}
+        trees = {"left": None, "right": None, "support": None}
+        steps += [(f"n{i}", "h-set", h_set), (f"c{i}", "covers", {**covers, **trees})]
+    steps.append(("g", "graph", {"covers": [f"c{i}" for i in range(count)]}))
+    return document(steps, {"F": wave}, ["g"])
+
+
+def distant_h_sets(count=1200):
+    """Sets of dimension 3 with long numbers, told apart only by the last normal."""
+    values = ["3*x", "y/3", "z - 1/4*sin(2*pi*z/3)"]
+    triple = {"variables": ["x", "y", "z"], "values": values}
+    unit = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1/9"]]
+    inverse = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "9"]]
+    steps = []
+    for i in range(count):
+        h_set = {"centre": ["0", "0", f"{3 * i}"], "matrix": unit, "inverse": inverse}
+        covers = {"function": "F", "power": "1", "source": f"n{i}", "target": f"n{i}", "sign": "+"}
+        trees = {"left": None, "right": None, "support": None}
+        steps += [(f"n{i}", "h-set", h_set), (f"c{i}", "covers", {**covers, **trees})]
+    steps.append(("g", "graph", {"covers": [f"c{i}" for i in range(0, count)]}))
+    return document(steps, {"F": triple}, ["g"])
+
+
+def long_iterate():
+    made = json.loads(text("second_iterate"))
+    made["functions"]["F"]["values"] = ["5*sin(sin(x))*(1 - x)"]
+    covers = next(s["witness"] for s in made["steps"].values() if s["rule"] == "covers")
+    covers["power"] = "100"
+    return made
+
+
+def wide_newton():
+    names = [f"x{i}" for i in range(20)]
+    values = ["*".join(f"sin({name} + {i})" for name in names) for i in range(20)]
+    function = {"variables": names, "values": values}
+    matrix = [[str(int(i == j)) for j in range(20)] for i in range(20)]
+    witness = {"function": "F", "box": [["0", "1"]] * 20, "centre": ["1/2"] * 20, "matrix": matrix}
+    steps = [(f"s{i}", "unique-zero", witness) for i in range(200)]
+    return document(steps, {"F": function})
+
+
+def long_sentences():
+    one = LONG_TEXT.replace("x", "1")
+    function = {"variables": ["x", "y"], "values": ["x", f"y*{one}"]}
+    witness = {
+        "function": "F",
+        "box": [["-1", "1"]] * 2,
+        "centre": ["0", "0"],
+        "matrix": [["1", "0"], ["0", "1"]],
+    }
+    steps = [(f"s{i}", "unique-zero", witness) for i in range(9000)]
+    return document(steps, {"F": function})
+
+
+def long_entropy():
+    made = json.loads(text("golden_mean"))
+    entropy = next(s["witness"] for s in made["steps"].values() if s["rule"] == "entropy")
+    made["steps"] |= {
+        f"e{i}": {"rule": "entropy", "witness": {**entropy, "length": "100", "growth": "1"}}
+        for i in range(20_000)
+    }
+    made["claims"] = [name for name in made["steps"] if name[0] == "e"][:9_000]
+    made["steps"] = {k: v for k, v in made["steps"].items() if k[0] != "e" or k in made["claims"]}
+    return made
+
+
+def wide_cone():
+    made = json.loads(text("henon_horseshoe"))
+    cone = next(s["witness"] for s in made["steps"].values() if s["rule"] == "cone")
+    low, high = map(Fraction, cone["relations"][0]["jacobian"][0])
+    cone["relations"][0]["matrices"] = balanced(low, high, 14)
+    cone["forms"] = [["1", f"-{LONG}"], ["1", "-1/3"]]
+    return made
+
+
+def deep_json():
+    return "[" * 2_000_000
+
+
+def deep_tree():
+    made = json.dumps(many("formula-value", [value("x", x=["0", "1"])]))
+    cuts = "".join(f'["1", "{2 ** (k + 2) - 1}/{2 ** (k + 1)}", ' for k in range(200))
+    return made.replace('"tree": null', f'"tree": {cuts}null' + ", null]" * 200)
+
+
+def many_variables():
+    names = [f"x{i}" for i in range(30)]
+    product = "*".join(f"sin({a}*{b})" for a, b in zip(names, names[1:] + names[:1], strict=True))
+    box = {name: ["0", "1"] for name in names}
+    return many("formula-value", [value(product, ("2", "3"), **box)] * 1500)
+
+
+HOSTILE = {
+    name: made
+    for name, made in list(globals().items())
+    if callable(made)
+    and getattr(made, "__module__", "") == __name__
+    and name not in ("document", "many", "value", "equal", "balanced", "source_of", "outcome")
+}
+
+
+def source_of(name):
+    made = HOSTILE[name]()
+    return made if isinstance(made, str) else json.dumps(made, separators=(",", ":"))
+
+
+def outcome(name):
+    """How a file ends: the kind of answer, the message, seconds."""
+    source = source_of(name)
+    start = time.process_time()
+    try:
+        check(source)
+        ended = "accepted", ""
+    except (Malformed, Rejected, Exhausted) as error:
+        ended = type(error).__name__, str(error)
+    return *ended, time.process_time() - start, len(source)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        kind, message, seconds, size = outcome(sys.argv[1])
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
+        told = f"{size / 1e6:5.1f} MB {seconds:6.2f} s {peak:4} MB {kind} {message[:60]}"
+        print(f"{sys.argv[1]:24} {told}")
+    else:
+        for each in HOSTILE:
+            subprocess.run([sys.executable, "-m", __spec__.name, each], check=False)

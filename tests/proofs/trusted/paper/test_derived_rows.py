@@ -1,0 +1,57 @@
+"""Rows that follow from formulas: decided once all that their theorems need is proved."""
+
+from fractions import Fraction
+
+import pytest
+
+from proofs.trusted.paper.formulas import Equal, Passage, Value, at, corollary, derived_row, differ
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
+
+
+class TestDecisions:
+    ASKED = (at("x - 1", 1, x="2"), differ("x", "2*x", x="3"))
+    LEMMA = corollary("It begins.", Equal("x", "x"))
+    THEOREM = corollary("It is in {0}. So {1} is not.", LEMMA, values=ASKED, reports=("first",))
+    ROW = derived_row(Passage("S1", "1", "words"), "It is so.", Verdict.REFUTED, THEOREM)
+
+    def found(self, **changes):
+        one = {"function": "x - 1", "x": "2", "bounds": ("1/2", "3/2")} | changes
+        box = (("x", (Fraction(one["x"]),) * 2),)
+        bounds = tuple(map(Fraction, one["bounds"]))
+        three = (("x", (Fraction(3),) * 2),)
+        other = Value("(x) - (2*x)", three, (Fraction(-3), Fraction(-3)))
+        return [Equal("x", "x"), Value(one["function"], box, bounds), other]
+
+    def test_decides_by_the_tightest_bounds(self):
+        wide = self.found(bounds=("1/3", "2"))
+        decided = self.ROW.decide(PAPER, [*wide, *self.found()])
+        assert decided.verdict is Verdict.REFUTED
+        assert decided.why == "It is in [0.5, 1.5]"
+        assert decided.witness == "It is in [0.5, 1.5]. So -3 is not."
+        assert decided.quantities == {"first": (Fraction(1, 2), Fraction(3, 2))}
+
+    @pytest.mark.parametrize(
+        "changes",
+        [
+            {"function": "x - 2"},
+            {"x": "5/2"},
+            {"bounds": ("0", "3/2")},
+            {"bounds": ("-3/2", "-1")},
+        ],
+    )
+    def test_another_value_decides_nothing(self, changes):
+        decided = self.ROW.decide(PAPER, self.found(**changes))
+        assert decided.verdict is Verdict.UNDECIDED and decided.witness is decided.theorem is None
+
+    def test_every_part_is_needed_of_what_is_nearby_too(self):
+        beside = derived_row(
+            Passage("S1", "1", "words"), "", Verdict.VERIFIED, self.LEMMA, corrected=(self.THEOREM,)
+        )
+        assert beside.needs == self.ROW.needs == (Equal("x", "x"), *self.ASKED)
+        assert beside.decide(PAPER, self.found()).theorem.startswith("It is in")
+        for index in range(3):
+            found = self.found()
+            del found[index]
+            assert self.ROW.decide(PAPER, found).verdict is Verdict.UNDECIDED
+            assert beside.decide(PAPER, found).verdict is Verdict.UNDECIDED
