@@ -224,7 +224,7 @@ def entropy_bound(view, rng):
 
 
 def fixed_point(view, rng):
-    """f increases by `least` or more on the domain, across it; the bracket holds the fixed point."""
+    """f grows by `least` or more on the domain, across it; the bracket holds the fixed point."""
     told = [] if view.least > 1 else ["f is not said to expand"]
     told += smooth(view, view.domain, (view.least, 10**9), rng, 4)
     images = [lifted(view, phase) for phase in (*view.domain, *view.bracket)]

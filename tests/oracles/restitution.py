@@ -86,8 +86,8 @@ def _shortfall(view, word, rng, shares=(0, 1, None)):
     part of a word are an interval, found by bisection.
     """
     least, sets = None, (view.strips.left, view.strips.right)
-    for share in shares:
-        share = Fraction(rng.random() if share is None else share)
+    for given in shares:
+        share = Fraction(rng.random() if given is None else given)
         eta, nu, epsilon = (between(side, share) for side in view.box)
         gamma = between(view.strips.velocities, Fraction(rng.choice((0, 1, rng.random()))))
         at = SimpleNamespace(eta=eta, nu=nu, epsilon=epsilon, gamma=gamma)
@@ -176,7 +176,7 @@ def rectangle_horseshoe(view, rng):
 def golden_mean(view, rng):
     """Words without 11 are followed, words that end in 11 after a few letters are not."""
     told = [] if view.box[2][0] > 0 else ["without restitution F is not one-to-one"]
-    for state, index, found in _impacts(view, rng):
+    for _, index, found in _impacts(view, rng):
         if isinstance(found, str):
             told.append(found)
         elif index == 0 or inside_mod(found.lifted, view.strips.left):

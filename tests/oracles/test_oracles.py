@@ -131,13 +131,6 @@ def _never_disjoint(record):
         graph.nodes[1].centre = tuple(x + F(1, 10**6) for x in graph.nodes[1].centre)
 
 
-def _zero_inside(record):
-    """x - m, m a point inside of the box."""
-    middle = [a + (b - a) * F(2, 5) for a, b in record.box]
-    names = zip(record.formula.variables, middle, strict=True)
-    record.formula.texts = tuple(f"{name} - ({x})" for name, x in names)
-
-
 LINEAR = [put("ratios", (F(7, 10), F(4, 5))), put("ratios", (F(1, 3), F(1, 4)))]
 FALSE = {
     "FirstImpact": [offs("windows"), put("windows", ())],
@@ -154,9 +147,7 @@ FALSE = {
     "InvariantSet": [
         put("interval", (F("1.11"), F("1.3"))),
         _of("shift", put("factors", "01")),
-        put(
-            "sentence", lambda old: old.replace("1, 3, 7", "2, 4, 8").replace("2, 4, 8", "1, 3, 7")
-        ),
+        put("sentence", lambda old: old.replace("f^n has ", "f^n has 9")),
     ],
     "Repeller": [
         offs("dimension"),
@@ -180,7 +171,7 @@ FALSE = {
     "FullShift": [_swap("cells"), offs("slopes"), put("cells", lambda old: old[:1])],
     "Connections": [_swap("cells"), put("cells", lambda old: old[:2]), offs("cells")],
     "StayingOrbit": [
-        _swap("cells"),
+        put("cells", lambda old: old[:-1] or old),
         offs("cells"),
         put("region", ((F("1.11"), F("1.32")),)),
     ],
@@ -223,12 +214,12 @@ FALSE = {
     "RectangleHorseshoe": [
         put("margin", F(1, 2)),
         put("rates", lambda old: (F(9), old[1])),
-        put("rates", lambda old: (old[0], F(1, 99))),
+        put("rates", lambda old: (old[0], F(1, 10**9))),
         _of("strips", put("velocities", (F(-9, 20), F(-2, 5)))),
     ],
     "GoldenMean": [
         put("rates", (F(9), F(1, 99))),
-        _of("strips", put("right", lambda old: (old[0] + F(1, 20), old[1] + F(1, 20)))),
+        _of("strips", put("right", (F("1.2"), F("1.22")))),
     ],
     "Hyperbolic": [
         put("grow", F(9)),
@@ -242,16 +233,12 @@ FALSE = {
     ],
     "Series": [put("coefficients", lambda old: (*old[:-1], f"({old[-1]}) + 1/1000"))],
     "Value": [offs("bounds")],
-    "Sign": [put("sign", lambda old: -old)],
-    "Monotone": [put("sign", lambda old: -old)],
-    "Within": [put("bounds", lambda old: (old[1] + 1, old[1] + 2))],
-    "Expands": [put("bound", lambda old: 100 * old)],
-    "NoZero": [_zero_inside],
-    "Refuted": [put("point", lambda old: tuple(x + 1000 for x in old))],
-    "Zero": [put("interval", lambda old: (old[1] + 1, old[1] + F(11, 10)))],
-    "Root": [put("bracket", lambda old: (old[0], old[0]))],
+    "Zero": [
+        offs("bracket"),
+        put("bracket", lambda old: (old[0], old[0])),
+        put("function", lambda old: f"({old})**2 + 1"),
+    ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
-    "Identity": [put("derivative", lambda old: (*old, 0))],
     "HSet": [put("inverse", lambda old: tuple(tuple(2 * x for x in row) for row in old))],
     "Covers": [put("orientation", lambda old: -old), _local],
     "Graph": [_never_disjoint],
