@@ -137,8 +137,8 @@ def _rates(derivative, rates):
     (p, q), (r, s) = ([float(x) for x in row] for row in derivative)
     q, r = CONE * q, r / CONE
     grow = min(abs(p + q * t) for t in (-1, 0, 1))
-    vectors = ((p * k / 50 + q, r * k / 50 + s) for k in range(-50, 51))
-    shrink = max((abs(y) for x, y in vectors if abs(x) <= abs(y)), default=0)
+    edges = ((s - q) / (p - r), (-s - q) / (p + r)) if p > abs(r) else ()
+    shrink = max((abs(r * t + s) for t in edges), default=1)
     if grow < float(rates[0]) - 1e-9 or shrink > float(rates[1]) + 1e-9 or p <= 0:
         yield f"the rates are {grow:.6g}, {shrink:.6g}"
     if not rates[1] < 1 < rates[0]:
@@ -181,7 +181,7 @@ def golden_mean(view, rng):
             told.append(found)
         elif index == 0 or inside_mod(found.lifted, view.strips.left):
             told += _rates(found.derivative(), view.rates)
-    word = (0,)
+    word = (0, 1, 0)
     while len(word) < 6:
         word += (0,) if word[-1] else (rng.randint(0, 1),)
     if _shortfall(view, word, rng, (None,)):
