@@ -7,6 +7,7 @@ codac changes the rounding mode of its process, and has one of its own (`codac_s
 from __future__ import annotations
 
 import importlib.util
+import operator
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -43,6 +44,7 @@ class Arithmetic:
     series: Callable[[list[Any]], Any] = lambda coefficients: Jet(*coefficients)
     coefficient: Callable[[Any, int], Any] = lambda series, k: series.coefficients[k]
     precision: Callable[[int], AbstractContextManager[object]] = nullcontext
+    greater: Callable[[Any, Any], bool] | None = None  # where that is faster than a difference
 
     def point(self, x: End) -> Any:
         """Enclose one number."""
@@ -103,11 +105,12 @@ def _flint(bits: int) -> Arithmetic:
         number=lambda low, high: exact(low) if low == high else exact(low).union(exact(high)),
         ends=ends,
         middle=lambda x: x.mid(),
-        positive=lambda x: x > 0,
+        positive=arb(0).__lt__,  # 0 < x
         call=lambda function, x: getattr(x, function)(),
         series=lambda coefficients: series(coefficients, len(coefficients)),
         coefficient=lambda of, k: of[k],
         precision=flint.ctx.workprec,
+        greater=operator.gt,
     )
 
 

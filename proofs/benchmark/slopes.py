@@ -93,14 +93,14 @@ def exclude(of: Arithmetic, boxes: Sequence[Any], grid: Sequence[float]) -> None
         (mass_sin, mass_cos), (s, c) = sincos(eta * piece), sincos(piece)
         pull = eta * eta * mass_cos
         on_pieces.append((share * (pull - c), share * (eta * mass_sin - s), share * pull))
-    positive = of.positive
+    positive, greater = of.positive, of.greater or (lambda x, y: of.positive(x - y))
     for sin, cos in map(sincos, boxes):
         lift, rate = nu * sin, nu * cos
         heights = [a * lift + b * rate + d for a, b, d in at_times]
         drops = [a * lift + b * rate + d for a, b, d in on_pieces]
         chords = zip(heights, heights[1:], drops[1:], strict=False)
         above = positive(drops[0]) and all(map(positive, heights))
-        above = above and all(positive(x - drop) and positive(y - drop) for x, y, drop in chords)
+        above = above and all(greater(x, drop) and greater(y, drop) for x, y, drop in chords)
         _require(above, "an earlier impact is not excluded")
 
 

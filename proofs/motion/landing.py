@@ -16,13 +16,12 @@ from proofs.motion.flight import Flight
 from proofs.motion.image import separation_phase
 from proofs.motion.impact import impact_time, locate
 from proofs.motion.kernel import Launches
-from proofs.motion.phase import phase_after, turn
+from proofs.motion.phase import turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
 from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Phase, Phases, Range
-from proofs.trusted.paper.s34_circle.absorption import BRACKET
-from proofs.trusted.paper.s34_circle.cells import Cell
+from proofs.trusted.paper.s34_circle.absorption import BRACKET, Cell
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Lands,
@@ -33,22 +32,33 @@ from proofs.trusted.paper.s34_circle.landing import (
 from proofs.trusted.parameters import Place
 
 
-def prove_separation(system: System, bits: int) -> Separation:
-    """Enclose the ends of the sticking arc, and the flight from it, to about 2^-bits."""
+def prove_separation(system: System, bits: int) -> tuple[Separation, list[Fraction]]:
+    """Enclose the ends of the sticking arc, and the flight from it, to about 2^-bits.
+
+    Return that, and the times of the proof, the window of the impact being the last piece.
+    """
+    if system.sticking_arc != "some":
+        raise Undecided("the mass sticks nowhere, or everywhere: there is no separation phase")
     unit = Fraction(1, 2**bits)
     if system.sticking_arc != "some":
         raise Undecided("the mass never sticks, or never leaves: there is no separation phase")
     centre = round(separation_phase(system, bits + 20)[0] / unit) * unit
-    phase = centre - unit, centre + unit
+    phase = Phase(centre - unit, centre + unit)
     ends = [launch_acceleration(Flight(system, (x, x), bits + 40).start) for x in phase]
     if not (ends[0].certainly_negative() and ends[1].certainly_positive()):
         raise Undecided("the separation phase is not bracketed")
     found = locate(system, phase, separating=True)
     time = impact_time(found, phase, bits - 10)
-    pi = Interval.pi(precision=bits + 20) * 3
-    start = pi.inf - phase[1], pi.sup - phase[0]
-    arrival = phase_after(phase[0], (time[0], time[1] + phase[1] - phase[0]), bits + 20)
-    return Separation(_at(system), Phase(*start), Phase(*phase), time, Phase(*arrival))
+    speed = -found.thin(phase, bits).velocity(*time)
+    pi, whole = Interval.pi(precision=bits + 20), turn(bits + 20)
+    odd = 1 + 2 * int((phase[0] / pi.inf - Fraction(1, 2)) // 1)
+    start = (pi * odd).inf - phase[1], (pi * odd).sup - phase[0]
+    impact = phase[0] + time[0], phase[1] + time[1]
+    turns = 1 + int((impact[1] - phase[0]) // whole.inf)
+    arrival = impact[0] - turns * whole.sup, impact[1] - turns * whole.inf
+    at = Place.plastic(system.eta, system.nu)
+    times = [*(each for each in found.times[1:] if each <= found.window[0]), found.window[1]]
+    return Separation(at, start, phase, time, turns, arrival, (speed.inf, speed.sup)), times
 
 
 def _at(system: System) -> Place:

@@ -32,7 +32,8 @@ def proved(source: str) -> tuple[Bars, list[tuple[float, float]]]:
         if isinstance(step, NeverImpacts):
             never += _on_circle(step.phases)
         if isinstance(step, Separation):
-            bars.append((float(step.start[1]), float(step.phase[0]), 0))
+            arc = _on_circle((step.start[1], step.phase[0]))
+            bars += [(low, high, 0) for low, high in arc]
     return sorted(bars), never
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from proofs.shell.groups import Line
+from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.verdicts import Verdict
 
 _TITLES = {
     "horseshoe": "The horseshoe, claim by claim",
@@ -34,6 +36,18 @@ _NAMES = {
     "s0": "s_0",
     "s0_reciprocal_slopes": "s_0 with the ratios 1 / slope",
 }
+
+
+@dataclass(frozen=True)
+class Line:
+    """One decided claim, as the screen and the page show it."""
+
+    id: str
+    verdict: Verdict
+    statement: str
+    why: str
+    corrected: str | None
+    quantities: Mapping[str, Range]
 
 
 def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Line]) -> str:

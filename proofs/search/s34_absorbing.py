@@ -38,8 +38,13 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import gap, launch_acceleration
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import BRACKET, Absorption
-from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
+from proofs.trusted.paper.s34_circle.absorption import (
+    BRACKET,
+    Absorption,
+    Cell,
+    absorbed,
+    in_order,
+)
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Separation
 

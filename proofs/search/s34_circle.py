@@ -93,8 +93,8 @@ class _Run:
 
 def prove_arc(prover: Prover) -> tuple[str, Separation]:
     """Prove where the mass sticks and where it lands after it separates (rule separation)."""
-    found = prove_separation(prover.system, prover.bits + 30)
-    witness = {"phase": texts(found.phase), "time": texts(found.time)}
+    found, times = prove_separation(prover.system, prover.bits + 30)
+    witness = {"phase": texts(found.phase), "times": texts(times), "time": texts(found.time)}
     return prover.add("separation", witness), found
 
 

@@ -15,19 +15,18 @@ from fractions import Fraction
 from intervals import DomainError, Undecided
 from proofs.motion.chatter import Pushing, Settled
 from proofs.motion.covering import halves
-from proofs.motion.image import separation_phase
-from proofs.motion.impact import HORIZON, FirstImpact, impact_time, locate
-from proofs.motion.phase import turn
+from proofs.motion.impact import HORIZON
 from proofs.motion.simulate import late_state
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
-from proofs.trusted.paper.s34_circle.stable_pair import StablePair, stable_pair
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.persistence import StablePair, SuperstableMotion, stable_pair
 from proofs.trusted.parameters import Parameters, Place
 
 CLAIMS = ("G7", "G8")
@@ -65,23 +64,10 @@ def prove(
 
 def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
     """Prove that the motion from phi_s comes to rest, for as many epsilon as can be."""
-    system, bits = prover.system, prover.bits
-    if system.sticking_arc != "some":
-        raise Undecided("the mass sticks nowhere, or everywhere: there is no separation phase")
-    leave = separation_phase(system, bits + 20)
-    found = locate(system, leave, separating=True)
-    time = impact_time(found, leave, bits)
-    flight = found.thin(leave, bits)
-    arrival = leave[0] + time[0], leave[1] + time[1]
-    whole = turn(bits + 30)
-    turns = int((arrival[1] - leave[0]) // whole.inf) + 1
-    impact = arrival[0] - turns * whole.sup, arrival[1] - turns * whole.inf
-    speed = -flight.velocity(*time)
-    cells = _cells(Pushing(system, leave[0]), impact, (speed.inf, speed.sup))
+    separation, arc = prove_arc(prover)
+    cells = _cells(Pushing(prover.system, arc.phase[0]), arc)
     witness = {
-        "separation": texts(leave),
-        "times": texts(_times(found)),
-        "time": texts(time),
+        "separation": separation,
         "spread": str(_SPREAD),
         "cells": [
             {
@@ -94,29 +80,18 @@ def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
         ],
     }
     rest = max(settled.rest for _, settled in cells)
-    at = Place((system.eta, system.eta), (system.nu, system.nu), (Fraction(0), cells[-1][0]))
-    motion = SuperstableMotion(
-        at, leave, time, turns, impact, (speed.inf, speed.sup), _SPREAD, rest
-    )
+    motion = SuperstableMotion(arc, cells[-1][0], _SPREAD, rest)
     return prover.add("superstable-motion", witness), motion
 
 
-def _times(found: FirstImpact) -> list[Fraction]:
-    """Return the times of the proof, the window of the impact being the last piece."""
-    return [time for time in found.times[1:] if time <= found.window[0]] + [found.window[1]]
-
-
-def _cells(pushing: Pushing, impact: Range, speed: Range) -> list[_Cell]:
+def _cells(pushing: Pushing, arc: Separation) -> list[_Cell]:
     """Prove that bounces after impacts nearby end, for epsilon from 0 up to as much as can be.
 
     By steps of epsilon and ever smaller ones, until the proof fails.
     """
-    phases, speeds = ((low - _SPREAD, high + _SPREAD) for low, high in (impact, speed))
-    if speeds[0] <= 0:
-        raise Undecided("the impact after the separation phase is too slow")
-    arc = phases[0], pushing.last - _SPREAD  # beyond it the acceleration increases to 0
-    if not pushing.accelerations(arc).certainly_negative():
-        raise Undecided("the impact after the separation phase is not on the sticking arc")
+    phases, speeds = ((low - _SPREAD, high + _SPREAD) for low, high in (arc.arrival, arc.speed))
+    if not (speeds[0] > 0 and arc.start[1] < phases[0] and phases[1] < arc.phase[0]):
+        raise Undecided("the impact after the separation phase is too slow, or not on the arc")
     cells: list[_Cell] = []
     done = Fraction(0)
     for step in _STEPS:

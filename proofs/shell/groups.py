@@ -13,14 +13,9 @@ from types import MappingProxyType
 from typing import Any
 
 from intervals import decimal_bounds
+from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
-from proofs.trusted.certificate import (
-    SCHEMA,
-    Reader,
-    parameters_to_json,
-    render,
-    used_steps,
-)
+from proofs.trusted.certificate import SCHEMA, Reader, parameters_to_json, render, used_steps
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.parameters import Parameters
@@ -46,18 +41,6 @@ FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
     | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
 )  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)
-
-
-@dataclass(frozen=True)
-class Line:
-    """One decided claim, as the screen and the page show it."""
-
-    id: str
-    verdict: Verdict
-    statement: str
-    why: str
-    corrected: str | None
-    quantities: Mapping[str, Range]
 
 
 @dataclass(frozen=True)
@@ -125,8 +108,6 @@ def produce(
 
     options go to the prover of the first group.
     """
-    from proofs.report.page import page
-
     lines: list[Line] = []
     entries: list[dict[str, Any]] = []
     steps: dict[str, dict[str, Any]] = {}

@@ -18,6 +18,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import (
     Parser,
@@ -30,7 +31,7 @@ from proofs.shell.cli import (
     progress,
     writable,
 )
-from proofs.shell.groups import FILES, Line, Made, printed, produce, wanted
+from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.trusted.certificate import (
     Malformed,
     read,

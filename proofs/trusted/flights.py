@@ -17,7 +17,7 @@ from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Range, show_range
+from proofs.trusted.numbers import TURN, Range, increasing, show_range, within
 from proofs.trusted.parameters import Place
 
 COVER_BITS = 64
@@ -104,25 +104,28 @@ def first_windows(
 class Motion:
     """The gap of all launches in `phases`, in the checker's arithmetic."""
 
-    side: int
     eta: Fraction
     nu: Fraction
     phases: Range
     bits: int = COVER_BITS
 
+    @property
+    def side(self) -> int:
+        """The sign of nu."""
+        return 1 if self.nu > 0 else -1
+
     def start(self) -> Launch:
         """Return the launch states."""
-        return self._launch(Enclosure.of(*self.phases, self.bits))
+        return self.launch(Enclosure.of(*self.phases, self.bits))
 
-    def _launch(self, phi: Enclosure | Dual) -> Launch:
-        return launch(self.side, self._eta(), rational(self.nu, self.bits), phi)
+    def launch(self, phi: Enclosure | Dual) -> Launch:
+        """Return the state after a launch at a phase."""
+        return launch(self.side, rational(self.eta, self.bits), rational(self.nu, self.bits), phi)
 
-    def _eta(self) -> Enclosure:
-        return rational(self.eta, self.bits)
-
-    def clock(self, time: Range) -> Clock:
+    def clock(self, time: Range | Dual) -> Clock:
         """Return the time functions over an interval of times."""
-        return clock(self._eta(), Enclosure.of(*time, self.bits))
+        t = time if isinstance(time, Dual) else Enclosure.of(*time, self.bits)
+        return clock(rational(self.eta, self.bits), t)
 
     def gap(self, start: Launch, time: Range, order: int = 0) -> Enclosure:
         """Enclose a time derivative of the gap."""
@@ -134,24 +137,19 @@ class Motion:
         """The gap as a function of time and order."""
         return partial(self.gap, self.start())
 
-    def falls(self, start: Launch, time: Range) -> bool:
-        """Whether gap' < 0 on an interval of times."""
-        return falls(partial(self.gap, start), time)
-
     def slope(self, time: Range) -> Enclosure:
         """Enclose f' for impacts at times in `time`."""
-        start = self.start()
-        value: Enclosure = slope(start, self.clock(time), fall(partial(self.gap, start), time))
+        value: Enclosure = slope(self.start(), self.clock(time), fall(self.gap_of, time))
         return value
 
     def curvature(self, time: Range) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
         start, now = self.start(), self.clock(time)
-        one, down = rational(Fraction(1), self.bits), fall(partial(self.gap, start), time)
+        one, down = rational(Fraction(1), self.bits), fall(self.gap_of, time)
         faster = slope(start, now, down) - 1
-        moved = self._launch(Dual(Enclosure.of(*self.phases, self.bits), one))
+        moved = self.launch(Dual(Enclosure.of(*self.phases, self.bits), one))
         change = gap(moved, now, 1).derivative + self.gap(start, time, 2) * faster
-        later = clock(self._eta(), Dual(Enclosure.of(*time, self.bits), faster))
+        later = self.clock(Dual(Enclosure.of(*time, self.bits), faster))
         bent: Dual = slope(moved, later, Dual(down, change))
         return bent.derivative
 
@@ -167,7 +165,6 @@ class FirstImpact(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         times = ", ".join(show_range(window) for window in self.windows)
         kind = "transversal first" if self.transversal else "first"
         return (
@@ -187,7 +184,7 @@ def read_phases(reader: Reader) -> Range:
 def read_times(reader: Reader) -> tuple[Fraction, ...]:
     """Read times 0 < t_1 < ... < t_n, n >= 2."""
     times = reader.numbers(least=2)
-    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
+    if times[-1] > LATEST or not increasing((_ZERO, *times)):
         raise reader.fail(f"times must increase from 0, to at most {LATEST}")
     return times
 
@@ -204,8 +201,10 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, of = read_times(times_of), context.of
-    side = 1 if of.nu > 0 else -1
-    motion = Motion(side, of.eta, of.nu, read_phases(phases_of), bits_for_pieces(times))
+    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
+    # gaps are of the order w^2 in a piece of width w
+    bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    motion = Motion(of.eta, of.nu, read_phases(phases_of), bits)
     return FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 2))
 
 
@@ -214,7 +213,7 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
     step = context.step(name, FirstImpact)
     if not step.transversal:
         raise Unproved("the first impact is not transversal")
-    if phases[0] < step.motion.phases[0] or phases[1] > step.motion.phases[1]:
+    if not within(phases, step.motion.phases):
         raise name.fail("the step is about other phases")
     return step
 
@@ -227,12 +226,6 @@ def bits_for(time: Range) -> int:
     return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
 
 
-def bits_for_pieces(times: Sequence[Fraction]) -> int:
-    """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
-    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-
-
 def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
     """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
 
@@ -240,7 +233,7 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
     lower end and gap < 0 at the upper one bracket it.
     """
     time, window, motion = time_of.range(), step.windows[0], step.motion
-    if time[0] < window[0] or time[1] > window[1]:
+    if not within(time, window):
         raise Unproved("a bracket leaves the window of the first impact")
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more

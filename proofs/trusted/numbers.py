@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import Self
 
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -88,13 +89,28 @@ def ceil_text(value: Fraction, places: int = 6) -> str:
 
 
 def between(bounds: Range, places: int = 6) -> str:
-    """Write an enclosure, rounded outward."""
-    return f"[{floor_text(bounds[0], places)}, {ceil_text(bounds[1], places)}]"
+    """Write an enclosure, rounded outward: a number where that is one."""
+    low, high = floor_text(bounds[0], places), ceil_text(bounds[1], places)
+    return low if low == high else f"[{low}, {high}]"
 
 
 def within(inner: Range, outer: Range) -> bool:
     """Whether one range contains another."""
     return outer[0] <= inner[0] and inner[1] <= outer[1]
+
+
+def increasing(values: Sequence[Fraction]) -> bool:
+    """Whether numbers increase strictly."""
+    return all(low < high for low, high in pairwise(values))
+
+
+def covered(whole: Range, parts: Iterable[Range]) -> bool:
+    """Whether an interval is covered by others, in the order of their lower ends."""
+    reached = whole[0]
+    for low, high in parts:
+        if low <= reached:
+            reached = max(reached, high)
+    return whole[1] <= reached
 
 
 def hull(ranges: Sequence[Range]) -> Range:

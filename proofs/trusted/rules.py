@@ -54,7 +54,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "branch": "paper.s34_circle.entropy.branch",
         "covering-graph": "paper.s34_circle.entropy.covering_graph",
         "superstable-motion": "paper.s34_circle.persistence.superstable_motion",
-        "stable-pair": "paper.s34_circle.stable_pair.prove_stable_pair",
+        "stable-pair": "paper.s34_circle.persistence.prove_stable_pair",
         "single-solution": "paper.s4_single.orbits.single_solution",
         "single-orbit": "paper.s4_single.orbits.single_orbit",
         "single-eta-windows": "paper.s4_single.orbits.eta_windows",

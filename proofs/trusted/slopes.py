@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import (
@@ -26,8 +25,10 @@ from proofs.trusted.numbers import (
     Phase,
     Phases,
     Range,
+    between,
     ceil_text,
     floor_text,
+    increasing,
     show,
     show_range,
 )
@@ -45,20 +46,8 @@ class Impact(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        slope, image = (
-            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]"
-            for low, high in (self.slope, self.image)
-        )
+        slope, image = between(self.slope, 12), between(self.image, 12)
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
-
-    @property
-    def brief(self) -> str:
-        """Return the numbers."""
-        return (
-            f"{floor_text(self.slope[0])} <= f'({show(self.phase)}) <= {ceil_text(self.slope[1])}, "
-            f"{floor_text(self.image[0])} <= f({show(self.phase)}) <= {ceil_text(self.image[1])}"
-        )
 
 
 @dataclass(frozen=True)
@@ -72,9 +61,8 @@ class SlopeRange(Conclusion):
     pieces: tuple[Range, ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the points are phases in order."""
         Phases(self.points[0], self.points[-1])
-        if any(low >= high for low, high in pairwise(self.points)):
+        if not increasing(self.points):
             raise Unproved("points must be in order")
 
     def over(self, domain: Range) -> SlopeRange | None:
@@ -112,21 +100,15 @@ class SlopeRange(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        return (
-            f"f is continuously differentiable on {show_range(self.domain)}, with "
-            f"{floor_text(self.minimum[0])} <= f' <= {ceil_text(self.maximum[1])}."
-        )
+        return f"f is continuously differentiable, with {self.brief}."
 
     @property
     def brief(self) -> str:
-        """Return the bounds."""
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
         return f"{low} <= f' <= {high} on {show_range(self.domain)}"
 
     @property
     def latex(self) -> str:
-        """Return the bounds."""
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
         return rf"{low} \le f'(\varphi) \le {high},\ \varphi \in {show_range(self.domain)}"
 
@@ -158,19 +140,9 @@ class ImageArc(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        ends = [f"[{floor_text(x[0], 12)}, {ceil_text(x[1], 12)}]" for x in (self.low, self.high)]
         return (
             f"f maps {show_range(self.domain)} monotonically onto the arc from a phase in "
-            f"{ends[0]} up to one in {ends[1]}."
-        )
-
-    @property
-    def brief(self) -> str:
-        """Return where the image ends."""
-        return (
-            f"f({show_range(self.domain)}) reaches from {floor_text(self.low[0])}.. to "
-            f"{ceil_text(self.high[1])}"
+            f"{between(self.low, 12)} up to one in {between(self.high, 12)}."
         )
 
 
@@ -202,7 +174,6 @@ class Avoids(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         phases, target = show_range(self.phases), show_range(self.target)
         return f"no phase of {phases} has its first impact in {target}."
 
@@ -233,8 +204,7 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
     f'(x_(i+1)) - f'' [0, w] (mean value theorem).
     """
     points_of, pieces_of = reader.fields("points", "pieces")
-    entries = points_of.items(least=2)
-    facts = [point(context, entry) for entry in entries]
+    facts = [point(context, entry) for entry in points_of.items(least=2)]
     pieces = []
     for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
         flight, time_of = entry.fields("flight", "time")

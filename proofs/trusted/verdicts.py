@@ -34,11 +34,18 @@ class Verdict(Enum):
 
 def told(conclusions: Iterable[Conclusion]) -> str:
     """Return conclusions as a text: their sentences, each after the parameters that it is about."""
-    parts = []
+    parts: list[str] = []
     for at, group in groupby(dict.fromkeys(conclusions), key=lambda each: each.place):
-        sentences = " ".join(each.sentence for each in group)
-        parts.append(sentences if at is None else f"At {at}: {sentences}")
+        first, *more = (each.sentence for each in group)
+        start = f"At {at}: {first}" if at is not None else _begun(first) if parts else first
+        parts += [start, *map(_begun, more)]
     return " ".join(parts)
+
+
+def _begun(sentence: str) -> str:
+    """Begin a sentence with a capital letter, unless its first word is a symbol, such as f."""
+    word = sentence.split(" ", 1)[0].rstrip(",:")
+    return sentence[:1].upper() + sentence[1:] if len(word) > 1 and word.isalpha() else sentence
 
 
 @dataclass(frozen=True)
@@ -60,7 +67,7 @@ class Decision:
     @property
     def why(self) -> str:
         """A line with the numbers."""
-        reasons = [each.brief for each in dict.fromkeys(self.because)]
+        reasons = [each.brief.rstrip(".") for each in dict.fromkeys(self.because)]
         spare = [] if self.margin is None else [f"margin {floor_text(self.margin)}"]
         return self.missing or "; ".join([*reasons, *spare])
 

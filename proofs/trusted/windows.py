@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.equations import clock, gap, launch
+from proofs.trusted.equations import gap
 from proofs.trusted.flights import Motion, stays_up
-from proofs.trusted.flights import falls as gap_falls
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, hull
 
 BITS = 80
-_DEEPEST = 24
+DEEPEST = 24  # halvings of an interval of times
 _ZERO = Fraction(0)
 _UNIT = Fraction(1, 2**30)
 
@@ -44,29 +43,22 @@ class Meetings:
     @classmethod
     def of(cls, motion: Motion) -> Meetings:
         """Find delta, sigma and tau in floating point, and prove the hypotheses."""
+        start, bits, table = motion.start(), motion.bits, rational(motion.nu, motion.bits)
+        along, across = 1 + start.lift, start.rate / start.eta
         try:
-            return cls._found(motion)
+            delta = _near(math.atan2(*(float(sum(x.range)) for x in (across, along))))
+            sin, cos = rational(delta, bits).sincos()
+            a, b = along * cos + across * sin, across * cos - along * sin
+            if a.lo <= 0:
+                raise Unproved("the amplitude is not proved positive")
+            size = max(abs(b.lo), abs(b.hi))
+            sideways = Enclosure(size, size, bits)
+            amplitude = a + sideways * sideways / a / 2  # sqrt(a^2 + b^2) <= a + b^2 / (2 a)
+            if amplitude.hi < (1 + table).lo:
+                raise Unproved("the mass never meets the table")
+            return cls(motion, delta, _sigma(amplitude, table), _tau(a, sideways, 1 + table))
         except (OverflowError, ZeroDivisionError):
             raise Unproved("numbers beyond floating point") from None
-
-    @classmethod
-    def _found(cls, motion: Motion) -> Meetings:
-        start, bits = motion.start(), motion.bits
-        phase = float(motion.phases[0] + motion.phases[1]) / 2
-        nu, eta = float(motion.nu), float(motion.eta)
-        delta = _near(math.atan2(nu * math.cos(phase) / eta, 1 + nu * math.sin(phase)))
-        sin, cos = rational(delta, bits).sincos()
-        along, across = 1 + start.lift, start.rate / start.eta
-        a, b = along * cos + across * sin, across * cos - along * sin
-        size = max(abs(b.lo), abs(b.hi))
-        sideways = Enclosure(size, size, bits)
-        if a.lo <= 0:
-            raise Unproved("the amplitude is not proved positive")
-        amplitude = a + sideways * sideways / a / 2  # sqrt(a^2 + b^2) <= a + b^2 / (2 a)
-        table = rational(motion.nu, bits)
-        if amplitude.hi < (1 + table).lo:
-            raise Unproved("the mass never meets the table")
-        return cls(motion, delta, _sigma(amplitude, table), _tau(a, sideways, 1 + table))
 
     def window(self, turn: int) -> Range:
         """Return the times of all launches at which |s - 2 pi turn| <= sigma."""
@@ -80,18 +72,14 @@ class Meetings:
         """
         bits, eta = self.motion.bits, self.motion.eta
         first = self.window(0)
-        whole = 2 * pi(bits)
-        bounds = Enclosure.of(
-            eta * first[0] - self.delta - self.tau, eta * first[1] - self.delta + self.tau, bits
-        )
-        share = bounds / whole
-        unit = eta.denominator << bits
-        low, high = share.lo * eta.denominator, share.hi * eta.denominator
-        step = eta.numerator << bits
+        shifts = -self.delta - self.tau, -self.delta + self.tau
+        bounds = Enclosure.of(eta * first[0] + shifts[0], eta * first[1] + shifts[1], bits)
+        share, unit = bounds / (2 * pi(bits)), eta.denominator << bits
+        low, high = share.lo * eta.denominator, share.hi * eta.denominator  # whole numbers: fast
         for turn in range(count):
-            if -((-low) // unit) <= high // unit:
+            if -(-low // unit) <= high // unit:
                 yield self.window(turn)
-            low, high = low + step, high + step
+            low, high = low + (eta.numerator << bits), high + (eta.numerator << bits)
 
 
 def _near(value: float) -> Fraction:
@@ -120,50 +108,39 @@ def _tau(a: Enclosure, b: Enclosure, deepest: Enclosure) -> Fraction:
     return tau if proved and 2 * tau < 3 else Fraction(4)
 
 
-# -- the gap over an interval of launches ------------------------------------------------------
+# -- the gap over an interval of launches ----------------------------------------------------------
 
 
 def leaves(motion: Motion) -> Fraction:
     """Return a time up to which gap'' > 0: all launches leave the table."""
-    start = motion.start()
     for halvings in range(10):
         time = Fraction(1, 2**halvings)
-        if motion.gap(start, (_ZERO, time), 2).lo > 0:
+        if motion.gap_of((_ZERO, time), 2).lo > 0:
             return time
     raise Unproved("the launches are not proved to leave the table")
 
 
 def level(motion: Motion, time: Fraction) -> Range:
     """Enclose the gap at one time: by the ends of the phases where it is monotone in the phase."""
-    bits, (low, high) = motion.bits, motion.phases
-    one, eta = rational(Fraction(1), bits), rational(motion.eta, bits)
-    now = clock(eta, rational(time, bits))
-    nu = rational(motion.nu, bits)
-    whole: Dual = gap(launch(motion.side, eta, nu, Dual(Enclosure.of(low, high, bits), one)), now)
+    low, high = motion.phases
+    one, now = rational(Fraction(1), motion.bits), motion.clock((time, time))
+    whole: Dual = gap(motion.launch(Dual(Enclosure.of(low, high, motion.bits), one)), now)
     if low == high or whole.derivative.lo <= 0 <= whole.derivative.hi:
         return whole.value.range
-    ends = [gap(launch(motion.side, eta, nu, rational(x, bits)), now).range for x in (low, high)]
-    return min(bottom for bottom, _ in ends), max(top for _, top in ends)
+    return hull([gap(motion.launch(rational(end, motion.bits)), now).range for end in (low, high)])
 
 
 def clear(motion: Motion, times: Range) -> None:
     """Prove gap > 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    _clear(motion, times, [level(motion, time)[0] for time in times], 0)
-
-
-def _clear(motion: Motion, times: Range, least: Sequence[Fraction], depth: int) -> None:
-    """Do `clear`, lower bounds of the gap at the ends of the interval being known."""
-    if min(least) <= 0 or depth == _DEEPEST:
-        raise Unproved("an earlier impact is not excluded")
-    if stays_up(motion.gap_of, times, min(least)):
-        return
-    middle = (times[0] + times[1]) / 2
-    between = level(motion, middle)[0]
-    _clear(motion, (times[0], middle), (least[0], between), depth + 1)
-    _clear(motion, (middle, times[1]), (between, least[1]), depth + 1)
-
-
-def falls(motion: Motion, times: Range) -> None:
-    """Prove gap' < 0 for all launches on an interval of times, halving it, or raise Unproved."""
-    if not gap_falls(motion.gap_of, times, _DEEPEST):
-        raise Unproved("the gap is not proved to fall to the impact")
+    gap_of, shortest = motion.gap_of, (times[1] - times[0]) / 2**DEEPEST
+    begin, least = times[0], level(motion, times[0])[0]
+    waiting = [(times[1], level(motion, times[1])[0])]
+    while waiting:
+        end, height = waiting[-1]
+        if min(least, height) <= 0 or end - begin <= shortest:
+            raise Unproved("an earlier impact is not excluded")
+        if stays_up(gap_of, (begin, end), min(least, height)):
+            begin, least = waiting.pop()
+        else:
+            middle = (begin + end) / 2
+            waiting.append((middle, level(motion, middle)[0]))

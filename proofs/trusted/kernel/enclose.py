@@ -1,4 +1,4 @@
-"""What rules about formulas compute with: enclosures on boxes and their parts, exact rationals.
+"""What rules about formulas compute with: enclosures on boxes and on their parts.
 
 Precision adapts: 64 bits first, then twice as many while a question is undecided."""
 
@@ -18,7 +18,6 @@ from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024)
 _LARGEST = 256  # results beyond 2^256 are not followed
-_MOST_DIGITS = 20_000  # bits of an exact rational
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
 _NO_DATUM = Fraction(0)
@@ -107,25 +106,6 @@ _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
     "sin": lambda x: x.sincos()[0],
     "cos": lambda x: x.sincos()[1],
 }
-
-
-class Exact:
-    """The operations on rationals; Unproved where a result is no rational, or a huge one."""
-
-    def apply(self, op: str, arguments: list[Fraction], datum: Fraction) -> Fraction:
-        """Return op(arguments)."""
-        digits = sum(map(size, arguments)) * (abs(int(datum)) if op == "^" else 1)
-        METER.get().spend(2 + (digits >> 6))
-        if digits > _MOST_DIGITS:
-            raise Unproved("a rational with too many digits")
-        try:
-            if op == "number":
-                return datum
-            if op == "^":
-                return Fraction(arguments[0] ** int(datum))
-            return Fraction(ARITHMETIC[op](*arguments))
-        except (KeyError, ZeroDivisionError):
-            raise Unproved(f"no exact value of {op!r}") from None
 
 
 def size(value: Fraction) -> int:

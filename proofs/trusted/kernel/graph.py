@@ -66,13 +66,13 @@ class Entropy(Conclusion):
 
 
 def graph(context: Context, reader: Reader) -> Graph:
-    """Rule `graph`: {covers}: steps about one map G = F^k, each relation once.
+    """Rule `graph`: {covers}.
 
-    Hypothesis: the h-sets N_1, ..., N_r that occur are pairwise disjoint. Conclusion: for each
-    infinite path i_0, i_1, ... of relations there is x in N_(i_0) with G^m(x) in N_(i_m) for all
-    m; for each closed path of length p one with G^p(x) = x too. The set K of all points that follow
-    infinite paths is compact, G maps it into itself, and the itinerary K -> {paths} is continuous,
-    onto, and turns G into the shift.
+    They are steps about one map G = F^k, each relation once. Hypothesis: the h-sets N_1, ..., N_r
+    that occur are pairwise disjoint. Conclusion: for each infinite path i_0, i_1, ... of relations
+    there is x in N_(i_0) with G^m(x) in N_(i_m) for all m; for each closed path of length p one
+    with G^p(x) = x too. The set K of all points that follow infinite paths is compact, G maps it
+    into itself, and the itinerary K -> {paths} is continuous, onto, and turns G into the shift.
 
     Proof. For finite and closed paths: Zgliczynski and Gidea, Covering relations for
     multidimensional dynamical systems, J. Differential Equations 202 (2004), theorem 9. Infinite
@@ -103,11 +103,12 @@ def graph(context: Context, reader: Reader) -> Graph:
 
 
 def entropy(context: Context, reader: Reader) -> Entropy:
-    """Rule `entropy`: {graph, length p, vector v, growth m}, v >= 0 integers, not all 0, m >= 1.
+    """Rule `entropy`: {graph, length p, vector v, growth m}.
 
-    Hypothesis: A^p v >= m v in each component, A the matrix of the graph (A_ij = 1 for a relation
-    N_i => N_j). Conclusion: the topological entropy of G = F^k on the set K of the graph step is at
-    least log(m) / p, that of F on the union of K, F(K), ..., F^(k-1)(K) at least log(m) / (p k).
+    Hypotheses: v has integers >= 0, not all 0, m >= 1 is an integer; A^p v >= m v in each
+    component, A the matrix of the graph (A_ij = 1 for a relation N_i => N_j). Conclusion: the
+    topological entropy of G = F^k on the set K of the graph step is at least log(m) / p, that of F
+    on the union of K, F(K), ..., F^(k-1)(K) at least log(m) / (p k).
 
     Proof. A^(pq) v >= m^q v for all q, so A has spectral radius at least m^(1/p) (Collatz and
     Wielandt), and the log of that radius is the entropy of the shift on infinite paths (Lind and

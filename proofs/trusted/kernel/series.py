@@ -13,6 +13,7 @@ from fractions import Fraction
 from math import isqrt
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log, rational
+from proofs.trusted.kernel.meter import METER
 
 Coefficient = Callable[[int], Enclosure]
 
@@ -176,6 +177,7 @@ def _convolution(a: Series, b: Series, k: int, last: int | None = None) -> Enclo
         final = min(final, a.degree)
     low, high, bits = 0, 0, b[0].bits
     if first <= final:
+        METER.get().spend((final - first + 1) * (1 + (bits >> 7)))
         left, right = a.up_to(final), b.up_to(k - first)
         for j in range(first, final + 1):
             x, y = left[j], right[k - j]

@@ -10,7 +10,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import Box, Exact, box_text, decide, leaves
+from proofs.trusted.kernel.enclose import Box, attempts, box_text, decide, leaves
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.normalform import NormalForms, number, plus, power
 from proofs.trusted.kernel.taylor import Taylor
@@ -81,7 +81,7 @@ class Value(Conclusion):
 
 
 def equal(_: Context, reader: Reader) -> Equal:
-    """Rule `formula-equal`: {left, right}, formulas.
+    """Rule `formula-equal`: {left, right}.
 
     Hypothesis: the difference of their normal forms (see `normalform`), times the polynomials of
     which it has inverses, is 0. Conclusion: they are equal wherever all their parts are defined.
@@ -101,10 +101,10 @@ def value(_: Context, reader: Reader) -> Value:
 
     Hypothesis: on each leaf of the tree, which divides the box (coordinates in the order of the
     alphabet, among all names in the text), an enclosure of the function lies within the bounds, or
-    its exact value at a leaf that is a point. Conclusion: the function is defined on the box, with
-    the functions of which it takes derivatives, and lies within the bounds there. (Bounds of one
-    sign are a sign, those of D(F, x) say that F is monotone or by how much it expands, and the
-    value at a point refutes what it contradicts.)
+    its exact value, the normal form, at a leaf that is a point. Conclusion: the function is defined
+    on the box, with the functions of which it takes derivatives, and lies within the bounds there.
+    (Bounds of one sign are a sign, those of D(F, x) say that F is monotone or by how much it
+    expands, and the value at a point refutes what it contradicts.)
     """
     function, box_of, tree, bounds_of = reader.fields("function", "box", "tree", "bounds")
     formulas = read_formulas(function)
@@ -113,21 +113,23 @@ def value(_: Context, reader: Reader) -> Value:
         raise box_of.fail("a side for each variable of the function is expected")
     bounds = bounds_of.range()
     for leaf in leaves(tree, tuple(sides.get(name, _UNUSED) for name in formulas.variables)):
-        if not _exactly_within(formulas, leaf, bounds):
+        try:
             decide(formulas, leaf, lambda found: within(found[0].range, bounds))
+        except Unproved:
+            if not _exactly_within(formulas, leaf, bounds):
+                raise
     return Value(function.string(), tuple(sides.items()), bounds)
 
 
 def _exactly_within(formulas: Formulas, box: Box, bounds: Range) -> bool:
-    """Whether a box is a point, where the function is rational and lies within bounds."""
-    if any(low < high for low, high in box):
+    """Whether a box is a point, where the function is defined and has a rational normal form."""
+    if any(low < high for low, high in box) or not any(attempts(formulas, box)):
         return False
-    point = [low for low, _ in box]
-    try:
-        exact = formulas.tape.evaluate((*formulas.roots, *formulas.parts), Exact(), point)[0]
-    except Unproved:
-        return False
-    return within((exact, exact), bounds)
+    forms = NormalForms(len(box))
+    point = [number(low) for low, _ in box]
+    (value,) = formulas.tape.evaluate(formulas.roots, forms, point)
+    exact = value.get((), Fraction(0))
+    return value.keys() <= {()} and within((exact, exact), bounds)
 
 
 def series(_: Context, reader: Reader) -> Series:

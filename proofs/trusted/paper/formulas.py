@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.values import Equal, Series, Value
-from proofs.trusted.numbers import Range, ceil_text, floor_text
+from proofs.trusted.numbers import Range, between
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -60,12 +60,6 @@ def over(function: str, sign: int, variable: str, ends: tuple[str, str], /, **po
 def differ(printed: str, derived: str, /, **point: str) -> Asked:
     """Ask for a point at which two formulas have different values."""
     return Asked(f"({printed}) - ({derived})", _point(point), (-1, 1))
-
-
-def between(bounds: Range, places: int = 6) -> str:
-    """Write bounds, rounded outward."""
-    low, high = floor_text(bounds[0], places), ceil_text(bounds[1], places)
-    return low if low == high else f"[{low}, {high}]"
 
 
 # -- theorems that follow from formulas ------------------------------------------------------------

@@ -7,15 +7,8 @@ S8 is the left side of (8), S9 the right side of (9). t is the time since t0 or 
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import (
-    Equal,
-    Passage,
-    Series,
-    at,
-    corollary,
-    derived_row,
-    theorem,
-)
+from proofs.trusted.kernel.values import Equal, Series
+from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, theorem
 from proofs.trusted.paper.s6_resonance.resonance import closed_form
 from proofs.trusted.verdicts import Verdict
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper import s2_foundations as eq
-from proofs.trusted.paper.formulas import Equal, Passage, at, derived_row, theorem
+from proofs.trusted.paper.formulas import Passage, at, derived_row, theorem
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Verdict

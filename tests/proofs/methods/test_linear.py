@@ -10,12 +10,11 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
-from proofs.trusted.kernel.lemma import check_lemma
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 MODULUS = ["sqrt", ["^", "x", "2"]]
 LINEAR = (
@@ -40,8 +39,8 @@ def certificate():
 
 
 def test_the_two_shift():
-    report = check_lemma(certificate())
-    entropy, cone = report.claims[-2:]
+    report = check(certificate())
+    entropy, cone = report.sentences[-2:]
     assert "at least log(2)/1, which lies in [0.69314718055" in entropy
     assert "exactly one full orbit" in cone
     for arrow in ("N1 => N1", "N1 => N2", "N2 => N1", "N2 => N2"):
@@ -86,7 +85,7 @@ def test_edited_files_are_refused(place, value):
     assert document["steps"][step]["witness"][name] != value
     document["steps"][step]["witness"][name] = value
     with pytest.raises((Rejected, Malformed)):
-        check_lemma(json.dumps(document))
+        check(json.dumps(document))
 
 
 def test_another_map_in_the_file():
@@ -94,7 +93,7 @@ def test_another_map_in_the_file():
     document = copy.deepcopy(json.loads(certificate()))
     text = json.dumps(document).replace('["*", "5", ', '["*", "4", ')
     with pytest.raises(Rejected):
-        check_lemma(text)
+        check(text)
 
 
 def test_the_bounds_of_the_derivative_are_those_of_the_strips():

@@ -13,11 +13,12 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.flights import FirstImpact, Motion, _meets, phase_after
+from proofs.trusted.flights import FirstImpact, Motion, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES, find_rule
+from proofs.trusted.slopes import _meets
 from tests.proofs.trusted.paper import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
@@ -346,7 +347,7 @@ def test_curvature():
     reach = Fraction(1, 10**30)
     centre = exact(flight_time("1.15"))
     phases = (Fraction("1.15"), Fraction("1.15"))
-    motion = Motion(-1, PAPER.eta, PAPER.nu, phases, 200)
+    motion = Motion(PAPER.eta, PAPER.nu, phases, 200)
     low, high = motion.curvature((centre - reach, centre + reach)).range
 
     def time(phase):

@@ -85,7 +85,7 @@ class _Branch:
         if time[1] < begin or time[0] > end:
             return 1 if time[1] < begin else -1
         motion = self.step.motion
-        thin = Motion(motion.side, motion.eta, motion.nu, (phase, phase), self.bits)
+        thin = Motion(motion.eta, motion.nu, (phase, phase), self.bits)
         height = thin.gap(thin.start(), time)
         if height.lo > 0 and time[1] <= end:
             return 1

@@ -1,30 +1,137 @@
-"""How much of the circle ends up on the arc where the mass sticks (section 3.4)."""
+"""How much of the circle ends up on the arc where the mass sticks (section 3.4): cells, followed.
+
+A phase is absorbed within n steps if one of its images under f^0, ..., f^n is in the arc. Special,
+beside the covering graphs of the kernel: what counts is the measure of what is sent on, so the
+lengths of the common parts of images and thousands of cells, followed over a hundred steps; in
+whole numbers, since enclosures would take minutes.
+"""
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import FirstImpact, Motion, brackets, lifted, whole_turns
+from proofs.trusted.flights import FirstImpact, Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Range, ceil_text, floor_text
-from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, cells_met, in_order
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import TURN, Range, ceil_text, covered, floor_text, hull, increasing
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.landing import Lands, Separation, motion_at
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.paper.s34_circle.landing import Lands, Separation
+from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, level
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `absorption`
+_UNIT = 1 << 64
 _MOST_STEPS = 400
 _LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
+
+
+# -- cells -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A closed interval of phases, and what is known of f there.
+
+    images: closed intervals that hold all images, None where nothing is known. stretch: a bound
+    of 1/|f'| where f is differentiable and one-to-one on the cell, None elsewhere. The cells,
+    with the arc, cover the circle; they lie on one line on which each image is an interval.
+    """
+
+    phases: Range
+    images: tuple[Range, ...] | None = None
+    stretch: Fraction | None = None
+
+
+def in_order(cells: Sequence[Cell]) -> list[Cell]:
+    """Sort cells, and add one of which nothing is known between two that do not adjoin.
+
+    Raises Unproved where cells share more than an end.
+    """
+    result: list[Cell] = []
+    for cell in sorted(cells, key=lambda cell: cell.phases):
+        end = result[-1].phases[1] if result else cell.phases[0]
+        if end > cell.phases[0]:
+            raise Unproved("cells overlap")
+        if end < cell.phases[0]:
+            result.append(Cell((end, cell.phases[0])))
+        result.append(cell)
+    return result
+
+
+def cells_met(cells: Sequence[Cell], image: Range) -> list[tuple[int, Fraction]]:
+    """Return which of the ordered cells an interval meets, and the lengths in common."""
+    met = []
+    index = max(0, bisect_right(cells, image[0], key=lambda cell: cell.phases[0]) - 1)
+    while index < len(cells) and cells[index].phases[0] <= image[1]:
+        low, high = cells[index].phases
+        if high >= image[0]:
+            met.append((index, min(high, image[1]) - max(low, image[0])))
+        index += 1
+    METER.get().spend(8 * len(met))
+    return met
+
+
+class Absorbed(NamedTuple):
+    """For each cell the number of steps within which all of it is absorbed, None if unknown;
+    and for n = 0, 1, ... a bound of the measure of all phases that are not absorbed within n.
+    """
+
+    steps: Sequence[int | None]
+    rest: Sequence[Fraction]
+
+
+def absorbed(cells: Sequence[Cell], count: int) -> Absorbed:
+    """Bound what is not absorbed within n <= count steps, for cells that are `in_order`.
+
+    Theorem. (1) A cell whose images meet only cells that are absorbed within n - 1 steps (and the
+    arc) is absorbed within n. (2) Let N_n be the phases not absorbed within n steps. In a cell
+    that f maps one-to-one, with 1/|f'| <= s, the phases of N_n are sent into N_(n-1); so their
+    measure is at most s times that of N_(n-1) in the image: of each cell j that this meets, at
+    most the bound for cell j and at most the common length. And it is at most the cell's length.
+    """
+    links = [
+        None
+        if cell.images is None
+        else [(j, _up(common)) for image in cell.images for j, common in cells_met(cells, image)]
+        for cell in cells
+    ]
+    factors = [
+        None if cell.images is None or cell.stretch is None else _up(cell.stretch) for cell in cells
+    ]
+    lengths = [_up(cell.phases[1] - cell.phases[0]) for cell in cells]
+    steps: list[int | None] = [None] * len(cells)
+    bounds, rest = lengths, [sum(lengths)]
+    for n in range(1, count + 1):
+        METER.get().spend(sum(1 + len(met or ()) for met in links) >> 2)
+        steps = [
+            old or (n if met is not None and all(steps[j] for j, _ in met) else None)
+            for old, met in zip(steps, links, strict=True)
+        ]
+        sent = [sum(min(bounds[j], common) for j, common in met or ()) for met in links]
+        bounds = [
+            0 if done else length if factor is None else min(length, (total * factor >> 64) + 1)
+            for done, length, factor, total in zip(steps, lengths, factors, sent, strict=True)
+        ]
+        rest.append(sum(bounds))
+    return Absorbed(steps, [Fraction(total, _UNIT) for total in rest])
+
+
+def _up(value: Fraction) -> int:
+    """Round up, in units of 2^-64."""
+    return -(-value.numerator * _UNIT // value.denominator)
+
+
+# -- cells of f ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -40,10 +147,9 @@ class Absorption(Conclusion):
     within: tuple[tuple[Range, int], ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the intervals are in order."""
         ends = [end for phases, _ in self.within for end in phases]
         empty = any(low >= high for (low, high), _ in self.within)
-        if min(self.rest) < 0 or empty or any(after < end for end, after in pairwise(ends)):
+        if min(self.rest) < 0 or empty or ends != sorted(ends):
             raise Unproved("no bound, or intervals that are not in order")
 
     @property
@@ -58,16 +164,15 @@ class Absorption(Conclusion):
 
     def reaches(self, phases: Range) -> bool:
         """Whether all of an interval of phases is proved to reach the arc."""
-        low, high = phases
-        for (first, last), _ in self.within:
-            low = max(low, last) if first <= low else low
-        return high <= low
+        return covered(phases, (part for part, _ in self.within))
 
     @property
     def sentence(self) -> str:
-        """Return the theorem, with the longest intervals, rounded inward."""
-        percents = [floor_text(100 * (1 - rest / TURN), 2) for rest in self.rest]
-        table = ", ".join(f"{n}: {percents[n]}" for n in _TABLE if n < len(percents))
+        table = ", ".join(
+            f"{n}: {floor_text(100 * (1 - rest / TURN), 2)}"
+            for n, rest in enumerate(self.rest)
+            if n in _TABLE
+        )
         named = ", ".join(
             f"{steps} from [{ceil_text(low)}, {floor_text(high)}]"
             for (low, high), steps in self.within
@@ -80,7 +185,6 @@ class Absorption(Conclusion):
 
     @property
     def brief(self) -> str:
-        """Return the share."""
         return (
             f"at least {floor_text(100 * self.share, 3)} percent of the circle come to the arc "
             f"where the mass sticks, within {len(self.rest) - 1} impacts"
@@ -108,8 +212,7 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     )
     arc = context.step(separation_of, Separation)
     cells = [Cell(context.step(name, Lands).phases, ()) for name in lands_of.items(least=2)]
-    origin = min(cell.phases[0] for cell in cells)
-    end = max(cell.phases[1] for cell in cells)
+    origin, end = hull([cell.phases for cell in cells])
     if origin > lifted(arc.phase, -1, BITS)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
     for name in impacts_of.items():
@@ -137,52 +240,36 @@ def absorption(context: Context, reader: Reader) -> Absorption:
 def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
-    branch, of = context.step(branch_of, Branch), context.of
-    cuts = cuts_of.numbers(2)
+    branch, cuts, after = context.step(branch_of, Branch), cuts_of.numbers(2), after_of.number()
     times = times_of.numbers(len(cuts), len(cuts))
-    if cuts[0] < branch.cuts[0] or cuts[-1] > branch.cuts[-1]:
-        raise cuts_of.fail("cuts outside the branch")
-    if any(high <= low for low, high in pairwise(cuts)):
+    if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
-    window = after_of.number(), max(branch.ends)
-    if not branch.begin <= window[0] < min(branch.ends):
+    if not branch.begin <= after < min(branch.ends):
         raise Unproved("the window of the first impact begins later, or ends before")
-    for phases in pairwise(cuts) if window[0] > branch.begin else ():
-        if level(motion_at(of, phases), window[0])[0] <= 0:
+    images = [branch.image(x, (t, t + BRACKET)) for x, t in zip(cuts, times, strict=True)]
+    for phases in pairwise(cuts) if after > branch.begin else ():
+        if level(branch.motion(phases), after)[0] <= 0:
             raise Unproved("an impact before the time given is not excluded")
-    along = motion_at(of, (cuts[0], cuts[-1])).clock(window).mass_sin
+    window = after, max(branch.ends)
+    along = branch.motion((cuts[0], cuts[-1])).clock(window).mass_sin
     if along.lo <= 0 <= along.hi:
         raise Unproved("f' is not proved to have one sign on a branch")
-    images = [_image(of, branch, window[0], x, t) for x, t in zip(cuts, times, strict=True)]
     cells = []
     for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
-        low, high = min(ends[0][0], ends[1][0]), max(ends[0][1], ends[1][1])
+        low, high = hull(ends)
         flight = max(window[0], low - phases[1]), min(window[1], high - phases[0])
-        stretch = _stretch(motion_at(of, phases), flight)
+        stretch = _stretch(branch.motion(phases), flight)
         cells.append(Cell(phases, tuple(_reduced((low, high), origin)), stretch))
     return cells
 
 
-def _image(
-    of: Parameters, branch: Branch, after: Fraction, phase: Fraction, time: Fraction
-) -> Range:
-    """Return phase + impact time, bracketed by the signs of the gap in the branch's window."""
-    piece = max(0, bisect_left(branch.cuts, phase) - 1)
-    later = time + BRACKET
-    if time < after or later > branch.ends[piece]:
-        raise Unproved("a bracket leaves the window of the first impact")
-    if not brackets(motion_at(of, (phase, phase)).gap_of, (time, later)):
-        raise Unproved("a bracket does not have the signs +, - at its ends")
-    return phase + time, phase + later
-
-
 def _stretch(motion: Motion, time: Range) -> Fraction | None:
     """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
-    start, now = motion.start(), motion.clock(time)
-    along = now.mass_sin / rational(motion.eta, motion.bits) * launch_acceleration(start)
+    sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
+    along = sin / rational(motion.eta, motion.bits) * push
     if along.lo <= 0 <= along.hi:
         return None
-    ratio: Enclosure = motion.gap(start, time, 1) / along
+    ratio: Enclosure = motion.gap_of(time, 1) / along
     return max(-ratio.range[0], ratio.range[1])
 
 

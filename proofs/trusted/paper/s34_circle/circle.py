@@ -6,6 +6,7 @@ next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separ
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -13,27 +14,17 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import (
-    Phase,
-    Phases,
-    Range,
-    between,
-    floor_text,
-    show,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_arc
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 CONSTANT = (Fraction("3.38"), Fraction("6.04"))  # where f' = 0, as printed
 ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printed
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
-_NO_ARC = "no proof where the mass sticks, and where it lands then"
 _NOT_FOLLOWED = "no proof which phases reach the sticking arc"
 
 
@@ -55,25 +46,20 @@ class FixedPoint(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        low = show(self.domain[0])
         return (
-            f"f is continuously differentiable on {show_range(self.domain)} with f' >= "
-            f"{floor_text(self.least)}, maps it across itself, and has exactly one fixed point p "
-            f"there, in {between(self.bracket, 20)}. It repels, and the mass does not stick there: "
-            "for every n, all phases near enough to p need more than n impacts to reach the arc "
-            f"where the mass sticks. From {low} up to p, p aside, all have an iterate in "
-            f"[{floor_text(self.first[0])}, {low}]."
+            f"f is C^1 on {show_range(self.domain)} =: [a, b] with f' >= {floor_text(self.least)}, "
+            "maps it across itself, and has exactly one fixed point p there, in "
+            f"{between(self.bracket, 20)}. It repels, and the mass does not stick there: for every "
+            "n, all phases near enough to p need more than n impacts to reach the arc where the "
+            f"mass sticks. All of [a, p) have an iterate in [{floor_text(self.first[0])}, a]."
         )
 
     @property
     def brief(self) -> str:
-        """Return the enclosure."""
         return f"a repelling fixed point in {between(self.bracket, 9)}"
 
     @property
     def quantities(self) -> dict[str, Range]:
-        """Return the enclosure."""
         return {"fixed_point": self.bracket}
 
 
@@ -113,44 +99,37 @@ def fixed_point(context: Context, reader: Reader) -> FixedPoint:
 
 def _determined(of: Parameters, found: Found) -> Decision:
     """M6: the gap has a first zero after every phase; after some it is but a touch."""
+    del of
     never = found.first(NeverImpacts)
     if never is None:
         return undecided("no phase is proved to have no next impact, and none to have one")
     return decided(Verdict.CONDITIONAL, never, corrected=[never])
 
 
-def _constant(of: Parameters, found: Found) -> Decision:
-    """G1: the printed interval lies in the sticking arc."""
-    arc = found.first(Separation)
-    if arc is None:
-        return undecided(_NO_ARC)
-    if not within(CONSTANT, (arc.start[1], arc.phase[0])):
-        return undecided(arc.brief, arc.quantities)
-    return decided(Verdict.VERIFIED, arc, corrected=[arc])
+def _by_the_arc(verdict: Verdict, holds: Callable[[Separation], bool]) -> Decide:
+    """Decide by the arc where the mass sticks, if it has a property."""
+
+    def decide(of: Parameters, found: Found) -> Decision:
+        del of
+        arc = found.first(Separation)
+        if arc is None:
+            return undecided("no proof where the mass sticks, and where it lands then")
+        if not holds(arc):
+            return undecided(arc.brief, arc.quantities)
+        return decided(verdict, arc, corrected=[arc])
+
+    return decide
 
 
-def _periodic(of: Parameters, found: Found) -> Decision:
-    """G2: impact and separation are at the printed phases; what period that is depends on f."""
-    arc = found.first(Separation)
-    if arc is None:
-        return undecided(_NO_ARC)
+def _is_the_printed_orbit(arc: Separation) -> bool:
+    """Whether impact and separation are at the phases printed; its period depends on f."""
     printed = zip(ORBIT, (arc.arrival, arc.phase), strict=True)
-    rounded = all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
-    if not (arc.returns and rounded):
-        return undecided(arc.brief, arc.quantities)
-    return decided(Verdict.CONDITIONAL, arc, corrected=[arc])
-
-
-def _stable(of: Parameters, found: Found) -> Decision:
-    """G3: the flights from beside the separation phase end inside the arc."""
-    arc = found.first(Separation)
-    if arc is None or not arc.returns:
-        return undecided(_NO_ARC)
-    return decided(Verdict.VERIFIED, arc, corrected=[arc])
+    return arc.returns and all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
 
 
 def _attracts(of: Parameters, found: Found) -> Decision:
     """G4: an interval of phases that never impact again refutes "almost every"."""
+    del of
     known, never = found.first(Absorption), found.first(NeverImpacts)
     if known is None or not known.arc.returns:
         return undecided(_NOT_FOLLOWED)
@@ -164,6 +143,7 @@ def _attracts(of: Parameters, found: Found) -> Decision:
 
 def _transient(of: Parameters, found: Found) -> Decision:
     """G6: by a fixed point in [1.1, 1.5] and what surrounds it."""
+    del of
     known = found.first(Absorption)
     if known is None:
         return undecided(_NOT_FOLLOWED)
@@ -189,7 +169,7 @@ ROWS = (
         "3.4, Figure 5",
         "= 0 for all phi in (3.38, 6.04)",
         _AT + "f' = 0 on (3.38, 6.04).",
-        _constant,
+        _by_the_arc(Verdict.VERIFIED, lambda arc: within(CONSTANT, (arc.start[1], arc.phase[0]))),
         PAPER.place,
     ),
     Row(
@@ -197,7 +177,7 @@ ROWS = (
         "3.4, Figure 5",
         "(phi_1, phi_2) = (4.64, 6.05) are on 2-periodic orbit",
         _AT + "(4.64, 6.05), to the places printed, is an orbit of period 2 of f.",
-        _periodic,
+        _by_the_arc(Verdict.CONDITIONAL, _is_the_printed_orbit),
         PAPER.place,
     ),
     Row(
@@ -205,7 +185,7 @@ ROWS = (
         "3.4, Figure 6",
         "stable 2-periodic orbit",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) as printed, is stable.",
-        _stable,
+        _by_the_arc(Verdict.VERIFIED, lambda arc: arc.returns),
         PAPER.place,
     ),
     Row(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -9,15 +10,25 @@ from functools import cache
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, brackets, lifted
+from proofs.trusted.flights import Motion, brackets, falls, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, show_range
+from proofs.trusted.numbers import (
+    Phases,
+    Range,
+    between,
+    floor_text,
+    hull,
+    increasing,
+    show,
+    show_range,
+    within,
+)
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-from proofs.trusted.windows import BITS, Meetings, clear, falls, leaves, level
+from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
 _MOST_TURNS = 20_000
 _LOG_BITS = 160
@@ -42,9 +53,7 @@ class Branch(Conclusion):
     ends: tuple[Fraction, ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the cuts are phases in order, and the impacts come after begin."""
-        Phases(self.cuts[0], self.cuts[-1])
-        if any(low >= high for low, high in pairwise(self.cuts)):
+        if not increasing(self.cuts):
             raise Unproved("the cuts of a branch must increase")
         if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
             raise Unproved("a branch has an end after each piece's impacts, all after its begin")
@@ -54,9 +63,26 @@ class Branch(Conclusion):
         """The closed interval of phases."""
         return Phases(self.cuts[0], self.cuts[-1])
 
+    def motion(self, phases: Range) -> Motion:
+        """Return the flights from some of the phases."""
+        return Motion(self.at.eta[0], self.at.nu[0], phases, BITS)
+
+    def image(self, phase: Fraction, time: Range) -> Range:
+        """Enclose phase + the time of the first impact, which is proved to be in `time`.
+
+        On its branch the gap has one zero, falling: gap > 0 and gap < 0 at the ends bracket it.
+        """
+        if not within((phase, phase), self.phases):
+            raise Unproved("a phase outside the branch")
+        piece = max(0, bisect_left(self.cuts, phase) - 1)
+        if not within(time, (self.begin, self.ends[piece])):
+            raise Unproved("a bracket leaves the window of the first impact")
+        if not brackets(self.motion((phase, phase)).gap_of, time):
+            raise Unproved("a bracket does not have the signs +, - at its ends")
+        return phase + time[0], phase + time[1]
+
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
             f"f is C^1 on {show_range(self.phases)}, the first impact being transversal, after a "
             f"time in {show_range((self.begin, max(self.ends)))}."
@@ -82,7 +108,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     of, phases = context.of, Phases(cuts[0], cuts[-1])
     if not -1 < of.nu < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(-1, of.eta, of.nu, phases, BITS)
+    whole = Motion(of.eta, of.nu, phases, BITS)
     meetings, launched = Meetings.of(whole), leaves(whole)
     for low, high in meetings.before(int(turn)):
         if high > launched:
@@ -92,9 +118,9 @@ def branch(context: Context, reader: Reader) -> Branch:
         raise Unproved("the last window starts at launch")
     found = Branch(of.place, cuts, int(turn), begin, ends_of.numbers())
     for piece, end in zip(pairwise(cuts), found.ends, strict=True):
-        motion = Motion(-1, of.eta, of.nu, piece, BITS)
-        falls(motion, (begin, end))
-        if level(motion, end)[1] >= 0:
+        if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
+            raise Unproved("the gap is not proved to fall to the impact")
+        if level(found.motion(piece), end)[1] >= 0:
             raise Unproved("the gap is not proved negative at an end")
     return found
 
@@ -116,26 +142,22 @@ class EntropyBound(Conclusion):
     entropy: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the branches are disjoint and in order."""
         if any(one.phases[1] >= two.phases[0] for one, two in pairwise(self.branches)):
             raise Unproved("branches must be disjoint and in order")
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        domain = show_range((self.branches[0].phases[0], self.branches[-1].phases[1]))
-        first = floor_text(min(each.begin for each in self.branches), 0)
-        last = ceil_text(max(end for each in self.branches for end in each.ends), 0)
+        domain = hull([each.phases for each in self.branches])
+        times = hull([(each.begin, max(each.ends)) for each in self.branches])
         return (
-            f"f has a compact set K in {domain}, f(K) in K, on which it is continuous and has "
-            f"topological entropy at least log {show(self.growth)} >= "
+            f"f has a compact set K in {show_range(domain)}, f(K) in K, on which it is continuous "
+            f"and has topological entropy at least log {show(self.growth)} >= "
             f"{floor_text(self.entropy[0])}. K lies in {len(self.branches)} disjoint intervals on "
-            f"each of which f is C^1, with flights over times from {first} to {last}."
+            f"each of which f is C^1, with flights over times in {between(times, 0)}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the bound."""
         return (
             f"entropy >= log {show(self.growth)} >= {floor_text(self.entropy[0])}, by a covering "
             f"graph on {len(self.branches)} branches of f, {self.states} intervals"
@@ -143,7 +165,6 @@ class EntropyBound(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the logarithm."""
         return {"entropy": self.entropy}
 
 
@@ -195,8 +216,7 @@ def entropy_bound(
 def covering_graph(context: Context, reader: Reader) -> EntropyBound:
     """Rule `covering-graph`: {branches, images: [{phase, time}], states, weights, growth}.
 
-    [s, e] = time brackets the first impact after a phase by gap(s) > 0 > gap(e): on its branch the
-    gap has one zero, falling. Conclusion: `entropy_bound`.
+    time brackets the first impact after a phase, as in `Branch.image`. Conclusion: `entropy_bound`.
     """
     branches_of, images, states, weights, growth = reader.fields(
         "branches", "images", "states", "weights", "growth"
@@ -215,20 +235,12 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
 def _image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
     """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
     phase_of, time_of = entry.fields("phase", "time")
-    phase, time = phase_of.number(), time_of.range()
+    phase = phase_of.number()
     METER.get().spend(len(branches))
-    for found in branches:
-        if found.cuts[0] <= phase <= found.cuts[-1]:
-            break
-    else:
+    on = [each for each in branches if each.cuts[0] <= phase <= each.cuts[-1]]
+    if not on:
         raise phase_of.fail("the phase lies on no branch")
-    piece = next(i for i, cut in enumerate(found.cuts[1:]) if phase <= cut)
-    if time[0] < found.begin or time[1] > found.ends[piece]:
-        raise time_of.fail("the bracket leaves the window of the first impact")
-    motion = Motion(-1, found.at.eta[0], found.at.nu[0], (phase, phase), BITS)
-    if not brackets(motion.gap_of, time):
-        raise Unproved("a bracket does not have the signs +, - at its ends")
-    return phase, lifted((phase + time[0], phase + time[1]), -found.turn, BITS)
+    return phase, lifted(on[0].image(phase, time_of.range()), -on[0].turn, BITS)
 
 
 # -- the row ---------------------------------------------------------------------------------------

@@ -9,7 +9,16 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, launch_acceleration
-from proofs.trusted.flights import Motion, brackets, lifted, phase_after, whole_turns
+from proofs.trusted.flights import (
+    FirstImpact,
+    Motion,
+    bits_for,
+    bracketed,
+    first_windows,
+    lifted,
+    read_times,
+    whole_turns,
+)
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -19,25 +28,16 @@ from proofs.trusted.numbers import (
     Phases,
     Range,
     between,
-    ceil_text,
     floor_text,
+    increasing,
     show_range,
 )
-from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.windows import BITS, clear, falls, level
+from proofs.trusted.parameters import Place
+from proofs.trusted.windows import BITS, clear, level
 
 Number = Any
 _TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
-_MAX_BITS = 2000
 _THREE = 3  # less than pi
-_EARLIER = Fraction(1, 4)
-
-
-def motion_at(of: Parameters, phases: Range, bits: int = BITS) -> Motion:
-    """Return the flights from some phases, for -1 < nu < 0 and eta < 1."""
-    if not (-1 < of.nu < 0 < of.eta < 1):
-        raise Unproved("sticking is examined for -1 < nu < 0 and eta < 1 only")
-    return Motion(-1, of.eta, of.nu, phases, bits)
 
 
 # -- the sticking arc ------------------------------------------------------------------------------
@@ -45,21 +45,23 @@ def motion_at(of: Parameters, phases: Range, bits: int = BITS) -> Motion:
 
 @dataclass(frozen=True)
 class Separation(Conclusion):
-    """The mass sticks exactly on the arc [3 pi - phi_s, phi_s), until phi_s.
+    """The mass sticks exactly on an arc [start, phi_s), until phi_s in `phase`.
 
-    start encloses 3 pi - phi_s, phase phi_s. The flights from phi_s to phase[1] have their first
-    impact, a transversal one, after a time in `time`, at a phase in `arrival`.
+    The flights from phi_s to phase[1] have their first impact, a transversal one, after a time in
+    `time`, at a phase in `arrival` + 2 pi turns, with a relative speed in `speed`. Start and
+    arrival are on the line, in the turn that ends with phi_s.
     """
 
     at: Place
-    start: Phase
+    start: Range
     phase: Phase
     time: Range
-    arrival: Phase
+    turns: int
+    arrival: Range
+    speed: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the ends of the arc are told apart."""
-        if self.start[1] >= self.phase[0]:
+        if not self.start[1] < self.phase[0] <= self.phase[1] < self.start[0] + TURN:
             raise Unproved("no arc where the mass sticks")
 
     @property
@@ -69,7 +71,7 @@ class Separation(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
+        start, phase, arrival = (between(x, 20) for x in (self.start, self.phase, self.arrival))
         periodic = (
             ", inside the arc: the motion is periodic, with one impact and one separation a "
             "period. If f maps a sticking phase to phi_s, (phi_1, phi_s) is an orbit of period 2 "
@@ -79,68 +81,64 @@ class Separation(Conclusion):
             "join it exactly."
         )
         return (
-            "the mass sticks after a plastic impact exactly at the phases of the arc "
-            f"[3 pi - phi_s, phi_s), 3 pi - phi_s in {between(self.start, 20)}, phi_s in "
-            f"{between(self.phase, 20)}; f is constant there, whether it maps to phi_s or on to "
-            f"the next impact. The flight from phi_s ends at a phase phi_1 in "
-            f"{between(self.arrival, 20)}{periodic if self.returns else '.'}"
+            f"the mass sticks after a plastic impact exactly at the phases, mod 2 pi, of an arc "
+            f"[phi_a, phi_s), phi_a in {start}, phi_s in {phase}; f is constant there, whether it "
+            "maps to phi_s or on to the next impact. The flight from phi_s ends at a phase phi_1 "
+            f"in {arrival}{periodic if self.returns else '.'}"
         )
 
     @property
     def brief(self) -> str:
-        """Return the phases, and how often f has to be applied."""
         period = ", superstable: period 2 if separation counts as a step of f, else 1"
         return (
-            f"sticking from {ceil_text(self.start[1])} or less to {floor_text(self.phase[0])} or "
-            f"more, then impact at {between(self.arrival, 6)}{period if self.returns else ''}"
+            f"sticking from a phase in {between(self.start)} to one in {between(self.phase)}, "
+            f"then impact at {between(self.arrival)}{period if self.returns else ''}"
         )
 
     @property
     def quantities(self) -> dict[str, Range]:
-        """Return the phases."""
         return {
             "arc_start": self.start,
             "separation_phase": self.phase,
+            "flight": self.time,
             "impact_phase": self.arrival,
+            "impact_speed": self.speed,
         }
 
 
 def separation(context: Context, reader: Reader) -> Separation:
-    """Rule `separation`: {phase: [l, u], time: [v, w]}, for -1 < nu < 0 and eta < 1.
+    """Rule `separation`: {phase: [l, u], times 0 < t_1 < ... < t_n, time}.
 
-    Hypotheses: 3 pi/2 < l, u < 2 pi; the launch acceleration A is < 0 at l, > 0 at u. After every
-    launch in [l, u] gap > 0 from the time 5 pi - 2 u to v - 1/4, gap' < 0 from there to w, and
-    gap > 0 at v, < 0 at w. Conclusion: `Separation`.
+    Hypotheses: the launch acceleration A is < 0 at l, > 0 at u. After the launches in [l, u]
+    gap''' > 0 on [0, t_1]; the pieces [t_j, t_(j+1)] are closed, as in `first-impact`, but for some
+    last ones, on which gap' < 0; `time` lies in these, with gap > 0 at its lower, gap < 0 at its
+    upper end. Conclusion: `Separation`.
 
-    Proof. A increases with sin(phi), and sin increases on (3 pi/2, 2 pi): there is one zero phi_s
-    in (l, u), and on the circle A < 0 exactly where sin(phi) < sin(phi_s), on
-    (3 pi - phi_s, phi_s); A falls through 0 at the start of that arc, so the mass sticks there too,
-    and rises through 0 at phi_s. After a launch between phi_s and u, A > 0 up to the phase
-    5 pi - phi_s, and so is the gap, see `lands`; then it falls to its first zero, in (v, w).
+    Proof. A = side (nu (1 - eta^2) sin(phi) - eta^2). At launch gap''' is A', since gap'' =
+    A(phi + t) - eta^2 gap: so A' > 0 on [l, u], and A has one zero phi_s there, one more on the
+    circle, at pi - phi_s, and is < 0 on the arc between them that ends at phi_s. It falls through 0
+    at the start of that arc, so that the mass sticks there too, and rises through 0 at phi_s. After
+    a launch in [phi_s, u] gap = gap' = 0 <= gap'' at first: gap > 0 on (0, t_1], on closed pieces,
+    and until it falls through its first zero, in `time`.
     """
-    phase_of, time_of = reader.fields("phase", "time")
-    phase, time = phase_of.range(), time_of.range()
-    width = min(phase[1] - phase[0], time[1] - time[0])
-    if width <= 0:
-        raise Unproved("an empty bracket")
-    bits = min(_MAX_BITS, max(BITS, 2 * (1 / width).__ceil__().bit_length() + 40))
-    half, turn = (pi(bits) * 3).range, whole_turns(1, bits)
-    if not (half[1] < 2 * phase[0] and phase[1] < turn[0]):
-        raise Unproved("the separation phase is sought between 3 pi/2 and 2 pi")
-    first, last = (launch_acceleration(motion_at(context.of, (x, x), bits).start()) for x in phase)
-    if not first.hi < 0 < last.lo:
+    phase_of, times_of, time_of = reader.fields("phase", "times", "time")
+    phase, times, of = Phase(*phase_of.range()), read_times(times_of), context.of
+    bits = bits_for(phase)
+    low, high = (launch_acceleration(Motion(of.eta, of.nu, (x, x), bits).start()) for x in phase)
+    if not low.hi < 0 < high.lo:
         raise Unproved("the launch acceleration does not change sign in the bracket")
-    arc = half[0] - phase[1], half[1] - phase[0]
-    leaves = arc[0] - (phase[1] - turn[0])
-    if not (0 < leaves < time[0] - _EARLIER and context.of.eta * leaves < _THREE):
-        raise Unproved("the first time of the flight is not examined")
-    motion = motion_at(context.of, phase)
-    clear(motion, (leaves, time[0] - _EARLIER))
-    falls(motion, (time[0] - _EARLIER, time[1]))
-    if not brackets(motion_at(context.of, phase, bits).gap_of, time):
-        raise Unproved("the impact after separation is not bracketed")
-    arrival = phase_after(phase[0], (time[0], time[1] + phase[1] - phase[0]), bits)
-    return Separation(context.of.place, Phase(*arc), Phase(*phase), time, Phase(*arrival))
+    motion = Motion(of.eta, of.nu, phase, bits)
+    step = FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 3))
+    if not step.transversal:
+        raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
+    thin, time = bracketed(step, phase, time_of)
+    quarters = phase[0] / pi(bits).range[0] * 2
+    ends = (pi(bits) * ((quarters - 1) // 2 * 2 + 1)).range  # of the arc, added: an odd half turn
+    impact = phase[0] + time[0], phase[1] + time[1]
+    turns = 1 + (impact[1] - phase[0]) // whole_turns(1, bits)[0]
+    start, arrival = (ends[0] - phase[1], ends[1] - phase[0]), lifted(impact, -turns, bits)
+    speed: Enclosure = -thin.gap_of(time, 1)
+    return Separation(of.place, start, phase, time, turns, arrival, speed.range)
 
 
 # -- landing on it ---------------------------------------------------------------------------------
@@ -155,7 +153,6 @@ class Lands(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
             f"every launch from a phase in {show_range(self.phases)}, mod 2 pi, sticks or has its "
             "first impact at a phase where the mass sticks."
@@ -182,7 +179,7 @@ def lands(context: Context, reader: Reader) -> Lands:
     turns = turns_of.number()
     if turns.denominator != 1 or not 0 <= turns <= 1000:
         raise turns_of.fail("a whole number from 0 to 1000 is expected")
-    if any(high <= low for low, high in pairwise(cuts)):
+    if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
     first = lifted(arc.phase if turns == 0 else arc.start, -1, BITS)[1]
     last = arc.phase[0] if turns == 0 else arc.start[0]
@@ -190,7 +187,7 @@ def lands(context: Context, reader: Reader) -> Lands:
         raise Unproved("the launches are not proved to stay up until the sticking arc")
     start, end = (lifted(each, int(turns), BITS) for each in (arc.start, arc.phase))
     for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
-        motion = motion_at(context.of, (low, high))
+        motion = Motion(context.of.eta, context.of.nu, (low, high), BITS)
         if turns:
             if end[0] - high <= start[1] - low:
                 raise Unproved("a piece is longer than the sticking arc")
@@ -221,7 +218,6 @@ class NeverImpacts(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
         turns = self.at.eta[0].denominator
         return (
             f"since eta is rational, mass and table are where they were after {turns} turns of the "
@@ -236,12 +232,11 @@ class NeverImpacts(Conclusion):
 
     @property
     def brief(self) -> str:
-        """Return the phases."""
         return f"no impact ever after a launch in {show_range(self.phases)}, unless touches count"
 
 
 def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
-    """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q in lowest terms.
+    """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q < 1 in lowest terms.
 
     Hypotheses: all phases are in (0, 3), and `closest_approach` gives positive numbers for them.
     Conclusion: `NeverImpacts`.
@@ -250,8 +245,11 @@ def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     phases = Phases(*phases_of.range())
     if not 0 < phases[0] < phases[1] < _THREE:
         raise phases_of.fail("phases between 0 and 3 are expected")
-    start, away = motion_at(context.of, phases).start(), Enclosure.of(*phases, BITS) - pi(BITS) / 2
-    bounds = closest_approach(context.of.eta, rational(context.of.nu, BITS), start, away, pi(BITS))
+    eta, nu = context.of.eta, context.of.nu
+    if not -1 < nu < 0 < eta < 1:
+        raise Unproved("closest approaches are known for -1 < nu < 0 and eta < 1")
+    start, away = Motion(eta, nu, phases, BITS).start(), Enclosure.of(*phases, BITS) - pi(BITS) / 2
+    bounds = closest_approach(eta, rational(nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):
         raise Unproved("an impact is not excluded")
     return NeverImpacts(context.of.place, phases)

@@ -12,7 +12,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, show_range, within
+from proofs.trusted.numbers import Phases, Range, between, covered, show_range, within
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import Avoids, SlopeRange, image_arc
@@ -42,7 +42,6 @@ class StayingSet:
     gaps: tuple[Avoids, ...]
 
     def __post_init__(self) -> None:
-        """Put all in order; raise Unproved where a hypothesis is not proved."""
         object.__setattr__(self, "region", tuple(sorted(self.region)))
         object.__setattr__(self, "cells", tuple(sorted(self.cells, key=lambda x: x.domain)))
         if not apart(self.region) or not self.cells:
@@ -56,16 +55,11 @@ class StayingSet:
                 raise Unproved("a cell leaves the region")
         if not all(within(part, gap.target) for part in self.region for gap in self.gaps):
             raise Unproved("a gap is not proved to avoid the region")
-        if {cell.at for cell in self.cells} | {gap.at for gap in self.gaps} != {self.at}:
+        if {each.place for each in (*self.cells, *self.gaps)} != {self.at}:
             raise Unproved("the hypotheses are about different oscillators")
         known = sorted([*(cell.domain for cell in self.cells), *(gap.phases for gap in self.gaps)])
-        for part in self.region:
-            reached = part[0]
-            for low, high in known:
-                if low <= reached:
-                    reached = max(reached, high)
-            if reached < part[1]:
-                raise Unproved("cells and gaps do not cover the region")
+        if not all(covered(part, known) for part in self.region):
+            raise Unproved("cells and gaps do not cover the region")
 
     @property
     def at(self) -> Place:
@@ -93,6 +87,17 @@ def apart(intervals: Iterable[Phases]) -> bool:
 
 # -- infinitely many -------------------------------------------------------------------------------
 
+_CONNECTIONS = (
+    " The phases with sequences over 0, 1 and those over 1, 2 are two invariant Cantor sets, each "
+    "a full shift on two symbols, with the fixed point p = 111... in common; they are the phases "
+    "whose orbits stay in the interval up to p, and in the interval from p on. They are connected "
+    "in both directions: a word over 0, 1, as long as one likes, and then a sequence over 1, 2 "
+    "belong to a phase whose orbit begins near the first set and ends in the second one; a "
+    "sequence infinite to both sides, over 0, 1 in the past and over 1, 2 in the future, to a full "
+    "orbit that tends to the first set in the past and lies in the second in the future; and the "
+    "same with the two sets exchanged."
+)
+
 
 @dataclass(frozen=True)
 class FullShift(Conclusion):
@@ -107,21 +112,19 @@ class FullShift(Conclusion):
     slopes: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless there are two cells or more, apart and in order, and f' > 1."""
         if len(self.cells) < 2 or not apart(self.cells) or self.slopes[0] <= 1:
             raise Unproved("a full shift needs two cells or more, apart, on which f' > 1")
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        low, high = floor_text(self.slopes[0], 2), ceil_text(self.slopes[1], 2)
-        whole, count = show_range(self.interval), len(self.cells)
+        whole = show_range(self.interval)
+        named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
         return (
-            f"f is C^1 with {low} <= f' <= {high} on each of {_listed(self.cells)}, maps each of "
+            f"f is C^1, f' in {between(self.slopes, 2)}, on each of the sets {named}, maps each of "
             f"them over {whole}, and no other phase of {whole} into it: the phases whose orbits "
             f"stay in {whole} are a Cantor set on which f is conjugate to the full shift on "
-            f"{count} symbols, the n-th symbol of phi being the index, from 0 to {count - 1} in "
-            "order of phases, of the set that f^n(phi) lies in."
+            f"{len(self.cells)} symbols, the n-th symbol of phi being the number of the set that "
+            f"f^n(phi) lies in.{_CONNECTIONS if len(self.cells) == 3 else ''}"
         )
 
 
@@ -129,10 +132,14 @@ def full_shift(staying: StayingSet) -> FullShift:
     """Theorem. Let f increase on the cells of a staying set, which are two or more and disjoint,
     and map each of them over the interval. Then what `FullShift.sentence` says.
 
-    Proof. The phases that follow a word of length n through the cells are an interval, by the
+    Proof. 1. The phases that follow a word of length n through the cells are an interval, by the
     inverse branches, which are defined on all cells; it is at most |cell| / mu^(n-1) long,
     mu = min f' > 1. So every sequence is followed by one phase, which depends continuously on it;
-    sequences are compact, so this is a homeomorphism, and it turns the shift into f.
+    sequences are compact, so this is a homeomorphism, and it turns the shift into f. 2. f
+    increases, and the cells are in order of phase: the order of phases is the lexicographic order
+    of sequences. 3. So, on three symbols, f^n(phi) <= p for all n if and only if no sequence moved
+    on begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and only if none is 0.
+    Every sequence has its phase, and those of sequences that agree for long are close.
     """
     interval, *more = staying.region
     if more or not all(image_arc(cell).covers(interval) for cell in staying.cells):
@@ -147,45 +154,6 @@ def prove_full_shift(context: Context, reader: Reader) -> FullShift:
     return full_shift(StayingSet.read(context, reader))
 
 
-@dataclass(frozen=True)
-class Connections(Conclusion):
-    """Two full shifts on two symbols, connected in both directions, in one on three symbols."""
-
-    at: Place
-    interval: Phases
-    cells: tuple[Phases, ...]
-
-    @property
-    def sentence(self) -> str:
-        """Return the theorem."""
-        low, high = map(show, self.interval)
-        named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
-        return (
-            f"with the symbols {named}: the phases with sequences over 0, 1 and those over 1, 2 "
-            "are two invariant Cantor sets, each a full shift on two symbols, with the fixed point "
-            "p = 111... in common; they are the phases whose orbits stay in "
-            f"[{low}, p] and in [p, {high}]. They are connected in both directions: a word over "
-            "0, 1, as long as one likes, and then a sequence over 1, 2 belong to a phase whose "
-            "orbit begins near the first set and ends in the second one; a sequence infinite to "
-            "both sides, over 0, 1 in the past and over 1, 2 in the future, to a full orbit that "
-            "tends to the first set in the past and lies in the second in the future; and the same "
-            "with the two sets exchanged."
-        )
-
-
-def connections(shift: FullShift) -> Connections:
-    """Theorem. For a full shift on three symbols, what `Connections.sentence` says.
-
-    Proof. 1. f increases, and the cells are in order of phase: the order of phases is the
-    lexicographic order of sequences. 2. So f^n(phi) <= p for all n if and only if no sequence moved
-    on begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and only if none is 0.
-    3. Every sequence has its phase, and those of sequences that agree for long are close.
-    """
-    if len(shift.cells) != 3:
-        raise Unproved("not a full shift on three symbols")
-    return Connections(shift.at, shift.interval, shift.cells)
-
-
 # -- finitely many ---------------------------------------------------------------------------------
 
 
@@ -198,15 +166,8 @@ class StayingOrbit(Conclusion):
     cells: tuple[Phases, ...]
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless there are cells, and they are disjoint."""
         if not self.cells or not apart(sorted(self.cells)):
             raise Unproved("the cells of a periodic orbit are not disjoint")
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        points = "" if self.bracketed else f", with one point in each of {_listed(self.cells)}"
-        return f"{self.brief}{points}."
 
     @property
     def bracketed(self) -> bool:
@@ -214,8 +175,12 @@ class StayingOrbit(Conclusion):
         return set(self.cells) == set(self.region)
 
     @property
+    def sentence(self) -> str:
+        points = "" if self.bracketed else f", with one point in each of {_listed(self.cells)}"
+        return f"{self.brief}{points}."
+
+    @property
     def brief(self) -> str:
-        """Return the period."""
         period = len(self.cells)
         orbit = "fixed point" if period == 1 else f"periodic orbit of period {period}"
         return f"the orbits that stay in {_listed(self.region)} are one unstable {orbit}"
@@ -264,19 +229,16 @@ def _another_set(of: Parameters, found: Found) -> Decision:
     for shift in shifts:
         if shift.interval == PRINTED:
             return decided(Verdict.VERIFIED, shift)
-    for orbit in orbits:
-        if orbit.region == (PRINTED,):
-            break
-    else:
+    staying = [orbit for orbit in orbits if orbit.region == (PRINTED,)]
+    if not staying:
         return undecided(f"no proof which orbits stay in {show_range(PRINTED)}")
-    connected = [connections(shift) for shift in shifts if len(shift.cells) == 3]
     beside = [each for each in orbits if each.bracketed]
     known: dict[str, Range] = {}
     for period in sorted({len(each.cells) for each in beside}):
         points = {x for each in beside if len(each.cells) == period for x in each.cells}
         known |= {f"period_{period}_point_{i}": x for i, x in enumerate(sorted(points), 1)}
-    corrected = (orbit, *shifts, *connected, *beside)
-    return decided(Verdict.REFUTED, orbit, corrected=corrected, known=known)
+    corrected = (staying[0], *shifts, *beside)
+    return decided(Verdict.REFUTED, staying[0], corrected=corrected, known=known)
 
 
 ROWS = (

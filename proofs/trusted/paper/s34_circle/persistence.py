@@ -8,44 +8,24 @@ X'' = -eta^2 X for the mass, and a is the value of gap'' where gap = 0. Phases a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import AT_LAUNCH, gap, launch_acceleration
-from proofs.trusted.flights import (
-    COVER_BITS,
-    FirstImpact,
-    Motion,
-    bits_for,
-    bracketed,
-    brackets,
-    first_windows,
-    lifted,
-    read_phases,
-    read_times,
-    whole_turns,
-)
+from proofs.trusted.equations import launch_acceleration
+from proofs.trusted.flights import COVER_BITS, Motion, brackets
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, between, ceil_text, show
-from proofs.trusted.paper.s34_circle.stable_pair import StablePair
+from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
+from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _ZERO = Fraction(0)
-
-
-def _motion(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Motion:
-    return Motion(1 if of.nu > 0 else -1, of.eta, of.nu, phases, bits)
-
-
-def _acceleration(motion: Motion) -> Enclosure:
-    value: Enclosure = launch_acceleration(motion.start())
-    return value
 
 
 # -- the periodic motion ---------------------------------------------------------------------------
@@ -53,146 +33,99 @@ def _acceleration(motion: Motion) -> Enclosure:
 
 @dataclass(frozen=True)
 class SuperstableMotion(Conclusion):
-    """For every epsilon of `at`: impacts near the first one after phi_s end in rest before phi_s.
+    """For every epsilon from 0 to `largest`: impacts near the first one after phi_s end in rest.
 
-    phi_s in `separation` is the separation phase. The launch there with relative velocity 0 has its
-    first impact after a time in `flight`, at the phase phi_s + time - 2 pi `turns` in `impact`,
-    with a relative speed in `speed`. After impacts at most `spread` beside it, in phase and speed,
-    all further ones come at phases up to `rest` < phi_s.
+    After impacts at most `spread` beside it, in phase and in relative speed, all further ones come
+    at phases up to `rest`, below phi_s.
     """
 
-    at: Place
-    separation: Range
-    flight: Range
-    turns: int
-    impact: Range
-    speed: Range
+    arc: Separation
+    largest: Fraction
     spread: Fraction
     rest: Fraction
 
+    def __post_init__(self) -> None:
+        if not (self.arc.returns and self.rest < self.arc.phase[0] and self.spread > 0):
+            raise Unproved("no states that come to rest on the sticking arc")
+
     @property
-    def largest(self) -> Fraction:
-        """The largest epsilon; the least is 0."""
-        return self.at.epsilon[1] if self.at.epsilon else _ZERO
+    def at(self) -> Place:
+        """The oscillators."""
+        return Place(self.arc.at.eta, self.arc.at.nu, (_ZERO, self.largest))
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        near, turns = show(self.spread), "turn" if self.turns == 1 else "turns"
-        enclosures = (self.separation, self.flight, self.impact, self.speed)
-        separation, flight, impact, speed = (between(each, 12) for each in enclosures)
+        near, turns = show(self.spread), self.arc.turns
+        enclosures = (self.arc.phase, self.arc.time, self.arc.arrival, self.arc.speed)
+        phase, time, arrival, speed = (between(each, 12) for each in enclosures)
         return (
-            f"let phi_s be the separation phase, in {separation}. The mass that leaves the table "
-            f"there with relative velocity 0 flies for a time t in {flight} and lands at the phase "
-            f"phi_1 = phi_s + t - 2 pi * {self.turns} in {impact}, with a relative speed u in "
-            f"{speed}. All further impacts of this passage come at phases below phi_s and up to "
-            f"{ceil_text(self.rest)}: none if epsilon = 0, infinitely many, at "
-            "phases that increase to a limit below phi_s and with speeds that tend to 0, if "
-            "epsilon > 0. Then the mass rests on the table until phi_s and leaves it as before: it "
-            f"moves periodically, with period 2 pi * {self.turns}, {self.turns} {turns} of the "
-            "table; phi_s, phi_1 and u do not depend on epsilon. Every motion with an impact at a "
-            f"phase within {near} of phi_1 and a relative speed within {near} of u comes to rest "
-            "before phi_s in the same way, and from phi_s on it is this periodic motion, exactly: "
-            "the return map is constant near the orbit, which is superstable. For epsilon > 0 it "
-            "is not a 2-periodic orbit of the map F from one impact to the next, and none attracts "
-            "this open set of states."
+            f"let phi_s in {phase} be the separation phase. The mass that leaves the table there "
+            f"with relative velocity 0 lands after a time in {time}, at the phase phi_1 in "
+            f"{arrival}, less {turns} turns, with a relative speed u in {speed}. All further "
+            f"impacts come at phases below phi_s, up to {ceil_text(self.rest)}: none if epsilon = "
+            "0, infinitely many, at phases that increase and with speeds that tend to 0, if "
+            "epsilon > 0. Then the mass rests on the table until phi_s: the motion has the period "
+            f"2 pi * {turns}; phi_s, phi_1 and u do not depend on epsilon. Every motion with an "
+            f"impact at a phase within {near} of phi_1, with a relative speed within {near} of u, "
+            "comes to rest before phi_s in the same way and is this one, exactly, from phi_s on: "
+            "it is superstable. For epsilon > 0 it is no 2-periodic orbit of the map F from one "
+            "impact to the next, and none attracts this open set of states."
         )
 
     @property
     def brief(self) -> str:
-        """Return the range of epsilon, and the period."""
         return (
             f"for 0 < epsilon <= {show(self.largest)} the stable motion has infinitely many "
-            f"impacts in each period, of 2 pi * {self.turns}"
+            f"impacts in each period, of 2 pi * {self.arc.turns}"
         )
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the largest epsilon, and the flight."""
-        return {
-            "epsilon_max": (self.largest, self.largest),
-            "separation_phase": self.separation,
-            "impact_phase": self.impact,
-            "impact_speed": self.speed,
-            "flight": self.flight,
-        }
+        return {"epsilon_max": (self.largest, self.largest), **self.arc.quantities}
 
 
 def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
-    """Rule `superstable-motion`: {separation: [l, u], times 0 < t_1 < ... < t_n, time, spread,
-    cells: [{epsilon, bounces: [[t, t'], ...], ratio, rest}]}, epsilons 0 < e_1 < ... < e_n.
+    """Rule `superstable-motion`: {separation, spread, cells: [{epsilon, bounces: [[t, t'], ...],
+    ratio, rest}]}, epsilons 0 < e_1 < ... < e_n.
 
-    Hypotheses: 1. The launch acceleration a is < 0 at l, > 0 at u and increases on [l, u]. 2. For
-    all launches in [l, u] with relative velocity 0, gap''' > 0 on [0, t_1]; the pieces
-    [t_j, t_(j+1)] are closed, as in `first-impact`, but for some last ones, on which gap' < 0;
-    `time` lies in these, with gap > 0 at its lower, gap < 0 at its upper end. 3. Let states be the
-    phases and speeds of these impacts and those at most `spread` beside: the speeds are > 0, and
-    a < 0 from the least phase to l. 4. Cell i, on [e_(i-1), e_i], e_0 = 0: from the states, bounce
-    after bounce has its impact in the bracket given, by `_bounce`; the one after the last bracket
-    satisfies the hypotheses of `_settle`, with r = ratio and T = rest.
+    Hypotheses: let states be phases and relative speeds of the impacts of the `separation` step and
+    those at most `spread` beside; the speeds are > 0, the phases inside the arc. Cell i, on
+    [e_(i-1), e_i], e_0 = 0: from the states, bounce after bounce has its impact in the bracket
+    given, by `_bounce`; the one after the last bracket satisfies the hypotheses of `_settle`, with
+    r = ratio and T = rest, below phi_s.
 
-    Conclusion: `SuperstableMotion` for 0 <= epsilon <= e_n. Proof. a vanishes at one phi_s in
-    [l, u], by 1; there gap, gap' and gap'' vanish at launch. So, by 2, gap > 0 on (0, t_1] and on
-    closed pieces: the first impact is the one in `time`, for every epsilon, and its phase is in the
-    arc a < 0 that ends at phi_s, by 3. By 4 it is followed by impacts and rest as the lemmas say,
-    below phi_s as a < 0 up to `rest`, and so are impacts nearby. From there to phi_s a < 0: the
-    mass rests until phi_s. Under F these impacts are different states that converge to one; so no
-    2-periodic orbit attracts them.
+    Conclusion: `SuperstableMotion` for 0 <= epsilon <= e_n. Proof. With relative velocity 0 the
+    flight from phi_s does not depend on epsilon; a < 0 from its impact to phi_s. It is followed by
+    impacts and rest as the lemmas say, and so are impacts nearby; then the mass rests until phi_s.
+    Under F these impacts are different states that converge to one; so no 2-periodic orbit attracts
+    them.
     """
-    separation_of, times_of, time_of, spread_of, cells = reader.fields(
-        "separation", "times", "time", "spread", "cells"
-    )
-    separation, spread, of = read_phases(separation_of), spread_of.number(), context.of
-    time, turns, impact, speed = _flight(of, separation, times_of, time_of)
-    phases, speeds = ((low - spread, high + spread) for low, high in (impact, speed))
-    if not (spread > 0 and speeds[0] > 0 and phases[1] < separation[0]):
-        raise Unproved("the states near the impact are not all before phi_s, with speed > 0")
-    arc = (phases[0], separation[0])
-    if _acceleration(_motion(of, arc, bits_for(separation))).hi >= 0:
-        raise Unproved("the table does not push from the impact to the separation phase")
+    separation_of, spread_of, cells = reader.fields("separation", "spread", "cells")
+    arc, spread = context.step(separation_of, Separation), spread_of.number()
+    phases, speeds = ((low - spread, high + spread) for low, high in (arc.arrival, arc.speed))
+    if not (speeds[0] > 0 and arc.start[1] < phases[0] and phases[1] < arc.phase[0]):
+        raise Unproved("the states near the impact are not all on the arc, with speed > 0")
     epsilon, rests = _ZERO, []
     for cell in cells.items(least=1):
-        end, rest = _cell(of, epsilon, (phases, speeds), cell)
-        epsilon = end
-        rests.append(rest)
-    at = Place((of.eta, of.eta), (of.nu, of.nu), (_ZERO, epsilon))
-    return SuperstableMotion(at, separation, time, turns, impact, speed, spread, max(rests))
+        epsilon_of, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")
+        epsilons = epsilon, epsilon_of.number()
+        if epsilons[1] <= epsilon:
+            raise epsilon_of.fail("the coefficients must increase from 0")
+        box = phases, speeds
+        for bounce in bounces.items():
+            kicks = epsilons[0] * box[1][0], epsilons[1] * box[1][1]
+            box = _bounce(context.of, box[0], kicks, bounce.range())
+        epsilon = epsilons[1]
+        shrinking = epsilon, ratio.number()
+        rests.append(rest.number())
+        _settle(context.of, box[0], rests[-1], epsilon * box[1][1], shrinking)
+    return SuperstableMotion(arc, epsilon, spread, max(rests))
 
 
-def _flight(
-    of: Parameters, separation: Range, times_of: Reader, time_of: Reader
-) -> tuple[Range, int, Range, Range]:
-    """Return time, turns, phase and speed of the impact: hypotheses 1 and 2."""
-    times, bits = read_times(times_of), bits_for(separation)
-    low, high = (_acceleration(_motion(of, (end, end), bits)) for end in separation)
-    motion = _motion(of, separation, bits)
-    # at launch gap' = 0, so that gap''' is the derivative of the launch acceleration
-    slope: Enclosure = gap(motion.start(), AT_LAUNCH, 3)
-    if not (low.hi < 0 < high.lo and slope.lo > 0):
-        raise Unproved("the separation phase is not isolated")
-    step = FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 3))
-    if not step.transversal:
-        raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
-    inner, time = bracketed(step, separation, time_of)
-    arrival = (separation[0] + time[0], separation[1] + time[1])
-    turns = int((arrival[1] - separation[0]) // whole_turns(1, bits)[0]) + 1
-    speed = (-inner.gap_of(time, 1)).range
-    return time, turns, lifted(arrival, -turns, bits), speed
-
-
-def _cell(
-    of: Parameters, begin: Fraction, states: tuple[Range, Range], cell: Reader
-) -> tuple[Fraction, Fraction]:
-    """Return the cell's last epsilon and its phase of rest: hypothesis 4."""
-    epsilon_of, bounces, ratio, rest_of = cell.fields("epsilon", "bounces", "ratio", "rest")
-    end, rest, (phases, speeds) = epsilon_of.number(), rest_of.number(), states
-    if end <= begin:
-        raise epsilon_of.fail("the coefficients must increase from 0")
-    for bounce in bounces.items():
-        kicks = begin * speeds[0], end * speeds[1]
-        phases, speeds = _bounce(of, phases, kicks, bounce.range())
-    _settle(of, (*phases, rest), end * speeds[1], (end, ratio.number()))
-    return end, rest
+def _push(of: Parameters, phases: Range) -> Range:
+    """Bound a from below and above."""
+    push: Enclosure = launch_acceleration(Motion(of.eta, of.nu, phases, COVER_BITS).start())
+    return push.range
 
 
 def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[Range, Range]:
@@ -213,12 +146,12 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
     """
     if time[0] <= 0 or of.eta * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    motion = _motion(of, phases)
+    motion = Motion(of.eta, of.nu, phases, COVER_BITS)
     kick = Enclosure.of(*kicks, COVER_BITS) * motion.side
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
     if not brackets(gap_of, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
-    strong, weak = _acceleration(_motion(of, (phases[0], phases[1] + time[1]))).range
+    strong, weak = _push(of, (phases[0], phases[1] + time[1]))
     if weak >= 0:
         raise Unproved("the table is not proved to push all through a bounce")
     (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
@@ -227,7 +160,7 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
 
 
 def _settle(
-    of: Parameters, phases: tuple[Fraction, Fraction, Fraction], kick: Fraction, shrinking: Range
+    of: Parameters, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range
 ) -> None:
     """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
     r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
@@ -240,17 +173,90 @@ def _settle(
     At the limit of the impacts the mass is at rest on the table, where a < 0: it sticks there, as
     long as a < 0.
 
-    Prove its hypotheses for phi between the first two of `phases`, T the third, w at most `kick`;
-    shrinking: the largest epsilon, and r.
+    Prove its hypotheses for phi in `phases`, T = rest, w at most `kick`, all coefficients up to the
+    first number of `shrinking`, r the second.
     """
-    (first, last, rest), (epsilon, ratio) = phases, shrinking
+    (first, last), (epsilon, ratio) = phases, shrinking
     if rest <= last or not 0 < ratio < 1:
         raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
-    low, high = _acceleration(_motion(of, (first, rest))).range
-    if high >= 0 or ratio**2 * -high < epsilon**2 * -low:
+    strong, weak = _push(of, (first, rest))
+    if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
         raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
-    if last + 2 * kick / (-high * (1 - ratio)) > rest:
+    if last + 2 * kick / (-weak * (1 - ratio)) > rest:
         raise Unproved("the bounces are not proved to end by the phase of rest")
+
+
+# -- another stable orbit --------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class StablePair(Conclusion):
+    """F maps `first` into `second` and back, two boxes of states, phases x velocities, apart."""
+
+    at: Place
+    first: tuple[Range, Range]
+    second: tuple[Range, Range]
+
+    @property
+    def sentence(self) -> str:
+        first, second = (" x ".join(map(show_range, box)) for box in (self.first, self.second))
+        return (
+            f"F has a 2-periodic orbit, one impact in {first} (phases x velocities gamma), the "
+            f"other in {second}; F^2 contracts the first box, so that this orbit attracts every "
+            "motion with an impact there."
+        )
+
+
+def stable_pair(
+    first: Rebound, at_first: Rebound, second: Rebound, at_second: Rebound
+) -> StablePair:
+    """Theorem. Let `Rebound`s be about F on a box B1, at a point c1 of it, on B2, at c2 of it, for
+    one oscillator. Let F(c1) + DF(B1) (B1 - c1) lie in B2, the same with 1 and 2 exchanged; let the
+    phases of B1 and B2 be disjoint; let |DF(B2)| |DF(B1)| r < r, r the sides of B1 and |D| the
+    largest absolute values of entries. Then `StablePair`.
+
+    Proof. By the mean value theorem F(B1) lies in B2 and F(B2) in B1, and F^2 contracts the convex
+    B1 in the norm max |x_i| / r_i: it has one fixed point there, by Banach, which attracts B1.
+    """
+    places, at = {step.at for step in (first, at_first, second, at_second)}, first.at
+    if len(places) > 1 or any(low < high for low, high in (at.eta, at.nu, restitution(at))):
+        raise Unproved("the steps are about more than one oscillator")
+    if not (first.phases[1] < second.phases[0] or second.phases[1] < first.phases[0]):
+        raise Unproved("the boxes are not apart")
+    for on, point, target in ((first, at_first, second), (second, at_second, first)):
+        box, centre = (on.phases, on.velocities), (point.phases, point.velocities)
+        reach = [max(b - c, d - a) for (a, b), (c, d) in zip(box, centre, strict=True)]
+        more, less = _moved(on, reach)
+        phases = point.phase[0] - more, point.phase[1] + more
+        velocities = point.velocity[0] - less, point.velocity[1] + less
+        inside = all(
+            map(within, (*centre, phases, velocities), (*box, target.phases, target.velocities))
+        )
+        if on.turns != point.turns or not inside:
+            raise Unproved("a box is not proved to be mapped into the other")
+    sides = [high - low for low, high in (first.phases, first.velocities)]
+    shrunk = zip(_moved(second, _moved(first, sides)), sides, strict=True)
+    if not all(after < before for after, before in shrunk):
+        raise Unproved("F^2 is not proved to contract the first box")
+    return StablePair(
+        first.at, (first.phases, first.velocities), (second.phases, second.velocities)
+    )
+
+
+def _moved(step: Rebound, sides: Sequence[Fraction]) -> tuple[Fraction, Fraction]:
+    """Return |DF| times a vector with entries >= 0."""
+    (p, q), (r, s) = ([size(entry) for entry in row] for row in step.derivative)
+    return p * sides[0] + q * sides[1], r * sides[0] + s * sides[1]
+
+
+def prove_stable_pair(context: Context, reader: Reader) -> StablePair:
+    """Rule `stable-pair`: {first, at_first, second, at_second: rebound steps}.
+
+    Conclusion: `stable_pair`.
+    """
+    names = reader.fields("first", "at_first", "second", "at_second")
+    first, at_first, second, at_second = (context.step(name, Rebound) for name in names)
+    return stable_pair(first, at_first, second, at_second)
 
 
 # -- the rows --------------------------------------------------------------------------------------
@@ -268,8 +274,7 @@ def _persists(of: Parameters, found: Found) -> Decision:
 def _transients(of: Parameters, found: Found) -> Decision:
     """G8: no conclusion proves anything about it."""
     del of, found
-    reason = "an observation about simulated motions: there is nothing to prove"
-    return Decision(Verdict.SIMULATED, missing=reason)
+    return Decision(Verdict.SIMULATED, missing="an observation about simulated motions, no theorem")
 
 
 _AT = "At (eta, nu) = ({eta}, {nu})"

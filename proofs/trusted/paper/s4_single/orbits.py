@@ -159,7 +159,7 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     along = k(Dual(Enclosure.of(*phase, bits), one)).derivative
     if not (low.hi < 0 < high.lo or high.hi < 0 < low.lo) or along.lo <= 0 <= along.hi:
         raise Unproved("the bracket is not proved to contain one solution of (16)")
-    motion = Motion(1 if nu > 0 else -1, eta, nu, phase, bits)
+    motion = Motion(eta, nu, phase, bits)
     start = motion.start()
     early = None if early_of.is_null() else early_of.number()
     whole = pi(bits) * (2 * n)

@@ -9,16 +9,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from proofs.trusted.kernel.values import Equal
 from proofs.trusted.numbers import show
-from proofs.trusted.paper.formulas import (
-    Derived,
-    Equal,
-    Passage,
-    Theorem,
-    at,
-    derived_row,
-    theorem,
-)
+from proofs.trusted.paper.formulas import Derived, Passage, Theorem, at, derived_row, theorem
 from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided

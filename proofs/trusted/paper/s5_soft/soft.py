@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import (
-    Equal,
-    Passage,
-    Series,
-    at,
-    corollary,
-    derived_row,
-    differ,
-)
+from proofs.trusted.kernel.values import Equal, Series
+from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s2_foundations import HEIGHT4, RESTITUTION, SPEED5
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.verdicts import Verdict

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Equal, Passage, at, corollary, derived_row, differ
+from proofs.trusted.kernel.values import Equal
+from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import theorems as given
 from proofs.trusted.verdicts import Verdict

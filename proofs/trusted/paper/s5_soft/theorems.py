@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Equal, Lemma, Series, at, corollary, over
+from proofs.trusted.kernel.values import Equal, Series
+from proofs.trusted.paper.formulas import Lemma, at, corollary, over
 from proofs.trusted.paper.s5_soft import displayed as eq
 
 

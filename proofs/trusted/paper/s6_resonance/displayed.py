@@ -7,7 +7,8 @@ t for half a time of flight, so that no arctan is needed.
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Equal, differ
+from proofs.trusted.kernel.values import Equal
+from proofs.trusted.paper.formulas import differ
 
 # -- the relations, (14), (15), (30), (31) ---------------------------------------------------------
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, Exact, attempts, decide, leaves
+from proofs.trusted.kernel.enclose import Enclosures, attempts, decide, leaves
 from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.kernel.meter import Exhausted, metered
 from tests.intervals.oracle import arb, ends
@@ -170,23 +170,6 @@ def test_the_mean_value_form_and_more_bits_decide():
     decide(formula("x - x*x", variables=["x"]), narrow, lambda v: v[0].range[1] < rest)
     tiny = formula("1 + 10**-40 - 1", variables=["x"])
     decide(tiny, ((Fraction(0), Fraction(0)),), lambda v: v[0].lo > 0)
-
-
-# -- exact values ----------------------------------------------------------------------------------
-
-
-def test_exact_values():
-    read = formula("(x**3 - 2/3*y)/(x - y)")
-    x, y = Fraction(2, 7), Fraction(-5, 3)
-    found = read.tape.evaluate(read.roots, Exact(), (x, y))
-    assert found == [(x**3 - Fraction(2, 3) * y) / (x - y)]
-
-
-@pytest.mark.parametrize("text", ["sin(x)", "pi", "1/x", "x**-1", "((x + 7)**1000)**1000"])
-def test_no_exact_value(text):
-    read = formula(text, variables=["x"])
-    with pytest.raises(Unproved):
-        read.tape.evaluate(read.roots, Exact(), (Fraction(0),))
 
 
 # -- reading ---------------------------------------------------------------------------------------

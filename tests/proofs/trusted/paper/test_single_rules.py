@@ -18,8 +18,8 @@ from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.values import Value
 from proofs.trusted.paper import GROUPS, find
-from proofs.trusted.paper.formulas import Value
 from proofs.trusted.paper.s4_single import single
 from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
 from proofs.trusted.parameters import PAPER, Place

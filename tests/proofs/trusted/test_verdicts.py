@@ -1,0 +1,59 @@
+"""How decisions are told, and the small predicates on intervals."""
+
+from dataclasses import dataclass
+from fractions import Fraction as F
+
+import pytest
+
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import between, covered, increasing
+from proofs.trusted.parameters import PAPER, Place
+from proofs.trusted.verdicts import told
+
+
+@dataclass(frozen=True)
+class Said(Conclusion):
+    text: str
+    at: Place | None = None
+
+    @property
+    def sentence(self):
+        return self.text
+
+
+def test_later_sentences_begin_with_a_capital_unless_with_a_symbol():
+    here, other = PAPER.place, Place.plastic(F(1, 2), F(-1, 2))
+    known = [Said("the mass sticks.", here), Said("f is C^1.", here), Said("let x = 1.", here)]
+    assert told(known) == ("At (eta, nu) = (0.2121, -0.2): the mass sticks. f is C^1. Let x = 1.")
+    known = [Said("every phase flies.", other), Said("since 1 < 2, so it is."), Said("phi_s = 1.")]
+    assert told(known) == (
+        "At (eta, nu) = (0.5, -0.5): every phase flies. Since 1 < 2, so it is. phi_s = 1."
+    )
+    assert told([Said("a."), Said("a.")]) == "a."
+    assert told([]) == ""
+
+
+@pytest.mark.parametrize(
+    ("parts", "whether"),
+    [
+        ([(0, 3)], True),
+        ([(0, 1), (1, 2)], True),
+        ([(0, 1), (F("1.1"), 2)], False),
+        ([(F("0.1"), 2)], False),
+        ([(0, F("1.9"))], False),
+        ([(0, 2), (0, 1)], True),
+        ([], False),
+    ],
+)
+def test_an_interval_is_covered_by_others_without_a_gap(parts, whether):
+    assert covered((F(0), F(2)), parts) is whether
+
+
+def test_numbers_increase_strictly_or_not():
+    assert increasing([F(1), F(2), F(3)]) and increasing([F(1)])
+    assert not increasing([F(1), F(1)]) and not increasing([F(2), F(1)])
+
+
+def test_an_enclosure_is_rounded_outward():
+    assert between((F("0.12345"), F("0.12345")), 3) == "[0.123, 0.124]"
+    assert between((F("0.125"), F("0.125")), 3) == "0.125"
