@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import product
+from math import inf
 from types import SimpleNamespace
 
 from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod
@@ -99,8 +100,7 @@ def _shortfall(view, word, rng, shares=(0, 1, None)):
                 break
             short = max(goal[0] - ends[1], ends[0] - goal[1])
             if short > 0:
-                if n == len(word) - 1:
-                    least = short if least is None else min(least, short)
+                least = min(short if n == len(word) - 1 else inf, inf if least is None else least)
                 break
             low = low if ends[0] >= goal[0] else _solve(at, (low, high), n, goal, goal[0])
             high = high if ends[1] <= goal[1] else _solve(at, (low, high), n, goal, goal[1])
