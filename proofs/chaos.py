@@ -4,17 +4,12 @@ Claim G5: which orbits stay in [1.32, 1.48], and the full shifts around it. Clai
 bound on the topological entropy, from all branches of f near the phase pi/2.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("chaos", arguments, __doc__)
-
+main = partial(run, "chaos", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

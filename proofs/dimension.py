@@ -1,16 +1,11 @@
 """Claim 1 read for the map itself: the Hausdorff dimension of the set that stays in I (H13)."""
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("dimension", arguments, __doc__)
-
+main = partial(run, "dimension", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

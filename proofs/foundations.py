@@ -4,17 +4,12 @@ Claims M1 to M5, M7 to M9, A1 and A2. They are about all values of the parameter
 witnesses; A1 also names phases of the parameters given that never impact again.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("foundations", arguments, __doc__)
-
+main = partial(run, "foundations", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -4,9 +4,8 @@ The main job: proves or refutes each claim at exact parameters, repairs the sets
 printed numbers fail, writes certificate and report, and has the checker re-derive them.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
@@ -15,11 +14,7 @@ EXAMPLES = """
   python -m proofs.horseshoe --only N1 N2 --epsilon 0.02
 """
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the main job; return the exit status."""
-    return run("horseshoe", arguments, __doc__, figure=True, examples=EXAMPLES)
-
+main = partial(run, "horseshoe", description=__doc__, examples=EXAMPLES)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -11,27 +11,17 @@ This is the plastic map. With a coefficient of restitution EPSILON and the veloc
 (PHI, GAMMA), instead of the slope.
 """
 
-import json
 import sys
 from argparse import Namespace
 from fractions import Fraction
-from typing import Any
 
-from intervals import IntervalError, Undecided, decimal_bounds
+from intervals import IntervalError, Undecided
 from proofs.motion.image import Image, PossibleImages, image
 from proofs.motion.impact import HORIZON, NoImpact
 from proofs.motion.rebound import Impossible, Rebound, rebound
 from proofs.motion.system import System
-from proofs.shell.cli import (
-    Parser,
-    add_stats,
-    check_targets,
-    digits,
-    horizon,
-    number,
-    stats,
-    write_target,
-)
+from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
+from proofs.shell.cli import Parser, horizon, number
 from proofs.trusted.numbers import TURN, Range, show
 
 _COARSE_DIGITS = 9  # of a set of possible images, whose ends mean little
@@ -63,10 +53,8 @@ def main(arguments: list[str] | None = None) -> int:
         _check_restitution(options)
     except ValueError as error:
         parser.error(str(error))
-    check_targets(parser, options.json)
     what = "phase velocity DF" if options.gamma else "phase slope"
-    asked = f"flight {what}, {options.digits} digits"
-    with stats(options.stats, asked, quiet=options.json == "-"):
+    with answering(parser, options, f"flight {what}, {options.digits} digits"):
         return _answer(parser, system, phases, options)
 
 
@@ -83,9 +71,7 @@ def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -
     if options.gamma:
         answer |= {"epsilon": show(options.epsilon), "gamma": [show(x) for x in options.gamma]}
     answer |= machine_form(found, options.digits)
-    write_target(parser, options.json, lambda: json.dumps(answer, indent=1) + "\n")
-    if options.json != "-":
-        print(_text(answer))
+    give(parser, options, answer, _text)
     return int(isinstance(found, PossibleImages))
 
 
@@ -97,10 +83,8 @@ def _parser() -> Parser:
     add("--phi", type=number, nargs="+", required=True, metavar="A [B]", help="launch phase(s)")
     add("--epsilon", type=number, help="coefficient of restitution, from 0 to 1")
     add("--gamma", type=number, nargs="+", metavar=("A", "B"), help="velocity before the impact")
-    add("--digits", type=digits, default=30, help="significant digits (default 30)")
     add("--horizon", type=horizon, default=HORIZON, help="longest flight looked at (default 1000)")
-    add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
-    add_stats(parser)
+    add_answer(parser)
     return parser
 
 
@@ -147,63 +131,51 @@ def _phases(values: list[Fraction]) -> Range:
     return low, high
 
 
-def machine_form(found: Image | PossibleImages | Rebound, places: int) -> dict[str, Any]:
-    """Return the JSON object of an answer: decimal strings, rounded outward."""
-
-    def bounds(values: Range) -> dict[str, str]:
-        lower, upper = decimal_bounds(*values, places)
-        return {"lower": lower, "upper": upper}
-
+def machine_form(found: Image | PossibleImages | Rebound, places: int) -> Answer:
+    """Return the JSON object of an answer."""
     if isinstance(found, PossibleImages):
-        places = min(places, _COARSE_DIGITS)
-        return {
-            "sticking": None,
-            "reason": found.reason,
-            "possible": [
-                {"flight": bounds(flight), "phase": bounds(phase)} for flight, phase in found.images
-            ],
-        }
-    answer: dict[str, Any] = {"flight": bounds(found.flight), "phase": bounds(found.phase)}
+        coarse = min(places, _COARSE_DIGITS)
+        pairs = [
+            {"flight": bounds(flight, coarse), "phase": bounds(phase, coarse)}
+            for flight, phase in found.images
+        ]
+        return {"sticking": None, "reason": found.reason, "possible": pairs}
+    answer: Answer = {"flight": bounds(found.flight, places), "phase": bounds(found.phase, places)}
     if isinstance(found, Rebound):
-        answer["velocity"] = bounds(found.velocity)
-        answer["jacobian"] = [[bounds(entry) for entry in row] for row in found.jacobian]
+        answer["velocity"] = bounds(found.velocity, places)
+        answer["jacobian"] = [[bounds(entry, places) for entry in row] for row in found.jacobian]
     else:
-        answer["slope"] = bounds(found.slope)
+        answer["slope"] = bounds(found.slope, places)
     answer["sticking"] = found.sticking
     if found.dwell is not None:
-        answer["dwell"] = bounds(found.dwell)
+        answer["dwell"] = bounds(found.dwell, places)
     return answer
 
 
-def _text(answer: dict[str, Any]) -> str:
+def _text(answer: Answer) -> str:
     phases = " to ".join(dict.fromkeys(answer["phi"]))
     at = f"eta = {answer['eta']}, nu = {answer['nu']}, phi = {phases}"
     if "gamma" in answer:
         velocities = " to ".join(dict.fromkeys(answer["gamma"]))
         at += f", epsilon = {answer['epsilon']}, gamma = {velocities}"
     if "possible" in answer:
-        lines = [at, f"several images are possible: {answer['reason']}; each is one of"]
+        said = [at, f"several images are possible: {answer['reason']}; each is one of"]
         for pair in answer["possible"]:
             flight, phase = (f"[{x['lower']}, {x['upper']}]" for x in pair.values())
-            lines.append(f"  flight {flight}, phase {phase}")
-        return "\n".join(lines)
+            said.append(f"  flight {flight}, phase {phase}")
+        return "\n".join(said)
+    names = ("d phase / d phi", "d phase / d gamma", "d gamma / d phi", "d gamma / d gamma")
+    entries = (entry for row in answer.get("jacobian", []) for entry in row)
     rows = [
         ("dwell on the table", answer.get("dwell")),
         ("time of flight", answer["flight"]),
         ("next impact phase", answer["phase"]),
         ("slope of the map", answer.get("slope")),
         ("velocity gamma", answer.get("velocity")),
+        *zip(names, entries, strict=False),
     ]
-    entries = [entry for row in answer.get("jacobian", []) for entry in row]
-    names = ("d phase / d phi", "d phase / d gamma", "d gamma / d phi", "d gamma / d gamma")
-    rows += zip(names, entries, strict=False)
-    lines = [at]
-    for label, bounds in rows:
-        if bounds is not None:
-            lines.append(f"  {label:18} [{bounds['lower']},")
-            lines.append(f"  {'':18}  {bounds['upper']}]")
-    lines.append(f"  sticks first       {'yes' if answer['sticking'] else 'no'}")
-    return "\n".join(lines)
+    said = [at, *(line for label, ends in rows if ends is not None for line in lines(label, ends))]
+    return "\n".join([*said, f"  sticks first       {'yes' if answer['sticking'] else 'no'}"])
 
 
 if __name__ == "__main__":

@@ -4,17 +4,12 @@ Candidates by floating point; every impact, rectangle and barred word is proved 
 arithmetic and recorded for the checker.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("nonplastic", arguments, __doc__)
-
+main = partial(run, "nonplastic", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -13,15 +13,13 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import sys
 from argparse import ArgumentTypeError, Namespace
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
-from typing import Any
 
-from intervals import Interval, IntervalError, Undecided, decimal_bounds
+from intervals import Interval, IntervalError, Undecided
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.words import Words
 from proofs.motion.horseshoe_map import ImpactMap
@@ -29,16 +27,8 @@ from proofs.motion.phase import turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
 from proofs.search.s31_horseshoe import prove
-from proofs.shell.cli import (
-    Parser,
-    add_stats,
-    check_targets,
-    digits,
-    number,
-    progress,
-    stats,
-    write_target,
-)
+from proofs.shell.answers import Answer, add_answer, answering, bounds, lines, machine_text
+from proofs.shell.cli import Parser, number, progress, whole, write_target
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
 from proofs.trusted.parameters import PAPER, Parameters
@@ -115,10 +105,9 @@ def main(arguments: list[str] | None = None) -> int:
         of = _parameters(options)
     except ValueError as error:
         parser.error(str(error))
-    check_targets(parser, options.csv, options.json)
     asked = f"word {options.word}" if options.word else f"period {options.period}"
     asked += ", binary64" if options.fast else f", {options.digits} digits"
-    with stats(options.stats, asked, quiet="-" in (options.csv, options.json)):
+    with answering(parser, options, asked, options.csv):
         return _answer(parser, of, options)
 
 
@@ -138,22 +127,20 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     shown = options.digits if places else min(options.digits, _FAST_DIGITS)
     rows = [_row(point, shown) for point in found]
     write_target(parser, options.csv, lambda: _csv(rows))
-    write_target(parser, options.json, lambda: _json(of, rows, places))
+    answer = {"schema": SCHEMA, "parameters": _machine_form(of, places), "orbits": rows}
+    write_target(parser, options.json, lambda: machine_text(answer))
     if "-" not in (options.csv, options.json):
-        _print(of, rows, len(words.cycles), seconds)
+        print(_text(of, rows, len(words.cycles), seconds))
     return 0
 
 
 def _parser() -> Parser:
     parser = Parser("proofs.orbits", __doc__, EPILOG)
     which = parser.add_mutually_exclusive_group(required=True)
-    add = which.add_argument
-    add(
-        "--period", type=_period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}"
-    )
+    add, period = which.add_argument, whole("a period", _LONGEST_PERIOD)
+    add("--period", type=period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}")
     add("--word", type=_word, metavar="W", help="one word of 0 and 1, with its rotations")
     add = parser.add_argument
-    add("--digits", type=digits, default=25, help="significant digits (default 25)")
     add("--fast", action="store_true", help="binary64 only, some 12 digits")
     add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
     add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
@@ -161,17 +148,8 @@ def _parser() -> Parser:
         help_text = f"default {show(default[0])} {show(default[1])}"
         add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
     add("--csv", metavar="FILE", help="write all rows to a file, or - for the screen")
-    add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
-    add_stats(parser)
+    add_answer(parser, 25)
     return parser
-
-
-def _period(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= _LONGEST_PERIOD):
-        raise ArgumentTypeError(
-            f"a period is a whole number from 1 to {_LONGEST_PERIOD}, not {text!r}"
-        )
-    return int(text)
 
 
 def _word(text: str) -> str:
@@ -201,29 +179,24 @@ def _parameters(options: Namespace) -> Parameters:
     )
 
 
-def _row(point: PeriodicPoint, places: int) -> dict[str, Any]:
-    """Return the JSON object of a point: decimal strings, rounded outward."""
-    bounds = {}
-    for name, values in (("phase", point.point), ("multiplier", point.multiplier)):
-        lower, upper = decimal_bounds(*values, places)
-        bounds[name] = {"lower": lower, "upper": upper}
-    return {"word": point.word, "period": point.period, **bounds}
+def _row(point: PeriodicPoint, places: int) -> Answer:
+    """Return the JSON object of a point."""
+    ends = {"phase": bounds(point.point, places), "multiplier": bounds(point.multiplier, places)}
+    return {"word": point.word, "period": point.period, **ends}
 
 
-def _json(of: Parameters, rows: list[dict[str, Any]], places: int | None) -> str:
-    parameters = {
+def _machine_form(of: Parameters, places: int | None) -> Answer:
+    """Return the JSON object of what was asked."""
+    sets = {"left": of.left, "right": of.right, "interval": of.interval}
+    return {
         "eta": show(of.eta),
         "nu": show(of.nu),
-        "left": [show(x) for x in of.left],
-        "right": [show(x) for x in of.right],
-        "interval": [show(x) for x in of.interval],
+        **{name: [show(x) for x in ends] for name, ends in sets.items()},
         "digits": places,
     }
-    document = {"schema": SCHEMA, "parameters": parameters, "orbits": rows}
-    return json.dumps(document, indent=1) + "\n"
 
 
-def _csv(rows: list[dict[str, Any]]) -> str:
+def _csv(rows: list[Answer]) -> str:
     target = io.StringIO()
     table = csv.writer(target, lineterminator="\n")
     names = ("phase", "multiplier")
@@ -234,19 +207,19 @@ def _csv(rows: list[dict[str, Any]]) -> str:
     return target.getvalue()
 
 
-def _print(of: Parameters, rows: list[dict[str, Any]], orbits: int, seconds: float) -> None:
+def _text(of: Parameters, rows: list[Answer], orbits: int, seconds: float) -> str:
+    said = []
     for row in rows[:_SHOWN]:
-        print(f"{row['word']}  period {row['period']}")
-        for name in ("phase", "multiplier"):
-            print(f"  {name:10} [{row[name]['lower']},")
-            print(f"  {'':10}  {row[name]['upper']}]")
+        said.append(f"{row['word']}  period {row['period']}")
+        said += [*lines("phase", row["phase"], 10), *lines("multiplier", row["multiplier"], 10)]
     if len(rows) > _SHOWN:
-        print(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
-    print(
+        said.append(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
+    said.append(
         f"\n{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved to "
         f"exist and to be the only one of its word in I0 = {show_range(of.left)}, "
         f"I1 = {show_range(of.right)}; orbits: {orbits}, in {seconds:.2f} s"
     )
+    return "\n".join(said)
 
 
 if __name__ == "__main__":

@@ -9,15 +9,14 @@ of `python -m proofs.soft`.
 
 from __future__ import annotations
 
-import json
 import sys
-from argparse import ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError
 from fractions import Fraction
-from typing import Any
 
 from intervals import Interval, atan, decimal_bounds
 from proofs.search.derivations import SPARE_BITS, enclose
-from proofs.shell.cli import Parser, add_stats, digits, number, stats
+from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
+from proofs.shell.cli import Parser, number, whole
 from proofs.trusted.numbers import Range, show
 from proofs.trusted.paper.s5_soft import displayed as eq
 
@@ -32,7 +31,6 @@ examples:
   python -m proofs.period_doubling --m 3 --epsilon 0.2
   python -m proofs.period_doubling --json - --digits 50
 """
-_MOST_PERIODS = 10**9
 
 
 def values(m: int, epsilon: Fraction, places: int) -> dict[str, Range]:
@@ -65,33 +63,22 @@ def main(arguments: list[str] | None = None) -> int:
     """Print the bifurcation values; return the exit status."""
     parser = Parser("proofs.period_doubling", __doc__, EPILOG)
     add = parser.add_argument
-    add("--m", type=_periods, default=1, help="table periods between impacts, m >= 1 (default 1)")
+    add(
+        "--m",
+        type=whole("m", 10**9),
+        default=1,
+        help="table periods between impacts, m >= 1 (default 1)",
+    )
     add("--epsilon", type=_epsilon, default=Fraction(0), help="of restitution, in [0, 1)")
-    add("--digits", type=digits, default=30, help="significant digits (default 30)")
-    add("--json", choices=["-"], help="print the machine form on standard output")
-    add_stats(parser)
+    add_answer(parser)
     options = parser.parse_args(arguments)
     asked = f"m = {options.m}, epsilon = {show(options.epsilon)}, {options.digits} digits"
-    with stats(options.stats, asked, quiet=bool(options.json)):
-        _answer(options)
+    with answering(parser, options, asked):
+        found = values(options.m, options.epsilon, options.digits)
+        answer: Answer = {"m": str(options.m), "epsilon": show(options.epsilon)}
+        answer |= {name: bounds(ends, options.digits) for name, ends in found.items()}
+        give(parser, options, answer, _text)
     return 0
-
-
-def _answer(options: Namespace) -> None:
-    """Print the values asked for."""
-    found = values(options.m, options.epsilon, options.digits)
-    answer: dict[str, Any] = {"m": str(options.m), "epsilon": show(options.epsilon)}
-    for name, ends in found.items():
-        lower, upper = decimal_bounds(*ends, options.digits)
-        answer[name] = {"lower": lower, "upper": upper}
-    print(json.dumps(answer, indent=1) if options.json else _text(answer))
-
-
-def _periods(text: str) -> int:
-    value = number(text)
-    if value.denominator != 1 or not 1 <= value <= _MOST_PERIODS:
-        raise ArgumentTypeError(f"m is a whole number from 1 to 10^9, not {text[:20]!r}")
-    return int(value)
 
 
 def _epsilon(text: str) -> Fraction:
@@ -101,12 +88,12 @@ def _epsilon(text: str) -> Fraction:
     return value
 
 
-def _text(answer: dict[str, Any]) -> str:
-    lines = [f"m = {answer['m']}, epsilon = {answer['epsilon']}: a supercritical period doubling"]
+def _text(answer: Answer) -> str:
+    said = [f"m = {answer['m']}, epsilon = {answer['epsilon']}: a supercritical period doubling"]
     for name, ends in answer.items():
         if isinstance(ends, dict):
-            lines += [f"  {name:15} [{ends['lower']},", f"  {'':15}  {ends['upper']}]"]
-    return "\n".join(lines)
+            said += lines(name, ends, 15)
+    return "\n".join(said)
 
 
 if __name__ == "__main__":

@@ -4,17 +4,12 @@ Claims G7 and G8. The flight from the separation phase does not depend on epsilo
 ever larger epsilon, the bounces are enclosed until they are proved to end before that phase.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("persistence", arguments, __doc__, figure=True)
-
+main = partial(run, "persistence", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

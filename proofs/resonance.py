@@ -10,18 +10,17 @@ to:
 
 from __future__ import annotations
 
-import json
 import sys
 from argparse import Namespace
-from fractions import Fraction
-from typing import Any
 
-from intervals import Undecided, decimal_bounds
+from intervals import Undecided
 from proofs.motion.resonant import Motion, motion
-from proofs.shell.cli import Parser, add_stats, digits, number, stats
+from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
+from proofs.shell.cli import Parser, number
 from proofs.shell.runner import run
-from proofs.trusted.numbers import TURN, Range, show
+from proofs.trusted.numbers import TURN, show
 
+_NUMBERS = ("nu", "epsilon", "phi", "gamma")
 _STATE = ("--phi", "--gamma")  # options that only the map takes
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified. A
@@ -42,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else arguments
     if any(option.partition("=")[0] in _STATE for option in given):
         return next_impact(given)
-    return run("resonance", given, __doc__, figure=True)
+    return run("resonance", given, __doc__)
 
 
 def next_impact(arguments: list[str]) -> int:
@@ -53,22 +52,18 @@ def next_impact(arguments: list[str]) -> int:
     add("--epsilon", type=number, required=True, help="coefficient of restitution, from 0 to 1")
     add("--phi", type=number, required=True, help="phase of an impact, in [0, 2 pi)")
     add("--gamma", type=number, required=True, help="velocity of the mass before it")
-    add("--digits", type=digits, default=30, help="significant digits (default 30)")
-    add("--json", choices=["-"], help="print the machine form on standard output")
-    add_stats(parser)
+    add_answer(parser)
     options = parser.parse_args(arguments)
     if not 0 <= options.phi <= TURN:
         parser.error(f"phase outside the circle [0, 2 pi): {show(options.phi)}")
     asked = f"the next impact and the limit phase, {options.digits} digits"
-    with stats(options.stats, asked, quiet=bool(options.json)):
+    with answering(parser, options, asked):
         return _answer(parser, options)
 
 
 def _answer(parser: Parser, options: Namespace) -> int:
     """Print the next impact of the state given; return the exit status."""
-    state: dict[str, Fraction] = {
-        name: getattr(options, name) for name in ("nu", "epsilon", "phi", "gamma")
-    }
+    state = {name: getattr(options, name) for name in _NUMBERS}
     try:
         found = motion(**state, digits=options.digits)
     except ValueError as error:
@@ -77,41 +72,28 @@ def _answer(parser: Parser, options: Namespace) -> int:
         print(f"{parser.prog}: undecided: {failure}", file=sys.stderr)
         return 1
     answer = {"eta": "1"} | {name: show(value) for name, value in state.items()}
-    machine = answer | machine_form(found, options.digits)
-    print(json.dumps(machine, indent=1) if options.json else _text(machine))
+    give(parser, options, answer | machine_form(found, options.digits), _text)
     return 0
 
 
-def machine_form(found: Motion, places: int) -> dict[str, Any]:
-    """Return the JSON object of an answer: decimal strings, rounded outward."""
-
-    def bounds(values: Range | None) -> dict[str, str] | None:
-        if values is None:
-            return None
-        lower, upper = decimal_bounds(*values, places)
-        return {"lower": lower, "upper": upper}
-
-    return {
-        "phase": bounds(found.phase),
-        "velocity": bounds(found.velocity),
-        "limit_phase": bounds(found.limit),
-        "sticking": found.sticking,
-    }
+def machine_form(found: Motion, places: int) -> Answer:
+    """Return the JSON object of an answer."""
+    values = {"phase": found.phase, "velocity": found.velocity, "limit_phase": found.limit}
+    ends = {name: None if x is None else bounds(x, places) for name, x in values.items()}
+    return {**ends, "sticking": found.sticking}
 
 
-def _text(answer: dict[str, Any]) -> str:
-    lines = [", ".join(f"{name} = {answer[name]}" for name in ("nu", "epsilon", "phi", "gamma"))]
+def _text(answer: Answer) -> str:
+    said = [", ".join(f"{name} = {answer[name]}" for name in _NUMBERS)]
     for label, key in (
         ("next impact phase", "phase"),
         ("velocity gamma", "velocity"),
         ("limit phase", "limit_phase"),
     ):
         ends = answer[key]
-        lines.append(f"  {label:18} " + (f"[{ends['lower']}," if ends else "none"))
-        if ends:
-            lines.append(f"  {'':18}  {ends['upper']}]")
-    lines.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
-    return "\n".join(lines)
+        said += [f"  {label:18} none"] if ends is None else lines(label, ends)
+    said.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
+    return "\n".join(said)
 
 
 if __name__ == "__main__":

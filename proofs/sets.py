@@ -4,17 +4,12 @@ Claims H7-H10, on the invariant set of the map, rest on a horseshoe around the g
 on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on powers of rationals.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("sets", arguments, __doc__)
-
+main = partial(run, "sets", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

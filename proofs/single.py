@@ -4,17 +4,12 @@ Identities are found with sympy; solutions, first impacts and the ends of the wi
 orbits in figures 7a and 7b are enclosed with the package `intervals`.
 """
 
-from __future__ import annotations
-
 import sys
+from functools import partial
 
 from proofs.shell.runner import run
 
-
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return the exit status."""
-    return run("single", arguments, __doc__, figure=True)
-
+main = partial(run, "single", description=__doc__)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -1,14 +1,12 @@
-"""Figure 6 of the paper as a theorem: how many impacts phases need at most to stick.
-
-matplotlib is imported here only.
-"""
+"""Figure 6 of the paper as a theorem: how many impacts phases need at most to stick."""
 
 from __future__ import annotations
 
-import io
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from proofs.report.markup import drawn
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
@@ -51,23 +49,16 @@ def _on_circle(phases: Range) -> list[tuple[float, float]]:
 
 def svg(source: str) -> str:
     """Return an SVG of what a certificate proves: the whole circle, and around [1.1, 1.76]."""
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
     bars, never = proved(source)
-    with mpl.rc_context({"svg.hashsalt": "figure-6", "font.size": 9}):
-        figure, both = plt.subplots(2, 1, figsize=(6.4, 5.2), layout="constrained")
+
+    def draw(both: Sequence[Axes]) -> None:
         for axes, ends in zip(both, ((0.0, math.tau), (1.09, 1.77)), strict=True):
             _draw(axes, bars, never)
             axes.set(xlim=ends, xlabel=r"$\phi$", ylabel="impacts, at most")
         both[0].set_title("Impacts before the mass sticks, proved for every phase of each bar")
         both[1].legend(fontsize=7, loc="upper left")
-        file = io.StringIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-        plt.close(figure)
-    return file.getvalue()
+
+    return drawn("figure-6", (6.4, 5.2), draw, rows=2)
 
 
 def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:

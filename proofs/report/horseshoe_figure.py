@@ -1,15 +1,12 @@
-"""Figure 2 of the paper as a theorem: the graph of f over I0 and I1 lies in the boxes drawn.
-
-numpy and matplotlib are imported here only; the rest of the main job needs neither.
-"""
+"""Figure 2 of the paper as a theorem: the graph of f over I0 and I1 lies in the boxes drawn."""
 
 from __future__ import annotations
 
-import io
 import math
 from typing import TYPE_CHECKING
 
 from proofs.motion.system import System
+from proofs.report.markup import drawn
 from proofs.trusted.numbers import Range, show, show_range
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.verify import premises
@@ -27,16 +24,11 @@ def svg(certificate: str) -> str:
     are below the line width. Raises Undecided where the images are not proved, ImportError
     without matplotlib.
     """
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
     proved = premises(certificate)
     of = proved.of
     corrected = next((x for x in proved.known.values() if isinstance(x, Horseshoe)), None)
-    with mpl.rc_context({"svg.hashsalt": "figure-2", "font.size": 9}):
-        figure, axes = plt.subplots(figsize=(5.6, 5.2), layout="constrained")
+
+    def draw(axes: Axes) -> None:
         left, right = (corrected or of).left, (corrected or of).right
         for domain, colour, name in ((left, "C0", "I0"), (right, "C3", "I1")):
             label = f"f on {name} = {show_range(domain)}"
@@ -52,10 +44,8 @@ def svg(certificate: str) -> str:
             title=rf"The impact map at $\eta$ = {show(of.eta)}, $\nu$ = {show(of.nu)}",
         )
         axes.legend(fontsize=7, loc="center", bbox_to_anchor=(0.5, 0.75))
-        file = io.StringIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-        plt.close(figure)
-    return file.getvalue()
+
+    return drawn("figure-2", (5.6, 5.2), draw)
 
 
 def _graph(axes: Axes, system: System, domain: Range, colour: str, label: str) -> None:

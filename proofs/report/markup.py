@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,6 +28,28 @@ def markdown_table(rows: Sequence[Sequence[str]], numbers_from: int = 99) -> lis
     rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     header, *others = rows
     return [line(header), rule, *map(line, others)]
+
+
+def drawn(
+    salt: str,
+    size: tuple[float, float],
+    draw: Callable[[Any], None],
+    rows: int = 1,
+    columns: int = 1,
+) -> str:
+    """Return as SVG what `draw` puts on the axes that it is given; matplotlib is imported here.
+
+    salt: of the names inside the SVG.
+    """
+    import matplotlib as mpl
+
+    mpl.use("svg")
+    from matplotlib import pyplot as plt
+
+    with mpl.rc_context({"svg.hashsalt": salt, "font.size": 9}):
+        figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained")
+        draw(axes)
+        return svg_text(figure)
 
 
 def svg_text(figure: Figure) -> str:

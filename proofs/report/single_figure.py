@@ -1,19 +1,20 @@
 """Figures 7a and 7b of the paper, certified: solutions of (16), and the stable orbits among them.
 
 What a certificate proves is drawn: thick curves are stable orbits, in the proved windows; thin ones
-solutions of (16) with |slope| < 1 that are none. Curves are (17); matplotlib is imported here only.
+solutions of (16) with |slope| < 1 that are none. Curves are (17).
 """
 
 from __future__ import annotations
 
-import io
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.trusted.certificate import Malformed
+from intervals import Undecided
+from proofs.report.markup import drawn
 from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows
 from proofs.trusted.verify import premises
 
@@ -31,7 +32,7 @@ def proved(source: str) -> tuple[EtaWindows, NuWindows]:
     eta = next((each for each in known if isinstance(each, EtaWindows)), None)
     nu = next((each for each in known if isinstance(each, NuWindows)), None)
     if eta is None or nu is None:
-        raise Malformed("$: no windows of section 4")
+        raise Undecided("no windows of section 4 are proved")
     return eta, nu
 
 
@@ -96,17 +97,10 @@ def _figure_b(axes: Axes, windows: NuWindows) -> None:
 
 def svg(source: str) -> str:
     """Return an SVG of what a certificate proves."""
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
     eta, nu = proved(source)
-    with mpl.rc_context({"svg.hashsalt": "figure-7", "font.size": 9}):
-        figure, (first, second) = plt.subplots(2, 1, figsize=(6.4, 6.4), layout="constrained")
-        _figure_a(first, eta)
-        _figure_b(second, nu)
-        file = io.StringIO()
-        figure.savefig(file, format="svg", metadata={"Date": None})
-        plt.close(figure)
-    return file.getvalue()
+
+    def draw(both: Sequence[Axes]) -> None:
+        _figure_a(both[0], eta)
+        _figure_b(both[1], nu)
+
+    return drawn("figure-7", (6.4, 6.4), draw, rows=2)

@@ -125,9 +125,9 @@ def prove_fixed_point(prover: Prover) -> tuple[str, FixedPoint]:
     candidate = next(fixed_points(prover.system), None)
     if candidate is None:
         raise Undecided("no repelling fixed point is seen")
-    (wide, known), (narrow, more) = (prover.slopes(list(ends)) for ends in candidate)
-    name = prover.add("fixed-point", {"wide": wide, "narrow": narrow})
-    return name, repelling_fixed_point(known, more)
+    (low, high), inner = candidate
+    slopes, known = prover.slopes([low, *inner, high])
+    return prover.add("fixed-point", {"slopes": slopes}), repelling_fixed_point(known)
 
 
 def fixed_points(system: System) -> Iterator[tuple[Range, Range]]:

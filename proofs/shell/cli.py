@@ -54,11 +54,20 @@ def number(text: str) -> Fraction:
     return value
 
 
-def digits(text: str) -> int:
-    """Read a number of digits for argparse."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text[:9]) <= 1000:
-        raise argparse.ArgumentTypeError(f"digits is a whole number from 1 to 1000, not {text!r}")
-    return int(text)
+def whole(what: str, most: int) -> Callable[[str], int]:
+    """Return what reads a whole number from 1 on for argparse."""
+
+    def read(text: str) -> int:
+        if not text.isascii() or not text.isdigit() or not 1 <= int(text[:19]) <= most:
+            raise argparse.ArgumentTypeError(
+                f"{what} is a whole number from 1 to {most}, not {text[:20]!r}"
+            )
+        return int(text)
+
+    return read
+
+
+digits = whole("digits", 1000)
 
 
 def horizon(text: str) -> Fraction:
@@ -145,21 +154,6 @@ def counting(wanted: bool) -> AbstractContextManager[Counts]:
     from proofs.shell.counting import counted
 
     return counted()
-
-
-@contextmanager
-def stats(wanted: bool, asked: str, quiet: bool) -> Iterator[None]:
-    """Print what was evaluated inside the `with`, if that is wanted and an answer is given.
-
-    asked: in words. quiet: standard output is for machines. An exception, SystemExit for bad
-    input as well, goes through, and nothing is printed.
-    """
-    with counting(wanted) as counts:
-        yield
-    if wanted:
-        from proofs.shell.counting import show
-
-        show(counts, [asked], quiet)
 
 
 @contextmanager

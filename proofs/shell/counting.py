@@ -1,9 +1,9 @@
 """What a run evaluates, counted by watching it: the code that proves and checks is unchanged.
 
 `with counted() as counts` asks the interpreter to announce every function that returns
-(`sys.setprofile`), and counts those named in `_RULES`, wherever they are bound and whenever they
-are imported. The work takes some three times as long meanwhile, and not a moment longer where
-nothing is counted. Only the present thread is watched.
+(`sys.setprofile`), and counts those named at the end of this file, wherever they are bound and
+whenever they are imported. The work takes some three times as long meanwhile, and not a moment
+longer where nothing is counted. Only the present thread is watched.
 
 What is counted: evaluations of the equations, an array's or a jet's once for each of its boxes, by
 the numbers they are made on: floats (candidates), intervals and arrays (proofs), the checker's.
@@ -19,7 +19,7 @@ from __future__ import annotations
 import sys
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from types import CodeType, FrameType
 from typing import Any, NamedTuple
@@ -52,7 +52,7 @@ class Kind(NamedTuple):
 
 
 Counts = Counter[Kind]
-_Rule = Callable[[Counts, FrameType, Any], None]
+_Rule = Callable[[FrameType, Any], Mapping[Kind, int]]  # how a return counts, by its value
 
 
 @contextmanager
@@ -94,23 +94,24 @@ def evaluations(counts: Counts, *columns: str) -> int:
 
 def _observer(counts: Counts) -> Callable[[FrameType, str, Any], None]:
     """Return what the interpreter is to call with every event."""
-    known: dict[int, tuple[CodeType, _Rule | None]] = {}  # the code stays alive, so does its id
+    known: dict[int, tuple[CodeType, _Rule | None, _Rule | None]] = {}  # a code alive keeps its id
 
     def observe(frame: FrameType, event: str, value: Any) -> None:
         if event != "return":
             return
         code = frame.f_code
-        found = known.get(id(code))
-        if found is None:
+        if id(code) not in known:
             name = f"{frame.f_globals.get('__name__')}.{code.co_qualname}"
-            found = known[id(code)] = code, _RULES.get(name)
-        if found[1] is not None:
-            found[1](counts, frame, value)
+            known[id(code)] = code, _RESULTS.get(name), _CALLS.get(name)
+        _, by_result, by_call = known[id(code)]
+        rule = by_call if value is None else by_result or by_call
+        if rule is not None:
+            counts.update(rule(frame, value))
 
     return observe
 
 
-# -- how a return counts, by its value: None where an exception is raised --------------------------
+# -- how a return counts ---------------------------------------------------------------------------
 
 
 def _column(value: Any) -> str | None:
@@ -132,115 +133,75 @@ def _size(value: Any) -> int:
     return int(getattr(value, "size", 1))
 
 
+def _evaluated(what: str, *values: Any) -> Counts:
+    """Count results, one for each box or point, in their columns."""
+    counts: Counts = Counter()
+    for value in values:
+        if (column := _column(value)) is not None:
+            counts[Kind(what, column)] += _size(value)
+    return counts
+
+
 def _evaluation(plain: str, derived: str) -> _Rule:
     """Count a result as `plain`, a jet's and a time derivative's as `derived`."""
 
-    def rule(counts: Counts, frame: FrameType, value: Any) -> None:
-        column = _column(value)
-        if column is not None:
-            is_plain = type(value).__name__ not in _JETS and not frame.f_locals.get("order")
-            counts[Kind(plain if is_plain else derived, column)] += _size(value)
+    def rule(frame: FrameType, value: Any) -> Counts:
+        is_plain = type(value).__name__ not in _JETS and not frame.f_locals.get("order")
+        return _evaluated(plain if is_plain else derived, value)
 
     return rule
 
 
-def _matrix(counts: Counts, frame: FrameType, value: Any) -> None:
-    column = None if value is None else _column(value[0][0])
-    if column is not None:
-        counts[Kind(MATRIX, column)] += 1
-
-
-def _formula(counts: Counts, frame: FrameType, value: Any) -> None:
+def _formula(frame: FrameType, value: Any) -> Counts:
     """Count each component of what a formula gives, a number where it has one."""
-    for each in value if type(value) in (list, tuple) else (value,):
-        column = _column(each)
-        if column is not None:
-            counts[Kind(FORMULAS, column)] += _size(each)
+    return _evaluated(FORMULAS, *(value if type(value) in (list, tuple) else (value,)))
 
 
 def _number(by: str, bits: str) -> _Rule:
     """Count a number by its precision, a local variable."""
-    kinds = [Kind(what, by) for what in NUMBERS]
-
-    def rule(counts: Counts, frame: FrameType, value: Any) -> None:
-        counts[kinds[bisect_left(_PRECISIONS, frame.f_locals[bits])]] += 1
-
-    return rule
+    kinds = [{Kind(what, by): 1} for what in NUMBERS]
+    return lambda frame, value: kinds[bisect_left(_PRECISIONS, frame.f_locals[bits])]
 
 
-def _numbers(counts: Counts, frame: FrameType, value: Any) -> None:
-    counts[Kind(NUMBERS[0], ARRAYS)] += 0 if value is None else _size(value)
-
-
-def _impact(counts: Counts, frame: FrameType, value: Any) -> None:
+def _impact(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count a set of launches whose impact is proved to be one, by the precision it took."""
-    if value is not None and value.transversal:
-        row = IMPACTS[bisect_left(_PRECISIONS, value.flight.precision)]
-        counts[Kind(row, INTERVALS)] += 1
-
-
-def _boxes(counts: Counts, frame: FrameType, value: Any) -> None:
-    counts[Kind(IMPACTS[0], ARRAYS)] += 0 if value is None else len(value.boxes)
-
-
-def _grid(counts: Counts, frame: FrameType, value: Any) -> None:
-    counts[Kind(GRID, ARRAYS)] += 0 if value is None else _size(value)
+    row = IMPACTS[bisect_left(_PRECISIONS, value.flight.precision)]
+    return {Kind(row, INTERVALS): 1} if value.transversal else {}
 
 
 def _one(what: str) -> _Rule:
     """Count the calls that return something."""
-
-    def rule(counts: Counts, frame: FrameType, value: Any) -> None:
-        counts[Kind(what)] += value is not None
-
-    return rule
+    return lambda frame, value: {Kind(what): 1}
 
 
-def _examined(counts: Counts, frame: FrameType, value: Any) -> None:
+def _boxes(what: str) -> _Rule:
+    """Count the boxes of an array."""
+    return lambda frame, value: {Kind(what, ARRAYS): _size(value)}
+
+
+def _examined(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count a box of a tree, None where it is a leaf: decided as it is."""
-    counts[Kind(PARTS if value is None else BISECTIONS)] += 1
+    return {Kind(PARTS if value is None else BISECTIONS): 1}
 
 
-def _steps(name: str, each: int) -> _Rule:
-    """Count bisections: `each` for every step of a loop whose length is a local variable."""
-
-    def rule(counts: Counts, frame: FrameType, value: Any) -> None:
-        counts[Kind(BISECTIONS)] += 0 if value is None else each * frame.f_locals[name]
-
-    return rule
-
-
-def _pieces(counts: Counts, frame: FrameType, value: Any) -> None:
+def _pieces(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count the pieces of a range, and the bisections that made them of those given."""
-    if value is not None:
-        found, given = len(value.pieces), len(frame.f_locals["points"]) - 1
-        counts[Kind(PARTS)] += found
-        counts[Kind(BISECTIONS)] += found - given
+    found, given = len(value.pieces), len(frame.f_locals["points"]) - 1
+    return {Kind(PARTS): found, Kind(BISECTIONS): found - given}
 
 
-def _split(counts: Counts, frame: FrameType, value: Any) -> None:
-    counts[Kind(BISECTIONS)] += 0 if value is None else int(value[1].sum())
-
-
-def _cells(counts: Counts, frame: FrameType, value: Any) -> None:
-    counts[Kind(CELLS)] += 0 if value is None else len(value)
-
-
-def _made(counts: Counts, frame: FrameType, value: Any) -> None:
-    """Count the steps of a certificate that is written; the ledger has none."""
-    counts[Kind(MADE)] += len(frame.f_locals["document"].get("steps", ()))
-
-
-def _checked(counts: Counts, frame: FrameType, value: Any) -> None:
+def _charged(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count the work charged to a file, also to one that is rejected, when its meter ends."""
-    if value is None and "meter" in frame.f_locals:
-        counts[Kind(WORK)] += round(frame.f_locals["meter"].spent)
+    ended = value is None and "meter" in frame.f_locals
+    return {Kind(WORK): round(frame.f_locals["meter"].spent)} if ended else {}
 
 
-_RULES = {
+_RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
     "proofs.trusted.equations.gap": _evaluation(GAP, RATES),
     "proofs.trusted.equations.slope": _evaluation(SLOPE, SECOND),
-    "proofs.trusted.equations.return_map_derivative": _matrix,
+    "proofs.trusted.equations.return_map_derivative": (
+        lambda frame, matrix: _evaluated(MATRIX, matrix[0][0])
+    ),
     "proofs.trusted.equations.arrival": _formula,
     "proofs.trusted.paper.s4_single.single_facts.defect": _formula,
     "proofs.trusted.paper.s4_single.single_facts.multiplier": _formula,
@@ -248,22 +209,30 @@ _RULES = {
     "proofs.trusted.paper.s4_single.single_facts.distance": _formula,
     "proofs.trusted.kernel.expression.Tape.evaluate": _formula,
     "proofs.motion.impact.march": _impact,
-    "proofs.motion.slope_cover._in_binary64": _boxes,
-    "intervals.bilinear.bilinear": _grid,
+    "proofs.motion.slope_cover._in_binary64": (
+        lambda frame, cover: {Kind(IMPACTS[0], ARRAYS): len(cover.boxes)}
+    ),
+    "intervals.bilinear.bilinear": _boxes(GRID),
     "intervals.cover.cover": _one(PARTS),
     "proofs.motion.covering.halves": _one(BISECTIONS),
-    "proofs.motion.impact.bisected": _steps("steps", 2),
+    "proofs.motion.impact.bisected": (
+        lambda frame, window: {Kind(BISECTIONS): 2 * frame.f_locals["steps"]}
+    ),
     "proofs.methods.extremes.extremes": _pieces,
+    "intervals.branch.split": lambda frame, found: {Kind(BISECTIONS): int(found[1].sum())},
+    "proofs.motion.landing.prove_cells": lambda frame, cells: {Kind(CELLS): len(cells)},
+    "intervals.array._make": _boxes(NUMBERS[0]),
+    "proofs.methods.derive.equal": _one(ALGEBRA),
+    "proofs.methods.derive.begins": _one(ALGEBRA),
+    "proofs.trusted.certificate.render": (
+        lambda frame, text: {Kind(MADE): len(frame.f_locals["document"].get("steps", ()))}
+    ),
+    "proofs.trusted.rules.find_rule": _one(CHECKED),
+}
+_CALLS: dict[str, _Rule] = {  # what may return None
     "proofs.methods.formulas.subdivide.<locals>.divide": _examined,
-    "intervals.branch.split": _split,
-    "proofs.motion.landing.prove_cells": _cells,
     "intervals.interval._make": _number(INTERVALS, "precision"),
     "intervals.interval.Interval.__init__": _number(INTERVALS, "precision"),
     "proofs.trusted.kernel.arithmetic.Enclosure.__init__": _number(CHECKER, "bits"),
-    "intervals.array._make": _numbers,
-    "proofs.methods.derive.equal": _one(ALGEBRA),
-    "proofs.methods.derive.begins": _one(ALGEBRA),
-    "proofs.trusted.certificate.render": _made,
-    "proofs.trusted.rules.find_rule": _one(CHECKED),
-    "proofs.trusted.kernel.meter.metered": _checked,
+    "proofs.trusted.kernel.meter.metered": _charged,
 }

@@ -65,30 +65,29 @@ def run(
     arguments: list[str] | None = None,
     description: str | None = None,
     *,
-    figure: bool = False,
     examples: str = "",
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
-    figure: whether there is a picture, drawn by `proofs.report.<file>_figure.svg`.
+    `proofs.report.<file>_figure.svg`, if there is one, draws it.
     """
     claims = [claim for ids in FILES[file].values() for claim in ids]
     epilog = EPILOG.format(group=file, first=claims[0]) + examples
     parser = Parser(f"proofs.{file}", description, epilog)
     add_parameters(parser)
     add_outputs(parser, claims)
+    parser.set_defaults(figure=False, horizon=None)
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    if figure:
+    if find_spec(f"proofs.report.{file}_figure") is not None:
         help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
     options = parser.parse_args(arguments)
-    drawn = figure and options.figure
-    if drawn and find_spec("matplotlib") is None:
+    if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     of = prepared(parser, options)
-    more = {"horizon": options.horizon} if getattr(options, "horizon", None) else {}
+    more = {"horizon": options.horizon} if options.horizon else {}
     began = perf_counter()
     with counting(options.stats) as counts, progress() as tell:
         asked = wanted(file, of, options.only)
@@ -98,7 +97,7 @@ def run(
     seconds = perf_counter() - began
     try:
         write(options.out, file, made)
-        if drawn:
+        if options.figure:
             draw = import_module(f"proofs.report.{file}_figure").svg
             write_atomically(options.out / f"{file}.svg", draw(made.certificate))
     except OSError as error:
@@ -141,7 +140,12 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
     add = parser.add_argument
     add("--only", nargs="+", choices=claims, metavar="ID", help=f"claims, of {' '.join(claims)}")
-    add("--digits", type=digits, default=30, help="significant digits of the numbers (default 30)")
+    add(
+        "--digits",
+        type=digits,
+        default=30,
+        help="significant digits of the numbers (default 30)",
+    )
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")

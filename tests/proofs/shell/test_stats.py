@@ -1,4 +1,4 @@
-"""--stats, and what it shows: nothing is evaluated that the claims asked for do not need."""
+"""--stats, and what it shows: nothing is evaluated that what is asked for does not need."""
 
 import inspect
 import json
@@ -6,18 +6,13 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from importlib import import_module
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from intervals import Interval, IntervalArray, Jet
-from proofs import horseshoe
-from proofs.motion.kernel import float_clock, float_launch
-from proofs.motion.system import System
-from proofs.shell import cli, counting, groups, ledger, runner
+from proofs import horseshoe, impact, orbits, period_doubling, resonance, single_impact
+from proofs.check import main as check_command
+from proofs.shell import counting, groups, ledger
 from proofs.shell.counting import (
     ALGEBRA,
     ARRAYS,
@@ -25,9 +20,12 @@ from proofs.shell.counting import (
     CELLS,
     CHECKED,
     CHECKER,
+    COLUMNS,
     EQUATIONS,
     FLOATS,
+    FORMULAS,
     GAP,
+    GRID,
     INTERVALS,
     MADE,
     MATRIX,
@@ -44,26 +42,43 @@ from proofs.shell.counting import (
     table,
 )
 from proofs.trusted import equations
-from proofs.trusted.equations import clock, gap, launch, slope
-from proofs.trusted.kernel.arithmetic import Dual, rational
-from proofs.trusted.paper import s2_foundations
+from proofs.trusted.paper import GROUPS, s2_foundations
 from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.paper.s5_soft import stability
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 
-pytestmark = pytest.mark.slow
-
 ROOT = Path(__file__).parents[3]
-SYSTEM = System(PAPER.eta, PAPER.nu)
 PROVER = (FLOATS, INTERVALS, ARRAYS)
+AT = ["--eta", "0.2121", "--nu", "-0.2"]
+POINT = [*AT, "--phi", "1.11"]
+COMMANDS = {
+    impact: POINT,
+    orbits: ["--word", "01", "--fast"],
+    period_doubling: ["--epsilon", "0.1"],
+    single_impact: [*AT, "--n", "4"],
+    resonance: ["--nu", "-0.2", "--epsilon", "0.5", "--phi", "1", "--gamma", "-0.3"],
+}
+QUESTIONS = [pytest.param(*pair, id=pair[0].__name__) for pair in COMMANDS.items()]
+
+
+ASKED = {
+    "a point": (POINT, 0),
+    "an interval": ([*AT, "--phi", "1.11", "1.15"], 0),
+    "a sticking phase": ([*AT, "--phi", "4.64"], 0),
+    "grazing": ([*AT, "--phi", "1.17", "1.2"], 1),
+    "restitution": ([*POINT, "--epsilon", "0.01", "--gamma", "-0.3", "-0.29"], 0),
+}
+CASES = [
+    pytest.param(*case, id=name, marks=[pytest.mark.slow] * (name == "grazing"))
+    for name, case in ASKED.items()
+]
 
 
 def proved(group, *claims, of=PAPER):
     """Prove claims; return the certificate and what that evaluated."""
-    produce = horseshoe.produce if group == "horseshoe" else partial(groups.produce, group)
     with counted() as counts:
-        made = produce(of, claims, digits=30)
+        made = groups.produce(groups.wanted(group, of, claims), of, digits=30)
     return made.certificate, counts
 
 
@@ -71,128 +86,25 @@ def by(counts, what):
     return sum(number for kind, number in counts.items() if kind.what == what)
 
 
-# -- counted right ---------------------------------------------------------------------------------
+def rows_of(text):
+    """The rows of the one table in a text: what, its number or a number for each column."""
+    _, table = text.split("\nasked: ")
+    lines = table.splitlines()
+    assert lines[1].split() == ["evaluated", *COLUMNS]
+    found = {}
+    for line in lines[2:]:
+        what = next(row for row in ROWS if line.startswith(row + "  "))
+        numbers = [int(x.replace(" ", "")) for x in line[len(what) :].split("  ") if x.strip()]
+        assert len(numbers) in (1, len(COLUMNS))
+        found[what] = numbers[0] if len(numbers) == 1 else dict(zip(COLUMNS, numbers, strict=True))
+    return found
 
 
-def numbers_of_each_kind():
-    """(column, boxes, a jet or not, launch, clock)"""
-
-    def case(column, boxes, jet, eta, nu, phi, t):
-        return column, boxes, jet, launch(-1, eta, nu, phi), clock(eta, t)
-
-    exact = [Fraction(x) for x in ("2121/10000", "-1/5", "6/5", "25")]
-    intervals = [Interval(x) for x in exact]
-    phases = IntervalArray.from_floats([1.1, 1.2, 1.3])
-    yield case(FLOATS, 1, False, *map(float, exact))
-    start, times = float_launch(SYSTEM, np.linspace(1.1, 1.3, 4)), np.full(4, 25.0)
-    yield FLOATS, 4, False, start, float_clock(SYSTEM, times)
-    yield case(INTERVALS, 1, False, *intervals)
-    times = IntervalArray.from_floats([24.0, 25.0, 26.0])
-    yield case(ARRAYS, 3, False, *intervals[:2], phases, times)
-    jets = *intervals[:2], Jet.variable(intervals[2]), intervals[3]
-    yield case(INTERVALS, 1, True, *jets)
-    mine = [rational(x, 80) for x in exact]
-    yield case(CHECKER, 1, False, *mine)
-    one = rational(Fraction(1), 80)
-    yield case(CHECKER, 1, True, *mine[:2], Dual(mine[2], one), mine[3])
-
-
-@pytest.mark.parametrize("column, boxes, jet, start, now", [*numbers_of_each_kind()])
-def test_each_evaluation_counts_once_for_each_box(column, boxes, jet, start, now):
-    with counted() as counts:
-        for order in (0, 0, 0, 1, 2):
-            gap(start, now, order)
-    plain = 0 if jet else 3
-    expected = {GAP: plain * boxes, RATES: (5 - plain) * boxes}
-    assert {what: counts[Kind(what, column)] for what in expected} == expected
-    assert evaluations(counts) == evaluations(counts, column) == 5 * boxes
-    with counted() as counts:
-        slope(start, now)
-    # f' = (sin(eta t) / eta) gap''(0) / gap'(t)
-    assert counts[Kind(SECOND if jet else SLOPE, column)] == boxes
-    assert by(counts, SLOPE) + by(counts, SECOND) == boxes and by(counts, RATES) >= 1 + boxes
-
-
-def test_numbers_count_by_their_bits():
-    x = {bits: Interval("1/3", precision=bits) for bits in (53, 64, 65, 200, 3000)}
-    with counted() as counts:
-        for bits, times in ((53, 1), (64, 2), (65, 3), (200, 4), (3000, 5)):
-            for _ in range(times):
-                x[bits] + x[bits]
-    found = [counts[Kind(what, INTERVALS)] for what in NUMBERS]
-    assert found == [3, 3, 4, 0, 0, 5]
-    boxes = IntervalArray.from_floats(np.ones(7))
-    with counted() as counts:
-        boxes + boxes
-    assert counts == {Kind(NUMBERS[0], ARRAYS): 7}
-
-
-def codes(code):
-    yield code
-    for inner in code.co_consts:
-        if inspect.iscode(inner):
-            yield from codes(inner)
-
-
-@pytest.mark.parametrize("name", counting._RULES)
-def test_every_function_counted_exists(name):
-    """Counts are by name: who renames a function must rename it here."""
-    parts = name.split(".")
-    first = next(i for i, part in enumerate(parts) if not part.islower() or i == len(parts) - 1)
-    while True:
-        try:
-            module = import_module(".".join(parts[:first]))
-            break
-        except ModuleNotFoundError:
-            first -= 1
-    outer, *_ = inner = parts[first:]
-    found = getattr(module, outer)
-    if inspect.isclass(found):
-        found = vars(found)[inner[1]]
-    assert ".".join(inner) in {code.co_qualname for code in codes(found.__code__)}
-
-
-def test_counting_changes_nothing_and_ends():
-    plain = horseshoe.produce(PAPER, ("H1",), digits=20).certificate
-    with counted() as counts:
-        assert horseshoe.produce(PAPER, ("H1",), digits=20).certificate == plain
-    assert evaluations(counts) and sys.getprofile() is None
-    so_far = counts.copy()
-    check(plain)
-    assert counts == so_far
-    with pytest.raises(KeyError), counted():
-        raise KeyError
-    assert sys.getprofile() is None
-
-
-def test_nothing_is_watched_unless_that_is_wanted():
-    with cli.counting(False) as counts:
-        assert sys.getprofile() is None
-        gap(launch(-1, 0.2, -0.2, 1.0), clock(0.2, 1.0))
-    assert not counts
-
-
-def test_without_stats_this_is_not_even_imported(tmp_path):
-    code = "import sys; from proofs import horseshoe as h; h.main(sys.argv[1:]); "
-    code += "sys.exit('proofs.shell.counting' in sys.modules)"
-    ask = [sys.executable, "-c", code, "--only", "H16", "--out", str(tmp_path)]
-    for more, imported in (([], 0), (["--stats"], 1)):
-        done = subprocess.run(ask + more, capture_output=True, text=True, cwd=ROOT, check=False)
-        assert done.returncode == imported, done.stderr
-        assert ("asked: H16" in done.stdout) is bool(imported)
-
-
-def test_a_profiler_that_was_there_is_there_again():
-    def other(frame, event, value):
-        pass
-
-    sys.setprofile(other)
-    try:
-        with counted():
-            assert sys.getprofile() is not other
-        assert sys.getprofile() is other
-    finally:
-        sys.setprofile(None)
+def shown(capsys, command, *arguments, status=0):
+    """What a command evaluates, by its table."""
+    capsys.readouterr()
+    assert command.main([*arguments, "--stats"]) == status
+    return rows_of(capsys.readouterr().out)
 
 
 # -- nothing that is not asked for -----------------------------------------------------------------
@@ -269,6 +181,70 @@ def test_a_formula_asks_for_its_own_lemmas(group, rows, claim):
     assert evaluations(counts) == 0
 
 
+LOADED = """
+import sys
+from importlib import import_module
+
+status = import_module(sys.argv[1]).main(sys.argv[2:])
+print(*sorted(sys.modules), file=sys.stderr)
+sys.exit(status)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command, arguments", QUESTIONS)
+def test_without_stats_nothing_of_it_is_there(command, arguments):
+    ask = [sys.executable, "-c", LOADED, command.__name__, *arguments, "--json", "-"]
+    done = subprocess.run(ask, capture_output=True, text=True, cwd=ROOT, check=True)
+    modules = set(done.stderr.split())
+    assert command.__name__ in modules
+    assert {"sympy", "proofs.shell.counting"}.isdisjoint(modules)
+    if command is impact:
+        unwanted = {"numpy", "proofs.trusted.certificate", "proofs.check", "proofs.motion.kernel"}
+        assert unwanted.isdisjoint(modules)
+
+
+@pytest.mark.parametrize("command, arguments", QUESTIONS)
+def test_nothing_is_watched_without_stats(command, arguments, capsys, monkeypatch):
+    def refuse(function):
+        raise AssertionError("watched")
+
+    monkeypatch.setattr(sys, "setprofile", refuse)
+    assert command.main(arguments) == 0
+    assert "asked: " not in (out := capsys.readouterr()).out + out.err
+    with pytest.raises(AssertionError, match="watched"):
+        command.main([*arguments, "--stats"])
+
+
+def test_fewer_digits_take_fewer_evaluations_and_fewer_bits(capsys):
+    few, many = (shown(capsys, impact, *POINT, "--digits", digits) for digits in ("30", "300"))
+    for what in (GAP, RATES):
+        assert 0 < few[what][INTERVALS] < many[what][INTERVALS]
+    beyond = NUMBERS[-1]
+    assert beyond not in few and many[beyond][INTERVALS] > 0
+    assert few[NUMBERS[0]] == many[NUMBERS[0]]  # the first impact is found in 64 bits
+
+
+def test_one_period_is_less_than_all_and_formulas_alone_need_no_flight(capsys):
+    one, all_of_them = (
+        shown(capsys, single_impact, *AT, "--n", "4"),
+        shown(capsys, single_impact, *AT, "--most", "6"),
+    )
+    assert one[FORMULAS][INTERVALS] < all_of_them[FORMULAS][INTERVALS]
+    for command in (period_doubling, resonance):
+        assert {*EQUATIONS, PARTS, BISECTIONS}.isdisjoint(
+            shown(capsys, command, *COMMANDS[command])
+        )
+
+
+@pytest.mark.slow
+def test_binary64_takes_no_more_bits(capsys):
+    fast = shown(capsys, orbits, "--word", "01", "--fast")
+    exact = shown(capsys, orbits, "--word", "01", "--digits", "60")
+    assert NUMBERS[3] not in fast and exact[NUMBERS[3]][INTERVALS] > 0
+    assert fast[GRID] == exact[GRID]  # the horseshoe is proved once, in binary64
+
+
 # -- nothing again ---------------------------------------------------------------------------------
 
 KEPT = {"horseshoe": ("H1", "H11"), "sets": ("H14",), "foundations": ("M4", "A2")}
@@ -277,38 +253,27 @@ KEPT = {"horseshoe": ("H1", "H11"), "sets": ("H14",), "foundations": ("M4", "A2"
 def settled(folder, name, fresh=False):
     (job,) = ledger.jobs(KEPT[name], folder, 30, fresh, stats=True)
     found = ledger.settle_counting(job)
-    if found.page is not None:
-        (folder / f"{job.name}.json").write_text(found.certificate)
+    (folder / f"{job.name}.json").write_text(found.made.certificate)
     return found
 
 
 @pytest.mark.parametrize("name", KEPT)
 def test_a_certificate_that_is_there_is_checked_and_not_proved(tmp_path, name):
     first = settled(tmp_path, name)
-    assert by(first.counts, MADE) > 0 and first.page is not None
+    assert by(first.counts, MADE) > 0 and first.is_new
     second = settled(tmp_path, name)
-    assert second.page is None and second.certificate == first.certificate
+    assert not second.is_new and second.made.certificate == first.made.certificate
     assert {kind.by for kind in +second.counts} <= {CHECKER, ""}
     assert evaluations(second.counts, *PROVER) == 0
     for what in (MADE, ALGEBRA, PARTS, BISECTIONS, CELLS):
         assert by(second.counts, what) == 0, what
-    assert by(second.counts, CHECKED) == len(json.loads(first.certificate)["steps"])
+    assert by(second.counts, CHECKED) == len(json.loads(first.made.certificate)["steps"])
     for what in (CHECKED, WORK):
         assert by(second.counts, what) == by(first.counts, what) > 0
     third = settled(tmp_path, name, fresh=True)
-    assert third.certificate == first.certificate
+    assert third.made.certificate == first.made.certificate
     for what in (*EQUATIONS, MADE, ALGEBRA):
         assert by(third.counts, what) == by(first.counts, what)
-
-
-def test_another_number_in_the_file_has_it_proved_again(tmp_path):
-    first = settled(tmp_path, "horseshoe")
-    path = tmp_path / "horseshoe.json"
-    for old, new in (('"2121/10000"', '"2122/10000"'), ('"2121/10000"', '"1061/5000"')):
-        path.write_text(first.certificate.replace(old, new, 1))
-        again = settled(tmp_path, "horseshoe")
-        assert by(again.counts, MADE) == by(first.counts, MADE) > 0
-        assert path.read_text() == again.certificate == first.certificate
 
 
 def test_a_good_certificate_about_other_numbers_is_none_here(tmp_path):
@@ -335,33 +300,22 @@ def test_another_equation_has_it_proved_again(tmp_path, monkeypatch):
     first = settled(tmp_path, "horseshoe")
     monkeypatch.setattr(equations.gap, "__code__", changed_gap())
     with pytest.raises(Rejected):
-        check(first.certificate)
+        check(first.made.certificate)
     again = settled(tmp_path, "horseshoe")
-    assert again.page is not None and by(again.counts, MADE) > 0
+    assert again.is_new and by(again.counts, MADE) > 0
     assert by(again.counts, CHECKED) > by(again.counts, MADE)  # one of the old ones, all new ones
-    assert settled(tmp_path, "horseshoe").page is None
+    assert not settled(tmp_path, "horseshoe").is_new
     monkeypatch.undo()
     with pytest.raises(Rejected):
-        check(again.certificate)
+        check(again.made.certificate)
     expected, _ = proved("horseshoe", "H1", of=replace(PAPER, nu=PAPER.nu * 99 / 100))
     for name, bounds in json.loads(expected)["claims"][0]["quantities"].items():
-        found = json.loads(again.certificate)["claims"][0]["quantities"][name]
+        found = json.loads(again.made.certificate)["claims"][0]["quantities"][name]
         assert Fraction(found["lower"]) <= Fraction(bounds["upper"])
         assert Fraction(bounds["lower"]) <= Fraction(found["upper"])
 
 
 # -- on the screen ---------------------------------------------------------------------------------
-
-
-def rows_of(text):
-    """The rows of a table: what, numbers."""
-    found = {}
-    for line in text.splitlines():
-        what = next((row for row in ROWS if line.startswith(row + "  ")), None)
-        if what is not None:
-            numbers = filter(None, line[len(what) :].split("  "))
-            found[what] = [int(number.replace(" ", "")) for number in numbers]
-    return found
 
 
 def test_a_table_of_what_there_is():
@@ -370,39 +324,98 @@ def test_a_table_of_what_there_is():
     assert lines[0] == "asked: H1 N1" and len(lines) == 4
     assert lines[1].split() == ["evaluated", *counting.COLUMNS]
     assert lines[2].split("  ")[-1].strip() == "3 456 789" and lines[3].split()[-1] == "7"
-    assert rows_of("\n".join(lines)) == {GAP: [12, 0, 0, 3456789], WORK: [7]}
+    expected = {FLOATS: 12, INTERVALS: 0, ARRAYS: 0, CHECKER: 3456789}
+    assert rows_of("\n" + "\n".join(lines)) == {GAP: expected, WORK: 7}
 
 
 def test_the_commands_show_it(tmp_path, capsys):
     ask = ["--only", "H1", "--out", str(tmp_path)]
     assert horseshoe.main([*ask, "--stats"]) == 0
-    shown = capsys.readouterr()
-    results, _, stats = shown.out.partition("asked: ")
-    assert "checker: accepted" in results and stats.startswith("H1\n") and not shown.err
-    rows = rows_of(stats)
-    assert all(rows[GAP][i] > 0 for i in (0, 1, 3)) and rows[CHECKED] == rows[MADE]
-    assert horseshoe.main([*ask, "--stats", "--no-check"]) == 0
-    assert {CHECKED, WORK}.isdisjoint(unchecked := rows_of(capsys.readouterr().out))
-    assert unchecked[GAP] == [*rows[GAP][:3], 0]
+    said = capsys.readouterr()
+    assert "checker: accepted" in said.out and "\nasked: H1\n" in said.out and not said.err
+    rows = rows_of(said.out)
+    assert all(rows[GAP][column] > 0 for column in (FLOATS, INTERVALS, CHECKER))
+    assert rows[CHECKED] == rows[MADE] > 0
+    unchecked = shown(capsys, horseshoe, *ask, "--no-check")
+    assert {CHECKED, WORK}.isdisjoint(unchecked) and unchecked[GAP] == {**rows[GAP], CHECKER: 0}
     assert horseshoe.main([*ask, "--stats", "--json", "-"]) == 0
-    shown = capsys.readouterr()
-    assert shown.out == (tmp_path / "horseshoe.json").read_text()
-    assert rows_of(shown.err) == rows
-    assert runner.run("sets", ["--only", "H15", "--out", str(tmp_path), "--stats"]) == 0
-    assert "asked: H15\n" in capsys.readouterr().out
-    assert runner.run("sets", ["--only", "H15", "--out", str(tmp_path)]) == 0
-    assert "asked: " not in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert said.out == (tmp_path / "horseshoe.json").read_text()
+    assert rows_of(said.err) == rows
 
 
 def test_the_ledger_shows_it_of_each_file(tmp_path, capsys):
     """The work is done in other processes; their counts come back."""
     ask = ["--only", "H1", "H15", "--out", str(tmp_path), "--stats"]
+
+    def tables(text):
+        return [rows_of("\nasked: " + part) for part in text.split("\nasked: ")[1:]]
+
     assert ledger.main(ask) == 0
-    first, second = (rows_of(part) for part in capsys.readouterr().out.split("asked: ")[1:])
-    assert first[GAP][1] > 0 and first[MADE] == first[CHECKED]
+    first, second = tables(capsys.readouterr().out)
+    assert first[GAP][INTERVALS] > 0 and first[MADE] == first[CHECKED]
     assert not set(EQUATIONS) & set(second)
     assert ledger.main([*ask, "--json", "-"]) == 0
-    shown = capsys.readouterr()
-    assert json.loads(shown.out)["claims"]
-    again = [rows_of(part) for part in shown.err.split("asked: ")[1:]]
-    assert again[0][GAP] == [0, 0, 0, first[GAP][3]] and MADE not in again[0]
+    said = capsys.readouterr()
+    assert json.loads(said.out)["claims"]
+    again = tables(said.err)[0]
+    assert again[GAP] == {**dict.fromkeys(PROVER, 0), CHECKER: first[GAP][CHECKER]}
+    assert MADE not in again
+
+
+@pytest.mark.parametrize("command, arguments", QUESTIONS)
+def test_the_answer_is_the_same_and_machines_are_spared(command, arguments, capsys):
+    answers = []
+    for more in ([], ["--stats"]):
+        assert command.main([*arguments, "--json", "-", *more]) == 0
+        answers.append(capsys.readouterr())
+    assert answers[0].out == answers[1].out and answers[0].err == ""
+    assert json.loads(answers[1].out)
+    rows = rows_of("\n" + answers[1].err.lstrip("\n"))
+    assert rows and answers[1].err.startswith("\nasked: ")
+    assert rows == shown(capsys, command, *arguments)
+    assert sys.getprofile() is None
+
+
+@pytest.mark.slow
+def test_every_command_beside_the_packages_has_it():
+    sources = {path.stem: path.read_text() for path in (ROOT / "proofs").glob("*.py")}
+    commands = {name for name, text in sources.items() if '\nif __name__ == "__main__":' in text}
+    commands -= {"__main__"}  # the ledger's
+    assert {*GROUPS, "horseshoe", "check"} <= commands
+    assert {command.__name__.removeprefix("proofs.") for command in COMMANDS} <= commands
+    for name in commands:
+        ask = [sys.executable, "-m", f"proofs.{name}", "--help"]
+        done = subprocess.run(ask, capture_output=True, text=True, cwd=ROOT, check=True)
+        assert "--stats" in done.stdout, name
+
+
+@pytest.mark.slow
+def test_undecided_is_counted_and_bad_input_is_not(capsys):
+    assert impact.main([*AT, "--phi", "3.37", "3.39", "--stats"]) == 1
+    out = capsys.readouterr()
+    assert "sticking begins" in out.err and rows_of(out.out)[NUMBERS[0]][INTERVALS] > 0
+    for bad in (["--phi", "7"], ["--phi", "1.57"]):  # outside the circle; no impact at all
+        with pytest.raises(SystemExit) as leave:
+            impact.main([*AT, *bad, "--stats"])
+        out = capsys.readouterr()
+        assert leave.value.code == 2 and out.out == "" and out.err.count("\n") == 1
+        assert sys.getprofile() is None
+
+
+def test_the_checker_shows_what_it_evaluates(capsys, tmp_path):
+    path = tmp_path / "horseshoe.json"
+    path.write_text(proved("horseshoe", "H1")[0])
+    assert check_command([str(path)]) == 0
+    plain = capsys.readouterr()
+    assert check_command([str(path), "--stats"]) == 0
+    said = capsys.readouterr()
+    assert said.out.startswith(plain.out) and "asked: " not in plain.out and said.err == ""
+    rows = rows_of(said.out)
+    assert rows[CHECKED] == len(json.loads(path.read_text())["steps"]) and rows[WORK] > 0
+    columns = [row for row in rows.values() if isinstance(row, dict)]
+    assert all(row[column] == 0 for row in columns for column in (FLOATS, INTERVALS, ARRAYS))
+    assert rows[GAP][CHECKER] > 0 and {ALGEBRA, MADE, PARTS, CELLS}.isdisjoint(rows)
+    (tmp_path / "bad.json").write_text("{")
+    assert check_command([str(tmp_path / "bad.json"), "--stats"]) == 2
+    assert capsys.readouterr().out == ""

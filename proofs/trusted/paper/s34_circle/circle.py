@@ -63,35 +63,36 @@ class FixedPoint(Conclusion):
         return {"fixed_point": self.bracket}
 
 
-def repelling_fixed_point(wide: SlopeRange, narrow: SlopeRange) -> FixedPoint:
-    """Theorem. Let f be C^1 with f' > 1 on two intervals, the narrow one in the wide one, and map
-    each across itself, onto an arc shorter than the circle that begins before it and ends behind
-    it, both at phases in [0, 2 pi). Then f has one fixed point p in the wide one, and it is in the
-    narrow one, [a, b]: p - a = (a - f(a)) / (f'(x) - 1) for an x in there. See also `FixedPoint`.
+def repelling_fixed_point(slopes: SlopeRange) -> FixedPoint:
+    """Theorem. Let f be C^1 with f' > 1 on an interval, and map it onto an arc shorter than the
+    circle that begins before it and ends behind it, both at phases in [0, 2 pi). Then f has one
+    fixed point p there. Where f(x) < x, f(y) > y for x < y, p is between, and p - x =
+    (x - f(x)) / (f'(z) - 1) for a z between. See also `FixedPoint`.
 
     Proof. (1) Such an arc does not pass phase 0, so f is a real function there; f(x) - x increases
     strictly, from below 0 to above 0; then the mean value theorem for it. (2) f is continuous at
     p = f(p), where the mass leaves the table: phases near p stay near it for n impacts. (3) Below p
     f(x) < x: iterates decrease, to no other fixed point, until one is in [f(a), a].
     """
-    for part in (wide, narrow):
-        arc = image_arc(part)
-        if part.minimum[0] <= 1:
-            raise Unproved("f' > 1 is not proved")
-        if not (arc.low[1] < part.domain[0] and part.domain[1] < arc.high[0]):
-            raise Unproved("f is not proved to map an interval across itself")
-    if wide.at != narrow.at or not within(narrow.domain, wide.domain):
-        raise Unproved("the second interval does not lie in the first")
-    start, (low, high) = narrow.domain[0], narrow.images[0]
-    least, most = narrow.minimum[0] - 1, narrow.maximum[1] - 1
-    bracket = Phase(start + (start - high) / most, start + (start - low) / least)
-    return FixedPoint(wide.at, wide.domain, wide.minimum[0], wide.images[0], bracket)
+    arc, least = image_arc(slopes), slopes.minimum[0]
+    if least <= 1:
+        raise Unproved("f' > 1 is not proved")
+    if not (arc.low[1] < slopes.domain[0] and slopes.domain[1] < arc.high[0]):
+        raise Unproved("f is not proved to map the interval across itself")
+    images = list(enumerate(zip(slopes.points, slopes.images, strict=True)))
+    first = max(i for i, (point, image) in images if image[1] < point)
+    last = min(i for i, (point, image) in images if point < image[0])
+    pieces = slopes.pieces[first:last]
+    slowest, fastest = min(low for low, _ in pieces), max(high for _, high in pieces)
+    x, (low, high) = images[first][1]
+    bracket = Phase(x + (x - high) / (fastest - 1), x + (x - low) / (slowest - 1))
+    return FixedPoint(slopes.at, slopes.domain, least, slopes.images[0], bracket)
 
 
 def fixed_point(context: Context, reader: Reader) -> FixedPoint:
-    """Rule `fixed-point`: {wide, narrow: slope-range steps}. Theorem: `repelling_fixed_point`."""
-    wide, narrow = (context.step(name, SlopeRange) for name in reader.fields("wide", "narrow"))
-    return repelling_fixed_point(wide, narrow)
+    """Rule `fixed-point`: {slopes: a slope-range step}. Conclusion: `repelling_fixed_point`."""
+    (slopes,) = reader.fields("slopes")
+    return repelling_fixed_point(context.step(slopes, SlopeRange))
 
 
 # -- the rows --------------------------------------------------------------------------------------

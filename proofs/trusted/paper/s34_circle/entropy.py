@@ -132,18 +132,22 @@ def branch(context: Context, reader: Reader) -> Branch:
 class EntropyBound(Conclusion):
     """In the union of disjoint branches f has an invariant set with entropy >= log(growth).
 
-    By a covering graph on so many intervals, `states`; `entropy` encloses log(growth).
+    By a covering graph on so many intervals, `states`.
     """
 
     at: Place
     branches: tuple[Branch, ...]
     states: int
     growth: Fraction
-    entropy: Range
 
     def __post_init__(self) -> None:
         if any(one.phases[1] >= two.phases[0] for one, two in pairwise(self.branches)):
             raise Unproved("branches must be disjoint and in order")
+
+    @property
+    def entropy(self) -> Range:
+        """Enclose log(growth)."""
+        return log(self.growth, _LOG_BITS).range
 
     @property
     def sentence(self) -> str:
@@ -209,8 +213,7 @@ def entropy_bound(
         known = [(a, b) for a, b in parts if a < b and a in images and b in images]
         if sum(best(images[a], images[b]) for a, b in known) < growth * weight:
             raise Unproved("the graph does not multiply the weights by the growth")
-    logarithm = log(growth, _LOG_BITS).range
-    return EntropyBound(places.pop(), tuple(branches), len(states), growth, logarithm)
+    return EntropyBound(places.pop(), tuple(branches), len(states), growth)
 
 
 def covering_graph(context: Context, reader: Reader) -> EntropyBound:

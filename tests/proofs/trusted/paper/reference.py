@@ -94,6 +94,20 @@ def _refine(eta, nu, phi, side, low, high):
     return low, (phi + low) % (2 * mp.pi)
 
 
+def rebound(eta, nu, epsilon, phi, gamma, step):
+    """(flight time, velocity) of the next impact by a scan of (14) in steps, bisection and (15)."""
+    side = math.copysign(1.0, nu)
+    low = step = mpf(step)
+    while side * left_side_14(eta, nu, epsilon, phi, gamma, low + step) > 0:
+        low += step
+    high = low + step
+    for _ in range(90):
+        middle = (low + high) / 2
+        flying = side * left_side_14(eta, nu, epsilon, phi, gamma, middle) > 0
+        low, high = (middle, high) if flying else (low, middle)
+    return low, right_side_15(eta, nu, epsilon, phi, gamma, low)
+
+
 def slope(eta, nu, phi, flight, h=mpf(10) ** -15):
     """f' by central differences of the root of (10), at 50 digits."""
 

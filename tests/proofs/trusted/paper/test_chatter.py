@@ -27,25 +27,15 @@ def number(value):
     return mpf(value.numerator) / value.denominator
 
 
-def gap(system, phase, kick, t):
-    """The gap by (14), the rebound with relative velocity `kick`; epsilon = 1 serves for any."""
-    eta, nu = number(system.eta), number(system.nu)
-    side = system.side
-    gamma = (side * kick - nu * mp.cos(phase)) / eta
-    return side * reference.left_side_14(eta, nu, 1, phase, gamma, t)
-
-
 def landing(system, phase, kick):
-    """(time, speed) of the next impact, by scanning and bisection."""
-    step = kick / 10
-    low = step
-    while gap(system, phase, kick, low + step) > 0:
-        low += step
-    high = low + step
-    for _ in range(80):
-        middle = (low + high) / 2
-        low, high = (middle, high) if gap(system, phase, kick, middle) > 0 else (low, middle)
-    return low, -mp.diff(lambda t: gap(system, phase, kick, t), low)
+    """(time, speed) of the next impact after a rebound with the relative velocity `kick`.
+
+    By (14) and (15); epsilon = 1 serves for any.
+    """
+    eta, nu, side = number(system.eta), number(system.nu), system.side
+    gamma = (side * kick - nu * mp.cos(phase)) / eta
+    time, gamma = reference.rebound(eta, nu, 1, phase, gamma, kick / 10)
+    return time, side * (eta * gamma + nu * mp.cos(phase + time))
 
 
 @pytest.mark.parametrize(

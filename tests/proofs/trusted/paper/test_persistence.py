@@ -81,30 +81,16 @@ def test_prover_and_checker_conclude_the_same():
 
 
 def bounces(epsilon, phase, speed):
-    """Follow the impacts by (14) until rebounds are below 1e-6; return their phases.
-
-    The last one is infinite if the mass leaves the arc.
+    """Follow the impacts by (14) until rebounds are below 1e-6, or one is long; their phases.
 
     Before an impact with gap' = -speed, side -1, the velocity is gamma = (-speed - nu cos) / eta.
     """
-    phases = []
-    while epsilon * speed > mpf("1e-6"):
+    phases, time = [], 0
+    while epsilon * speed > mpf("1e-6") and time < 3:
         gamma = (-speed - NU * mp.cos(phase)) / ETA
-
-        def gap(t, phase=phase, gamma=gamma):
-            return -reference.left_side_14(ETA, NU, epsilon, phase, gamma, t)
-
-        step = epsilon * speed / 2
-        low = step
-        while gap(low + step) > 0:
-            low += step
-            if low > 3:
-                return [*phases, mp.inf]
-        high = low + step
-        for _ in range(70):
-            middle = (low + high) / 2
-            low, high = (middle, high) if gap(middle) > 0 else (low, middle)
-        speed, phase = -mp.diff(gap, low), phase + low
+        time, gamma = reference.rebound(ETA, NU, epsilon, phase, gamma, epsilon * speed / 2)
+        phase += time
+        speed = -(ETA * gamma + NU * mp.cos(phase))
         phases.append(phase)
     return phases
 
@@ -140,31 +126,15 @@ def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
 # -- the other orbit -------------------------------------------------------------------------------
 
 
-def next_state(epsilon, phi, gamma):
-    """F by a scan of (14) and by (15)."""
-
-    def gap(t):
-        return -reference.left_side_14(ETA, NU, epsilon, phi, gamma, t)
-
-    step = mpf("0.05")
-    time = step
-    while gap(time + step) > 0:
-        time += step
-    low, high = time, time + step
-    for _ in range(90):
-        middle = (low + high) / 2
-        low, high = (middle, high) if gap(middle) > 0 else (low, middle)
-    velocity = reference.right_side_15(ETA, NU, epsilon, phi, gamma, low)
-    return (phi + low) % (2 * mp.pi), velocity
-
-
 def test_the_boxes_of_the_other_orbit_are_mapped_into_each_other_by_the_printed_equations():
     pair = dict(evidence().proofs["G7"])[PAIR]
     assert pair.at.epsilon == (Fraction("0.29"),) * 2
     for source, target in ((pair.first, pair.second), (pair.second, pair.first)):
         for corner in ((0, 0), (0, 1), (1, 1)):
             phi, gamma = (ends[k] for ends, k in zip(source, corner, strict=True))
-            image = next_state(mpf("0.29"), exact_number(phi), exact_number(gamma))
+            state = exact_number(phi), exact_number(gamma)
+            time, velocity = reference.rebound(ETA, NU, mpf("0.29"), *state, "0.05")
+            image = (state[0] + time) % (2 * mp.pi), velocity
             for value, (low, high) in zip(image, target, strict=True):
                 assert low < exact(value) < high
 
