@@ -13,6 +13,7 @@ _BLIND = {"tape", "roots", "parts", "work"}  # the checker's machinery inside of
 _MORE = {  # properties that sentences or rows rest on
     "Horseshoe": ("interval",),
     "Separation": ("returns",),
+    "EntropyBound": ("entropy",),
     "Digits": ("rounded", "truncated"),
     "Itinerary": ("cut",),
     "InvariantSet": ("shift", "sentence"),

@@ -247,10 +247,10 @@ def fixed_point(view, rng):
 
 def full_shift(view, rng):
     """Disjoint cells in the order of phases, each mapped over the interval, and nothing else."""
-    told, cells, bounds = [], view.cells, getattr(view, "slopes", (1, 10**9))
+    told, cells, bounds = [], view.cells, view.slopes
     if any(b[0] <= a[1] for a, b in pairwise(cells)) or len(cells) < 2:
         told.append("the cells are not in the order of phases, or overlap")
-    if not 1 < bounds[0] <= bounds[1] and hasattr(view, "slopes"):
+    if not 1 < bounds[0] <= bounds[1]:
         told.append("f is not said to expand")
     for cell in cells:
         if not view.interval[0] <= cell[0] < cell[1] <= view.interval[1]:
@@ -262,11 +262,6 @@ def full_shift(view, rng):
         if outside and lands_in(view, phase, view.interval):
             told.append(f"f({float(phase):.12g}) stays, in no cell")
     return told
-
-
-def connections(view, rng):
-    """The same, on three cells."""
-    return full_shift(view, rng) + ([] if len(view.cells) == 3 else ["not three symbols"])
 
 
 def staying_orbit(view, rng):
@@ -397,7 +392,6 @@ JUDGES = {
     "Branch": branch,
     "EntropyBound": entropy_bound,
     "FullShift": full_shift,
-    "Connections": connections,
     "StayingOrbit": staying_orbit,
     "FixedPoint": fixed_point,
     "ImageArc": image_arc,

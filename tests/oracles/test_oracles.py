@@ -169,7 +169,6 @@ FALSE = {
     "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
     "EntropyBound": [offs("entropy"), _much_growth, _swap("branches")],
     "FullShift": [_swap("cells"), offs("slopes"), put("cells", lambda old: old[:1])],
-    "Connections": [_swap("cells"), put("cells", lambda old: old[:2]), offs("cells")],
     "StayingOrbit": [
         put("cells", lambda old: old[:-1] or old),
         offs("cells"),
@@ -181,7 +180,10 @@ FALSE = {
         put("least", lambda old: old + 9),
         put("domain", (F("1.5"), F("1.51"))),
     ],
-    "Separation": [offs("start"), offs("phase"), offs("time"), offs("arrival")],
+    "Separation": [
+        *map(offs, ("start", "phase", "time", "arrival", "speed")),
+        put("turns", 1),
+    ],
     "Lands": [put("phases", (F("1.0"), F("1.5")))],
     "NeverImpacts": [put("phases", (F("1.2"), F("1.25"))), put("phases", (F("1.5708"),) * 2)],
     "Absorption": [
@@ -189,11 +191,10 @@ FALSE = {
         put("within", (((F("1.57"), F("1.58")), 3),)),
     ],
     "SuperstableMotion": [
-        *map(offs, ("separation", "flight", "impact", "speed")),
-        put("turns", 1),
+        *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),
         put("rest", F(1)),
         put("spread", F(1)),
-        put("box", lambda old: (*old[:2], (F(0), F(9, 10)))),
+        put("largest", F(9, 10)),
     ],
     "StablePair": [put("first", lambda old: (off(old[0]), old[1])), put("epsilon", F(1, 2))],
     "Solution": [
