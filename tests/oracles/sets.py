@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise, product
 from types import SimpleNamespace
 
@@ -142,31 +143,33 @@ def short_gap(view, rng):
 # -- invariant sets of the map ---------------------------------------------------------------------
 
 
-def _periodic(view, most):
+@lru_cache(maxsize=256)
+def _periodic(eta, nu, left, right, most=6):
     """For all words up to a length, the points of I0 and I1 that follow them periodically."""
-    hull = (view.left[0], view.right[1])
-    about = SimpleNamespace(eta=view.eta, nu=view.nu, hull=hull)
-    branches = [_interpolated(about, part) for part in (view.left, view.right)]
+    hull, found = (left[0], right[1]), []
+    about = SimpleNamespace(eta=eta, nu=nu, hull=hull)
+    branches = [_interpolated(about, part) for part in (left, right)]
     for n in range(1, most + 1 if None not in branches else 0):
         words = ["".join(letters) for letters in product("01", repeat=n)]
         x, orbit = np.full(len(words), float(hull[0])), []
         for k in range(24 + n):
             both = [_inverse(branch, x)[0] for branch in branches]
             if both[0] is None or both[1] is None:
-                return
+                return found
             x = np.where([word[-1 - k % n] == "0" for word in words], *both)
             orbit.append(x)
-        yield from zip(words, np.transpose(orbit[-n:]).tolist(), strict=True)
+        found += zip(words, np.transpose(orbit[-n:]).tolist(), strict=True)
+    return found
 
 
 def invariant_set(view, rng):
     """Periodic orbits of the horseshoe: which stay in the interval, which words they follow."""
-    told, low, high = [], *map(float, view.interval)
+    told, base, low, high = [], view.base, *map(float, view.interval)
     for one in view.orbits:
         told += itinerary(one, rng)
     factors = [each for each in view.shift.factors.split(" or ") if each]
     counts = Counter()
-    for word, orbit in _periodic(view.base, 6):
+    for word, orbit in _periodic(base.eta, base.nu, base.left, base.right):
         near = min(abs(x - end) for x in orbit for end in (low, high))
         stays = low <= min(orbit) and max(orbit) <= high
         said = not any(each in word * 12 for each in factors)
