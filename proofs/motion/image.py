@@ -12,6 +12,7 @@ from intervals.newton import Roots, newton
 from proofs.methods.extremes import extremes
 from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by_impacts, halves, precision_for, steps_for
+from proofs.motion.digits import bits_for, to_digits
 from proofs.motion.flight import Flight
 from proofs.motion.impact import (
     HORIZON,
@@ -24,12 +25,11 @@ from proofs.motion.impact import (
     impact_time,
     locate,
 )
-from proofs.motion.phase import phase_after, turn
+from proofs.motion.phase import on_circle, phase_after
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.numbers import Range, agree, hull
+from proofs.trusted.numbers import Range, hull
 
-_ATTEMPTS = 6
 _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
 )
@@ -77,7 +77,7 @@ def separation_phase(system: System, precision: int) -> Range:
         box = Interval(centre - reach, centre + reach, precision=precision + 10)
         found = newton(lambda x: x.sin() - sine, lambda x: x.cos(), box)
         if found.outcome is Roots.UNIQUE and found.box is not None:
-            return _modulo_turn(found.box.inf, found.box.sup, precision)
+            return on_circle((found.box.inf, found.box.sup), precision + 30)
     raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
 
 
@@ -123,45 +123,34 @@ def image(
         return _possible(system, phases, horizon, _NOT_CUT)
 
 
-def _bits(digits: int, attempt: int) -> int:
-    return (digits * 10 // 3 + 20) << attempt
-
-
 def _at_point(system: System, phases: Range, digits: int, horizon: Fraction) -> Image:
     found = locate(system, phases, horizon=horizon)
-    for attempt in range(_ATTEMPTS):
-        bits = _bits(digits, attempt)
-        try:
-            time = impact_time(found, phases, bits)
-            slope = found.thin(phases, bits).slope(time)
-        except (Undecided, DomainError):  # a slow impact asks for more bits
-            continue
-        result = Image(
-            time, phase_after(phases[0], time, bits + 30), (slope.inf, slope.sup), sticking=False
-        )
-        if all(agree(x, digits + 1) for x in (result.flight, result.phase, result.slope)):
-            return result
-    raise Undecided(f"{digits} digits are not reached: the result is too close to 0 or to grazing")
+
+    def at_precision(bits: int) -> Image:
+        time = impact_time(found, phases, bits)
+        slope = found.thin(phases, bits).slope(time)
+        arrival = phase_after(phases[0], time, bits + 30)
+        return Image(time, arrival, (slope.inf, slope.sup), sticking=False)
+
+    return to_digits(digits, at_precision, lambda x: (x.flight, x.phase, x.slope))
 
 
 def _after_sticking(system: System, phases: Range, digits: int, horizon: Fraction) -> Image:
     zero = (Fraction(0), Fraction(0))
-    for attempt in range(_ATTEMPTS):
-        bits = _bits(digits, attempt)
+
+    def at_precision(bits: int) -> Image:
         leave = separation_phase(system, bits + 20)
         found = locate(system, leave, horizon=horizon, separating=True)
-        try:
-            time = impact_time(found, leave, bits)
-            dwell = _dwell(phases, leave, bits)
-        except Undecided:
-            continue
-        arrival = (leave[0] + time[0], leave[1] + time[1])
-        result = Image(time, phase_after(Fraction(0), arrival, bits + 30), zero, True, dwell)
-        exact = phases[0] == phases[1]  # else the dwell times differ
-        wanted = (result.flight, result.phase, *([dwell] if exact else []))
-        if all(agree(each, digits + 1) for each in wanted):
-            return result
-    raise Undecided(f"{digits} digits are not reached")
+        time, dwell = impact_time(found, leave, bits), _dwell(phases, leave, bits)
+        arrival = on_circle((leave[0] + time[0], leave[1] + time[1]), bits + 30)
+        return Image(time, arrival, zero, True, dwell)
+
+    def bounds(found: Image) -> Iterable[Range]:
+        yield from (found.flight, found.phase)
+        if phases[0] == phases[1] and found.dwell is not None:  # else the dwell times differ
+            yield found.dwell
+
+    return to_digits(digits, at_precision, bounds, final=(NoImpact,))
 
 
 def _dwell(phases: Range, leave: Range, bits: int) -> Range:
@@ -169,21 +158,13 @@ def _dwell(phases: Range, leave: Range, bits: int) -> Range:
     low, high = leave[0] - phases[1], leave[1] - phases[0]
     if low < 0 <= high:
         raise Undecided("whether the mass leaves at once, or after a turn, is lost to rounding")
-    return _modulo_turn(low, high, bits)
-
-
-def _modulo_turn(low: Fraction, high: Fraction, bits: int) -> Range:
-    """Add 2 pi to a range that is not >= 0: the same phases."""
-    if low >= 0:
-        return low, high
-    whole = turn(bits + 30)
-    return low + whole.inf, high + whole.sup
+    return on_circle((low, high), bits + 30)
 
 
 def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
     impacts = tuple(parts)
-    branch = Branch(impacts, _bits(digits, 0) + max(part.places for part in impacts))
+    branch = Branch(impacts, bits_for(digits) + max(part.places for part in impacts))
     precision = branch.bits + 30
 
     def time_at(x: Fraction) -> Interval:
@@ -195,7 +176,7 @@ def _over_interval(parts: Iterable[FirstImpact], digits: int) -> Image:
     arrival = (images.minimum[0], images.maximum[1])
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, precision),
+        on_circle(arrival, precision),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
     )
@@ -218,7 +199,7 @@ def _possible(
         launches = part if sticks is False else _leaving(system, part)
         impact = _any_impact(system, launches, horizon, separating=sticks is None)
         for low, high in impact.windows:
-            arrival = phase_after(Fraction(0), (launches[0] + low, launches[1] + high), 64)
+            arrival = on_circle((launches[0] + low, launches[1] + high), 64)
             found.append(((low, high), arrival))
     return PossibleImages(_merged(found), reason)
 

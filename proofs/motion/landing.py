@@ -16,7 +16,7 @@ from proofs.motion.flight import Flight
 from proofs.motion.image import separation_phase
 from proofs.motion.impact import impact_time, locate
 from proofs.motion.kernel import Launches
-from proofs.motion.phase import turn
+from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
 from proofs.trusted.equations import gap, launch_acceleration
@@ -65,17 +65,11 @@ def _at(system: System) -> Place:
     return Place.plastic(system.eta, system.nu)
 
 
-def lifted(ends: Range, turns: int) -> Range:
-    """Add 2 pi turns to an enclosure."""
-    whole = turn(BITS) * turns
-    return ends[0] + whole.inf, ends[1] + whole.sup
-
-
 def prove_lands(system: System, arc: Separation, cuts: Sequence[Fraction], turns: int) -> Lands:
     """Prove that the launches between the first and the last cut land on the sticking arc."""
     if cuts[0] >= cuts[-1]:
         raise Undecided("no phases in this order land there")
-    start, end = lifted(arc.start, turns), lifted(arc.phase, turns)
+    start, end = lifted(arc.start, turns, BITS), lifted(arc.phase, turns, BITS)
     for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
         flight = Flight(system, (low, high), BITS)
         if turns:
@@ -163,7 +157,7 @@ def reduced(image: Range, origin: Fraction) -> Iterator[Range]:
         raise Undecided("a cell's image is longer than the circle")
     count = int((image[0] - origin) // whole.sup) - 1
     for turns in range(count, count + 4):
-        low, high = lifted(image, -turns)
+        low, high = lifted(image, -turns, BITS)
         if high >= origin and low <= origin + whole.sup:
             yield low, high
 

@@ -13,16 +13,26 @@ def turn(precision: int) -> Interval:
     return Interval.pi(precision=precision) * 2
 
 
-def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
-    """Enclose phase + time mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
+def lifted(phase: Range, turns: int, precision: int) -> Range:
+    """Add 2 pi turns to an enclosure."""
     whole = turn(precision)
-    turns = (phase + time[0]) // whole.sup
-    return phase + time[0] - turns * whole.sup, phase + time[1] - turns * whole.inf
+    added = turns * whole.inf, turns * whole.sup
+    return phase[0] + min(added), phase[1] + max(added)
+
+
+def on_circle(phase: Range, precision: int) -> Range:
+    """Enclose phases mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
+    return lifted(phase, -int(phase[0] // turn(precision).sup), precision)
+
+
+def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
+    """Enclose phase + time mod 2 pi."""
+    return on_circle((phase + time[0], phase + time[1]), precision)
 
 
 def misses(arrival: Range, target: Range) -> bool:
     """Whether arrival times are proved to be at no phase of `target`, a part of [0, 2 pi)."""
-    low, high = phase_after(Fraction(0), arrival, 64)
+    low, high = on_circle(arrival, 64)
     whole = turn(64)
     if high - low >= whole.inf:
         return False

@@ -8,16 +8,16 @@ from fractions import Fraction
 from intervals import DomainError, Undecided
 from intervals.cover import PartsExhausted, cover
 from proofs.motion.covering import halves
+from proofs.motion.digits import to_digits
 from proofs.motion.flight import Flight
 from proofs.motion.image import Image, image, separation_phase
 from proofs.motion.impact import HORIZON, NoImpact, Unsettled
-from proofs.motion.phase import turn
+from proofs.motion.phase import lifted
 from proofs.motion.restitution import Arrival, Rebounds, next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import arrival
-from proofs.trusted.numbers import Range, agree, ceil_text, floor_text, hull
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
 
-_ATTEMPTS = 6
 _PARTS = 128
 _ZERO = (Fraction(0), Fraction(0))
 Jacobian = tuple[tuple[Range, Range], tuple[Range, Range]]
@@ -95,13 +95,13 @@ def _require_possible(states: Rebounds) -> None:
 
 
 def _at_point(states: Rebounds, digits: int, horizon: Fraction) -> Rebound:
-    for attempt in range(_ATTEMPTS):
-        bits = (digits * 10 // 3 + 20) << attempt
-        found = next_impact(states, bits=bits, horizon=horizon)
-        bounds = (found.flight, found.phase, found.velocity, *sum(found.derivative, ()))
-        if all(agree(each, digits + 1) for each in bounds):
-            return Rebound(found.flight, found.phase, found.velocity, found.derivative)
-    raise Undecided(f"{digits} digits are not reached: the result is too close to 0 or to grazing")
+    found = to_digits(
+        digits,
+        lambda bits: next_impact(states, bits=bits, horizon=horizon),
+        lambda x: (x.flight, x.phase, x.velocity, *sum(x.derivative, ())),
+        final=(Undecided,),
+    )
+    return Rebound(found.flight, found.phase, found.velocity, found.derivative)
 
 
 def _after_sticking(system: System, plastic: Image, digits: int) -> Rebound:
@@ -134,7 +134,7 @@ def _over_box(states: Rebounds, horizon: Fraction) -> Rebound:
     (p, q), (r, s) = ([hull(entry) for entry in zip(*row, strict=True)] for row in rows)
     return Rebound(
         hull([one.flight for one in found]),
-        hull([_lifted(one, found[0].turns) for one in found]),
+        hull([lifted(one.phase, one.turns - found[0].turns, 64) for one in found]),
         hull([one.velocity for one in found]),
         ((p, q), (r, s)),
     )
@@ -148,9 +148,3 @@ def _split(part: Rebounds) -> tuple[Rebounds, Rebounds]:
         return replace(part, phases=low), replace(part, phases=high)
     low, high = halves(part.velocities)
     return replace(part, velocities=low), replace(part, velocities=high)
-
-
-def _lifted(one: Arrival, turns: int) -> Range:
-    """Return the impact phase on the line, less the whole turns given."""
-    more = turn(64) * (one.turns - turns)
-    return one.phase[0] + more.inf, one.phase[1] + more.sup

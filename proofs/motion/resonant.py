@@ -10,17 +10,16 @@ on the table for ever. Proof. `trusted.paper.s6_resonance.resonance.closed_form`
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from intervals import DomainError, Interval, Undecided, atan
-from proofs.motion.phase import turn
+from intervals import Interval, Undecided, atan
+from proofs.motion.digits import to_digits
+from proofs.motion.phase import on_circle
 from proofs.motion.rebound import Impossible
 from proofs.trusted.equations import Clock, arrival, closing, launch
-from proofs.trusted.numbers import Range, agree
+from proofs.trusted.numbers import Range
 
-_ATTEMPTS = 6
 _MOST_IMPACTS = 20_000  # one by one, until the series converges
 
 
@@ -58,21 +57,12 @@ def motion(
         raise ValueError("nu must not be 0: the table would stand still")
     if not 0 <= epsilon <= 1:
         raise ValueError(f"epsilon must be in [0, 1], not {epsilon}")
-    for attempt in range(_ATTEMPTS):
-        bits = (digits * 10 // 3 + 40) << attempt
-        try:
-            found = _at_precision(nu, epsilon, phi, gamma, bits)
-        except TooManyImpacts:
-            raise
-        except (Undecided, DomainError):
-            continue
-        if all(agree(each, digits + 1) for each in _bounds(found)):
-            return found
-    raise Undecided(f"{digits} digits are not reached")
-
-
-def _bounds(found: Motion) -> Iterator[Range]:
-    return (each for each in (found.phase, found.velocity, found.limit) if each is not None)
+    return to_digits(
+        digits,
+        lambda bits: _at_precision(nu, epsilon, phi, gamma, bits),
+        lambda x: [each for each in (x.phase, x.velocity, x.limit) if each is not None],
+        final=(TooManyImpacts,),
+    )
 
 
 def _at_precision(
@@ -108,10 +98,7 @@ def _at_precision(
 
 
 def _on_circle(phase: Interval) -> Range:
-    """Return a phase mod 2 pi, in [0, 2 pi) but for the width of the enclosure."""
-    whole = turn(phase.precision)
-    found = phase - whole * (phase.mid // whole.mid)
-    return found.inf, found.sup
+    return on_circle((phase.inf, phase.sup), phase.precision)
 
 
 def angles(kick: Interval, epsilon: Fraction) -> Interval:

@@ -9,7 +9,7 @@ from functools import cached_property
 from intervals import Interval, Jet, Undecided
 from proofs.motion.flight import Flight
 from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, impact_time, march
-from proofs.motion.phase import turn
+from proofs.motion.phase import lifted, turn
 from proofs.trusted.equations import (
     Launch,
     arrival,
@@ -168,12 +168,9 @@ def next_impact(flight: Rebounds, *, bits: int = 64, horizon: Fraction = HORIZON
     precise = flight
     if flight.single:
         precise = replace(flight, precision=bits + 30 + found.loss)
-    whole = turn(precise.precision)
-    turns = (flight.phases[0] + time[0]) // whole.sup
-    phase = (
-        flight.phases[0] + time[0] - turns * whole.sup,
-        flight.phases[1] + time[1] - turns * whole.inf,
-    )
+    arrival = flight.phases[0] + time[0], flight.phases[1] + time[1]
+    turns = int(arrival[0] // turn(precise.precision).sup)
+    phase = lifted(arrival, -turns, precise.precision)
     velocity = precise.arrival_velocity(time)
     (p, q), (r, s) = ([(entry.inf, entry.sup) for entry in row] for row in precise.derivative(time))
     return Arrival(found, time, turns, phase, (velocity.inf, velocity.sup), ((p, q), (r, s)))

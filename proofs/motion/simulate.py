@@ -8,18 +8,15 @@ of claim G7.
 
 from __future__ import annotations
 
-import csv
 import math
 import random
-import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from statistics import mean, median
 
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration
-from proofs.trusted.parameters import PAPER
 
 _WEAKEST = 1e-6  # a rebound that counts as none where the table pushes; its height is 1e-12
 _NO_PUSH = 1e-12  # a launch acceleration that is no more than rounding above 0
@@ -52,8 +49,6 @@ class Summary:
     rested: float
     mean_turns: float
     median_turns: float
-    mean_long_flights: float
-    mean_impacts: float
 
 
 def next_impact(
@@ -161,23 +156,6 @@ def transients(
                 mean(one.rests for one in found),
                 mean(one.turns for one in found),
                 median(one.turns for one in found),
-                mean(one.long_flights for one in found),
-                mean(one.impacts for one in found),
             )
         )
     return rows
-
-
-def main() -> int:
-    """Write the table of transients at the paper's eta and nu to standard output, as CSV."""
-    writer = csv.writer(sys.stdout)
-    names = [field.name for field in fields(Summary)]
-    writer.writerow(names)
-    for row in transients(System(PAPER.eta, PAPER.nu)):
-        values = (getattr(row, name) for name in names)
-        writer.writerow(v if isinstance(v, str) else f"{v:.3f}" for v in values)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

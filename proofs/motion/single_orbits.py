@@ -16,6 +16,7 @@ from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, derivative, newton
 from proofs.motion.flight import Flight
 from proofs.motion.impact import first_impact
+from proofs.motion.phase import on_circle
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
@@ -105,7 +106,7 @@ def _judged(
     precision = phase.precision
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     factor = multiplier(eta, nu, phase.sincos(), around)
-    reduced = _on_circle(phase)
+    reduced = on_circle((phase.inf, phase.sup), precision)
     admissible, reason = _admissible(system, n, reduced, bits)
     stable: bool | None = False
     if admissible is not False:
@@ -113,13 +114,6 @@ def _judged(
         inside = True if size.sup < 1 else False if size.inf > 1 else None
         stable = inside if admissible or inside is False else None
     return SingleImpact(n, reduced, (factor.inf, factor.sup), admissible, stable, reason)
-
-
-def _on_circle(phase: Interval) -> Range:
-    """Return the phase less the multiple of 2 pi that puts its lower end into [0, 2 pi)."""
-    whole = full_turn(phase.precision)
-    moved = phase - whole * math.floor(phase.inf / whole.sup)
-    return max(moved.inf, Fraction(0)), moved.sup
 
 
 def _admissible(system: System, n: int, phase: Range, bits: int) -> tuple[bool | None, str]:

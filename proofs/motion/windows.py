@@ -17,7 +17,7 @@ import numpy as np
 from intervals import Interval, Jet, Undecided
 from proofs.motion.covering import halves
 from proofs.motion.flight import Flight
-from proofs.motion.phase import turn as full_turn
+from proofs.motion.phase import lifted
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.flights import Motion
@@ -116,8 +116,7 @@ def bracket(branch: Branch, system: System, phase: Fraction, about: float) -> tu
         low, high = max(branch.begin, centre - opening), min(branch.ends[index], centre + opening)
         signs = flight.gap(low).certainly_positive(), flight.gap(high).certainly_negative()
         if low < high and all(signs):
-            whole = full_turn(BITS) * branch.turn
-            return (low, high), (phase + low - whole.sup, phase + high - whole.inf)
+            return (low, high), lifted((phase + low, phase + high), -branch.turn, BITS)
         opening *= 4
     raise Undecided("no bracket of an impact time is proved")
 

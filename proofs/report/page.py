@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -57,25 +57,34 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
         f"# {_TITLES[group]}",
         f"At {whose}. Verdicts are proved by interval arithmetic and re-derived by the checker.",
         "## Verdicts",
-        _verdicts(rows),
-        *_theorems(certificate),
+        _table(
+            ("claim", "verdict", "statement", "because"),
+            [(row.id, row.verdict.value, row.statement, row.why) for row in rows],
+        ),
+        *_theorems(certificate["claims"]),
         *_ending(certificate, group),
     ]
     return "\n\n".join(sections) + "\n"
 
 
-def _verdicts(rows: Sequence[Line]) -> str:
-    lines = ["| claim | verdict | statement | because |", "|---|---|---|---|"]
-    for row in rows:
-        cells = (row.id, row.verdict.value, row.statement, row.why)
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines)
+def ledger(rows: Sequence[dict[str, Any]]) -> str:
+    """Return the page on all claims, given their entries with the file that each is in."""
+    names = ("id", "verdict", "statement", "why", "file")
+    cells = [[str(row[name]) for name in names] for row in rows]
+    table = _table(("claim", "verdict", "statement", "because", "certificate"), cells)
+    return "\n\n".join(["# The claims of the paper, decided", table, *_theorems(rows)]) + "\n"
 
 
-def _theorems(certificate: dict[str, Any]) -> list[str]:
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    cells = [[cell.replace("|", "\\|") for cell in row] for row in (head, *rows)]
+    first, *others = (f"| {' | '.join(row)} |" for row in cells)
+    return "\n".join([first, "|" + "---|" * len(head), *others])
+
+
+def _theorems(entries: Iterable[dict[str, Any]]) -> list[str]:
     """Return for each claim with a witness or a theorem of its own a section with these."""
     sections = []
-    for claim in certificate["claims"]:
+    for claim in entries:
         witness, corrected = claim["witness"], claim["corrected"]
         if witness is None and corrected is None:
             continue
@@ -86,29 +95,20 @@ def _theorems(certificate: dict[str, Any]) -> list[str]:
 
 
 def _ending(certificate: dict[str, Any], name: str) -> list[str]:
-    numbers = _numbers(certificate)
+    """Return the numbers, each once, and how to check them."""
+    bounds: dict[str, dict[str, str]] = {}
+    for claim in certificate["claims"]:
+        bounds |= {name: x for name, x in claim["quantities"].items() if name not in bounds}
+    rows = [
+        (_NAMES.get(name, name.replace("_", " ")), ends["lower"], ends["upper"])
+        for name, ends in bounds.items()
+    ]
+    told = "Each true value lies between the bounds; they are rounded outward."
+    numbers = ["## Numbers", told, _table(("quantity", "at least", "at most"), rows)]
     return [
-        *(
-            [
-                "## Numbers",
-                "Each true value lies between the bounds; they are rounded outward.",
-                numbers,
-            ]
-            if numbers
-            else []
-        ),
+        *(numbers if rows else []),
         "## Check it yourself",
         f"The certificate `{name}.json` beside this page holds the witnesses in exact numbers. "
         "From the repository's root, with nothing but Python:",
         f"    python -S -m proofs.check reports/{name}.json",
     ]
-
-
-def _numbers(certificate: dict[str, Any]) -> str:
-    rows: dict[str, str] = {}
-    for claim in certificate["claims"]:
-        for name, bounds in claim["quantities"].items():
-            shown = _NAMES.get(name, name.replace("_", " "))
-            rows.setdefault(name, f"| {shown} | {bounds['lower']} | {bounds['upper']} |")
-    head = ["| quantity | at least | at most |", "|---|---|---|"]
-    return "\n".join([*head, *rows.values()]) if rows else ""

@@ -11,6 +11,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 
 Tell = Callable[[str], None]
+Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
 FAILED = (Undecided, DomainError, Unproved)  # what a proof that does not succeed raises
 
 
@@ -23,5 +24,5 @@ class Evidence:
     """
 
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    proofs: dict[str, list[tuple[str, Conclusion]]] = field(default_factory=dict)
+    proofs: dict[str, Proof] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)

@@ -13,14 +13,11 @@ from intervals import DomainError, Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.derivations import prove_rows
-from proofs.search.evidence import Evidence
+from proofs.search.evidence import Evidence, Proof
 from proofs.search.s34_circle import prove_longest
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper import GROUPS, s2_foundations, s7_appendix
+from proofs.trusted.paper import s2_foundations, s7_appendix
 from proofs.trusted.parameters import Parameters
-
-CLAIMS = GROUPS["foundations"]
 
 
 def prove(
@@ -39,7 +36,7 @@ def prove(
     return evidence
 
 
-def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> list[tuple[str, Conclusion]]:
+def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> Proof:
     """Prove that an interval of phases never impacts again, if one is found."""
     if not -1 < of.nu < 0 < of.eta < 1:
         return []

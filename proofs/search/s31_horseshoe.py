@@ -16,7 +16,7 @@ from typing import TypeVar
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, Evidence, Tell
+from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.repair import grid, nearest_sets, places
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -54,12 +54,10 @@ class _Run:
     def attempt(self, part: str, make: Callable[[], _Proved]) -> _Proved | None:
         """Make one part of the proof; what cannot be proved leaves a reason and no step."""
         self.tell(_STAGES[part])
-        before = dict(self.prover.steps)
         try:
-            return make()
+            with self.prover.undone():
+                return make()
         except FAILED as failure:
-            self.prover.steps.clear()
-            self.prover.steps.update(before)
             self.failures[part] = str(failure)
             return None
 
@@ -82,9 +80,9 @@ class _Run:
         self.gaps += [] if proved is None else [proved]
         return proved is not None
 
-    def evidence(self, claim: str) -> list[tuple[str, Conclusion]]:
+    def evidence(self, claim: str) -> Proof:
         """Return the steps that a claim rests on: enough to decide it, if they are."""
-        known: list[tuple[str, Conclusion]] = []
+        known: Proof = []
         if claim in _NEEDS_SLOPES:
             known += [(name, found) for name, found in self.slopes if self._is_about(found)]
         if claim in _NEEDS_GAP and self._verdict(claim, known) is Verdict.UNDECIDED:

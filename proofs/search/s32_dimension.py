@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
@@ -13,11 +14,10 @@ from proofs.motion.covering import cover_by_impacts
 from proofs.motion.impact import HORIZON, FirstImpact
 from proofs.motion.inverse import InverseBranch, InverseSystem
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, Evidence, Tell
+from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
@@ -27,8 +27,6 @@ from proofs.trusted.verdicts import Found
 
 _MOST_DIGITS = 30  # of the dimension: time grows faster than their square
 _SLACK = 20  # bits by which a bracket is wider than rounding
-
-Proof = list[tuple[str, Conclusion]]
 
 
 @dataclass
@@ -43,12 +41,11 @@ class _Run:
 
     def attempt(self, make: Callable[[], tuple[str, Repeller]]) -> Proof:
         """Make a part of the proof; what cannot be proved leaves no step."""
-        steps, flights = dict(self.prover.steps), dict(self.flights)
-        try:
+        flights = dict(self.flights)
+        with suppress(*FAILED), self.prover.undone():
             return [make()]
-        except FAILED:
-            self.prover.steps, self.flights = steps, flights
-            return []
+        self.flights = flights
+        return []
 
     def impact(self, domain: Range) -> tuple[str, FirstImpact]:
         """Prove the first impact transversal on all of a domain, once."""

@@ -7,6 +7,7 @@ on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on pow
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
@@ -15,10 +16,9 @@ from intervals import Interval, exp, log
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, Evidence
+from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets, places
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, decimal_between, within
 from proofs.trusted.paper.s32_sets.invariant import follow
 from proofs.trusted.paper.s32_sets.linear import Excess, LinearDimension, LinearSet, linear_sets
@@ -32,18 +32,13 @@ LEAST_DIGITS = 12  # to tell in which of I0 and I1 an image is
 _TRIES = 6
 _FOLLOWED = 10
 
-Proof = list[tuple[str, Conclusion]]
-
 
 def prove_staying(of: Parameters, prover: Prover) -> Proof:
     """Prove a horseshoe around I, and the orbits of the ends of I; nothing where that fails."""
     around = (x for x in nearest_sets(of) if within(of.interval, x.interval))
     for sets in islice(around, _TRIES):
-        before = dict(prover.steps)
-        try:
+        with suppress(*FAILED), prover.undone():
             return _staying_in(sets, of, prover)
-        except FAILED:
-            prover.steps = before
     return []
 
 

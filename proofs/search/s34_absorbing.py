@@ -24,14 +24,14 @@ from proofs.motion.impact import first_impact
 from proofs.motion.kernel import float_clock, float_launch
 from proofs.motion.landing import (
     Cutting,
-    lifted,
     prove_cells,
     prove_lands,
     reduced,
     short,
 )
+from proofs.motion.phase import lifted
 from proofs.motion.system import System
-from proofs.motion.windows import Candidates
+from proofs.motion.windows import BITS, Candidates
 from proofs.search.evidence import FAILED
 from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
@@ -83,8 +83,8 @@ class Partition:
     @cached_property
     def line(self) -> Range:
         """The line's ends, a little outside."""
-        unit = Fraction(1, 2**24)
-        return short(lifted(self.arc[1].phase, -1)[0], 24), short(self.arc[1].start[1], 24) + unit
+        arc, unit = self.arc[1], Fraction(1, 2**24)
+        return short(lifted(arc.phase, -1, BITS)[0], 24), short(arc.start[1], 24) + unit
 
     def prove(self) -> tuple[str, Absorption]:
         """Prove how much of the circle is absorbed by the sticking arc (rule absorption)."""

@@ -16,17 +16,14 @@ from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates, bracket, prove_branch
-from proofs.search.evidence import FAILED, Evidence
+from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound, entropy_bound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
-
-CLAIMS = ("G5", "G9")
 
 _DOMAIN = (1.0, 2.1)  # the phases around pi/2 whose orbits come back to them
 _GRID = 1200  # phases to start from in the search for branches
@@ -58,9 +55,7 @@ def prove(
     return evidence
 
 
-def prove_entropy(
-    prover: Prover, most_turns: int = _MOST_TURNS, depth: int = _DEPTH
-) -> list[tuple[str, Conclusion]]:
+def prove_entropy(prover: Prover, most_turns: int = _MOST_TURNS, depth: int = _DEPTH) -> Proof:
     """Prove a covering graph on all branches with flights over at most so many turns.
 
     At the paper's numbers the growth is 1.618 with two branches, up to 5 turns; 3.469 with four, up

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -26,14 +27,11 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.circle import (
     LONG,
-    ROWS,
     FixedPoint,
     repelling_fixed_point,
 )
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Parameters
-
-CLAIMS = tuple(row.id for row in ROWS)
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6"}  # what rests on phases that never impact again
@@ -79,16 +77,12 @@ class _Run:
         if not proofs:
             return None
         self.tell(stage)
-        before = dict(self.prover.steps)
-        try:
+        with suppress(*FAILED), self.prover.undone():
             found = make()
-        except FAILED:
-            self.prover.steps.clear()
-            self.prover.steps.update(before)
-            return None
-        for proof in proofs:
-            proof.append(found)
-        return found
+            for proof in proofs:
+                proof.append(found)
+            return found
+        return None
 
 
 def prove_arc(prover: Prover) -> tuple[str, Separation]:

@@ -29,7 +29,6 @@ from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import StablePair, SuperstableMotion, stable_pair
 from proofs.trusted.parameters import Parameters, Place
 
-CLAIMS = ("G7", "G8")
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
 _HALVINGS = 9  # of a step of epsilon

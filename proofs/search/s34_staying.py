@@ -13,7 +13,7 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import impact_time, locate
 from proofs.motion.phase import phase_after
-from proofs.search.evidence import FAILED
+from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -128,7 +128,7 @@ class Sketcher:
         return covers
 
 
-def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[str, Conclusion]]:
+def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     """Prove which orbits stay in `printed`, and full shifts on two and three symbols around it.
 
     The second one in an interval that contains `around` too. What is not proved is left out.
@@ -139,7 +139,7 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> list[tuple[s
     shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
     sketches = [few, *(one for one in shifts if one is not None)]
     proofs = Pieces(prover, sketches)
-    found: list[tuple[str, Conclusion]] = []
+    found: Proof = []
     orbits: list[tuple[Phases, ...]] = []
     with suppress(*FAILED):
         name, orbit = proofs.prove(few, "staying-orbit", staying_orbit)

@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import partial
 
 from proofs.search.derivations import prove_rows
-from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s5_soft import soft, stability
 
-CLAIMS = GROUPS["soft"]
 prove = partial(prove_rows, (*soft.ROWS, *stability.ROWS))

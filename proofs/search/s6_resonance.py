@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import partial
 
 from proofs.search.derivations import prove_rows
-from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s6_resonance.resonance import ROWS
 
-CLAIMS = GROUPS["resonance"]
 prove = partial(prove_rows, ROWS)

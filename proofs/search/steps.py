@@ -5,6 +5,8 @@ The steps are those of `proofs.trusted.flights`, by the same names.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
@@ -17,6 +19,7 @@ from proofs.motion.covering import cover_by, cover_by_impacts
 from proofs.motion.impact import FirstImpact, impact_time, locate
 from proofs.motion.phase import misses, phase_after
 from proofs.motion.system import System
+from proofs.search.evidence import FAILED
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -45,6 +48,17 @@ class Prover:
     def bits(self) -> int:
         """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
         return self.digits * 10 // 3 + 16
+
+    @contextmanager
+    def undone(self) -> Iterator[None]:
+        """Take back the steps made inside if the proof fails there; the failure goes on."""
+        before = dict(self.steps)
+        try:
+            yield
+        except FAILED:
+            self.steps.clear()
+            self.steps.update(before)
+            raise
 
     def add(self, rule: str, witness: dict[str, Any]) -> str:
         """Record a step and return its name."""

@@ -18,6 +18,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from proofs.report import page
 from proofs.shell import runner
 from proofs.shell.cli import Parser, coloured, counting, progress, writable
 from proofs.shell.counting import Counts, show
@@ -155,7 +156,7 @@ def main(arguments: list[str] | None = None) -> int:
             if one.is_new:
                 runner.write(options.out, one.job.name, one.made)
         write_atomically(options.out / "ledger.json", text)
-        write_atomically(options.out / "ledger.md", markdown(rows))
+        write_atomically(options.out / "ledger.md", page.ledger(rows))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     if options.json:
@@ -193,26 +194,6 @@ def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: 
         print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
     counts = Counter(row["verdict"] for row in rows)
     print(", ".join(f"{count} {name}" for name, count in counts.items()), f"in {seconds:.1f} s")
-
-
-def markdown(rows: Sequence[dict[str, Any]]) -> str:
-    """Return the ledger for people."""
-    head = ["| claim | verdict | statement | because | certificate |", "|---|---|---|---|---|"]
-    lines = [
-        "| " + " | ".join(str(row[name]).replace("|", "\\|") for name in _COLUMNS) + " |"
-        for row in rows
-    ]
-    theorems = [
-        f"## {row['id']}\n\n"
-        + (f"Witness: {row['witness']}\n\n" if isinstance(row["witness"], str) else "")
-        + (f"Theorem (VERIFIED). {row['corrected']}\n" if row["corrected"] else "")
-        for row in rows
-        if row["corrected"] or isinstance(row["witness"], str)
-    ]
-    return "\n".join(["# The claims of the paper, decided", "", *head, *lines, "", *theorems])
-
-
-_COLUMNS = ("id", "verdict", "statement", "why", "file")
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def test_a_table_has_a_row_for_each_epsilon_and_is_repeatable():
     rows = transients(PAPER, epsilons, 40, turns=50)
     assert [row.epsilon for row in rows] == ["0.0", "0.1", "0.3"]
     assert rows == transients(PAPER, epsilons, 40, turns=50)
-    assert rows[0].mean_impacts < rows[1].mean_impacts < rows[2].mean_impacts
+    assert rows[0].mean_turns < rows[1].mean_turns < rows[2].mean_turns
 
 
 def test_at_029_another_stable_orbit_takes_its_share():

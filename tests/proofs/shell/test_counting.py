@@ -9,7 +9,6 @@ from pkgutil import walk_packages
 
 import numpy as np
 import pytest
-from proofs.trusted.kernel.formula import Tape
 
 import intervals
 import proofs
@@ -44,6 +43,7 @@ from proofs.shell.counting import (
 from proofs.trusted import equations
 from proofs.trusted.equations import clock, gap, launch, slope
 from proofs.trusted.kernel.arithmetic import Dual, rational
+from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.paper.s4_single import single_facts
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.test_stats import AT, CASES, COMMANDS, by, shown

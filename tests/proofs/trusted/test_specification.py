@@ -19,4 +19,4 @@ def test_every_rule_is_there_with_its_theorem():
     page = specification()
     for name in RULES:
         section = page.partition(f"### `{name}`\n")[2].partition("\n### ")[0]
-        assert "Conclusion" in section or "conclusion" in section, name
+        assert "onclu" in section, name

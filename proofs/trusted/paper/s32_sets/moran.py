@@ -40,7 +40,8 @@ class MoranRoot(Conclusion):
 def moran_root(context: Context, reader: Reader) -> MoranRoot:
     """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
 
-    F(s) = r0^s + r1^s - 1 decreases from 1 to -1, so F(l) > 0 > F(u) brackets its one root.
+    Hypothesis: F(l) > 0 > F(u), F(s) = r0^s + r1^s - 1. Conclusion: `MoranRoot`. Proof. F decreases
+    from 1 to -1: it has one root, in between.
     """
     ratios_of, root_of = reader.fields("ratios", "root")
     ratios, root = ratios_of.numbers(2, 2), root_of.range()

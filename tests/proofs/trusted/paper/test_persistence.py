@@ -450,7 +450,7 @@ def test_the_figure_is_about_the_oscillator_of_its_certificate(monkeypatch, eta,
 
     def transients(system):
         asked.append((system.eta, system.nu))
-        return [Summary("0.1", 1.0, 2.0, 3.0, 4.0, 5.0)]
+        return [Summary("0.1", 1.0, 2.0, 3.0)]
 
     monkeypatch.setattr(persistence_figure, "transients", transients)
     steps = short() if of == PAPER else {}

@@ -1,0 +1,43 @@
+"""As many digits as are asked for: precision is doubled until all bounds have them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+from intervals import DomainError, Undecided
+from proofs.trusted.numbers import Range, agree
+
+_ATTEMPTS = 6
+_Answer = TypeVar("_Answer")
+
+
+def bits_for(digits: int, attempt: int = 0) -> int:
+    """Return the binary places for so many significant digits, at first or at a later attempt."""
+    return (digits * 10 // 3 + 20) << attempt
+
+
+def to_digits(
+    digits: int,
+    make: Callable[[int], _Answer],
+    bounds: Callable[[_Answer], Iterable[Range]],
+    final: tuple[type[Undecided], ...] = (),
+) -> _Answer:
+    """Return what `make` finds with as many bits as it takes for its bounds to agree.
+
+    Each with its partner to `digits` significant digits; Undecided if they do not. final: the
+    failures that more bits do not mend.
+    """
+    reason = ""
+    for attempt in range(_ATTEMPTS):
+        try:
+            found = make(bits_for(digits, attempt))
+        except final:
+            raise
+        except (Undecided, DomainError) as failure:  # a slow impact asks for more bits
+            reason = str(failure)
+            continue
+        if all(agree(each, digits + 1) for each in bounds(found)):
+            return found
+    reason = reason or "the result is too close to 0 or to grazing"
+    raise Undecided(f"{digits} digits are not reached: {reason}")
