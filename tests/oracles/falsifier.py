@@ -5,46 +5,83 @@ texts of an edited document are what the checker's own functions make of it, so 
 to refuse a falsehood is the mathematics. What is accepted is judged, conclusion by conclusion and
 row by row, by the oracles, which share nothing with the project but the paper.
 
-From the root, `python -m tests.oracles.falsifier 50000` judges so many accepted documents.
+An edited document is about one claim; steps that it has in common with a certificate, whose
+premises and parameters are as they were, are not derived again. From the root,
+`python -m tests.oracles.falsifier 50000` judges so many accepted documents.
 """
 
 import copy
 import json
 import random
+import re
 import sys
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 from proofs.trusted import paper, verify
 from proofs.trusted.certificate import Malformed, Reader, parameters_from_json
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.parameters import Parameters
 from tests.oracles.judge import oracle
 from tests.oracles.sources import certificates, committed, proved
 from tests.oracles.verdicts import verdict_oracle
 
 REFUSED = (Malformed, verify.Rejected, Unproved, Exhausted)
-WORK = 2_000_000  # for one edited document
+WORK = 300_000  # for one edited document
 ODD = (  # where the audit found falsehoods, and where the motion is of another kind
     ("horseshoe", "1/4", "-3/10"), ("horseshoe", "0.2", "0.2"), ("horseshoe", "0.35", "-0.5"),
     ("sets", "0.2125", "-0.2"), ("circle", "1/6", "-9/20"), ("circle", "5/22", "-19/20"),
     ("chaos", "0.2123", "-0.2"), ("nonplastic", "0.2122", "-0.2"),
 )  # fmt: skip
 NUMBERS = ("0", "1", "2", "1/2", "-1", "1/5", "7/5", "6/5", "3/2", "4/5", "31/5", "3", "22/7")
-SETS = ("left", "right", "interval", "slopes", "ratios", "velocities", "reach")
+PARAMETERS = {  # some of one's own
+    "eta": ("1/4", "1/6", "5/22", "2121/10000", "2123/10000", "1/2", "1", "13/10", "7/3"),
+    "nu": ("-1/5", "1/5", "-19/20", "-9/20", "-3/10", "9/10", "-2001/10000"),
+    "left": (["111/100", "23/20"], ["11/10", "113/100"], ["1/10", "1"], ["112/100", "23/20"]),
+    "right": (["127/100", "33/25"], ["129/100", "33/25"], ["5", "31/5"], ["127/100", "131/100"]),
+    "interval": (["111/100", "33/25"], ["1", "3/2"], ["1/10", "31/5"], ["0", "157/25"]),
+    "slopes": (["21/5", "21/4"], ["6/5", "3/2"], ["4", "4"], ["43/10", "31/5"], ["1", "9"]),
+    "ratios": (None, ["1/5", "1/5"], ["7/10", "4/5"], ["1/3", "2/3"], ["1905/10000", "2381/10000"]),
+    "printed_s0": (None, "0.449", "0.44", "0.4", "0.448", "0.4485"),
+    "epsilon": (None, "0", "1/100", "1/1000", "99/100", "1/50"),
+    "velocities": (None, ["-9/20", "0"], ["-1/2", "0"], ["-9/20", "-1/5"], ["-1", "1"]),
+    "reach": (None, ["0", "0", "0"], ["1/20000", "1/20000", "1/200"], ["1/100", "1/100", "1/200"]),
+}
+
+
+@dataclass(frozen=True)
+class Watched(Parameters):
+    """Parameters that note which of them are looked at."""
+
+    seen: ClassVar[set[str]] = set()
+
+    def __getattribute__(self, name):
+        if name in PARAMETERS:
+            Watched.seen.add(name)
+        return super().__getattribute__(name)
 
 
 @dataclass
 class Base:
-    """A document without texts that the checker accepts, and what its steps prove."""
+    """An accepted document without texts; what its steps prove, and from which parameters."""
 
     name: str
     made: dict[str, Any]
-    known: dict[str, Any]
+    known: dict[str, Any] = field(default_factory=dict)
+    used: dict[str, set[str]] = field(default_factory=dict)
+
+    def __post_init__(self):
+        of = parameters_from_json(Reader(self.made["parameters"]))
+        self.of = Watched(**{each.name: getattr(of, each.name) for each in fields(of)})
+        for name, step in self.made["steps"].items():
+            Watched.seen.clear()
+            self.known[name] = derived(self.of, self.known, name, step)
+            self.used[name] = set(Watched.seen)
 
 
 @dataclass
@@ -53,8 +90,10 @@ class Tally:
 
     accepted: int = 0
     refused: int = 0
+    idle: int = 0  # accepted, undecided, and nothing new is proved
     conclusions: Counter = field(default_factory=Counter)
     verdicts: Counter = field(default_factory=Counter)
+    judged: Counter = field(default_factory=Counter)
     complaints: list[str] = field(default_factory=list)
 
 
@@ -63,29 +102,23 @@ def bases(odd: bool = False) -> tuple[Base, ...]:
     """The committed certificates; with `odd` also what the provers find at other parameters."""
     made = {name: committed(name) for name in certificates()}
     made |= {f"{group} at {eta}, {nu}": proved(group, eta, nu) for group, eta, nu in ODD if odd}
-    return tuple(Base(name, each, derived(each, {}, set())) for name, each in made.items())
+    return tuple(Base(name, each) for name, each in made.items())
 
 
-def derived(made: dict[str, Any], known: dict[str, Any], old: set[str]) -> dict[str, Any]:
-    """What the steps prove; those in `old` are taken from `known`."""
-    context = Context(parameters_from_json(Reader(made["parameters"])))
-    for name, step in made["steps"].items():
-        if name in old:
-            context.known[name] = known[name]
-        else:
-            found = Context(context.parameters, known=dict(context.known))
-            verify.derive(found, Reader({name: step}))
-            context.known[name] = found.known[name]
-    return context.known
+def derived(of: Parameters, known: dict[str, Any], name: str, step: dict[str, Any]) -> Any:
+    """What a step proves, after those known."""
+    found = Context(of, known=dict(known))
+    verify.derive(found, Reader({name: step}))
+    return found.known[name]
 
 
-def needed(made: dict[str, Any], names: list[str]) -> dict[str, Any]:
+def needed(steps: dict[str, Any], names: list[str]) -> dict[str, Any]:
     """The steps that some need, in order."""
     reached = set(names)
-    for name, step in reversed(list(made["steps"].items())):
+    for name, step in reversed(list(steps.items())):
         if name in reached:
             reached |= set(Reader(step).mentioned())
-    return {name: step for name, step in made["steps"].items() if name in reached}
+    return {name: step for name, step in steps.items() if name in reached}
 
 
 # -- edits -----------------------------------------------------------------------------------------
@@ -99,9 +132,22 @@ def places(value: Any, path: tuple = ()) -> list[tuple]:
     return found + [place for key, inner in items for place in places(inner, (*path, key))]
 
 
+def number(text: Any) -> Fraction | None:
+    """A number, None if it is none."""
+    try:
+        return Fraction(text)
+    except (ValueError, TypeError, ZeroDivisionError):
+        return None
+
+
 def edit_list(value: list, chance: random.Random) -> list:
-    """The same list in another order, with an entry more, or less, or twice."""
+    """The same list in another order, an entry more, less, or twice; a pair wider or narrower."""
     value, kind = list(value), chance.randrange(5)
+    pair = [number(each) for each in value]
+    if len(value) == 2 and None not in pair and chance.random() < 0.75:
+        step = (pair[1] - pair[0] or 1) / chance.choice((2, 10, 1000, 10**6, -3, -10, -1000))
+        sides = chance.choice(((1, 1), (1, 0), (0, 1)))
+        return [str(pair[0] - step * sides[0]), str(pair[1] + step * sides[1])]
     if len(value) < 2:
         return value * 2
     i, j = chance.sample(range(len(value)), 2)
@@ -118,108 +164,180 @@ def edit_list(value: list, chance: random.Random) -> list:
     return value
 
 
-def edit_number(text: str, chance: random.Random) -> str:
-    """Another number: near by a part, by a turn of the table, or of another kind."""
-    try:
-        value = Fraction(text)
-    except (ValueError, ZeroDivisionError):
-        return text
+def edit_text(text: str, chance: random.Random) -> str:
+    """Another number: near by a part, by a turn of the table, or of another kind; a formula."""
+    value = number(text)
+    if value is None:
+        numbers = list(re.finditer(r"(?<![A-Za-z_])\d+", text)) if "-" not in text[1:2] else []
+        if not numbers or chance.random() < 0.3:
+            return f"({text})*2" if numbers else text
+        one = chance.choice(numbers)
+        return text[: one.start()] + str(chance.randint(1, 5)) + text[one.end() :]
     small = Fraction(chance.choice((-1, 1)), 10 ** chance.choice((2, 4, 6, 9, 12, 20, 30)))
     turn = Fraction("6.283185307179586") * chance.choice((-1, 1))
     choices = (value + small, value * (1 + small), value + turn, -value, 1 / (value or 1))
-    return str(chance.choice(choices)) if chance.random() < 0.8 else chance.choice(NUMBERS)
+    weights = (6, 6, 1, 1, 1)
+    return (
+        str(chance.choices(choices, weights)[0])
+        if chance.random() < 0.9
+        else chance.choice(NUMBERS)
+    )
 
 
-def edited(base: Base, claim: str, chance: random.Random) -> dict[str, Any] | None:
+def edit_parameters(given: dict[str, Any], chance: random.Random) -> dict[str, Any]:
+    """Another number, one of `PARAMETERS` or near by."""
+    made = copy.deepcopy(given)
+    name = chance.choices(list(PARAMETERS), (1, 1, 2, 2, 3, 3, 3, 2, 2, 2, 2))[0]
+    if chance.random() < 0.5 or made[name] is None:
+        made[name] = copy.copy(chance.choice(PARAMETERS[name]))
+    else:
+        _put(made, chance.choice([path for path in places(made) if path[0] == name]), chance)
+    return made
+
+
+def edit_step(steps: dict[str, Any], others: list[dict[str, Any]], chance: random.Random) -> None:
+    """Edit one of the last steps, which conclude, or of those they rest on; or take another's."""
+    names = list(steps)
+    name = names[-1 - min(int(chance.expovariate(0.7)), len(names) - 1)]
+    if chance.random() < 0.1:
+        rule = steps[name]["rule"]
+        alike = [step for each in others for step in each["steps"].values() if step["rule"] == rule]
+        steps[name] = chance.choice(alike)
+        return
+    steps[name] = copy.deepcopy(steps[name])
+    paths = places(steps[name]["witness"], ("witness",))
+    if paths:
+        _put(steps[name], chance.choice(paths), chance)
+
+
+def transplant(made: dict[str, Any], proof: list[str], other: dict, chance: random.Random) -> None:
+    """Add what another document proves of a claim, under other names."""
+    taken = needed(other["steps"], other["proofs"][chance.choice(list(other["proofs"]))])
+    names = {name: f"{name}-b" for name in taken}
+
+    def renamed(value):
+        if isinstance(value, list):
+            return [renamed(each) for each in value]
+        if isinstance(value, dict):
+            return {key: renamed(each) for key, each in value.items()}
+        return names.get(value, value)
+
+    if len(taken) < 30:
+        made["steps"] |= {names[name]: renamed(step) for name, step in taken.items()}
+        proof[:0] = [names[name] for name in list(taken)[-6:]]
+
+
+def edited(base: Base, claim: str, sources: tuple[Base, ...], chance: random.Random) -> dict | None:
     """A document about one claim, with one edit or a few; None if it is the same."""
-    proof = list(base.made["proofs"][claim])
-    made = {"parameters": dict(base.made["parameters"]), "proofs": {claim: proof}}
-    if chance.random() < 0.25:
-        others = [name for name in base.made["steps"] if name not in proof]
-        proof[:] = edit_list(proof, chance) if proof else proof
-        proof += chance.sample(others, min(len(others), chance.randrange(3)))
-        proof[:] = dict.fromkeys(proof)
-    made["steps"] = copy.deepcopy(needed(base.made, proof))
+    proof, others = list(base.made["proofs"][claim]), [each.made for each in sources]
+    if chance.random() < 0.2:
+        more = [name for name in base.made["steps"] if name not in proof]
+        proof = edit_list(proof, chance) if proof else proof
+        proof += chance.sample(more, min(len(more), chance.randrange(3)))
+        proof = list(dict.fromkeys(proof))
+    made = {"parameters": base.made["parameters"], "proofs": {claim: proof}}
+    made["steps"] = needed(base.made["steps"], proof)
     for _ in range(chance.choice((0, 1, 1, 1, 2, 3))):
-        about = "parameters" if chance.random() < 0.35 or not made["steps"] else "steps"
-        paths = places(made[about])
-        if about == "steps":  # first the last steps, which conclude, then those they rest on
-            names = list(made["steps"])
-            name = names[-1 - min(int(chance.expovariate(0.7)), len(names) - 1)]
-            paths = [path for path in paths if path[0] == name and path[1] == "witness"]
-        if paths:
-            _put(made[about], chance.choice(paths), chance)
-    same = made["steps"] == needed(base.made, proof) and proof == base.made["proofs"][claim]
-    return None if same and made["parameters"] == base.made["parameters"] else made
+        kind = chance.random()
+        if kind < 0.3 or not made["steps"]:
+            made["parameters"] = edit_parameters(made["parameters"], chance)
+        elif kind < 0.34:
+            made["parameters"] = chance.choice(others)["parameters"]
+        elif kind < 0.4:
+            transplant(made, proof, chance.choice(others), chance)
+        else:
+            edit_step(made["steps"], others, chance)
+    same = all(base.made["steps"].get(name) is step for name, step in made["steps"].items())
+    unchanged = same and proof == base.made["proofs"][claim]
+    return None if unchanged and made["parameters"] == base.made["parameters"] else made
 
 
 def _put(value: Any, path: tuple, chance: random.Random) -> None:
     for key in path[:-1]:
         value = value[key]
     old = value[path[-1]]
-    if isinstance(old, list):
-        value[path[-1]] = edit_list(old, chance)
-    else:
-        value[path[-1]] = edit_number(old, chance)
+    value[path[-1]] = (edit_list if isinstance(old, list) else edit_text)(old, chance)
 
 
 # -- judging ---------------------------------------------------------------------------------------
 
 
-def judge(base: Base, claim: str, made: dict[str, Any], tally: Tally, seed: int) -> None:
-    """Have the checker look at an edited document, and the oracles at what it accepts."""
-    same = made["parameters"] == base.made["parameters"]
+def unchanged(base: Base, made: dict[str, Any], of: Parameters) -> set[str]:
+    """The steps that prove what they did: same witness, premises, and numbers of the statement."""
     old: set[str] = set()
-    for name, step in made["steps"].items():  # what is as it was, down to what it names
-        inner = set(Reader(step).mentioned()) & set(made["steps"])
-        if same and step == base.made["steps"].get(name) and inner <= old:
+    changed = {name for name in PARAMETERS if getattr(of, name) != getattr(base.of, name)}
+    for name, step in made["steps"].items():
+        same = step is base.made["steps"].get(name) and not base.used[name] & changed
+        if same and set(Reader(step).mentioned()) & set(made["steps"]) <= old:
             old.add(name)
+    return old
+
+
+def judge(base: Base, claim: str, made: dict[str, Any], tally: Tally, seed: str) -> None:
+    """Have the checker look at an edited document, and the oracles at what it accepts."""
+    known: dict[str, Any] = {}
     try:
         with metered(WORK):
             of = parameters_from_json(Reader(made["parameters"]))
-            known = derived(made, base.known, old)
+            old = unchanged(base, made, of)
+            for name, step in made["steps"].items():
+                known[name] = base.known[name] if name in old else derived(of, known, name, step)
             row = paper.find(claim)
             decision = row.decide(of, [known[name] for name in made["proofs"][claim]])
-            texts = [row.says(of), decision.why, decision.witness, decision.theorem]
+            _ = row.says(of), decision.why, decision.witness, decision.theorem
     except REFUSED:
         tally.refused += 1
         return
+    verdict, new = decision.verdict.value, [known[name] for name in known if name not in old]
+    if verdict == "UNDECIDED" and not new and not decision.corrected:
+        tally.idle += 1
+        return
     tally.accepted += 1
-    tally.verdicts[claim, decision.verdict.value] += 1
-    chance, told = random.Random(seed), []
-    new = [known[name] for name in known if name not in old]
+    tally.verdicts[claim, verdict] += 1
+    told = verdict_oracle(claim, of, verdict)
     for conclusion in (*new, *decision.because, *decision.corrected):
-        tally.conclusions[type(conclusion).__name__] += 1
-        told += oracle(conclusion, chance, of)
-    told += verdict_oracle(claim, of, decision.verdict.value, [text for text in texts if text])
+        name = type(conclusion).__name__
+        tally.conclusions[name] += 1
+        key = hash((conclusion, of))
+        if not tally.judged[key]:
+            told += [f"{name}: {one}" for one in oracle(conclusion, random.Random(seed), of)]
+        tally.judged[key] += 1
     if told:
         where = json.dumps({"base": base.name, "seed": seed, "claim": claim})
         tally.complaints += [f"{where}: {one}" for one in told]
 
 
-def run(wanted: int, seed: int = 0, odd: bool = False) -> Tally:
+def run(wanted: int, seed: int = 0, odd: bool = False, told: bool = False) -> Tally:
     """Judge so many accepted documents, spread over all claims of all bases."""
-    tally, sources = Tally(), bases(odd)
-    targets = [(base, claim) for base in sources for claim in base.made["proofs"]]
-    index = 0
+    tally, sources, index = Tally(), bases(odd), 0
     while tally.accepted < wanted and index < 60 * wanted:
-        base, claim = targets[index % len(targets)]
-        made = edited(base, claim, random.Random(f"{seed} {index}"))
+        base = sources[index % len(sources)]
+        claims = list(base.made["proofs"])
+        claim = claims[index // len(sources) % len(claims)]
+        chance = random.Random(f"{seed} {index}")
+        made = edited(base, claim, sources, chance)
         if made is not None:
-            judge(base, claim, made, tally, index)
+            judge(base, claim, made, tally, f"{seed} {index}")
         index += 1
+        if told and index % 2000 == 0:
+            print(report(tally), flush=True)
     return tally
 
 
 def report(tally: Tally) -> str:
     """The counts, as a table."""
-    rows = [f"accepted {tally.accepted}, refused {tally.refused}"]
+    rows = [
+        f"accepted {tally.accepted}, refused {tally.refused}, undecided with nothing new "
+        f"{tally.idle}; {len(tally.judged)} different conclusions judged"
+    ]
     rows += [f"  {name:24} {count}" for name, count in sorted(tally.conclusions.items())]
-    rows += [f"COMPLAINT {one}" for one in tally.complaints[:50]]
+    verdicts = Counter(verdict for (_, verdict), n in tally.verdicts.items() for _ in range(n))
+    rows += [f"verdicts {dict(verdicts)} of {len({claim for claim, _ in tally.verdicts})} claims"]
+    rows += [f"COMPLAINT {one}" for one in tally.complaints[:60]]
     return "\n".join([*rows, f"{len(tally.complaints)} complaints"])
 
 
 if __name__ == "__main__":
-    found = run(int(sys.argv[1]), int((sys.argv[2:] or ["0"])[0]), odd=True)
+    found = run(int(sys.argv[1]), int((sys.argv[2:] or ["0"])[0]), odd=True, told=True)
     print(report(found))
     sys.exit(bool(found.complaints))

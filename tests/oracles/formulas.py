@@ -162,4 +162,4 @@ def theorem(view, rng):
     return [] if view.text else ["no text"]
 
 
-JUDGES = {"equal": equal, "series": series, "value": value, "theorem": theorem}
+JUDGES = {"Equal": equal, "Series": series, "Value": value, "Theorem": theorem}

@@ -1,11 +1,14 @@
-"""The holes that a hostile audit found (issue 13): documents that must not be accepted as then.
+"""The holes that a hostile audit found (issue 13), to be put back one by one.
 
-Each is made from what the project's own provers find, at the parameters named, by an edit of the
-witnesses. The texts are left out: a test that puts a hole back renews them with the checker's own
-functions (`sources.conclusions` derives the steps, `sources.rows` decides the claims).
+Each is a document made from what the project's own provers find, by an edit of the witnesses, and
+the lines of the checker that close it, with what they were like when it was open.
 """
 
+import importlib
+import inspect
+import textwrap
 from collections.abc import Callable
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -13,21 +16,53 @@ from tests.oracles.motion import flight
 from tests.oracles.sources import committed, proved
 
 
+class Lines(NamedTuple):
+    """A function, "module:name" below proofs.trusted, and pieces of it as they are and were."""
+
+    where: str
+    pieces: tuple[tuple[str, str], ...]
+
+
 class Hole(NamedTuple):
-    """A document without texts: parameters, steps, and the steps that each claim rests on."""
+    """A document without texts: {"parameters", "steps", "proofs": {claim: [names of steps]}}."""
 
     name: str
-    claims: tuple[str, ...]
+    claim: str
     false: str  # the verdict, which is false, or rests on a falsehood
-    make: Callable[[], dict[str, Any]]  # {"parameters", "steps", "proofs": {claim: [names]}}
+    make: Callable[[], dict[str, Any]]
     told: str  # part of the complaint that is expected of the oracles
+    lines: tuple[Lines, ...]
 
 
-def swapped_pieces():
-    """Hole 1: the cells of a staying set out of the order of phases."""
+@contextmanager
+def reopened(lines):
+    """The function as it was."""
+    name, _, path = lines.where.partition(":")
+    module = importlib.import_module(f"proofs.trusted.{name}")
+    function = module
+    for part in path.split("."):
+        function = getattr(function, part)
+    source = textwrap.dedent(inspect.getsource(function))
+    for closed, opened in lines.pieces:
+        assert closed in source, f"{lines.where} has no {closed!r}"
+        source = source.replace(closed, opened)
+    made: dict[str, Any] = {}
+    exec(f"from __future__ import annotations\n{source}", vars(module), made)
+    code = getattr(made[function.__name__], "__func__", made[function.__name__]).__code__
+    function.__code__, before = code, function.__code__
+    try:
+        yield
+    finally:
+        function.__code__ = before
+
+
+def swapped_cells():
+    """Hole 1: the cells of a full shift out of the order of phases."""
     made = committed("chaos")
-    pieces = made["steps"]["staying-set-3"]["witness"]["pieces"]
-    pieces[0], pieces[1] = pieces[1], pieces[0]
+    for step in made["steps"].values():
+        if step["rule"] == "full-shift":
+            cells = step["witness"]["cells"]
+            cells[0], cells[1] = cells[1], cells[0]
     return made
 
 
@@ -66,9 +101,13 @@ def _straddling(made, phases):
         "rule": "slope-range",
         "witness": {"points": points, "pieces": [{"flight": "wide", "time": whole}]},
     }
+    made["steps"]["false-point"] = {
+        "rule": "fixed-point",
+        "witness": {"slopes": "straddling"},
+    }
     for claim in ("G4", "G6"):
-        proof = [name for name in made["proofs"][claim] if not name.startswith("slope-range")]
-        made["proofs"][claim] = [*proof, "straddling"]
+        proof = [name for name in made["proofs"][claim] if not name.startswith("fixed-point")]
+        made["proofs"][claim] = [*proof, "false-point"]
     return made
 
 
@@ -112,51 +151,86 @@ def _moran(*ratios):
     return _texts(middle - Fraction(1, 10**8), middle + Fraction(1, 10**8))
 
 
-def no_linear_dimension():
-    """Hole 4: H13 with the ratios 7/10 and 4/5, of which no linear Cantor set is made."""
-    made = committed("dimension")
-    made["parameters"] = {**made["parameters"], "ratios": ["7/10", "4/5"], "printed_s0": None}
-    made["steps"]["root-of-none"] = {
-        "rule": "moran-root",
-        "witness": {"ratios": ["7/10", "4/5"], "root": _moran("7/10", "4/5")},
-    }
-    made["proofs"]["H13"] = [*made["proofs"]["H13"], "root-of-none"]
-    return made
+def no_linear_cover():
+    """Hole 4: H17 with the ratios 7/10 and 4/5, of which no linear Cantor set is made."""
+    return {**_with(ratios=["7/10", "4/5"], printed_s0=None), "proofs": {"H17": []}}
 
 
 def one_phase():
     """Hole 5: a single phase as an interval that never impacts."""
     made = committed("circle")
-    witness = made["steps"]["never-impacts-1"]["witness"]
-    witness["phases"] = ["15707/10000"] * 2
+    for step in made["steps"].values():
+        if step["rule"] == "never-impacts":
+            step["witness"]["phases"] = ["15707/10000"] * 2
     return made
 
 
+ORDER = (
+    Lines(
+        "paper.s34_circle.other_sets:StayingSet.__post_init__",
+        (
+            ("tuple(sorted(self.cells, key=lambda x: x.domain))", "self.cells"),
+            ('raise Unproved("cells overlap")', "pass"),
+        ),
+    ),
+    Lines(
+        "paper.s34_circle.other_sets:FullShift.__post_init__",
+        (("not apart(self.cells)", "False"),),
+    ),
+)
+ASKED = Lines("verdicts:Row.is_asked", (("self.printed_at is None", "True"),))
+STRADDLE = Lines("numbers:Phase._require", (("low <= high <= TURN", "low <= high"),))
+GAP = Lines("paper.s32_sets.linear:LinearSet.__post_init__", (("sum(self.ratios) >= 1", "False"),))
+EQUAL = Lines(
+    "paper.s32_sets.linear:_gap_estimates",
+    (("if true and false:", "if False:"), ("if true:", "if not false:")),
+)
+POINT = (
+    Lines("numbers:Phases._require", (("low < high", "low <= high"),)),
+    Lines("paper.s34_circle.landing:never_impacts", (("phases[0] < phases[1]", "True"),)),
+)
 HOLES = (
-    Hole("swapped pieces of a staying set", ("G5",), "REFUTED", swapped_pieces, "order"),
+    Hole("swapped cells of a full shift", "G5", "REFUTED", swapped_cells, "order", ORDER),
     Hole(
         "an image that straddles 2 pi, G6",
-        ("G6",),
+        "G6",
         "VERIFIED",
         lambda: _straddling(proved("circle", "5/22", "-0.95"), ("1.228", "1.236")),
         "fixed point",
+        (STRADDLE, ASKED),
     ),
     Hole(
         "an image that straddles 2 pi, G4",
-        ("G4",),
+        "G4",
         "REFUTED",
         lambda: _straddling(proved("circle", "1/6", "-0.45"), ("1.246", "1.25")),
         "fixed point",
+        (STRADDLE, ASKED),
     ),
-    Hole("equal ratios", ("H15",), "REFUTED", equal_ratios, "as printed it is True"),
-    Hole("no linear set, H14", ("H14",), "REFUTED", no_linear_set, "linear Cantor set"),
-    Hole("no linear set, H13", ("H13",), "REFUTED", no_linear_dimension, "linear Cantor set"),
-    Hole("one phase that never impacts", ("G4",), "REFUTED", one_phase, "no interval"),
+    Hole(
+        "equal ratios",
+        "H15",
+        "REFUTED",
+        equal_ratios,
+        "as printed it is True",
+        (EQUAL,),
+    ),
+    Hole("no linear set, H14", "H14", "REFUTED", no_linear_set, "linear Cantor set", (GAP,)),
+    Hole("no linear set, H17", "H17", "REFUTED", no_linear_cover, "linear Cantor set", (GAP,)),
+    Hole(
+        "one phase that never impacts",
+        "M6",
+        "CONDITIONAL",
+        one_phase,
+        "no interval",
+        POINT,
+    ),
     Hole(
         "another orbit than the one printed",
-        ("G3",),
+        "G3",
         "VERIFIED",
         lambda: proved("circle", "1/6", "-0.45"),
         "there is not the orbit",
+        (ASKED,),
     ),
 )

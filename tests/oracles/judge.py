@@ -6,13 +6,9 @@ from tests.oracles import circle, formulas, kernel, plastic, restitution, sets, 
 from tests.oracles.adapter import view
 
 JUDGES = {
-    **plastic.JUDGES,
-    **sets.JUDGES,
-    **circle.JUDGES,
-    **restitution.JUDGES,
-    **single.JUDGES,
-    **formulas.JUDGES,
-    **kernel.JUDGES,
+    name: judge
+    for module in (plastic, sets, circle, restitution, single, formulas, kernel)
+    for name, judge in module.JUDGES.items()
 }
 
 

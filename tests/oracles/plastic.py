@@ -43,7 +43,7 @@ def first_impact(view, rng):
         return ["no window"]
     if view.transversal and len(view.windows) != 1:
         told.append("more windows than one, or none")
-    for phase in points(view.phases, rng):
+    for phase in points(view.motion.phases, rng):
         found = _impact(view, phase, float(view.windows[-1][1]) + 1)
         if found is None:
             continue
@@ -82,21 +82,25 @@ def slope_range(view, rng):
         return ["the points do not increase"]
     told, chosen = [], {0, count - 2, *(rng.randrange(count - 1) for _ in range(3))}
     for k in sorted(chosen):
-        ends = view.points[k], view.points[k + 1]
-        before = None
         for end in (k, k + 1):
             told += _at_point(view, view.points[end], view.slopes[end], view.images[end])
-        for phase in points(ends, rng, 2):
-            found = _impact(view, phase)
-            if isinstance(found, str):
-                told.append(f"the launch at {float(phase):.9g}: {found}")
-            if not isinstance(found, Impact):
-                before = None
-                continue
-            if not inside(found.slope, view.pieces[k]):
-                told.append(f"f'({float(phase):.12g}) is {found.slope.str(15)}")
-            told += _jump(view, before, (phase, found.lifted), view.pieces[k])
-            before = phase, found.lifted
+        told += smooth(view, (view.points[k], view.points[k + 1]), view.pieces[k], rng)
+    return told
+
+
+def smooth(view, phases, bounds, rng, count=2):
+    """f is C^1 on an interval of phases, with f' in bounds."""
+    told, before = [], None
+    for phase in points(phases, rng, count):
+        found = _impact(view, phase)
+        if not isinstance(found, Impact):
+            told += [f"the launch at {float(phase):.9g}: {found}"] if found else []
+            before = None
+            continue
+        if not inside(found.slope, bounds):
+            told.append(f"f'({float(phase):.12g}) is {found.slope.str(15)}")
+        told += _jump(view, before, (phase, found.lifted), bounds)
+        before = phase, found.lifted
     return told
 
 
@@ -189,7 +193,7 @@ def branch(view, rng):
     return told
 
 
-def covering_graph(view, rng):
+def entropy_bound(view, rng):
     """log(growth) is enclosed; it is below an upper bound of the entropy on the branches.
 
     f is monotone between the points examined: how often the arc between their images meets each
@@ -219,74 +223,84 @@ def covering_graph(view, rng):
     return told
 
 
-def staying_set(view, rng):
-    """All phases whose orbits stay in the interval run through the cells, in order of phases."""
-    told, cells = [], view.cells
-    ends = [cell.phases for cell in cells]
-    if ends != sorted(ends) or any(b[0] < a[1] for a, b in pairwise(ends)):
-        told.append("the cells are not in the order of phases, or overlap")
-    for cell in cells:
-        told += _cell(view, cell, rng)
-    for phase in points(view.interval, rng, 12):
-        if any(low <= phase <= high for low, high in ends):
-            continue
-        if lands_in(view, phase, view.interval):
-            told.append(f"f({float(phase):.12g}) stays, in no cell")
-    if view.full:
-        if len(cells) < 2 or any(
-            b[0] <= a[1] for a, b in zip(sorted(ends), sorted(ends)[1:], strict=False)
-        ):
-            told.append("no full shift: too few cells, or cells that are not disjoint")
-        told += [f"no full shift: {x}" for cell in cells for x in _short(view, cell, view.interval)]
-    path = view.cycle
-    for one, two in zip(path, (*path[1:], *path[:1]), strict=True):
-        told += [f"no cycle: {x}" for x in _short(view, one, two.phases)]
+def fixed_point(view, rng):
+    """f grows by `least` or more on the domain, across it; the bracket holds the fixed point."""
+    told = [] if view.least > 1 else ["f is not said to expand"]
+    told += smooth(view, view.domain, (view.least, 10**9), rng, 4)
+    if not view.domain[0] <= view.bracket[0] <= view.bracket[1] <= view.domain[1]:
+        told.append("the bracket of the fixed point leaves the domain")
+    images = [lifted(view, phase) for phase in view.domain]
+    if None in images:
+        return told
+    turns = images[0] // TURN
+    low, high = (x - turns * TURN for x in images)
+    if not (low < view.domain[0] and view.domain[1] < high < TURN):
+        told.append(f"the domain is mapped to ({low:.9g}, {high:.9g}): no fixed point is seen")
+    if not float(view.first[0]) - 1e-9 < low < float(view.first[1]) + 1e-9:
+        told.append(f"the lower end is mapped to {low:.12g}")
+    for end, side in zip(view.bracket, (1, -1), strict=True):
+        image = lifted(view, end)
+        if image is not None and side * (image - turns * TURN - float(end)) > 1e-9:
+            told.append("the fixed point is not in the bracket")
     return told
 
 
-def _images(view, cell):
-    """The lifted images of a cell's ends, less the turns that put the lower one in [0, 2 pi)."""
-    found = [_impact(view, phase) for phase in cell.phases]
-    if not all(isinstance(one, Impact) for one in found):
-        return None
-    low, high = sorted(float(one.lifted) for one in found)
-    return low % TURN, high - (low // TURN) * TURN
+def full_shift(view, rng):
+    """Disjoint cells in the order of phases, each mapped over the interval, and nothing else."""
+    told, cells, bounds = [], view.cells, view.slopes
+    if any(b[0] <= a[1] for a, b in pairwise(cells)) or len(cells) < 2:
+        told.append("the cells are not in the order of phases, or overlap")
+    if not 1 < bounds[0] <= bounds[1]:
+        told.append("f is not said to expand")
+    for cell in cells:
+        if not view.interval[0] <= cell[0] < cell[1] <= view.interval[1]:
+            told.append("a cell is empty, or leaves the interval")
+        told += smooth(view, cell, bounds, rng, 1)
+        told += [f"no full shift: {x}" for x in _short(view, cell, view.interval)]
+    for phase in points(view.interval, rng, 12):
+        outside = not any(low <= phase <= high for low, high in cells)
+        if outside and lands_in(view, phase, view.interval):
+            told.append(f"f({float(phase):.12g}) stays, in no cell")
+    return told
+
+
+def staying_orbit(view, rng):
+    """Each cell is mapped over the next one; fixed points and full branches there are no others."""
+    told, cells = [], view.cells
+    if any(b[0] <= a[1] for a, b in pairwise(sorted(cells))) or not cells:
+        told.append("the cells overlap")
+    for one, two in zip(cells, (*cells[1:], *cells[:1]), strict=True):
+        told += [f"no cycle: {x}" for x in _short(view, one, two)]
+    for part in view.region:
+        for low, high in _fixed_points(view, part):
+            if len(cells) > 1 or high < cells[0][0] or cells[0][1] < low:
+                told.append(f"another orbit that stays, at {float(low):.9g}")
+    return told
+
+
+def _fixed_points(view, part, count=60):
+    """Brackets of the fixed points that are seen in an interval, from values on a grid."""
+    before = None
+    for k in range(count + 1):
+        phase = between(part, Fraction(k, count))
+        value = lifted(view, phase)
+        now = None if value is None else (value - float(phase)) / TURN
+        if None not in (before, now) and abs(now - before) < 0.5 and now // 1 != before // 1:
+            yield between(part, Fraction(k - 1, count)), phase
+        before = now
 
 
 def _short(view, cell, target):
     """Whether the image of a cell does not cover an interval of [0, 2 pi)."""
-    images = _images(view, cell)
-    if images is None:
+    images = [lifted(view, phase) for phase in cell]
+    if None in images:
         return []
-    low, high = (float(end) for end in target)
-    covered = any(
-        images[0] <= low + k * TURN + 1e-9 and high + k * TURN <= images[1] + 1e-9 for k in (0, 1)
-    )
-    return [] if covered else [f"a cell is mapped to ({images[0]:.9g}, {images[1]:.9g}) only"]
-
-
-def _cell(view, cell, rng):
-    told = []
-    if min(map(abs, cell.slopes)) <= 1 or cell.slopes[0] * cell.slopes[1] <= 0:
-        told.append("f is not said to expand on a cell")
-    if not view.interval[0] <= cell.phases[0] < cell.phases[1] <= view.interval[1]:
-        told.append("a cell is empty, or leaves the interval")
-    before = None
-    for phase in points(cell.phases, rng, 1):
-        found = _impact(view, phase)
-        if not isinstance(found, Impact):
-            told += [f"the launch at {float(phase):.9g}: {found}"] if found else []
-            before = None
-            continue
-        if not inside(found.slope, cell.slopes):
-            told.append(f"f'({float(phase):.12g}) is {found.slope.str(12)}")
-        told += _jump(view, before, (phase, found.lifted), cell.slopes)
-        before = phase, found.lifted
-    ends = [_impact(view, phase) for phase in cell.phases]
-    for found, image in zip(ends if cell.slopes[0] > 0 else ends[::-1], cell.image, strict=True):
-        if isinstance(found, Impact) and not inside_mod(found.lifted, image):
-            told.append(f"an end of a cell is mapped to {found.phase:.15g}")
-    return told
+    low, high = min(images), max(images)
+    first, last = (float(end) for end in target)
+    turns = np.ceil((low - first) / TURN - 1e-9)
+    if last + turns * TURN <= high + 1e-9:
+        return []
+    return [f"a cell is mapped to ({low % TURN:.9g}, {high % TURN:.9g}) only"]
 
 
 def horseshoe(view, rng):
@@ -308,12 +322,6 @@ def image_arc(view, rng):
         if not inside_mod(ball(end), given, 1e-9):
             told.append(f"an end of the arc is {end % TURN:.12g}")
     return told
-
-
-def missed(view, rng):
-    """No phase of the domain lands in the target."""
-    view.phases = view.domain
-    return avoids(view, rng)
 
 
 def horseshoe_faults(sets, rng):
@@ -352,9 +360,9 @@ def _covered(images, interval):
 
 
 def itinerary(view, rng):
-    """The orbit of a phase, and which of the sets it visits."""
-    sets, told, _word, lift = view.sets, [], "", ball(view.phase)
-    if len(view.orbit) != len(view.word) + 1:
+    """The orbit of a phase, and which of the sets it visits; `cut`: the word, where it leaves."""
+    sets, told, lift, *word = view.base, [], ball(view.orbit[0][0]), *map(int, view.cut)
+    if len(view.orbit) != len(word):
         return ["the lengths do not fit"]
     with flint.ctx.workprec(PRECISION):
         for k, bounds in enumerate(view.orbit):
@@ -362,30 +370,31 @@ def itinerary(view, rng):
                 return [f"f^{k} of the phase is {float(lift) % TURN:.15g}"]
             phase = lift - int(float(lift) // TURN) * two_pi()
             where = [inside(phase, sets.left), inside(phase, sets.right)]
-            if k < len(view.word):
-                if not where[int(view.word[k])]:
-                    return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{view.word[k]}"]
+            if k < len(word) - 1:
+                if not where[word[k]]:
+                    return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{word[k]}"]
                 found = next_impact(sets.eta, sets.nu, phase)
                 if not isinstance(found, Impact):
                     return told
                 lift = found.lifted
             else:
                 place = (phase > ball(sets.left[0])) + (phase > ball(sets.right[0]))
-                if any(where) or int(place) != view.leaves:
+                if any(where) or int(place) != word[k]:
                     told.append(f"f^{k} of the phase, {float(phase):.12g}, is elsewhere")
         return told
 
 
 JUDGES = {
-    "first_impact": first_impact,
-    "point": point,
-    "slope_range": slope_range,
-    "avoids": avoids,
-    "branch": branch,
-    "covering_graph": covering_graph,
-    "staying_set": staying_set,
-    "image_arc": image_arc,
-    "missed": missed,
-    "horseshoe": horseshoe,
-    "itinerary": itinerary,
+    "FirstImpact": first_impact,
+    "Impact": point,
+    "SlopeRange": slope_range,
+    "Avoids": avoids,
+    "Branch": branch,
+    "EntropyBound": entropy_bound,
+    "FullShift": full_shift,
+    "StayingOrbit": staying_orbit,
+    "FixedPoint": fixed_point,
+    "ImageArc": image_arc,
+    "Horseshoe": horseshoe,
+    "Itinerary": itinerary,
 }

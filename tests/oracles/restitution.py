@@ -2,9 +2,10 @@
 
 from fractions import Fraction
 from itertools import product
+from math import inf
 from types import SimpleNamespace
 
-from tests.oracles.motion import Impact, ball, flight, inside
+from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod
 from tests.oracles.plastic import between
 
 CONE = 2  # unstable vectors have |dgamma| <= CONE |dphi|
@@ -22,18 +23,14 @@ def _states(box, phases, velocities, rng, count=5):
         ]
 
 
-def _image(view, state):
-    """F at a state as (phase less the turns, velocity, DF); a complaint; or None."""
+def _launched(state):
+    """The next impact after a state before one; a complaint, if it is not possible; or None."""
     eta, nu, epsilon, phi, gamma = state
-    side = 1 if nu > 0 else -1
+    side, place = 1 if nu > 0 else -1, f"({float(phi):.6g}, {float(gamma):.6g})"
     if side * (ball(eta) * ball(gamma) + ball(nu) * ball(phi).cos()) < 0:
-        return f"the state ({float(phi):.6g}, {float(gamma):.6g}) is not possible"
+        return f"the state {place} is not possible"
     found = flight(eta, nu, phi, epsilon, gamma)
-    if isinstance(found, str):
-        return f"the state ({float(phi):.6g}, {float(gamma):.6g}): {found}"
-    if not isinstance(found, Impact):
-        return None
-    return found.turned(int(view.turns)), found.velocity, found.derivative()
+    return f"the state {place}: {found}" if isinstance(found, str) else found
 
 
 def _entries(found, bounds):
@@ -52,16 +49,16 @@ def _map_faults(view, rng, phases, image):
     if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]
     for state in _states(view.box, phases, view.velocities, rng):
-        found = _image(view, state)
-        if found is None or isinstance(found, str):
+        found = _launched(state)
+        if not isinstance(found, Impact):
             told += [found] if found else []
             continue
-        place = f"({float(state[3]):.6g}, {float(state[4]):.6g})"
-        if image is not None and not inside(found[0], image):
-            told.append(f"the phase after {place} is {found[0].str(12)}")
-        if not inside(found[1], view.velocity):
-            told.append(f"the velocity after {place} is {found[1].str(12)}")
-        told += _entries(found[2], view.derivative)
+        place, phase = f"({float(state[3]):.6g}, {float(state[4]):.6g})", found.turned(view.turns)
+        if image is not None and not inside(phase, image):
+            told.append(f"the phase after {place} is {phase.str(12)}")
+        if not inside(found.velocity, view.velocity):
+            told.append(f"the velocity after {place} is {found.velocity.str(12)}")
+        told += _entries(found.derivative(), view.derivative)
     return told
 
 
@@ -76,32 +73,40 @@ def rectangle(view, rng):
 
 
 def barred_word(view, rng):
-    """No orbit follows the word: look for one, by the ends of the phases that follow its start.
+    """No orbit follows the word, and the last image falls short by as much as is said."""
+    short = _shortfall(view, view.word, rng)
+    if short is None or short >= float(view.short) - 1e-9:
+        return []
+    return [f"an orbit along {view.word} comes within {short:.9g} of the last rectangle"]
+
+
+def _shortfall(view, word, rng, shares=(0, 1, None)):
+    """By how much the orbits found that follow a word miss its last set; 0: one does not; None.
 
     The next phase increases with the phase; so the phases (at one velocity) whose images follow
     part of a word are an interval, found by bisection.
     """
-    told, word = [], [int(letter) for letter in view.word]
-    for share in (0, 1, rng.random()):
-        eta, nu, epsilon = (between(side, Fraction(share)) for side in view.box)
-        gamma = between(view.velocities, Fraction(rng.choice((0, 1, rng.random()))))
-        at = SimpleNamespace(eta=eta, nu=nu, epsilon=epsilon, sets=view.sets, gamma=gamma)
-        low, high = (float(end) for end in view.sets[word[0]])
+    least, sets = None, (view.strips.left, view.strips.right)
+    for given in shares:
+        share = Fraction(rng.random() if given is None else given)
+        eta, nu, epsilon = (between(side, share) for side in view.box)
+        gamma = between(view.strips.velocities, Fraction(rng.choice((0, 1, rng.random()))))
+        at = SimpleNamespace(eta=eta, nu=nu, epsilon=epsilon, gamma=gamma)
+        low, high = (float(end) for end in sets[word[0]])
         for n in range(1, len(word)):
-            goal = [float(end) for end in view.sets[word[n]]]
+            goal = [float(end) for end in sets[word[n]]]
             ends = [_after(at, x, n, goal) for x in (low, high)]
             if None in ends:
                 break
             short = max(goal[0] - ends[1], ends[0] - goal[1])
             if short > 0:
-                if n == len(word) - 1 and short < float(view.short) - 1e-9:
-                    told.append(f"an orbit comes within {short:.9g} of the last rectangle")
+                least = min(short if n == len(word) - 1 else inf, inf if least is None else least)
                 break
             low = low if ends[0] >= goal[0] else _solve(at, (low, high), n, goal, goal[0])
             high = high if ends[1] <= goal[1] else _solve(at, (low, high), n, goal, goal[1])
         else:
-            told.append(f"the orbit of ({low:.9g}, {float(gamma):.6g}) follows the word")
-    return told
+            return 0.0
+    return least
 
 
 def _after(at, phase, count, goal):
@@ -118,7 +123,7 @@ def _after(at, phase, count, goal):
 
 def _solve(at, ends, count, goal, wanted):
     low, high = ends
-    for _ in range(40):
+    for _ in range(32):
         middle = (low + high) / 2
         found = _after(at, middle, count, goal)
         if found is None:
@@ -127,35 +132,99 @@ def _solve(at, ends, count, goal, wanted):
     return (low + high) / 2
 
 
-def crossings(view, rng):
-    """The rectangles are crossed as the arrows say, by the margin; cones are expanded."""
+def _rates(derivative, rates):
+    """Vectors (dphi, dgamma / CONE) that are flat grow, those with a steep image shrink."""
+    (p, q), (r, s) = ([float(x) for x in row] for row in derivative)
+    q, r = CONE * q, r / CONE
+    grow = min(abs(p + q * t) for t in (-1, 0, 1))
+    edges = ((s - q) / (p - r), (-s - q) / (p + r)) if p > abs(r) else ()
+    shrink = max((abs(r * t + s) for t in edges), default=1)
+    if grow < float(rates[0]) - 1e-9 or shrink > float(rates[1]) + 1e-9 or p <= 0:
+        yield f"the rates are {grow:.6g}, {shrink:.6g}"
+    if not rates[1] < 1 < rates[0]:
+        yield "the rates are not hyperbolic"
+
+
+def _impacts(view, rng):
+    """States of both rectangles, which of them, and the next impacts."""
+    for index, part in enumerate((view.strips.left, view.strips.right)):
+        for state in _states(view.box, part, view.strips.velocities, rng):
+            found = _launched(state)
+            if found is not None:
+                yield state, index, found
+
+
+def rectangle_horseshoe(view, rng):
+    """Edges are mapped beyond both rectangles, by the margin; vectors grow and shrink."""
+    told, (low, high) = [], (view.strips.left[0], view.strips.right[1])
+    for state, index, found in _impacts(view, rng):
+        part = (view.strips.left, view.strips.right)[index]
+        edges = [_launched((*state[:3], edge, state[4])) for edge in part]
+        if not all(isinstance(one, Impact) for one in (found, *edges)):
+            told += [one for one in (found, *edges) if isinstance(one, str)]
+            continue
+        told += _rates(found.derivative(), view.rates)
+        turns = round((float(edges[0].lifted + edges[1].lifted) - float(low + high)) / 2 / TURN)
+        first, last = (one.turned(turns) for one in edges)
+        if first > ball(low - view.margin) or last < ball(high + view.margin):
+            told.append(f"edges are mapped to {first.str(9)}, {last.str(9)}, not beyond both sets")
+        if not inside(found.velocity, view.strips.velocities):
+            told.append(f"an image velocity is {found.velocity.str(9)}")
+    return told if view.margin > 0 else [*told, "no margin"]
+
+
+def golden_mean(view, rng):
+    """Words without 11 are followed, words that end in 11 after a few letters are not."""
+    told = [] if view.box[2][0] > 0 else ["without restitution F is not one-to-one"]
+    for _, index, found in _impacts(view, rng):
+        if isinstance(found, str):
+            told.append(found)
+        elif index == 0 or inside_mod(found.lifted, view.strips.left):
+            told += _rates(found.derivative(), view.rates)
+    word = (0, 1, 0)
+    while len(word) < 6:
+        word += (0,) if word[-1] else (rng.randint(0, 1),)
+    if _shortfall(view, word, rng, (None,)):
+        told.append(f"no orbit follows {word}")
+    if _shortfall(view, (*word, 0, 1, 1), rng, (None,)) == 0:
+        told.append(f"an orbit follows {word}, 0, 1, 1")
+    return told
+
+
+def hyperbolic(view, rng):
+    """Horizontal distances grow, vertical ones shrink, vectors do both."""
     told = []
-    for one, targets in zip(view.rectangles, view.arrows, strict=True):
-        told += rectangle(one, rng)
-        low = min(view.rectangles[j].phases[0] for j in targets)
-        high = max(view.rectangles[j].phases[1] for j in targets)
-        for state in _states(one.box, one.phases, one.velocities, rng):
-            for edge, reach in ((0, low - view.margin), (1, high + view.margin)):
-                state[3] = one.phases[edge]
-                found = _image(one, state)
-                if found is None or isinstance(found, str):
-                    continue
-                beyond = found[0] <= ball(reach) if edge == 0 else found[0] >= ball(reach)
-                if not beyond:
-                    told.append(f"an edge is mapped to {found[0].str(12)}, not beyond the arrows")
-                (p, q), (r, s) = ([float(x) for x in row] for row in found[2])
-                if abs(p) - CONE * abs(q) < float(view.expansion) - 1e-9:
-                    told.append(f"phases grow {abs(p) - CONE * abs(q):.6g} times only")
-                if abs(s) + abs(q * r) / abs(p) > float(view.contraction) + 1e-2:
-                    told.append("velocities shrink less")
-    if view.expansion <= 1 or view.contraction >= 1 or view.margin <= 0:
-        told.append("not hyperbolic, or no margin")
+    for _, _, found in _impacts(view, rng):
+        if isinstance(found, str):
+            told.append(found)
+            continue
+        (p, q), (_, s) = ([float(x) for x in row] for row in found.derivative())
+        if p < float(view.grow) - 1e-9 or abs(q) + abs(s) > float(view.shrink) + 1e-9:
+            told.append(f"distances grow {p:.6g} times, shrink to {abs(q) + abs(s):.6g}")
+        told += _rates(found.derivative(), view.rates)
+    return told if view.grow > 1 > view.shrink else [*told, "not hyperbolic"]
+
+
+def edge_image(view, rng):
+    """The next impact after one state, a corner of the rectangles."""
+    if view.phase not in (*view.strips.left, *view.strips.right):
+        return ["no edge of the rectangles"]
+    told = []
+    for state in _states(view.box, (view.phase,) * 2, (view.velocity,) * 2, rng, 3):
+        found = _launched(state)
+        if isinstance(found, str):
+            told.append(found)
+        elif found is not None and not inside_mod(found.lifted, view.image):
+            told.append(f"the phase after the edge is {found.phase:.12g}")
     return told
 
 
 JUDGES = {
-    "rebound": rebound,
-    "rectangle": rectangle,
-    "barred_word": barred_word,
-    "crossings": crossings,
+    "Rebound": rebound,
+    "RectangleMap": rectangle,
+    "BarredWord": barred_word,
+    "RectangleHorseshoe": rectangle_horseshoe,
+    "GoldenMean": golden_mean,
+    "Hyperbolic": hyperbolic,
+    "EdgeImage": edge_image,
 }

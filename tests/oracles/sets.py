@@ -1,15 +1,18 @@
-"""Judges of conclusions about Cantor sets and dimensions (section 3.2) and measures (A.2)."""
+"""Judges of conclusions about Cantor sets and dimensions (section 3.2)."""
 
+import re
+from collections import Counter
 from fractions import Fraction
-from itertools import pairwise
-from math import inf
+from functools import lru_cache
+from itertools import pairwise, product
+from types import SimpleNamespace
 
 import flint
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from tests.oracles.motion import TURN, ball, inside
-from tests.oracles.plastic import between, lifted
+from tests.oracles.plastic import between, itinerary, lifted
 
 _DEGREE = 22
 
@@ -38,12 +41,41 @@ def _root(ratios):
     return (low + high) / 2
 
 
-def linear_set(view, rng):
-    """There is a linear set only if the ratios sum to less than 1."""
-    told = moran_root(view, rng)
-    if sum(view.ratios) >= 1:
-        told.append("no linear Cantor set: the ratios sum to 1 or more")
-    if not told and view.interval:
+def exact_measure(view, rng):
+    """Claim 1 for the linear set, (1) to (4) at random places; there is one only with a gap."""
+    r0, r1 = view.ratios
+    if not (0 < r0 <= r1 and r0 + r1 < 1 and view.interval[0] < view.interval[1]):
+        return ["no linear Cantor set for these ratios"]
+    told, s, k = [], float(_root(view.ratios)), float(1 - r0 - r1)
+    r0, r1 = float(r0), float(r1)
+    x, y = r0 * rng.random(), r1 * rng.random()
+    if k < (1 - r0 - r1) * max(x / r0, y / r1) - 1e-12 or (x + k + y) ** s < x**s + y**s - 1e-12:
+        told.append("(1) fails")
+    q = [((1 - r1) / r0 + x) ** s - 1 - x**s for x in (0.1, 0.7, r1 / r0, 5 + r1 / r0)]
+    if not (0 < s < 1 and q[0] > q[1] > q[3] and abs(q[2]) < 1e-9):
+        told.append("(2) fails")
+    level = [(0.0, 1.0)]
+    for _ in range(rng.randint(1, 5)):
+        parts = (((a, a + r0 * (b - a)), (b - r1 * (b - a), b)) for a, b in level)
+        level = [part for pair in parts for part in pair]
+    low, high = sorted(rng.choice((rng.random(), *rng.choice(level))) for _ in range(2))
+    if (high - low) ** s < sum((b - a) ** s for a, b in level if low <= a < b <= high) - 1e-9:
+        told.append("(3) fails")
+    n, epsilon = rng.randint(0, 5), rng.random()
+    more = min((epsilon / 2 ** (n + 1)) ** (1 / s), r1**n - r1 ** (n + 1))
+    for size in (r0 ** (n + 1), r1 ** (n + 1)):
+        if (
+            size + more > r1**n + 1e-9
+            or (size + more) ** s > size**s + epsilon / 2 ** (n + 1) + 1e-9
+        ):
+            told.append("(4) fails")
+    return told
+
+
+def linear_dimension(view, rng):
+    """The same, with the root and the measure |I|^s."""
+    told = exact_measure(view, rng) + moran_root(view, rng)
+    if not told:
         with flint.ctx.workprec(400):
             measure = ball(view.interval[1] - view.interval[0]) ** _root(view.ratios)
             if not inside(measure, view.measure):
@@ -56,56 +88,114 @@ def no_gap(view, rng):
     return [] if min(view.ratios) > 0 and sum(view.ratios) >= 1 else ["there is a gap"]
 
 
-def gap_function(view, rng):
-    """q(x) = ((1 - r1)/r0 + x)^s - 1 - x^s decreases and vanishes at r1/r0."""
-    first, second = view.ratios
-    if not 0 < min(view.ratios) <= max(view.ratios) < 1:
-        return ["a ratio is not between 0 and 1"]
-    with flint.ctx.workprec(200):
-        s = _root(view.ratios)
-        places = [ball(second / first), *(ball(Fraction(k, 7)) for k in (1, 5, 30))]
-        q = [(ball((1 - second) / first) + x) ** s - 1 - x**s for x in places]
-        falls = q[1] > q[2] > q[3]
-    return [] if falls and abs(q[0]) < 1e-30 else ["q does not decrease, or does not vanish"]
-
-
-def _unit(printed):
-    return Fraction("/" not in printed, 10 ** len(printed.partition(".")[2]))
-
-
-def unlike(view, rng):
-    """1/slope is not the decimal that is given, rounded."""
-    places = 0
-    while view.given * 10**places % 1 and places < 60:
-        places += 1
-    exact = places == 60
-    near = abs(1 / view.slope - view.given) < (0 if exact else Fraction(1, 2 * 10**places))
-    return ["it is that, rounded"] if near or 1 / view.slope == view.given else []
-
-
 def digits(view, rng):
-    """Which readings of printed digits hold, for both roots."""
-    told, printed, unit = moran_root(view.given, rng) + moran_root(view.exact, rng), 0, 0
-    printed, unit = ball(Fraction(view.printed)), _unit(view.printed)
-    for each, given in zip((view.given, view.exact), view.readings, strict=True):
-        s = _root(each.ratios)
-        own = (abs(s - printed) < ball(unit / 2), bool(s >= printed) and s < printed + ball(unit))
-        if any(x is not None and bool(y) != x for x, y in zip(given, own, strict=True)):
-            told.append(f"s_0 is {s.str(12)}")
+    """Which readings of printed digits hold, of 1/slope or of the root for some ratios."""
+    printed, unit = Fraction(view.printed), Fraction("/" not in view.printed)
+    unit /= 10 ** len(view.printed.partition(".")[2])
+    values = [ball(1 / Fraction(view.name[2:]))] if view.name.startswith("1/") else []
+    if not values:
+        pairs = {view.numbers.ratios, view.numbers.reciprocals}
+        with flint.ctx.workprec(400):
+            values = [_root(pair) for pair in pairs if max(pair) < 1]
+    values = [x for x in values if inside(x, view.value)]
+    if not values:
+        return ["the bounds hold no such number"]
+    told = []
+    for x in values:
+        near = abs(x - ball(printed)) < ball(unit / 2) or view.value == (printed,) * 2
+        cut = (x >= ball(printed) and x < ball(printed + unit)) or view.value == (printed,) * 2
+        known = ((view.rounded, near), (view.truncated, cut))
+        if any(given not in (None, bool(own)) for given, own in known):
+            told.append(f"{view.name} is {x.str(12)}")
     return told
 
 
-def excess(view, rng):
-    """(|L| + d)^s - |L|^s - d for an interval L of the linear set."""
-    if not all(0 < ratio < 1 for ratio in view.ratios) or sum(view.ratios) >= 1:
-        return ["no linear Cantor set for these ratios"]
+def _size(view, word):
     length = view.interval[1] - view.interval[0]
-    for letter in view.word:
+    for letter in word:
         length *= view.ratios[int(letter)]
+    return length
+
+
+def excess(view, rng):
+    """(|L| + d)^s - |L|^s - d > 0 for an interval L of the linear set."""
+    told, n, longest = exact_measure(view, rng), len(view.word) - 1, max(view.ratios)
+    if told or not 0 < view.epsilon < longest**n - longest ** (n + 1) or n < 1:
+        return told or ["(11) is not about this epsilon"]
     with flint.ctx.workprec(400):
-        s, d = _root(view.ratios), ball(view.epsilon / 2 ** len(view.word))
-        found = (ball(length) + d) ** s - ball(length) ** s - d
-        return [] if inside(found, view.excess) else [f"it is {found.str(15)}"]
+        s, d = _root(view.ratios), ball(view.epsilon / 2 ** (n + 1))
+        length = ball(_size(view, view.word))
+        found = (length + d) ** s - length**s - d
+        good = found > 0 and inside(found, view.excess)
+        return [] if good else [f"it is {found.str(15)}"]
+
+
+def short_gap(view, rng):
+    """Of I_001, I_01 and the gap of I_0 between: the gap is shorter than is printed."""
+    told, (r0, r1) = exact_measure(view, rng), view.ratios
+    gap = _size(view, "0") - _size(view, "00") - _size(view, "01")
+    sizes = [_size(view, "001"), _size(view, "01")]
+    if not (gap < (1 - r0 - r1) / r0 * max(sizes) and gap == (1 - r0 - r1) / r1 * sizes[1]):
+        told.append("the gap is not shorter")
+    return told if sizes[1] >= sizes[0] else [*told, "I_001 is the longer one"]
+
+
+# -- invariant sets of the map ---------------------------------------------------------------------
+
+
+@lru_cache(maxsize=256)
+def _periodic(eta, nu, left, right, most=6):
+    """For all words up to a length, the points of I0 and I1 that follow them periodically."""
+    hull, found = (left[0], right[1]), []
+    about = SimpleNamespace(eta=eta, nu=nu, hull=hull)
+    branches = [_interpolated(about, part) for part in (left, right)]
+    for n in range(1, most + 1 if None not in branches else 0):
+        words = ["".join(letters) for letters in product("01", repeat=n)]
+        x, orbit = np.full(len(words), float(hull[0])), []
+        for k in range(24 + n):
+            both = [_inverse(branch, x)[0] for branch in branches]
+            if both[0] is None or both[1] is None:
+                return found
+            x = np.where([word[-1 - k % n] == "0" for word in words], *both)
+            orbit.append(x)
+        found += zip(words, np.transpose(orbit[-n:]).tolist(), strict=True)
+    return found
+
+
+def invariant_set(view, rng):
+    """Periodic orbits of the horseshoe: which stay in the interval, which words they follow."""
+    told, base, low, high = [], view.base, *map(float, view.interval)
+    for one in view.orbits:
+        told += itinerary(one, rng)
+    factors = [each for each in view.shift.factors.split(" or ") if each]
+    counts = Counter()
+    for word, orbit in _periodic(base.eta, base.nu, base.left, base.right):
+        near = min(abs(x - end) for x in orbit for end in (low, high))
+        stays = low <= min(orbit) and max(orbit) <= high
+        said = not any(each in word * 12 for each in factors)
+        counts[len(word)] += stays
+        if near > 1e-9 and stays != said:
+            told.append(f"the orbit of {word} stays, or not, otherwise")
+    printed = re.search(r"f\^n has ([0-9, ]+) fixed points", view.sentence)
+    if printed and counts:
+        given = [int(each) for each in printed[1].split(", ")]
+        if given[:6] != [counts[n] for n in range(1, 7)]:
+            told.append(f"the numbers of fixed points are {dict(counts)}")
+    return told
+
+
+def staying_dimension(view, rng):
+    """The repeller and the invariant set of one interval have the same periodic points."""
+    told = repeller(view.repeller, rng) + invariant_set(view.staying, rng)
+    factors = [each for each in view.staying.shift.factors.split(" or ") if each]
+    for letters in product("01", repeat=5):
+        word = "".join(letters) * 8
+        starts = (word[k:] for k in range(5))
+        made = any(re.fullmatch(f"(?:{'|'.join(view.repeller.words)})*.?.?.?", x) for x in starts)
+        if made == any(each in word for each in factors):
+            told.append(f"the sequences of the words and of the invariant set differ at {word[:5]}")
+    same = view.repeller.hull == view.staying.interval
+    return told if same else [*told, "the two are about different intervals"]
 
 
 def repeller(view, rng):
@@ -187,32 +277,16 @@ def _dimension(images, rates, nodes, hull):
     return low
 
 
-def method_one(view, rng):
-    """Infima over covers: brute force over the families of different sets."""
-    masks = [sum(1 << int(point) for point in each) for each in view.sets]
-    best = {0: Fraction(0)}
-    for mask, value in zip(masks, view.values, strict=True):
-        for covered, total in list(best.items()):
-            both, cost = covered | mask, total + max(value, 0)
-            best[both] = min(best.get(both, cost), cost)
-    below = min(view.values, default=0) < 0
-    for wanted, given in enumerate(view.outer):
-        sums = [total for covered, total in best.items() if covered & wanted == wanted]
-        own = min(sums, default=inf)
-        own = -inf if below and own < inf else own
-        if own != given or len(view.outer) != 1 << int(view.points):
-            return [f"the infimum over the covers of the set {wanted:b} is {own}"]
-    return []
-
-
 JUDGES = {
-    "moran_root": moran_root,
-    "no_gap": no_gap,
-    "gap_function": gap_function,
-    "unlike": unlike,
-    "digits": digits,
-    "linear_set": linear_set,
-    "excess": excess,
-    "repeller": repeller,
-    "method_one": method_one,
+    "MoranRoot": moran_root,
+    "NoGap": no_gap,
+    "Digits": digits,
+    "ExactMeasure": exact_measure,
+    "LinearDimension": linear_dimension,
+    "Excess": excess,
+    "ShortGap": short_gap,
+    "Uncovered": exact_measure,  # of which it is a consequence of the names alone
+    "InvariantSet": invariant_set,
+    "Repeller": repeller,
+    "StayingDimension": staying_dimension,
 }

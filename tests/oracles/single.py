@@ -67,6 +67,7 @@ def solution(view, rng):
 
 def orbit(view, rng):
     """The first impact after the solution's launch is 2 pi n later."""
+    view = view.solution
     both = solutions(view.eta, view.nu, view.n) or ()
     here = [x for x in both if inside_mod(x, view.phase)]
     if len(here) != 1:
@@ -180,8 +181,8 @@ def contracting_but_none(eta, nu, periods):
 
 
 JUDGES = {
-    "solution": solution,
-    "orbit": orbit,
-    "eta_windows": eta_windows,
-    "nu_windows": nu_windows,
+    "Solution": solution,
+    "Orbit": orbit,
+    "EtaWindows": eta_windows,
+    "NuWindows": nu_windows,
 }

@@ -27,10 +27,8 @@ def committed(name):
 
 def certificates():
     """The names of the committed certificates."""
-    documents = (
-        (path.stem, json.loads(path.read_text())) for path in sorted(REPORTS.glob("*.json"))
-    )
-    return [name for name, document in documents if "steps" in document]
+    paths = sorted(REPORTS.glob("*.json"))
+    return [path.stem for path in paths if "steps" in json.loads(path.read_text())]
 
 
 def proved(group, eta, nu):
@@ -61,39 +59,19 @@ def committed_conclusions(name):
 
 
 def rows(made, claims, of, known):
-    """For each claim (id, verdict, texts, the conclusions that decide it or correct it)."""
+    """For each claim its id, its verdict, and the conclusions that decide it or correct it."""
     from proofs.trusted import paper
 
     for claim in claims:
-        row = paper.find(claim)
-        found = row.decide(of, [known[name] for name in made["proofs"][claim]])
-        texts = (row.says(of), found.why, found.witness, found.theorem)
-        shown = (*found.because, *found.corrected) if hasattr(found, "because") else ()
-        yield claim, found.verdict.value, [text for text in texts if text], shown
+        found = paper.find(claim).decide(of, [known[name] for name in made["proofs"][claim]])
+        yield claim, found.verdict.value, (*found.because, *found.corrected)
 
 
-def reported(name):
-    """The parameters and (id, verdict, texts) of the claims of a committed certificate."""
-    document = json.loads((REPORTS / f"{name}.json").read_text())
-    for entry in document["claims"]:
-        texts = (entry[key] for key in ("statement", "why", "witness", "corrected"))
-        told = [text for text in texts if text]
-        yield committed_conclusions(name)[0], entry["id"], entry["verdict"], told
-
-
-def joined(name):
-    """Conclusions that the rows of a committed certificate draw from those of its steps."""
-    from proofs.trusted.paper.s33_restitution.rebound_facts import FULL, horseshoes
-
-    from proofs.trusted.paper.s34_circle.persistence import stable_pair
-
+@cache
+def committed_rows(name):
+    """The same of a committed certificate."""
     made, (of, known) = committed(name), committed_conclusions(name)
-    for _, _, _, shown in rows(made, made["proofs"], of, known):
-        yield from shown
-        yield from (one.arc for one in shown if hasattr(one, "arc"))
-    yield from list(horseshoes(of, list(known.values()), FULL))[:2]
-    pair = stable_pair(of, [known[name] for name in made["proofs"].get("G7", ())])
-    yield from [pair] if pair else []
+    return of, list(rows(made, made["proofs"], of, known))
 
 
 def lemmas():
@@ -106,7 +84,7 @@ def lemmas():
 
 
 def classes():
-    """The names of all classes of conclusions, the innermost ones."""
+    """The names of all classes of conclusions that say something."""
     import proofs.trusted
     from proofs.trusted.kernel.conclusion import Conclusion
 
@@ -115,6 +93,8 @@ def classes():
     found, waiting = set(), [Conclusion]
     while waiting:
         inner = waiting.pop().__subclasses__()
-        found |= {one.__name__ for one in inner if not one.__subclasses__()}
+        found |= {
+            one.__name__ for one in inner if "sentence" in vars(one) or not one.__subclasses__()
+        }
         waiting += inner
     return found

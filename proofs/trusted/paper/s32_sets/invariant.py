@@ -16,7 +16,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, between, show, show_range, within
+from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.subshift import Subshift
 from proofs.trusted.parameters import Parameters, Place
@@ -59,6 +59,8 @@ class Itinerary(InHorseshoe):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the orbit is in the sets, but for its last point."""
+        for x in self.orbit:
+            Phase(*x)
         *inside, last = (spot % 2 for spot in self.spots)
         if self.orbit[0] != (self.phase,) * 2 or not all(inside) or last:
             raise Unproved("an orbit starts at one phase and ends where it leaves I0 and I1")

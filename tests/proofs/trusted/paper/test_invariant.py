@@ -206,6 +206,7 @@ def test_every_step_of_an_orbit_counts_the_points_it_looks_at():
         [("1.1", "1.11"), ("1.25", "1.25")],  # no phase
         [("1.1", "1.1"), ("1.25", "1.25"), ("1.26", "1.26")],  # leaves before
         [("1.1", "1.1"), ("1.19", "1.21")],  # perhaps in I0
+        [("-1.1", "-1.1")],  # no phase in [0, 2 pi): below I0, but above it mod 2 pi
     ],
 )
 def test_no_itinerary_without_its_orbit(orbit):
