@@ -26,6 +26,7 @@ from intervals.rounding import (
     outward,
     outward_sum,
     require_nearest,
+    require_subnormals,
 )
 from tests.intervals.boxes import for_all
 from tests.intervals.foreign_states import (
@@ -143,11 +144,24 @@ def test_arithmetic_holds_in_every_rounding_mode(mode):
 
 @x86_linux
 @pytest.mark.parametrize("mode", MODES)
-def test_overflow_is_refused_in_every_rounding_mode(mode):
-    big, small = IntervalArray.from_floats([1e300, -1e300]), IntervalArray(["1e-10"])
+def test_what_other_rounding_modes_refuse(mode):
+    x, big = IntervalArray([1]), IntervalArray.from_floats([1e300, -1e300])
+    small = IntervalArray(["1e-10"])
     with foreign(*STATES[mode]):
+        with pytest.raises(FloatingPointError):
+            x.sin()
         for operation in (lambda: big * big, lambda: big * 10**10, lambda: big / small):
             with pytest.raises(OverflowError):
+                operation()
+    require_nearest()
+
+
+@x86_linux
+def test_flushing_to_zero_is_refused():
+    x = IntervalArray([1])
+    with foreign(*STATES["both flushes"]):
+        for operation in (require_subnormals, require_nearest, lambda: x * x, lambda: x + x, x.sin):
+            with pytest.raises(FloatingPointError):
                 operation()
     require_nearest()
 
