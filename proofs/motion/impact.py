@@ -9,6 +9,7 @@ from functools import cached_property
 
 from intervals import Interval, Undecided
 from intervals.newton import Roots, newton
+from proofs.motion.digits import around
 from proofs.motion.flight import Flight
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
@@ -264,9 +265,8 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     )
     if result.outcome is not Roots.UNIQUE or result.box is None:
         raise Undecided(f"the impact time is not isolated: {result.reason}")
-    unit = Fraction(1, 2**bits)
-    centre = round(result.box.mid / unit) * unit
-    low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
+    low, high = around(result.box.mid, bits)
+    low, high = max(low, impact.window[0]), min(high, impact.window[1])
     if not (flight.gap(low).certainly_positive() and flight.gap(high).certainly_negative()):
         raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high
