@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import TypeVar
 
 from intervals import DomainError, Undecided
@@ -15,6 +16,13 @@ _Answer = TypeVar("_Answer")
 def bits_for(digits: int, attempt: int = 0) -> int:
     """Return the binary places for so many significant digits, at first or at a later attempt."""
     return (digits * 10 // 3 + 20) << attempt
+
+
+def around(value: Fraction, bits: int) -> Range:
+    """Return multiples of 2^-bits on both sides of a number, 2^(1 - bits) apart."""
+    unit = Fraction(1, 2**bits)
+    centre = round(value / unit) * unit
+    return centre - unit, centre + unit
 
 
 def to_digits(

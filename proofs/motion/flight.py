@@ -12,6 +12,8 @@ from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.numbers import Range
 
+_NOW = Fraction(0)
+
 
 @dataclass(frozen=True)
 class Flight:
@@ -104,6 +106,14 @@ class Flight:
     def leaves(self) -> bool:
         """Whether every launch leaves the table: launch acceleration > 0 (or known >= 0)."""
         return self.separating or launch_acceleration(self.start).certainly_positive()
+
+    def rises(self, until: Fraction) -> bool:
+        """Whether gap > 0 on (0, until]: as gap(0) = gap'(0) = 0, gap'' > 0 there gives that.
+
+        At the separation phase, where gap''(0) = 0 too, gap''' > 0 does.
+        """
+        orders = (2, 3) if self.separating else (2,)
+        return any(self.gap(_NOW, until, order).certainly_positive() for order in orders)
 
 
 @lru_cache(maxsize=1024)

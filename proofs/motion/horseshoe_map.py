@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -91,6 +92,22 @@ class ImpactMap:
         return ImpactGerms(self.system, launches, times, self.turns, symbols)
 
 
+class _Window(NamedTuple):
+    """The times around an impact, gap' over them, and the turns of the table up to there."""
+
+    times: Interval
+    speed: Interval
+    turns: int
+
+
+class _Constants(NamedTuple):
+    """eta, nu, and the phase of the mass after a turn of the table, 2 pi eta."""
+
+    eta: Interval
+    nu: Interval
+    mass_turn: Interval
+
+
 @dataclass(frozen=True)
 class ImpactGerms:
     """f over boxes of launches: `times` holds exactly one zero of the gap, the first impact.
@@ -121,45 +138,44 @@ class ImpactGerms:
         return self.launches.speeds(self.times)
 
     @cached_property
-    def _windows(self) -> list[tuple[Interval, Interval, int]]:
-        """The times, gap' over them, and the turns, one by one."""
+    def _windows(self) -> list[_Window]:
+        """The windows, one by one."""
         turns = [self.turns[symbol] for symbol in self.symbols.tolist()]
-        return list(zip(self.times.tolist(), self._speeds.tolist(), turns, strict=True))
+        return list(map(_Window, self.times.tolist(), self._speeds.tolist(), turns))
 
     def _flight(self, index: int, x: Interval, y: Interval) -> tuple[Launch, Clock]:
         """Return the launches at x, and the clock at t."""
-        eta, nu, mass_turn, _ = _constants(self.system, x.precision)
-        ahead, turns = y - x, self._windows[index][2]
-        now = Clock(*(eta * ahead + mass_turn * turns).sincos(), *ahead.sincos())
-        return launch(self.system.side, eta, nu, x), now
+        at, ahead, turns = _constants(self.system, x.precision), y - x, self._windows[index].turns
+        now = Clock(*(at.eta * ahead + at.mass_turn * turns).sincos(), *ahead.sincos())
+        return launch(self.system.side, at.eta, at.nu, x), now
 
     def defect(self, index: int, x: Interval, y: Interval) -> Interval:
         """Enclose f(x) - y."""
-        window, speed, turns = self._windows[index]
-        if not (y - x + _constants(self.system, x.precision)[3] * turns).subset(window):
+        window = self._windows[index]
+        time = y - x + turn(x.precision) * window.turns
+        if not time.subset(window.times):
             raise Undecided(_FAR)
         height: Interval = gap(*self._flight(index, x, y))
-        return -height / speed
+        return -height / window.speed
 
     def slope(self, index: int, x: Interval, y: Interval) -> Interval:
         """Enclose f' at the points of x with images in y."""
         found: Interval = slope(*self._flight(index, x, y))
         return found
 
-    def _all_turns(self, which: int) -> IntervalArray:
+    def _all_turns(self, each: Interval) -> IntervalArray:
         """Return the turns of each box, times a constant, as tight as binary64 can."""
-        one = _constants(self.system, 100)[which]
-        return IntervalArray([one * count for count in self.turns])[self.symbols]
+        return IntervalArray([each * count for count in self.turns])[self.symbols]
 
     def _flights(self, x: IntervalArray, y: IntervalArray) -> tuple[Launch, Clock]:
         """Do `_flight` for all boxes at once."""
         ahead = y - x
-        mass = ahead * self.system.eta + self._all_turns(2)
+        mass = ahead * self.system.eta + self._all_turns(_constants(self.system, 100).mass_turn)
         return Launches(self.system, x).start, Clock(*mass.sincos(), *ahead.sincos())
 
     def defects(self, x: IntervalArray, y: IntervalArray) -> IntervalArray:
         """Enclose f(x) - y for all boxes at once."""
-        if not (y - x + self._all_turns(3)).subset(self.times).all():
+        if not (y - x + self._all_turns(turn(100))).subset(self.times).all():
             raise Undecided(_FAR)
         height: IntervalArray = gap(*self._flights(x, y))
         return -height / self._speeds
@@ -171,10 +187,10 @@ class ImpactGerms:
 
 
 @cache
-def _constants(system: System, precision: int) -> tuple[Interval, Interval, Interval, Interval]:
-    """Return eta, nu, 2 pi eta and 2 pi at a precision."""
+def _constants(system: System, precision: int) -> _Constants:
+    """Return the constants at a precision."""
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    return eta, nu, turn(precision) * eta, turn(precision)
+    return _Constants(eta, nu, turn(precision) * eta)
 
 
 _FAR = "a candidate is too far from the orbit"

@@ -9,6 +9,7 @@ from functools import cached_property
 
 from intervals import Interval, Undecided
 from intervals.newton import Roots, newton
+from proofs.motion.digits import around
 from proofs.motion.flight import Flight
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
@@ -101,12 +102,10 @@ def first_impact(
 ) -> FirstImpact:
     """Exclude impacts from time zero on until one is certain, for all launches at once.
 
-    On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0 (at
-    the separation phase gap'' >= 0 at 0 and gap''' > 0 give the same). On [t_j, t_{j+1}] by
-    the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error).
-    Steps adapt down to `finest`, or to an eighth of the time passed if that is less; what is
-    then not excluded opens a window, in which they grow again, to 16 times that or an eighth of
-    the window.
+    On [0, t_1] by `Flight.rises`. On [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j),
+    gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error). Steps adapt down to `finest`, or to
+    an eighth of the time passed if that is less; what is then not excluded opens a window, in
+    which they grow again, to 16 times that or an eighth of the window.
 
     Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
     where all phases do, Undecided where the launch itself is not decided.
@@ -119,7 +118,7 @@ def _require_leaving(flight: Flight) -> None:
     """Raise Sticks where all launches stick, Undecided where it is not shown that none does."""
     if flight.leaves:
         return
-    if launch_acceleration(flight.start).certainly_negative():
+    if flight.start.kick is None and launch_acceleration(flight.start).certainly_negative():
         raise Sticks(f"{name_of(flight.phases)} sticks to the table after the impact")
     raise Undecided("a phase of the interval sticks, or it is not decided whether it does")
 
@@ -172,9 +171,7 @@ def march(
 def _first_step(flight: Flight) -> Fraction:
     step = Fraction(1)
     while step > _TINIEST:
-        if flight.gap(Fraction(0), step, order=2).certainly_positive():
-            return step
-        if flight.separating and flight.gap(Fraction(0), step, order=3).certainly_positive():
+        if flight.rises(step):
             return step
         step /= 2
     raise Undecided("the launch acceleration is too close to 0 at this precision")
@@ -268,9 +265,8 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     )
     if result.outcome is not Roots.UNIQUE or result.box is None:
         raise Undecided(f"the impact time is not isolated: {result.reason}")
-    unit = Fraction(1, 2**bits)
-    centre = round(result.box.mid / unit) * unit
-    low, high = max(centre - unit, impact.window[0]), min(centre + unit, impact.window[1])
+    low, high = around(result.box.mid, bits)
+    low, high = max(low, impact.window[0]), min(high, impact.window[1])
     if not (flight.gap(low).certainly_positive() and flight.gap(high).certainly_negative()):
         raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from intervals import Interval, Jet, Undecided
 from proofs.motion.flight import Flight
-from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, impact_time, march
+from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, first_impact, impact_time
 from proofs.motion.phase import lifted, turn
 from proofs.trusted.equations import (
     Launch,
@@ -20,7 +20,6 @@ from proofs.trusted.equations import (
 from proofs.trusted.numbers import Range
 
 Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
-_TINIEST = Fraction(1, 2**60)
 _NONE = Fraction(0)
 
 
@@ -89,10 +88,17 @@ class Rebounds(Flight):
 
     @property
     def leaves(self) -> bool:
-        """Whether each state is possible, and each flight begins with gap' > 0 or gap'' > 0."""
+        """Whether each flight begins with gap' > 0 or gap'' > 0.
+
+        Undecided unless each state is proved possible.
+        """
         if self.closing_speed.inf < 0:
-            return False
+            raise Undecided("a state before the impact is not proved possible: gap' <= 0 there")
         return super().leaves or self.gap(_NONE, order=1).certainly_positive()
+
+    def rises(self, until: Fraction) -> bool:
+        """Whether gap > 0 on (0, until]: as gap(0) = 0 <= gap'(0), gap'' > 0 or gap' > 0 does."""
+        return any(self.gap(_NONE, until, order).certainly_positive() for order in (2, 1))
 
     def arrival_velocity(self, time: Range) -> Interval:
         """Enclose the velocity gamma of the mass at the times given: (15)."""
@@ -103,29 +109,6 @@ class Rebounds(Flight):
         """Enclose DF over all states, impact times in `time`: rows (phase, velocity)."""
         value: Matrix = return_map_derivative(self.start, self.clock(*time), self.restitution)
         return value
-
-
-def first_impact(
-    flight: Rebounds, horizon: Fraction = HORIZON, finest: Fraction = Fraction(1, 8)
-) -> FirstImpact:
-    """Exclude impacts from time zero on until one is certain, for all flights at once.
-
-    As `proofs.motion.impact.first_impact`, but for the first piece: there gap(0) = 0 and
-    gap'(0) >= 0, so that gap' > 0 or gap'' > 0 on [0, t_1] gives gap > 0. Raises NoImpact at the
-    horizon, Undecided where a state is not proved possible, or leaves the table too slowly.
-    """
-    return march(flight, [_NONE, _first_step(flight)], horizon, finest)
-
-
-def _first_step(flight: Rebounds) -> Fraction:
-    if flight.closing_speed.inf < 0:
-        raise Undecided("a state before the impact is not proved possible: gap' <= 0 there")
-    step = Fraction(1)
-    while step > _TINIEST:
-        if any(flight.gap(_NONE, step, order).certainly_positive() for order in (2, 1)):
-            return step
-        step /= 2
-    raise Undecided("a flight leaves the table too slowly for this precision, or not at all")
 
 
 def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:

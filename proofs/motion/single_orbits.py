@@ -14,6 +14,7 @@ from typing import Any
 
 from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, derivative, newton
+from proofs.motion.digits import around
 from proofs.motion.flight import Flight
 from proofs.motion.impact import first_impact
 from proofs.motion.phase import on_circle
@@ -67,9 +68,9 @@ def solutions(system: System, n: int, bits: int) -> list[SingleImpact]:
         raise ValueError("n eta is an integer: every phase solves (16)")
     precision = bits + 40 + 2 * n.bit_length()
     for _ in range(_ATTEMPTS):
-        phases, around = _phases(system, n, precision)
+        phases, orbit = _phases(system, n, precision)
         if phases is not None and all(phase.wid * 2**bits <= 1 for phase in phases):
-            return [_judged(system, n, phase, around, bits) for phase in phases]
+            return [_judged(system, n, phase, orbit, bits) for phase in phases]
         precision *= 2
     raise Undecided(f"n = {n}: two solutions meet to within the precision")
 
@@ -79,15 +80,15 @@ def _phases(
 ) -> tuple[list[Interval] | None, tuple[Interval, Interval]]:
     """Enclose the solutions by (17), None if their number is not decided, and sin x, cos x."""
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    sin, cos = around = turn(eta, n, Interval.pi(precision=precision))
+    sin, cos = orbit = turn(eta, n, Interval.pi(precision=precision))
     theta = (cos / (sin * eta)).atan()
     sine = theta.cos() / nu
     if sine.mig > 1:
-        return [], around
+        return [], orbit
     if sine.mag > 1:
-        return None, around
+        return None, orbit
     angle = sine.asin()
-    return [theta - angle, theta + angle + Interval.pi(precision=precision)], around
+    return [theta - angle, theta + angle + Interval.pi(precision=precision)], orbit
 
 
 def last_period(system: System) -> int | None:
@@ -100,12 +101,12 @@ def last_period(system: System) -> int | None:
 
 
 def _judged(
-    system: System, n: int, phase: Interval, around: tuple[Interval, Interval], bits: int
+    system: System, n: int, phase: Interval, orbit: tuple[Interval, Interval], bits: int
 ) -> SingleImpact:
     """Return a solution with its slope and what it is."""
     precision = phase.precision
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    factor = multiplier(eta, nu, phase.sincos(), around)
+    factor = multiplier(eta, nu, phase.sincos(), orbit)
     reduced = on_circle((phase.inf, phase.sup), precision)
     admissible, reason = _admissible(system, n, reduced, bits)
     stable: bool | None = False
@@ -171,12 +172,15 @@ def root(function: Function, about: float, bits: int) -> Range:
     found = newton(function, derivative(function), box)
     if found.outcome is not Roots.UNIQUE or found.box is None:
         raise Undecided(f"no root is isolated near {about:.9g}: {found.reason}")
-    unit = Fraction(1, 2**bits)
-    centre = round(found.box.mid / unit) * unit
-    signs = [function(Interval(x, precision=precision)) for x in (centre - unit, centre + unit)]
-    if not (signs[0] * signs[1]).certainly_negative():
-        raise Undecided(f"no change of sign is seen near {about:.9g}")
-    return centre - unit, centre + unit
+    return _changes_sign(function, around(found.box.mid, bits), precision)
+
+
+def _changes_sign(function: Function, ends: Range, precision: int) -> Range:
+    """Return the ends, where a function is proved to have opposite signs; Undecided if not."""
+    low, high = (function(Interval(x, precision=precision)) for x in ends)
+    if not (low * high).certainly_negative():
+        raise Undecided(f"no change of sign is seen near {float(ends[0]):.9g}")
+    return ends
 
 
 def bisected(function: Callable[[float], float], low: float, high: float) -> float:
@@ -205,37 +209,27 @@ def nu_end(eta: Fraction, n: int, end: int, bits: int) -> Range | None:
     """Enclose the |nu| at which the solution has slope `end`, None where it is not below 1."""
     precision = 2 * bits + 60
     own = Interval(eta, precision=precision)
-    around = turn(own, n, Interval.pi(precision=precision))
-    top, rest = excess(own, 0, around, end), excess(own, 1, around, end)
+    orbit = turn(own, n, Interval.pi(precision=precision))
+    top, rest = excess(own, 0, orbit, end), excess(own, 1, orbit, end)
     if rest.certainly_positive():
         return None
-    square = top / (top - rest)
-    unit = Fraction(1, 2**bits)
-    centre = round(square.sqrt().mid / unit) * unit
-    return centre - unit, centre + unit
+    return around((top / (top - rest)).sqrt().mid, bits)
 
 
 def earlier(eta: Fraction, n: int) -> Fraction | None:
     """Return a time at which all solutions for nu < 0 with slope <= 1 are inside the table."""
-    own, around = float(eta), turn(float(eta), n, math.pi)
-    share = -((own * around[0] / around[1]) ** 2)
+    own, orbit = float(eta), turn(float(eta), n, math.pi)
+    share = -((own * orbit[0] / orbit[1]) ** 2)
     times = [step * math.tau / _LOOKS for step in range(1, _LOOKS * n)]
-    best = max(times, key=lambda t: float(distance(own, around, clock(own, t), share)))
-    deepest = distance(own, around, clock(own, best), share)
+    best = max(times, key=lambda t: float(distance(own, orbit, clock(own, t), share)))
+    deepest = distance(own, orbit, clock(own, best), share)
     return round(Fraction(best), 6) if deepest > _DEEP else None
 
 
 def bracket(system: System, n: int, phase: Range, bits: int) -> Range:
     """Return a bracket of width 2^(1 - bits) of a solution of (16)."""
-    unit = Fraction(1, 2**bits)
-    centre = round(sum(phase) / 2 / unit) * unit
     precision = bits + 60 + 2 * n.bit_length()
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    around = turn(eta, n, Interval.pi(precision=precision))
-    ends = [
-        defect(eta, nu, Interval(x, precision=precision).sincos(), around)
-        for x in (centre - unit, centre + unit)
-    ]
-    if not (ends[0] * ends[1]).certainly_negative():
-        raise Undecided("a solution of (16) is not bracketed")
-    return centre - unit, centre + unit
+    orbit = turn(eta, n, Interval.pi(precision=precision))
+    ends = around((phase[0] + phase[1]) / 2, bits)
+    return _changes_sign(lambda x: defect(eta, nu, x.sincos(), orbit), ends, precision)

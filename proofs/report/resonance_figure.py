@@ -5,7 +5,7 @@ eighth subharmonic. Here is what the model does. Impacts are found by `motion.si
 nothing of the closed form.
 
   python -m proofs.report.resonance_figure > figure-10.csv
-  python -m proofs.report.resonance_figure svg > figure-10.svg
+  python -m proofs.resonance --figure
 
 Rows: the amplitude of the table, the window of table periods, the amplitude of the displacement
 at the frequency of the table, and the largest one at a multiple of an eighth of it, but below it.
@@ -89,7 +89,7 @@ def spectrum(nu: Fraction) -> list[Row]:
     return rows
 
 
-def svg(source: str = "") -> str:
+def svg(source: str) -> str:
     """Return an SVG of the displacement at the lowest and the highest amplitude, early and late.
 
     It is a simulation, whatever a certificate proves.
@@ -108,14 +108,8 @@ def svg(source: str = "") -> str:
     return drawn("figure-10", (6.4, 4.4), draw, rows=2, columns=2)
 
 
-def main(arguments: list[str]) -> int:
-    """Print the table, or the drawing."""
-    if arguments not in ([], ["svg"]):
-        print("proofs.report.resonance_figure: takes nothing, or svg", file=sys.stderr)
-        return 2
-    if arguments:
-        print(svg())
-        return 0
+def main() -> None:
+    """Print the table as CSV."""
     writer = csv.writer(sys.stdout)
     writer.writerow(field.name for field in fields(Row))
     for nu in NUS:
@@ -123,8 +117,7 @@ def main(arguments: list[str]) -> int:
             (name, first, f"{drive:.6f}", f"{below:.6f}")
             for name, first, drive, below in map(astuple, spectrum(nu))
         )
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

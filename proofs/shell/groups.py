@@ -60,11 +60,17 @@ def printed(bounds: Range, digits: int) -> dict[str, str]:
     return {"lower": lower, "upper": upper}
 
 
-def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Line, dict[str, Any]]:
-    """Decide a claim by what was proved; return its line and its certificate entry."""
-    row, proof = find(claim), found.proofs.get(claim, [])
+def row_of(claim: str) -> Row:
+    """Return the row of a claim."""
+    row = find(claim)
     if row is None:
         raise ValueError(f"no section has the claim {claim}")
+    return row
+
+
+def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Line, dict[str, Any]]:
+    """Decide a claim by what was proved; return its line and its certificate entry."""
+    row, proof = row_of(claim), found.proofs.get(claim, [])
     decision = row.decide(of, [conclusion for _, conclusion in proof])
     quantities = decision.quantities.items()
     note = found.notes.get(claim) if decision.verdict is Verdict.UNDECIDED else None
@@ -129,12 +135,7 @@ def wanted(
 ) -> dict[str, tuple[str, ...]]:
     """Return what is asked for of a file, by group; without a choice all that is asked at `of`."""
     groups = {
-        group: tuple(x for x in ids if (_is_asked(x, of) if claims is None else x in claims))
+        group: tuple(x for x in ids if (row_of(x).is_asked(of) if claims is None else x in claims))
         for group, ids in FILES[file].items()
     }
     return {group: ids for group, ids in groups.items() if ids}
-
-
-def _is_asked(claim: str, of: Parameters) -> bool:
-    row = find(claim)
-    return not isinstance(row, Row) or row.is_asked(of)

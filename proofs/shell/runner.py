@@ -32,11 +32,7 @@ from proofs.shell.cli import (
     writable,
 )
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
-from proofs.trusted.certificate import (
-    Malformed,
-    read,
-    write_atomically,
-)
+from proofs.trusted.certificate import Malformed, read, write_atomically
 from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
@@ -118,34 +114,18 @@ def add_parameters(parser: Parser) -> None:
     interval = "I (default: from the left end of I0 to the right end of I1)"
     add("--interval", type=number, nargs=2, metavar=("A", "B"), help=interval)
     add("--epsilon", type=number, default=PAPER.epsilon, help="of restitution (default 0.01)")
-    gamma = "range of velocities gamma (default -0.45 0)"
-    add(
-        "--velocities",
-        type=number,
-        nargs=2,
-        default=PAPER.velocities,
-        metavar=("A", "B"),
-        help=gamma,
-    )
-    add(
-        "--reach",
-        type=number,
-        nargs=3,
-        metavar=("DETA", "DNU", "DEPSILON"),
-        help="box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)",
-    )
+    gamma, ends = "range of velocities gamma (default -0.45 0)", ("A", "B")
+    add("--velocities", type=number, nargs=2, default=PAPER.velocities, metavar=ends, help=gamma)
+    box = "box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)"
+    add("--reach", type=number, nargs=3, metavar=("DETA", "DNU", "DEPSILON"), help=box)
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
     add = parser.add_argument
     add("--only", nargs="+", choices=claims, metavar="ID", help=f"claims, of {' '.join(claims)}")
-    add(
-        "--digits",
-        type=digits,
-        default=30,
-        help="significant digits of the numbers (default 30)",
-    )
+    places = "significant digits of the numbers (default 30)"
+    add("--digits", type=digits, default=30, help=places)
     add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
     add("--json", choices=["-"], help="print the machine form on standard output")
     add("--no-check", action="store_true", help="do not run the checker on what was written")

@@ -17,7 +17,7 @@ from proofs.motion.image import Image, image
 from proofs.motion.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
 from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.motion.system import System
-from proofs.shell.counting import ARRAYS, INTERVALS, Kind, counted, evaluations
+from proofs.shell.counting import counted, evaluations
 from proofs.stress.grazing import graze
 from proofs.trusted import flights
 from proofs.trusted.certificate import Reader
@@ -96,6 +96,9 @@ def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
 
 
 def test_precision_grows_where_it_must():
+    usual = Fraction("1.11"), Fraction("1.15")
+    assert precision_for(PAPER, usual) == LEAST
+    assert {part.flight.precision for part in cover_by_impacts(PAPER, usual)} == {LEAST}
     needed = []
     for exponent in (1, 6, 12, 24):
         low = ONSET - Fraction(1, 10**exponent)
@@ -106,12 +109,6 @@ def test_precision_grows_where_it_must():
         assert all(part.transversal for part in parts)
         needed.append(max(part.flight.precision for part in parts))
     assert needed[0] == LEAST and needed == sorted(needed) and needed[-1] > needed[1] > LEAST
-
-
-def test_usual_intervals_take_the_least_precision():
-    phases = Fraction("1.11"), Fraction("1.15")
-    assert precision_for(PAPER, phases) == LEAST
-    assert {part.flight.precision for part in cover_by_impacts(PAPER, phases)} == {LEAST}
 
 
 @pytest.mark.slow
@@ -190,23 +187,6 @@ def test_boxes_that_binary64_does_not_decide_are_asked_alone():
             assert cover.times.inf[k] <= time <= cover.times.sup[k]
             assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
             assert cover.last[k] < time
-
-
-@pytest.mark.slow
-def test_the_counts_tell_the_boxes_of_each_precision():
-    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
-    with counted() as counts:
-        cover = slope_cover(PAPER, phases, 8)
-    in_binary64 = int((cover.bits == BINARY64).sum())
-    assert 0 < in_binary64 < len(cover.bits)
-    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == in_binary64
-    parts = len(cover_by_impacts(PAPER, phases))
-    alone = len(cover.bits) - in_binary64
-    assert counts[Kind("first impacts, to 64 bits", INTERVALS)] >= parts + alone
-    with counted() as counts:
-        cover_by_impacts(PAPER, (ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)))
-    assert counts[Kind("first impacts, to 128 bits", INTERVALS)] >= 1
-    assert counts[Kind("first impacts, to 64 bits", ARRAYS)] == 0
 
 
 @pytest.mark.slow
@@ -289,17 +269,22 @@ def test_both_sides_of_grazing_are_far_apart():
     assert before[1] < after[0] - 1 or after[1] < before[0] - 1
 
 
-def test_only_the_open_window_is_looked_at_again(monkeypatch):
-    eta, nu, phase = graze(2)
-    point = phase - Fraction(1, 10**20)
-    asked = []
-    sound = Flight.gap
+@pytest.fixture
+def asked(monkeypatch):
+    """(precision, time) of each gap that is evaluated."""
+    found, sound = [], Flight.gap
 
     def gap(self, low, high=None, order=0):
-        asked.append((self.precision, low))
+        found.append((self.precision, low))
         return sound(self, low, high, order)
 
     monkeypatch.setattr(Flight, "gap", gap)
+    return found
+
+
+def test_only_the_open_window_is_looked_at_again(asked):
+    eta, nu, phase = graze(2)
+    point = phase - Fraction(1, 10**20)
     found = locate(System(eta, nu), (point, point))
     finer = [time for bits, time in asked if bits == found.flight.precision]
     first = min(time for time in found.times if time in set(finer))
@@ -310,7 +295,7 @@ def test_only_the_open_window_is_looked_at_again(monkeypatch):
 
 
 @pytest.mark.parametrize("single", [True, False])
-def test_unsettled_knows_where_the_gap_is_positive(single, monkeypatch):
+def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
     eta, nu, phase = graze(2)
     flight = Flight(System(eta, nu), (phase, phase))
@@ -320,17 +305,10 @@ def test_unsettled_knows_where_the_gap_is_positive(single, monkeypatch):
         next_impact(System(eta, nu), float(phase) - 1e-3),
     )
     horizon = Fraction(min(one[0] for one in about)) + 5
-    asked, sound = [], Flight.gap
-
-    def gap(self, low, high=None, order=0):
-        asked.append(low)
-        return sound(self, low, high, order)
-
-    with monkeypatch.context() as patched, pytest.raises(Unsettled) as refused:
-        patched.setattr(Flight, "gap", gap)
+    with pytest.raises(Unsettled) as refused:
         march(flight, start, horizon, Fraction(1, 8), single=single)
-    known = refused.value.known
-    assert (max(asked) >= horizon - 1) != single  # a window left behind ends a single search
+    known, latest = refused.value.known, max(time for _, time in asked)
+    assert (latest >= horizon - 1) != single  # a window left behind ends a single search
     assert known[:2] == start and known == sorted(set(known))
     assert known[-1] < horizon - 4
     assert all(flight.gap(time).certainly_positive() for time in known[1:])

@@ -63,6 +63,10 @@ def holds(x, value, spare=Fraction(1, 10**40)):
     return Fraction(float(x.inf)) - spare <= value <= Fraction(float(x.sup)) + spare
 
 
+def launches_of(system, cuts):
+    return Launches(system, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+
+
 def box_with(cover, phase):
     index = int(np.searchsorted(cover.boxes.inf, float(phase), side="right")) - 1
     return max(index, 0)
@@ -173,7 +177,7 @@ def test_two_chunks_or_more_give_the_same_boxes():
 
 def test_heights_are_those_of_every_phase_of_a_box():
     cuts = cut(I0, 5)
-    launches = Launches(PAPER, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches = launches_of(PAPER, cuts)
     for time in (3.0, 17.0, 25.0):
         times = np.full(5, time)
         for phases in (cuts[:-1], cuts[1:], 0.3 * cuts[:-1] + 0.7 * cuts[1:]):
@@ -194,22 +198,24 @@ def test_a_grazing_phase_is_refused():
         slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 256, grid)
 
 
-def test_a_grid_that_ends_too_early_is_refused():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    with pytest.raises(Undecided, match=r"gap' < 0 is not proved.*box 0 of 64"):
-        slope_cover(PAPER, I0, 64, grid[:-3])
+WRONG_GRIDS = {
+    "ends too early": (lambda grid: grid[:-3], r"gap' < 0 is not proved.*box 0 of 64"),
+    "goes past the impact": (lambda grid: [*grid, 25.28], "not excluded"),
+    "too coarse for the chord": (lambda grid: [grid[0], grid[-1]], "not excluded"),
+    "starts too late": (lambda grid: [t for t in grid if t >= 4.0], "sticks"),
+}
 
 
-def test_a_grid_that_goes_past_the_impact_is_refused():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    with pytest.raises(Undecided, match="not excluded"):
-        slope_cover(PAPER, I0, 64, [*grid, 25.28])
+@pytest.mark.parametrize("change, message", WRONG_GRIDS.values(), ids=WRONG_GRIDS)
+def test_a_wrong_grid_is_refused(change, message):
+    with pytest.raises(Undecided, match=message):
+        slope_cover(PAPER, I0, 64, change(grid_of(cover_by_impacts(PAPER, I0)[0])))
 
 
 def test_a_grid_that_jumps_over_an_impact_is_refused():
     # at the last time the gap of every launch is > 0 again: two zeros lie in between
     cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
-    launches = Launches(PAPER, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches = launches_of(PAPER, cuts)
     times = (26.0 + k / 8 for k in range(400))
     again = next(t for t in times if launches.heights(np.full(64, t)).certainly_positive().all())
     with pytest.raises(Undecided, match="not excluded"):
@@ -238,7 +244,7 @@ def test_the_first_failing_box_is_named_in_any_chunk(monkeypatch):
     # here later launches land earlier, the first after 2.20, the last after 2.12
     phases = Fraction("2.1"), Fraction("2.13")
     cuts, grid = cut(phases, 256), [*grid_of(cover_by_impacts(OTHER, phases)[0]), 2.15]
-    launches = Launches(OTHER, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches = launches_of(OTHER, cuts)
     messages = []
     for chunk in (CHUNK, 10 * len(grid)):
         monkeypatch.setattr(kernel, "CHUNK", chunk)
@@ -251,23 +257,11 @@ def test_the_first_failing_box_is_named_in_any_chunk(monkeypatch):
 
 def test_a_bracket_that_begins_before_the_window_is_refused():
     cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
-    launches = Launches(PAPER, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches = launches_of(PAPER, cuts)
     last, high = np.full(64, grid[-1]), find_times(PAPER, cuts)[1:] + 1e-2
     prove_brackets(launches, last, last, high)
     with pytest.raises(Undecided, match="not one"):
         prove_brackets(launches, last, last - 0.125, high)
-
-
-def test_a_grid_too_coarse_for_the_chord_is_refused():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    with pytest.raises(Undecided, match="not excluded"):
-        slope_cover(PAPER, I0, 64, [grid[0], grid[-1]])
-
-
-def test_a_grid_that_starts_too_late_is_refused():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    with pytest.raises(Undecided, match="sticks"):
-        slope_cover(PAPER, I0, 64, [t for t in grid if t >= 4.0])
 
 
 @pytest.mark.parametrize("grid", [[], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [1.0, float("nan")]])
@@ -278,7 +272,7 @@ def test_no_grid_at_all_is_refused(grid):
 
 def test_brackets_that_miss_are_refused():
     cuts = cut(I0, 64)
-    launches = Launches(PAPER, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
+    launches = launches_of(PAPER, cuts)
     grid = grid_of(cover_by_impacts(PAPER, I0)[0])
     exclude_impacts(launches, grid)
     last, times = np.full(64, grid[-1]), find_times(PAPER, cuts)

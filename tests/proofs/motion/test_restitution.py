@@ -8,8 +8,8 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs.motion.impact import NoImpact
-from proofs.motion.restitution import Rebounds, first_impact, next_impact
+from proofs.motion.impact import NoImpact, first_impact
+from proofs.motion.restitution import Rebounds, next_impact
 from proofs.motion.system import System
 from proofs.search.s33_rectangles import state_after
 from tests.proofs.trusted.paper import reference

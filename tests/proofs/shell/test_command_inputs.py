@@ -30,7 +30,14 @@ OUTSIDE = {
     "--word": ["2", "0" * 257, "O1"],
 }
 NO_DIGITS = ["0", "-3", "1000000000", "1001", "1.5", "nan", "1e3", "x", "", "\u0663", "9" * 5000]
-FILES = [(impact, "--json"), (orbits, "--json"), (orbits, "--csv")]
+FILES = [*((command, "--json") for command in BASES), (orbits, "--csv")]
+WORK = {
+    impact: "rebound",
+    orbits: "horseshoe",
+    period_doubling: "values",
+    single_impact: "answer_for",
+    resonance: "motion",
+}
 
 
 def flat(options):
@@ -131,15 +138,15 @@ def no_work(monkeypatch):
     def refuse(*arguments, **options):
         raise AssertionError("worked")
 
-    monkeypatch.setattr(impact, "image", refuse)
-    monkeypatch.setattr(orbits, "horseshoe", refuse)
+    for command, name in WORK.items():
+        monkeypatch.setattr(command, name, refuse)
 
 
 @pytest.mark.parametrize("command, option", FILES)
 def test_a_file_that_cannot_be_written_is_refused_before_the_work(
     command, option, tmp_path, capsys, no_work
 ):
-    base = POINT if command is impact else ["--word", "01"]
+    base = flat(BASES[command])
     (tmp_path / "file").write_text("mine")
     os.mkfifo(tmp_path / "fifo")
     (tmp_path / "link").symlink_to(tmp_path / "fifo")
@@ -161,7 +168,7 @@ def test_where_writing_fails_in_the_end_nothing_is_printed(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("proofs.trusted.certificate.write_atomically", full)
-    base = POINT if command is impact else ["--word", "01", "--fast"]
+    base = [*flat(BASES[command]), *(["--fast"] if command is orbits else [])]
     said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
     assert "No space left" in said and [*tmp_path.iterdir()] == []
 
