@@ -197,10 +197,12 @@ def edit_parameters(given: dict[str, Any], chance: random.Random) -> dict[str, A
     return made
 
 
-def edit_step(steps: dict[str, Any], others: list[dict[str, Any]], chance: random.Random) -> None:
-    """Edit one of the last steps, which conclude, or of those they rest on; or take another's."""
-    names = list(steps)
-    name = names[-1 - min(int(chance.expovariate(0.7)), len(names) - 1)]
+def edit_step(
+    steps: dict[str, Any], proof: list[str], others: list[dict[str, Any]], chance: random.Random
+) -> None:
+    """Edit a step of the proof, or another that it rests on; or take one like it from elsewhere."""
+    known = [name for name in proof if name in steps]
+    name = chance.choice(known if known and chance.random() < 0.6 else list(steps))
     if chance.random() < 0.1:
         rule = steps[name]["rule"]
         alike = [step for each in others for step in each["steps"].values() if step["rule"] == rule]
@@ -248,7 +250,7 @@ def edited(base: Base, claim: str, sources: tuple[Base, ...], chance: random.Ran
         elif kind < 0.4:
             transplant(made, proof, chance.choice(others), chance)
         else:
-            edit_step(made["steps"], others, chance)
+            edit_step(made["steps"], proof, others, chance)
     same = all(base.made["steps"].get(name) is step for name, step in made["steps"].items())
     unchanged = same and proof == base.made["proofs"][claim]
     return None if unchanged and made["parameters"] == base.made["parameters"] else made
