@@ -13,6 +13,6 @@ class Effort:
 EFFORT = Effort()
 
 
-def examples(count):
-    """The number of examples where the whole suite has `count`."""
-    return max(count // 3, 8) if EFFORT.quick else count
+def examples(count, at_length=None):
+    """How many to try: `at_length` in the whole suite, where it is given; else `count`."""
+    return max(count // 3, 8) if EFFORT.quick else at_length or count

@@ -1,6 +1,6 @@
 """Orbits with one impact in n table periods: all solutions of (16), and which of them are orbits.
 
-The lemmas are those of `s4_single.single_facts`; beyond |nu| < 1 and where they say nothing,
+The lemmas are those of `s4_single.orbits`; beyond |nu| < 1 and where they say nothing,
 the first impact is found by intervals.
 """
 
@@ -21,13 +21,7 @@ from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s4_single.single_facts import (
-    defect,
-    distance,
-    excess,
-    multiplier,
-    records,
-)
+from proofs.trusted.paper.s4_single.orbits import defect, distance, excess, records
 
 Function = Callable[[Any], Any]
 
@@ -40,6 +34,12 @@ _LONGEST = 10**4  # time of flight that is followed
 def turn(eta: Any, n: int, pi: Any) -> tuple[Any, Any]:
     """Return sin x, cos x, x = pi n eta."""
     return sincos(eta * (pi * n))
+
+
+def multiplier(eta: Any, nu: Any, phase: tuple[Any, Any], around: tuple[Any, Any]) -> Any:
+    """Return M, the slope (18) where K = 0, from the sines and cosines of phi and of x."""
+    lift = nu * phase[0]
+    return around[1] * around[1] * (1 - lift / ((lift + 1) * eta * eta))
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from intervals import Undecided
 from proofs.report.markup import drawn
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:

@@ -94,7 +94,7 @@ class _Linear:
         """Enclose s and |I|^s for the ratios 1 / slopes."""
         given = LinearSet(self.of.reciprocals, self.of.interval)
         name, root = self.root(given.ratios)
-        measure = self._power(given.length(""), root.root)
+        measure = self._power(given.interval[1] - given.interval[0], root.root)
         found = LinearDimension(given.ratios, given.interval, root.root, (measure.inf, measure.sup))
         return [(self.prover.add("linear-set", {"root": name}), found)]
 
@@ -103,7 +103,8 @@ class _Linear:
         proof: Proof = []
         for given in linear_sets(self.of):
             name, root = self.root(given.ratios)
-            most, size = given.ratios[1] - given.ratios[1] ** 2, given.length("11")
+            longest, (low, high) = given.ratios[1], given.interval
+            most, size = longest - longest**2, longest**2 * (high - low)
             epsilon = decimal_between(most * Fraction(9, 10), most)
             larger = self._power(size + epsilon / 4, root.root)
             excess = larger - self._power(size, root.root) - epsilon / 4

@@ -15,12 +15,12 @@ from proofs.search.s33_rectangles import (
     is_short,
     nearest_rectangles,
     overshoot,
-    sides,
     stays,
 )
 from proofs.search.s33_steps import ReboundProver
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Place
 
 _ATTEMPTS = 24  # at parts of a box

@@ -8,17 +8,12 @@ from fractions import Fraction
 from functools import cache
 from itertools import product
 
+from proofs.motion.simulate import next_impact
+from proofs.motion.system import System
 from proofs.search.repair import moved_ends, places
-from proofs.trusted.equations import (
-    arrival,
-    clock,
-    closing,
-    gap,
-    launch_acceleration,
-    launch_with_restitution,
-)
+from proofs.trusted.equations import arrival, clock, closing, launch_with_restitution
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Parameters, Place
 
 Sets = tuple[Range, Range]
@@ -27,37 +22,19 @@ _MOST_UNITS = 2
 _HALVINGS = 30
 
 
-def sides(at: Place) -> tuple[Range, Range, Range]:
-    """Return the ranges of eta, nu and epsilon."""
-    return at.eta, at.nu, restitution(at)
-
-
 def state_after(
     eta: float, nu: float, epsilon: float, state: tuple[float, float], horizon: float = 1000.0
 ) -> tuple[float, float] | None:
-    """Return about F(phi, gamma), its phase in [0, 2 pi); None if it sticks or flies on.
-
-    Steps that cannot pass a zero: with |gap''| <= m the gap stays positive for
-    (v + sqrt(v^2 + 2 m gap)) / m, v = gap'.
-    """
-    phase, gamma = state
-    side = 1 if nu > 0 else -1
-    start = launch_with_restitution(side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
-    if side * closing(start, gamma) < 0:
+    """Return about F(phi, gamma), its phase in [0, 2 pi); None if it sticks or flies on."""
+    (phase, gamma), system = state, System(Fraction(eta), Fraction(nu))
+    start = launch_with_restitution(system.side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
+    closing_speed = system.side * closing(start, gamma)
+    if closing_speed < 0:
         return None
-    kick = start.kick or 0.0
-    bend = abs(nu) + eta * math.hypot(eta * (1 + start.lift), start.rate + kick)
-    acceleration = launch_acceleration(start)
-    time = 2 * side * kick / bend
-    if acceleration > 0:
-        time = max(time, min(1.0, acceleration / (2 * (abs(nu) + eta * bend))))
-    while 0 < time < horizon:
-        now = clock(eta, time)
-        height, speed = gap(start, now), gap(start, now, 1)
-        if height < 1e-13:
-            return (phase + time) % math.tau, arrival(start, now)[1]
-        time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
-    return None
+    time, _ = next_impact(system, phase, epsilon * closing_speed, horizon) or (0.0, 0.0)
+    if time == 0:
+        return None
+    return (phase + time) % math.tau, arrival(start, clock(eta, time))[1]
 
 
 def image_phases(at: Place, velocities: Range) -> Images:

@@ -23,7 +23,6 @@ from proofs.search.s33_rectangles import (
     image_phases,
     narrowed,
     nearest_rectangles,
-    sides,
     widened,
 )
 from proofs.search.s33_steps import ReboundProver
@@ -31,7 +30,7 @@ from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Parameters, Place
 
 _ATTEMPTS = 12  # with widened rectangles
@@ -144,7 +143,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
             wide, most = (prover.get(names[k], RectangleHorseshoe).at for k in (0, -1))
             names += prover.beyond(exact, sets, "nu", wide.nu[1], 2 * unit)
             names += prover.beyond(exact, sets, "nu", wide.nu[0], -2 * unit)
-            names += prover.beyond(exact, sets, "epsilon", restitution(most)[1], half)
+            names += prover.beyond(exact, sets, "epsilon", sides(most)[2][1], half)
             return names
     return []
 

@@ -17,14 +17,14 @@ from intervals import Undecided
 from proofs.motion.restitution import Rebounds, next_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
-from proofs.search.s33_rectangles import Sets, sides, state_after
+from proofs.search.s33_rectangles import Sets, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.rules import find_rule
 
@@ -58,7 +58,7 @@ class ReboundProver:
 
     def all(self, kind: type[C], at: Place) -> list[tuple[str, C]]:
         """Return the conclusions of a kind about these oscillators, with their names."""
-        return [(k, x) for k, x in self.known.items() if isinstance(x, kind) and x.place == at]
+        return [(k, x) for k, x in self.known.items() if type(x) is kind and x.place == at]
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""

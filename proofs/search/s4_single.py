@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from intervals import Interval, Undecided
 from proofs.motion.flight import Flight
@@ -31,10 +32,9 @@ from proofs.trusted.equations import clock, launch_acceleration, slope
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.formulas import DerivedRow
 from proofs.trusted.paper.s4_single import single as claims
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution, Window
-from proofs.trusted.paper.s4_single.single_facts import FLIP, SADDLE, STICK, records
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Orbit, Solution, records
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 from proofs.trusted.parameters import PAPER, Parameters, Place
 
 _MOST = 40  # table periods in the search for examples
@@ -52,6 +52,11 @@ class Single:
     prover: Prover
     found: dict[str, Conclusion] = field(default_factory=dict)
 
+    def _add(self, rule: str, conclusion: Conclusion, **witness: Any) -> str:
+        name = self.prover.add(rule, witness)
+        self.found[name] = conclusion
+        return name
+
     def solution(self, system: System, of: SingleImpact, early: bool) -> str:
         """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for."""
         phase = bracket(system, of.n, of.phase, self.prover.bits)
@@ -60,20 +65,17 @@ class Single:
         whole = full_turn(flight.precision) * of.n
         factor: Interval = slope(flight.start, clock(flight.eta, whole))
         push: Interval = launch_acceleration(flight.start)
-        name = self.prover.add(
-            "single-solution",
-            {
-                "eta": str(system.eta),
-                "nu": str(system.nu),
-                "n": str(of.n),
-                "phase": texts(phase),
-                "early": None if time is None else str(time),
-            },
-        )
         at = Place.plastic(system.eta, system.nu)
         bounds = (factor.inf, factor.sup), (push.inf, push.sup)
-        self.found[name] = Solution(at, of.n, phase, *bounds, time)
-        return name
+        return self._add(
+            "single-solution",
+            Solution(at, of.n, phase, *bounds, time),
+            eta=str(system.eta),
+            nu=str(system.nu),
+            n=str(of.n),
+            phase=texts(phase),
+            early=None if time is None else str(time),
+        )
 
     def orbit(self, of: SingleImpact) -> str:
         """Record an orbit at the parameters of the certificate."""
@@ -82,31 +84,24 @@ class Single:
         if not isinstance(conclusion, Solution):
             raise TypeError("a solution was recorded")
         flight = self.prover.add_impact(locate(self.prover.system, conclusion.phase))
-        name = self.prover.add("single-orbit", {"solution": solution, "flight": flight})
-        self.found[name] = Orbit(conclusion.at, conclusion)
-        return name
+        orbit = Orbit(conclusion.at, conclusion)
+        return self._add("single-orbit", orbit, solution=solution, flight=flight)
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
         """Record all windows in eta >= low at which stable orbits exist, for nu in (0, 1)."""
         ends: list[tuple[Range, Range]] = []
-        while True:
-            n = len(ends) + 1
-            if n * low >= _HALF:
-                break
+        for n in range(1, (_HALF / low).__ceil__()):
             stick = eta_end(nu, n, STICK, self.prover.bits)
             if stick[0] <= low:
                 break
             ends.append((eta_end(nu, n, FLIP, self.prover.bits), stick))
-        name = self.prover.add(
+        return self._add(
             "single-eta-windows",
-            {
-                "nu": str(nu),
-                "low": str(low),
-                "ends": [texts([*flip, *stick]) for flip, stick in ends],
-            },
+            EtaWindows(nu, low, tuple(ends)),
+            nu=str(nu),
+            low=str(low),
+            ends=[texts([*flip, *stick]) for flip, stick in ends],
         )
-        self.found[name] = EtaWindows(nu, low, tuple(ends))
-        return name
 
     def nu_windows(self, eta: Fraction) -> str:
         """Record all windows in nu at which stable orbits exist."""
@@ -119,17 +114,14 @@ class Single:
         times = [earlier(eta, n) for n in later]
         if None in times:
             raise Undecided("no earlier impact is seen after a long flight")
-        name = self.prover.add(
+        return self._add(
             "single-nu-windows",
-            {
-                "eta": str(eta),
-                "above": above_steps,
-                "below": below_steps,
-                "early": [str(time) for time in times],
-            },
+            NuWindows(eta, above, below, later),
+            eta=str(eta),
+            above=above_steps,
+            below=below_steps,
+            early=[str(time) for time in times],
         )
-        self.found[name] = NuWindows(eta, above, below, later)
-        return name
 
     def _windows(
         self, eta: Fraction, periods: Sequence[int], ends: tuple[int, int]
@@ -219,12 +211,8 @@ def prove(
         if row.id not in asked:
             continue
         tell(f"formulas and orbits of {row.id}")
-        if isinstance(row, DerivedRow):
-            needs, names = row.needs, []
-        else:
-            needs = tuple(need for each in claims.THEOREMS[row.id] for need in each.needs)
-            names = _FIND[row.id](single)
-        proved = [formulas.prove(need) for need in dict.fromkeys(needs)]
+        names = _FIND[row.id](single) if row.id in _FIND else []
+        proved = [formulas.prove(need) for need in row.needs]
         rest = [each for each in proved if each is not None]
         evidence.proofs[row.id] = [*rest, *((name, single.found[name]) for name in names)]
     return evidence

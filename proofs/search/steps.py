@@ -144,7 +144,7 @@ class Prover:
             raise Unproved("f' is not known on I0 and I1")
         bounds = hull([(part.minimum[0], part.maximum[1]) for part in parts if part is not None])
         slopes = rounded_slopes(bounds, digits)
-        found = horseshoe(parts[0], parts[1], [gap[1]], slopes)
+        found = horseshoe(parts[0], parts[1], gap[1], slopes)
         named = zip((left[0], right[0]), domains, strict=True)
         witness = [{"slopes": name, "domain": texts(domain)} for name, domain in named]
         return self.add(

@@ -203,10 +203,10 @@ _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
         lambda frame, matrix: _evaluated(MATRIX, matrix[0][0])
     ),
     "proofs.trusted.equations.arrival": _formula,
-    "proofs.trusted.paper.s4_single.single_facts.defect": _formula,
-    "proofs.trusted.paper.s4_single.single_facts.multiplier": _formula,
-    "proofs.trusted.paper.s4_single.single_facts.excess": _formula,
-    "proofs.trusted.paper.s4_single.single_facts.distance": _formula,
+    "proofs.trusted.paper.s4_single.orbits.defect": _formula,
+    "proofs.motion.single_orbits.multiplier": _formula,
+    "proofs.trusted.paper.s4_single.orbits.excess": _formula,
+    "proofs.trusted.paper.s4_single.orbits.distance": _formula,
     "proofs.trusted.kernel.expression.Tape.evaluate": _formula,
     "proofs.motion.impact.march": _impact,
     "proofs.motion.slope_cover._in_binary64": (

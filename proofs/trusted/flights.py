@@ -201,10 +201,7 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, of = read_times(times_of), context.of
-    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    # gaps are of the order w^2 in a piece of width w
-    bits = min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-    motion = Motion(of.eta, of.nu, read_phases(phases_of), bits)
+    motion = Motion(of.eta, of.nu, read_phases(phases_of), bits_for_pieces(times))
     return FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 2))
 
 
@@ -216,6 +213,12 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
     if not within(phases, step.motion.phases):
         raise name.fail("the step is about other phases")
     return step
+
+
+def bits_for_pieces(times: Sequence[Fraction]) -> int:
+    """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
+    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
+    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def bits_for(time: Range) -> int:

@@ -3,9 +3,22 @@
 import random
 from fractions import Fraction
 
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.effort import examples
 from tests.intervals.oracle import exponent, pi_bounds, round_down, round_up, ulp
+
+
+def for_all(*strategies, tries=50, at_length=None):
+    """Do as `given`, with so many examples, `at_length` in the whole suite, and no deadline."""
+
+    def decorated(test):
+        effort = settings(deadline=None, max_examples=examples(tries, at_length))
+        return effort(given(*strategies)(test))
+
+    return decorated
+
 
 precisions = st.sampled_from([2, 3, 5, 24, 53, 64, 113, 200, 400]) | st.integers(2, 400)
 

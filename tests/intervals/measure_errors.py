@@ -11,7 +11,7 @@ from intervals.elementary.binary64.monotone import FUNCTIONS
 from intervals.elementary.binary64.pair import Pair
 from intervals.elementary.binary64.realpower import _log
 from intervals.elementary.binary64.trigonometric import point_sincos
-from tests.intervals.binary64_oracle import BITS, TRUE, plane_points, points
+from tests.intervals.binary64_oracle import BITS, plane_points, points, true_at
 
 KERNELS = {name: function.point for name, function in FUNCTIONS.items()}
 KERNELS["sin"] = lambda x: point_sincos(x)[0]
@@ -44,7 +44,7 @@ def errors(name, *arguments):
     result = np.zeros(len(lows))
     with flint.ctx.workprec(BITS):
         for i, (*point, high, low) in enumerate(columns):
-            exact = TRUE[name](*map(flint.arb, point))
+            exact = true_at(name, point)
             error = float(abs((exact - high) - low).upper())
             if high:
                 result[i] = error / abs(high) * 2.0**53

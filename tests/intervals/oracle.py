@@ -29,6 +29,11 @@ def round_up(x, precision):
     return -round_down(-x, precision)
 
 
+def outward(low, high, precision):
+    """The tightest ends of `precision` bits around [low, high]."""
+    return round_down(low, precision), round_up(high, precision)
+
+
 def sqrt_down(x, precision):
     """The largest number of `precision` bits whose square is <= x."""
     if x == 0:
@@ -69,7 +74,7 @@ def evaluate(function, bits, *arguments):
 
 FUNCTIONS = {
     "sqrt": lambda x: x.sqrt(),
-    "cbrt": lambda x: x.root(3) if x >= 0 else -((-x).root(3)),
+    "cbrt": lambda x: x.root(3) if x > 0 else -((-x).root(3)) if x < 0 else x,
     "exp": lambda x: x.exp(),
     "exp2": lambda x: flint.arb(2) ** x,
     "exp10": lambda x: flint.arb(10) ** x,

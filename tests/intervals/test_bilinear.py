@@ -87,31 +87,24 @@ def test_a_margin_of_the_size_of_the_sets_is_seen(width):
 
 def test_overflow_is_refused():
     big = IntervalArray.from_floats([1e308, 1.0])
-    with pytest.raises(OverflowError):
-        bilinear([big], [big], big)
-    with pytest.raises(OverflowError):
-        bilinear([big, big], [big, -big], big)
-    with pytest.raises(OverflowError):  # a sum that is nearly out of range, too
-        bilinear([big], [IntervalArray([1])], big)
     wide = IntervalArray.from_floats([-1e308, 1.0], [1e308, 1.0])
-    with pytest.raises(OverflowError):
-        bilinear([wide], [wide], wide)
+    for left, right, constant in (
+        *(([big], [big], big), ([big, big], [big, -big], big), ([wide], [wide], wide)),
+        ([big], [IntervalArray([1])], big),  # a sum that is nearly out of range, too
+    ):
+        with pytest.raises(OverflowError):
+            bilinear(left, right, constant)
 
 
 def test_bad_shapes_are_refused():
     x = IntervalArray([1, 2])
     square, short = x.reshape(2, 1), x[:1]
-    for arguments in (
-        ([], [], x),
-        ([x], [x, x], x),
-        ([square], [x], x),
-        ([x], [square], x),
-        ([square], [x], square),
-        ([short], [x], x),
-        ([x], [x], short),
+    for left, right, constant in (
+        *(([], [], x), ([x], [x, x], x), ([square], [x], x), ([x], [square], x)),
+        *(([square], [x], square), ([short], [x], x), ([x], [x], short)),
     ):
-        with pytest.raises(ValueError, match=r"factors"):
-            bilinear(*arguments)
+        with pytest.raises(ValueError, match="factors"):
+            bilinear(left, right, constant)
 
 
 def test_another_rounding_mode_is_refused(monkeypatch):

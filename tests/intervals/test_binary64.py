@@ -1,19 +1,18 @@
 """sin and cos in binary64: the constants, the error bound, containment, extrema, the far range."""
 
 import math
-import random
 from fractions import Fraction
 from math import factorial
 
-import flint
 import numpy as np
-import pytest
 
 from intervals.array import IntervalArray
 from intervals.elementary.binary64 import CHUNK, ERRORS, LIMIT, polynomial, trigonometric
+from tests.effort import examples
+from tests.intervals.binary64_oracle import ETA, distances, points, rows
+from tests.intervals.measure_errors import errors
 from tests.intervals.oracle import pi_bounds
 
-ETA = 2.0**-1074
 U = Fraction(1, 2**53)
 BOUND = Fraction(1)  # in units of u times the result: the theorem of the module
 BITS = 2000
@@ -107,88 +106,35 @@ def test_error_budget():
 # -- containment -----------------------------------------------------------------------------------
 
 
-def points(seed, count):
-    """Arguments with a bias to the edges: multiples of pi/2 and pi/4, 0, tiny, 1024."""
-    rng = random.Random(seed)
-    for _ in range(count):
-        kind = rng.randrange(7)
-        if kind == 0:
-            x = math.ldexp(rng.random(), rng.randrange(-1074, 0))
-        elif kind < 3:
-            x = float(rng.randrange(0, 1305) * HALF_PI / 2)
-            for _ in range(rng.randrange(3)):
-                x = math.nextafter(x, rng.choice([-1, 1]) * math.inf)
-        elif kind == 3:
-            x = rng.choice([0.0, ETA, 2.0**-1022, 1e-160, 2.0**-26, 1.0, NEAREST, LIMIT])
-        else:
-            x = rng.uniform(0, rng.choice([1, 10, LIMIT]))
-        yield rng.choice([-1, 1]) * min(x, LIMIT)
-
-
 def intervals(seed, count):
-    rng = random.Random(seed)
-    pairs = []
-    for x, other in zip(points(seed, count), points(seed + 1, count), strict=True):
-        narrow = math.ldexp(rng.random(), rng.randrange(-50, 0))
-        y = rng.choice([x, math.nextafter(x, math.inf), x + rng.uniform(0, 10), x + narrow, other])
-        pairs.append((min(x, y), min(max(x, y), LIMIT)))
-    lower, upper = (list(ends) for ends in zip(*pairs, strict=True))
-    return IntervalArray.from_floats(lower, upper)
+    """Points, intervals an ulp wide, narrow, of some quarter turns, and of any size."""
+    rng = np.random.default_rng(seed)
+    x, other = points("sin", count, seed), points("sin", count, seed + 1)
+    narrow, some = x + 2.0 ** rng.uniform(-50, 0, count), x + rng.uniform(0, 10, count)
+    y = np.choose(rng.integers(0, 5, count), [x, np.nextafter(x, np.inf), some, narrow, other])
+    return IntervalArray.from_floats(np.minimum(x, y), np.minimum(np.maximum(x, y), LIMIT))
 
 
-def inner_points(low, high, rng):
-    """The ends, a random point, and a multiple of pi/2 inside if there is one."""
-    yield from (low, high, min(high, max(low, low + (high - low) * rng.random())))
-    n = math.ceil(low / (math.pi / 2)) + rng.randrange(4)
-    x = float(n * HALF_PI)
-    if low <= x <= high:
-        yield x
+def members(x):
+    """The ends, points between them, and a multiple of pi/2 where there is one."""
+    rng = np.random.default_rng(0)
+    yield from (x.inf, x.sup, np.clip(x.inf + (x.sup - x.inf) * rng.random(x.shape), x.inf, x.sup))
+    n = np.ceil(x.inf / (math.pi / 2)) + rng.integers(0, 4, x.shape)
+    yield np.clip(n * (math.pi / 2), x.inf, x.sup)
 
 
-def assert_contains(x, sin, cos, seed=0):
-    rng = random.Random(seed)
-    columns = (x.inf, x.sup, sin.inf, sin.sup, cos.inf, cos.sup)
-    with flint.ctx.workprec(200):
-        for low, high, s0, s1, c0, c1 in zip(*(c.tolist() for c in columns), strict=True):
-            assert -1 <= s0 <= s1 <= 1
-            assert -1 <= c0 <= c1 <= 1
-            for point in inner_points(low, high, rng):
-                s, c = flint.arb(point).sin_cos()
-                assert flint.arb(s0) <= s, (low, high, point)
-                assert s <= flint.arb(s1), (low, high, point)
-                # for tiny points Arb's ball of cos reaches beyond 1
-                assert not c < flint.arb(c0), (low, high, point)
-                assert not c > flint.arb(c1), (low, high, point)
-
-
-def test_points_are_enclosed():
-    x = IntervalArray.from_floats(list(points(1, 20000)))
-    sin, cos = x.sincos()
-    assert_contains(x, sin, cos)
-    for y in (sin, cos):
-        size = np.maximum(np.abs(y.inf), np.abs(y.sup))
-        assert (y.wid <= 6 * np.spacing(size)).all()
-
-
-def check_ulps(x):
-    """Both bounds at points are within 3 ulps of the true values, as stated."""
-    with flint.ctx.workprec(200):
-        for name, y in zip(("sin", "cos"), IntervalArray.from_floats(x).sincos(), strict=True):
-            for point, low, high in zip(x, y.inf.tolist(), y.sup.tolist(), strict=True):
-                true = getattr(flint.arb(point), name)()
-                assert not true < low, point
-                assert not true > high, point
-                reach = max(float((true - low).upper()), float((high - true).upper()))
-                assert reach <= ERRORS[name] * math.ulp(max(abs(low), abs(high))), point
+def assert_contains(x, sin, cos):
+    for name, y in (("sin", sin), ("cos", cos)):
+        assert (y.inf >= -1).all() and (y.sup <= 1).all()
+        for points_inside in members(x):
+            distances(name, [points_inside], rows(y.inf, y.sup))
 
 
 def test_bounds_at_points_are_within_the_stated_ulps():
-    check_ulps(list(points(12, 4000)))
-
-
-@pytest.mark.slow
-def test_a_hundred_thousand_points_are_within_the_stated_ulps():
-    check_ulps([x.item() for x in random_points(100_000, 13)])
+    x = np.concatenate([points("sin", 20_000, 1), random_points(examples(12_000, 100_000), 13)])
+    for name, y in zip(("sin", "cos"), IntervalArray.from_floats(x).sincos(), strict=True):
+        assert distances(name, [x], rows(y.inf, y.sup)).max() <= ERRORS[name]
+        assert (y.inf >= -1).all() and (y.sup <= 1).all()
 
 
 def test_intervals_are_enclosed():
@@ -197,15 +143,12 @@ def test_intervals_are_enclosed():
 
 
 def test_multiples_of_half_pi_are_enclosed():
-    rows = [x for _, x in neighbours() if x <= LIMIT]
-    x = IntervalArray.from_floats(rows + [-v for v in rows])
+    near = [x for _, x in neighbours() if x <= LIMIT]
+    x = IntervalArray.from_floats(near + [-v for v in near])
     assert_contains(x, *x.sincos())
-    # [a, b] around n pi/2, one ulp wide, must hold the extremum exactly
-    pairs = []
-    for n in range(-651, 652):
-        y = float(n * HALF_PI)
-        pairs.append((math.nextafter(y, -math.inf), math.nextafter(y, math.inf)))
-    x = IntervalArray.from_floats(*(np.array(v) for v in zip(*pairs, strict=True)))
+    # [a, b] around n pi/2, two ulps wide, must hold the extremum exactly
+    y = np.array([float(n * HALF_PI) for n in range(-651, 652)])
+    x = IntervalArray.from_floats(np.nextafter(y, -np.inf), np.nextafter(y, np.inf))
     sin, cos = x.sincos()
     n = np.arange(-651, 652) % 4
     assert (sin.sup[n == 1] == 1).all()
@@ -221,19 +164,6 @@ def sup_is_one(low, high, quarter):
     """Whether quarter pi/2 + 2 pi k is in [low, high] for some k, exactly."""
     k = math.ceil((Fraction(low) / HALF_PI - quarter) / 4)
     return (4 * k + quarter) * HALF_PI <= Fraction(high)
-
-
-@pytest.mark.slow
-def test_extrema_are_found_exactly_where_they_are():
-    x = intervals(3, 5000)
-    sin, cos = x.sincos()
-    margin = 2.0**-40
-    for i, (low, high) in enumerate(zip(x.inf.tolist(), x.sup.tolist(), strict=True)):
-        for bound, quarter in ((sin.sup, 1), (-sin.inf, 3), (cos.sup, 0), (-cos.inf, 2)):
-            if sup_is_one(low, high, quarter):
-                assert bound[i] == 1
-            elif not sup_is_one(low - 1e-5, high + 1e-5, quarter):
-                assert bound[i] < 1 - margin
 
 
 def test_wide_results_are_tight():
@@ -254,7 +184,7 @@ def test_inclusion_isotonicity_up_to_the_error_bound():
     upper = np.clip(x.mid + (x.sup - x.mid) * rng.random(x.shape), x.mid, x.sup)
     part = IntervalArray.from_floats(lower, upper)
     for small, large in zip(part.sincos(), x.sincos(), strict=True):
-        gap = 6 * 2.0**-53 * np.maximum(abs(large.inf), abs(large.sup)) + 2 * ETA
+        gap = 6 * 2.0**-53 * large.mag + 2 * ETA
         assert (small.inf >= large.inf - gap).all()
         assert (small.sup <= large.sup + gap).all()
 
@@ -268,54 +198,29 @@ def test_symmetries_hold_exactly():
 # -- the measured error ----------------------------------------------------------------------------
 
 
-def largest_error(x):
-    """The largest |computed - true| in units of u |computed| over points, of sin r and of cos r.
-
-    r is the reduced argument: odd quadrants exchange the two polynomials.
-    """
-    sin, cos, quadrant, _ = trigonometric.point_sincos(x)
-    odd = quadrant % 2 == 1
-    swapped = (np.where(odd, c, s).tolist() for s, c in ((sin.hi, cos.hi), (sin.lo, cos.lo)))
-    straight = (np.where(odd, s, c).tolist() for s, c in ((sin.hi, cos.hi), (sin.lo, cos.lo)))
-    worst = [0.0, 0.0]
-    with flint.ctx.workprec(200):
-        columns = zip(x.tolist(), odd.tolist(), *swapped, *straight, strict=True)
-        for point, swap, *parts in columns:
-            exact = flint.arb(point).sin_cos()[:: -1 if swap else 1]
-            for k in range(2):
-                high, low = parts[2 * k : 2 * k + 2]
-                if point != 0 and abs(point) > 1e-300:
-                    error = float(abs((exact[k] - high) - low).upper()) / abs(high) * 2.0**53
-                    worst[k] = max(worst[k], error)
-    return worst
+def largest_error(name, x):
+    return errors(name, x)[1].max()
 
 
 def random_points(count, seed):
     rng = np.random.default_rng(seed)
-    third = count // 3
-    spread = rng.uniform(-LIMIT, LIMIT, third)
-    central = rng.uniform(-math.pi / 4, math.pi / 4, third)
-    edges = (rng.integers(-650, 650, third) + 0.5) * (math.pi / 2)  # |r| near pi/4: the worst
-    edges += rng.uniform(-0.02, 0.02, third)
-    return np.concatenate([spread, central, edges])
+    spread = rng.uniform(-LIMIT, LIMIT, count // 2)
+    edges = (rng.integers(-650, 650, count // 2) + 0.5) * (math.pi / 2)  # |r| near pi/4: the worst
+    return np.concatenate([spread, edges + rng.uniform(-0.02, 0.02, count // 2)])
 
 
 def test_measured_error_is_within_the_proved_bound():
-    sin_error, cos_error = largest_error(random_points(60000, 8))
-    assert max(sin_error, cos_error) <= BOUND
+    x = random_points(examples(60_000, 300_000), 8)
+    assert max(largest_error(name, x) for name in ("sin", "cos")) <= BOUND
     # what this scheme of evaluation is known to reach: a term left out would show
-    assert 0.2 < sin_error < 0.5
-    assert 0.6 < cos_error < 0.9
-
-
-@pytest.mark.slow
-def test_measured_error_is_within_the_proved_bound_on_a_million_points():
-    assert max(largest_error(random_points(1_000_000, 9))) <= BOUND
+    central = np.random.default_rng(9).uniform(-math.pi / 4, math.pi / 4, 20_000)
+    assert 0.2 < largest_error("sin", central) < 0.5
+    assert 0.6 < largest_error("cos", central) < 0.9
 
 
 def test_the_reduction_is_exact_to_twice_the_precision():
     x = np.array([v for _, v in neighbours() if v <= LIMIT])
-    assert max(largest_error(x)) <= BOUND
+    assert max(largest_error(name, x) for name in ("sin", "cos")) <= BOUND
 
 
 # -- beyond the limit, and how arrays are split ----------------------------------------------------

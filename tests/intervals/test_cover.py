@@ -4,11 +4,12 @@ import itertools
 from fractions import Fraction
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example
 from hypothesis import strategies as st
 
 from intervals import Undecided
 from intervals.cover import cover
+from tests.intervals.boxes import for_all
 
 
 def halves(part):
@@ -54,8 +55,7 @@ def check_cover(found, ends):
         assert answer == part[1] - part[0] > 0
 
 
-@settings(deadline=None, max_examples=50)
-@given(cuts, points, st.integers(0, 6), st.sampled_from([halves, thirds]))
+@for_all(cuts, points, st.integers(0, 6), st.sampled_from([halves, thirds]))
 @example([Fraction(0), Fraction(1)], Fraction(1, 3), 6, halves)
 def test_the_parts_abut_and_cover(ends, point, depth, split):
     decide = Decide(point, Fraction(3, 2**depth))
@@ -64,8 +64,7 @@ def test_the_parts_abut_and_cover(ends, point, depth, split):
     assert all(answer == Decide(point, decide.width)(part) for part, answer in found)
 
 
-@settings(deadline=None, max_examples=50)
-@given(cuts, points, st.integers(0, 5), st.sampled_from([halves, thirds]))
+@for_all(cuts, points, st.integers(0, 5), st.sampled_from([halves, thirds]))
 def test_the_limit_counts_decisions(ends, point, depth, split):
     width = Fraction(3, 2**depth)
     decide = Decide(point, width)
@@ -78,28 +77,31 @@ def test_the_limit_counts_decisions(ends, point, depth, split):
     assert decide.calls == needed - 1
 
 
-def test_exactly_the_limit():
-    whole = (Fraction(0), Fraction(1))
-    always, never = (lambda part: True), (lambda part: None)
-    assert list(cover([whole], always, halves, limit=1)) == [(whole, True)]
-    with pytest.raises(Undecided):
-        list(cover([whole], always, halves, limit=0))
-    with pytest.raises(Undecided):
-        list(cover([whole], never, halves, limit=1))
-    with pytest.raises(Undecided):
-        list(cover([whole], never, halves, limit=100))
+WHOLE = (Fraction(0), Fraction(1))
 
 
-def test_the_error_names_the_next_part():
-    with pytest.raises(Undecided, match=r"2 parts.*Fraction\(1, 4\)"):
-        list(cover([(Fraction(0), Fraction(1))], lambda part: None, halves, limit=2))
+@pytest.mark.parametrize(
+    ("answer", "limit", "message"),
+    [
+        *((answer, 1, None) for answer in (True, False, 0, "")),
+        (True, 0, "0 parts"),
+        (None, 1, "1 parts"),
+        (None, 2, r"2 parts.*Fraction\(1, 4\)"),
+        (None, 100, "100 parts"),
+    ],
+)
+def test_the_limit_and_what_is_an_answer(answer, limit, message):
+    found = cover([WHOLE], lambda part: answer, halves, limit=limit)
+    if message is None:
+        assert list(found) == [(WHOLE, answer)]
+    else:
+        with pytest.raises(Undecided, match=message):
+            list(found)
 
 
 def test_nothing_to_cover():
-    decide = Decide(Fraction(0), Fraction(1))
-    assert list(cover([], decide, halves)) == []
-    assert list(cover([], decide, halves, limit=0)) == []
-    assert decide.calls == 0
+    for limit in (0, 10):
+        assert list(cover([], lambda part: 1 // 0, halves, limit=limit)) == []
 
 
 def test_the_answers_before_the_error_are_yielded():
@@ -107,14 +109,6 @@ def test_the_answers_before_the_error_are_yielded():
     assert next(parts) == ((0, 1), (0, 1))
     with pytest.raises(Undecided):
         next(parts)
-
-
-def test_false_and_zero_are_answers():
-    whole = (Fraction(0), Fraction(1))
-    for answer in (False, 0, ""):
-        assert list(cover([whole], lambda part, answer=answer: answer, halves, limit=1)) == [
-            (whole, answer)
-        ]
 
 
 def test_a_split_into_nothing_is_refused():

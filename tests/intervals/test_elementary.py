@@ -6,26 +6,23 @@ from math import floor
 
 import flint
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example
 from hypothesis import strategies as st
 
-from intervals.elementary import (
-    circular,
-    constants,
-    exponential,
-    logarithm,
-    power,
-    series,
-)
+from intervals.elementary import circular, constants, exponential, logarithm, series
 from intervals.elementary.arctan import angle_fixed
 from intervals.elementary.constants import arc_of_ratio, log2_fixed, log10_fixed, pi_fixed
 from intervals.elementary.explog import exp_fixed, log_fixed
 from intervals.elementary.trig import sincos_fixed
+from tests.effort import EFFORT
+from tests.intervals.boxes import for_all
 from tests.intervals.oracle import encloses, evaluate, pi_bounds, quarter_turns
 
 SMALL = 4  # the largest error bound that is met here; a unit is 2^-bits
 
 widths = st.sampled_from([1, 2, 3, 53, 63, 255, 256, 257, 258]) | st.integers(1, 600)
+if not EFFORT.quick:
+    widths |= st.integers(600, 5000)
 
 
 def dyadic(man, exp):
@@ -43,42 +40,33 @@ def arguments(draw, largest=3000):
     return draw(st.sampled_from([-1, 1])) * man, draw(st.integers(*top)) - man.bit_length()
 
 
-def within(value, error, bits, function, x):
+def within(value, error, bits, function, *x):
     """Whether |function(x) 2^bits - value| <= error."""
-    unit = Fraction(1, 2**bits)
-    low, high = (value - error) * unit, (value + error) * unit
-    return encloses(low, high, function, x, bits=2 * bits + 100)
+    low, high = (Fraction(end, 2**bits) for end in (value - error, value + error))
+    return encloses(low, high, function, *x, bits=2 * bits + 100)
 
 
 # -- the constants ---------------------------------------------------------------------------------
 
 
-def log2_bounds(bits):
-    return evaluate(lambda: flint.arb(2).log(), bits + 8)
+def log_bounds(number):
+    return lambda bits: evaluate(lambda: flint.arb(number).log(), bits + 8)
 
 
-def log10_bounds(bits):
-    return evaluate(lambda: flint.arb(10).log(), bits + 8)
-
-
-CONSTANTS = [(pi_fixed, pi_bounds), (log2_fixed, log2_bounds), (log10_fixed, log10_bounds)]
+log2_bounds = log_bounds(2)
+CONSTANTS = [(pi_fixed, pi_bounds), (log2_fixed, log2_bounds), (log10_fixed, log_bounds(10))]
+FEW = [*range(1, 800), 999, 1000, 1024, 2048, 3333, 5000]
+MANY = [*FEW, *range(801, 5001, 7), 20_000, 50_000]
 
 
 @pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
 def test_constants_are_the_floors(fixed, true):
-    low, high = true(6000)
-    for bits in [*range(1, 800), 999, 1000, 1024, 2048, 3333, 5000]:
+    tried = FEW if EFFORT.quick else MANY
+    low, high = true(max(tried) + 200)
+    for bits in tried:
         expected = floor(low * 2**bits)
         assert expected == floor(high * 2**bits)
         assert fixed(bits) == expected
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
-def test_constants_are_the_floors_at_length(fixed, true):
-    low, _ = true(50_200)
-    for bits in [*range(1, 5001, 7), 20_000, 50_000]:
-        assert fixed(bits) == floor(low * 2**bits)
 
 
 @pytest.mark.parametrize(("fixed", "true"), CONSTANTS)
@@ -122,8 +110,7 @@ def check_sincos(man, exp, bits):
         assert n_low == n_high
 
 
-@settings(deadline=None, max_examples=50)
-@given(arguments(), widths)
+@for_all(arguments(), widths, at_length=1000)
 @example((1, 0), 1)
 @example((0, 0), 53)
 @example((-1, -3000), 53)
@@ -132,22 +119,7 @@ def test_sincos(argument, bits):
     check_sincos(*argument, bits)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=1000)
-@given(arguments(), widths | st.integers(600, 5000))
-def test_sincos_at_length(argument, bits):
-    check_sincos(*argument, bits)
-
-
-@pytest.mark.parametrize("bits", [1000, 2500, 5000])
-def test_sincos_at_high_precision(bits):
-    rng = random.Random(bits)
-    for exp in (-bits, 3 - bits, 40 - bits, 0):
-        check_sincos(rng.getrandbits(bits), exp, bits)
-
-
-@settings(deadline=None, max_examples=50)
-@given(
+@for_all(
     st.integers(-12, 12) | st.integers(-(2**200), 2**200),
     widths,
     st.sampled_from([-8, 0, 2, 6, 8, 9, 10, 12, 40]),
@@ -160,18 +132,10 @@ def test_sincos_next_to_the_multiples_of_a_quarter_turn(n, bits, extra, step):
     check_sincos(round(n * low / 2 * 2**places) + step, -places, bits)
 
 
-@pytest.mark.parametrize("bits", [1, 2, 8, 53])
-def test_sincos_at_all_small_arguments(bits):
-    for man in range(-64, 65):
-        for exp in (-8, -4, -3, 0):
-            check_sincos(man, exp, bits)
-
-
 # -- the series and the tables ---------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=100)
-@given(st.integers(0, 2**32), st.integers(10, 700), st.integers(7, 40))
+@for_all(st.integers(0, 2**32), st.integers(10, 700), st.integers(7, 40), tries=100)
 @example(0, 10, 7)
 @example(2**32, 10, 7)
 @example(2**32, 700, 7)
@@ -214,57 +178,35 @@ def test_the_tables(bits):
 # -- exp and log -----------------------------------------------------------------------------------
 
 
-def check_exp(man, exp, bits):
-    y, n, error = exp_fixed(man, exp, bits)
+BASES = {2: log2_fixed, 10: log10_fixed}
+
+
+def check_exp(man, exp, bits, base=None):
+    """base^x = y 2^n for x = man 2^exp; the base is e if there is none."""
+    y, n, error = exp_fixed(man, exp, bits, BASES.get(base))
     assert 0 < error <= SMALL
     assert 1 << bits <= y < 2 << bits
-    x = dyadic(man, exp)
-    assert within(y, error, bits, lambda t: (t - n * flint.arb(2).log()).exp(), x)
+
+    def function(t):
+        exponent = t * flint.arb(base).log() if base else t
+        return (exponent - n * flint.arb(2).log()).exp()
+
+    assert within(y, error, bits, function, dyadic(man, exp))
 
 
-@settings(deadline=None, max_examples=50)
-@given(arguments(largest=40), widths)
-@example((0, 0), 1)
-@example((-1, 0), 1)
-@example((-1, -3000), 53)
-def test_exp(argument, bits):
-    check_exp(*argument, bits)
+@for_all(arguments(largest=40), widths, st.sampled_from([None, None, *BASES]), at_length=1000)
+@example((0, 0), 1, None)
+@example((-1, 0), 1, None)
+@example((-1, -3000), 53, None)
+def test_exp(argument, bits, base):
+    check_exp(*argument, bits, base)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=1000)
-@given(arguments(largest=60), widths | st.integers(600, 5000))
-def test_exp_at_length(argument, bits):
-    check_exp(*argument, bits)
-
-
-@settings(deadline=None, max_examples=50)
-@given(st.integers(-3000, 3000), widths, st.integers(-3, 3))
+@for_all(st.integers(-3000, 3000), widths, st.integers(-3, 3))
 def test_exp_next_to_where_the_exponent_changes(n, bits, step):
     """At odd multiples of log(2) / 2 the reduced argument is largest, at the others it is 0."""
     low, _ = log2_bounds(bits + 100)
     check_exp(round(n * low / 2 * 2**bits) + step, -bits, bits)
-
-
-@pytest.mark.parametrize("bits", [1, 2, 3, 8])
-def test_exp_at_all_small_arguments(bits):
-    for man in range(-200, 201):
-        for exp in (-6, -3, 0):
-            check_exp(man, exp, bits)
-
-
-@settings(deadline=None, max_examples=50)
-@given(arguments(largest=40), widths, st.sampled_from([(log2_fixed, 2), (log10_fixed, 10)]))
-def test_powers_of_two_and_ten(argument, bits, base):
-    fixed, number = base
-    man, exp = argument
-    y, n, error = exp_fixed(man, exp, bits, fixed)
-    assert 0 < error <= SMALL
-    assert 1 << bits <= y < 2 << bits
-    x = dyadic(man, exp)
-    logarithms = [flint.arb(number).log, flint.arb(2).log]
-    function = lambda t: (t * logarithms[0]() - n * logarithms[1]()).exp()  # noqa: E731
-    assert within(y, error, bits, function, x)
 
 
 def check_log(man, exp, bits):
@@ -273,8 +215,7 @@ def check_log(man, exp, bits):
     assert within(y, error, bits, flint.arb.log, dyadic(man, exp))
 
 
-@settings(deadline=None, max_examples=50)
-@given(arguments(), widths)
+@for_all(arguments(largest=10**6), widths, at_length=1000)
 @example((1, 0), 1)
 @example((1, -3000), 53)
 @example((1, 10**5), 1)
@@ -283,35 +224,34 @@ def test_log(argument, bits):
     check_log(abs(man), exp, bits)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=1000)
-@given(arguments(largest=10**6), widths | st.integers(600, 5000))
-def test_log_at_length(argument, bits):
-    man, exp = argument
-    check_log(abs(man), exp, bits)
-
-
-@settings(deadline=None, max_examples=50)
-@given(st.sampled_from([Fraction(1), Fraction(2, 3), Fraction(4, 3)]), widths, st.integers(-3, 3))
+@for_all(st.sampled_from([Fraction(1), Fraction(2, 3), Fraction(4, 3)]), widths, st.integers(-3, 3))
 def test_log_next_to_one_and_to_where_the_exponent_changes(centre, bits, step):
     places = bits + 5
     check_log(round(centre * 2**places) + step, -places, bits)
 
 
-@pytest.mark.parametrize("bits", [1, 2, 3, 8])
-def test_log_at_all_small_arguments(bits):
+@pytest.mark.parametrize("bits", [1, 2, 3, 8, 53])
+def test_all_small_arguments(bits):
     for man in range(1, 300):
-        for exp in (-8, -4, 0):
+        for exp in (-8, -6, -4, -3, 0):
             check_log(man, exp, bits)
+            if man <= 200:
+                check_exp(man, exp, bits)
+                check_exp(-man, exp, bits)
+            if man <= 64:
+                check_sincos(man, exp, bits)
+                check_sincos(-man, exp, bits)
 
 
 @pytest.mark.parametrize("bits", [1000, 2500, 5000])
-def test_exp_and_log_at_high_precision(bits):
+def test_high_precision(bits):
     rng = random.Random(bits)
-    for exp in (-bits, 4 - bits, 30 - bits):
+    for exp in (-bits, 4 - bits, 40 - bits, 0):
         man = rng.getrandbits(bits) | 1
-        check_exp(man, exp, bits)
-        check_exp(-man, exp, bits)
+        check_sincos(man, exp, bits)
+        if exp:
+            check_exp(man, exp, bits)
+            check_exp(-man, exp, bits)
         check_log(man, exp, bits)
 
 
@@ -321,12 +261,10 @@ def test_exp_and_log_at_high_precision(bits):
 def check_angle(y, x, bits):
     angle, error = angle_fixed(y, x, bits)
     assert 0 < error <= SMALL
-    low, high = Fraction(angle - error, 2**bits), Fraction(angle + error, 2**bits)
-    assert encloses(low, high, flint.arb.atan2, y, x, bits=2 * bits + 100)
+    assert within(angle, error, bits, flint.arb.atan2, y, x)
 
 
-@settings(deadline=None, max_examples=100)
-@given(arguments(largest=900), arguments(largest=900), widths)
+@for_all(arguments(largest=900), arguments(largest=900), widths, tries=100, at_length=600)
 @example((1, 0), (0, 0), 1)
 @example((0, 0), (1, 0), 1)
 @example((1, 0), (1, 0), 53)
@@ -346,58 +284,34 @@ def test_all_small_angles(bits):
                 check_angle(y, x, bits)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=600)
-@given(arguments(largest=900), arguments(largest=900), widths | st.integers(600, 5000))
-def test_angles_at_length(first, second, bits):
-    test_angles.hypothesis.inner_test(first, second, bits)
-
-
 # -- the kernels' errors ---------------------------------------------------------------------------
 
 
 def test_a_kernel_that_errs_as_much_as_it_may_changes_nothing(monkeypatch):
-    """The bounds come from Y and E alone: any Y within E of the truth gives the same ones."""
+    """The bounds come from Y and E alone; for those that `tighten` gives see test_tightest."""
     rng = random.Random(7)
     samples = [(rng.getrandbits(24) | 1, -rng.randrange(18, 30)) for _ in range(30)]
     points = [(0, man, exp, man.bit_length()) for man, exp in samples]
-    small = [(0, man, -26, man.bit_length()) for man, _ in samples]
 
     def all_bounds():
-        moderate = (circular.sincos, circular.tan, circular.atan, logarithm.log, logarithm.asinh)
-        moderate += (exponential.exp, exponential.sinh, exponential.tanh, exponential.exp10)
-        unit = (circular.asin, circular.acos, logarithm.atanh)
-        return [
-            f(x, p)
-            for functions, arguments in ((moderate, points), (unit, small))
-            for f in functions
-            for x in arguments
-            for p in (2, 11, 24, 53)
-        ] + [power.power(x, y, p) for x, y in zip(points, small, strict=True) for p in (2, 11, 53)]
+        functions = circular.sincos, circular.tan, logarithm.log, exponential.exp
+        return [f(x, p) for f in functions for x in points for p in (2, 11, 24, 53)]
+
+    def moved(kernel, places, units):
+        """The kernel with the values at these places moved by some units, and with that error."""
+
+        def moving(*arguments):
+            parts = list(kernel(*arguments))
+            for place in places:
+                parts[place] += units
+            parts[2 if len(parts) > 2 else 1] += abs(units)
+            return tuple(parts)
+
+        return moving
 
     expected = all_bounds()
-    for shift in (-1, 1):
-
-        def sincos(man, exp, bits, shift=shift):
-            s, c, error, n_low, n_high = sincos_fixed(man, exp, bits)
-            return s + 50 * shift, c - 50 * shift, error + 50, n_low, n_high
-
-        def exponential_(man, exp, bits, base=None, shift=shift):
-            y, n, error = exp_fixed(man, exp, bits, base)
-            return y + 50 * shift, n, error + 50
-
-        def logarithm_(man, exp, bits, shift=shift):
-            y, error = log_fixed(man, exp, bits)
-            return y + 50 * shift, error + 50
-
-        def angle(y, x, bits, shift=shift):
-            value, error = angle_fixed(y, x, bits)
-            return value + 50 * shift, error + 50
-
-        monkeypatch.setattr(circular, "sincos_fixed", sincos)
-        monkeypatch.setattr(circular, "angle_fixed", angle)
-        for module in (exponential, power):
-            monkeypatch.setattr(module, "exp_fixed", exponential_)
-        for module in (logarithm, power):
-            monkeypatch.setattr(module, "log_fixed", logarithm_)
+    for units in (-50, 50):
+        monkeypatch.setattr(circular, "sincos_fixed", moved(sincos_fixed, (0, 1), units))
+        monkeypatch.setattr(exponential, "exp_fixed", moved(exp_fixed, (0,), units))
+        monkeypatch.setattr(logarithm, "log_fixed", moved(log_fixed, (0,), units))
         assert all_bounds() == expected

@@ -5,7 +5,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import DomainError, Interval
@@ -13,7 +12,8 @@ from intervals.array import IntervalArray
 from intervals.generic import meet
 from intervals.krawczyk import krawczyk, newton_system
 from intervals.newton import Roots
-from tests.effort import examples
+from tests.intervals.boxes import for_all
+from tests.intervals.claims import check_claim, from_roots, holds
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
 METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])
@@ -46,9 +46,8 @@ def test_one_box_and_many_agree(method):
     pairs = [("1/2", 1), (-1, "-1/2"), (2, 3), (-1, 1), ("0.7", "0.70710678")]
     x = IntervalArray(pairs)
     many = method(circle_and_line, [x, x])
-    assert many.outcomes.tolist() == [
-        *(Roots.UNIQUE, Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.NONE)
-    ]
+    unique, none, undecided = Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED
+    assert many.outcomes.tolist() == [unique, unique, none, undecided, none]
     for i, pair in enumerate(pairs):
         one = method(circle_and_line, square(*pair))
         assert (one.outcome, one.reason) == (many.outcomes[i], many.reasons[i])
@@ -59,43 +58,52 @@ def test_one_box_and_many_agree(method):
                 assert abs(a.sup - Fraction(b.sup[i])) < Fraction(1, 2**48)
 
 
+UNIT, D = (-1, 1), Fraction(1, 2**10)
+POSSIBLE = {Roots.UNDECIDED, Roots.AT_LEAST_ONE}
+NO_PROOF = {Roots.UNDECIDED, Roots.NONE}
+SIGNS = {Roots.AT_LEAST_ONE}
+CASES = [  # equations, a box, the outcomes that are right
+    (lambda x: x.sqr() - 2, [(1, 2)], {Roots.UNIQUE}),
+    (lambda x: x.sqr() - 2, [("-1.5", "-1.4")], {Roots.UNIQUE}),
+    (lambda x: x.sqr() - 2, [(2, 3)], {Roots.NONE}),
+    (lambda x: x.sqr() - 2, [(-2, 2)], {Roots.UNDECIDED}),
+    # all images equal the box: a subset of it, but not a proper one
+    (lambda x, y: (0 * x, 0 * y), [UNIT, UNIT], SIGNS),
+    (lambda x, y: (0 * x, 0 * y), [(0, 1), (3, 3)], SIGNS),
+    (lambda x, y: (x - 3 * y, 2 * x - 6 * y), [UNIT, UNIT], POSSIBLE),
+    (lambda x, y: (x - y, y - x), [(0, 2), (0, 2)], POSSIBLE),
+    # the zeros are a segment: the image is thin in one variable and whole in the other
+    (lambda x, y: (x, 0 * y), [UNIT, UNIT], POSSIBLE),
+    (lambda x, y: (0 * y, x), [UNIT, UNIT], POSSIBLE),
+    # double zeros
+    *(
+        (lambda x, y: (x.sqr() + y.sqr() - 1, y - 1), [side, ("0.5", "1.5")], POSSIBLE)
+        for side in (UNIT, ("-0.001", "0.002"), (0, 1))
+    ),
+    # a zero just outside
+    (lambda x, y: (x + y, x - y), [(Fraction(1, 2**50), 1), UNIT], {Roots.NONE}),
+    (lambda x, y: (x + y, x - y), [(-1, -Fraction(1, 2**50)), UNIT], {Roots.NONE}),
+    # opposite signs on faces, the last time only after the approximate inverse
+    (lambda x, y: (x * x * x + y * 0, 8 * y * y * y - x * x * x), [(-1, 2), (-1, 2)], SIGNS),
+    (lambda x, y: (x.sqr(), y), [UNIT, UNIT], {Roots.UNDECIDED}),
+    (lambda x, y: (y * (y.sqr() - Fraction(1, 4)), x), [UNIT, UNIT], SIGNS),
+    # dependent equations have opposite signs on faces, and no common zero
+    (lambda x, y: (x + y, x + y + D), [UNIT, UNIT], NO_PROOF),
+    (lambda x, y: (x, x + D * y * y + D), [UNIT, UNIT], NO_PROOF),
+    (lambda x, y: (x * y, x * y + D), [UNIT, UNIT], NO_PROOF),
+]
+
+
 @METHODS
-def test_one_equation_needs_no_list(method):
-    def f(x):
-        return x.sqr() - 2
-
-    assert method(f, [Interval(1, 2)]).outcome is Roots.UNIQUE
-    outcomes = method(f, [IntervalArray([(1, 2), (2, 3), (-2, 2), ("-1.5", "-1.4")])]).outcomes
-    assert outcomes.tolist() == [Roots.UNIQUE, Roots.NONE, Roots.UNDECIDED, Roots.UNIQUE]
-
-
-@METHODS
-def test_a_function_that_vanishes_identically_has_no_unique_zero(method):
-    """All images equal the box: a subset of it, but not a proper one."""
-    for box in (square(-1, 1), [Interval(0, 1), Interval(3)]):
-        assert method(lambda x, y: (0 * x, 0 * y), box).outcome is Roots.AT_LEAST_ONE
-        assert method(lambda x, y: (x - 3 * y, 2 * x - 6 * y), box).outcome is not Roots.UNIQUE
-    arrays = [IntervalArray([(-1, 1), (0, 2)])] * 2
-    assert Roots.UNIQUE not in method(lambda x, y: (x - y, y - x), arrays).outcomes
-
-
-@METHODS
-def test_a_proper_part_in_one_variable_only_is_no_proof(method):
-    """The zeros of (x, 0) are a segment: the image is thin in x and whole in y."""
-    for f in (lambda x, y: (x, 0 * y), lambda x, y: (0 * y, x)):
-        assert method(f, square(-1, 1)).outcome is not Roots.UNIQUE
-        arrays = [IntervalArray([(-1, 1)])] * 2
-        assert method(f, arrays).outcomes[0] is not Roots.UNIQUE
-
-
-@METHODS
-def test_double_zeros_are_never_unique(method):
-    def tangent(x, y):
-        return x.sqr() + y.sqr() - 1, y - 1
-
-    for low, high in ((-1, 1), ("-0.001", "0.002"), (0, 1)):
-        outcome = method(tangent, [Interval(low, high), Interval("0.5", "1.5")]).outcome
-        assert outcome in (Roots.UNDECIDED, Roots.AT_LEAST_ONE)
+@pytest.mark.parametrize(("f", "sides", "right"), CASES)
+def test_outcomes(method, f, sides, right):
+    """For a box, and for it in an array of one, which may decide less."""
+    outcome, box, reason = method(f, [Interval(*side) for side in sides])
+    assert outcome in right
+    assert (box is None) == (outcome is Roots.NONE)
+    assert "faces" in reason or outcome is not Roots.AT_LEAST_ONE
+    many = method(f, [IntervalArray([side]) for side in sides])
+    assert many.outcomes[0] in right | {Roots.UNDECIDED}
 
 
 @METHODS
@@ -109,41 +117,6 @@ def test_a_zero_on_the_boundary(method):
             outcome, box, _ = method(f, [Interval(*x), Interval(*y)])
             assert outcome in proved
             assert all(side.contains(0) and side.wid < Fraction(1, 2**40) for side in box)
-
-
-@METHODS
-def test_a_zero_just_outside(method):
-    tiny = Fraction(1, 2**50)
-    for low, high in ((tiny, 1), (-1, -tiny)):
-        result = method(lambda x, y: (x + y, x - y), [Interval(low, high), Interval(-1, 1)])
-        assert result.outcome is Roots.NONE and result.box is None
-
-
-@METHODS
-def test_opposite_signs_on_faces(method):
-    def cubes(x, y):
-        return x * x * x + y * 0, 8 * y * y * y - x * x * x
-
-    outcome, box, reason = method(cubes, square(-1, 2))
-    assert outcome is Roots.AT_LEAST_ONE and "faces" in reason
-    assert all(side.contains(0) for side in box)
-    assert method(lambda x, y: (x.sqr(), y), square(-1, 1)).outcome is Roots.UNDECIDED
-    swapped = method(lambda x, y: (y * (y.sqr() - Fraction(1, 4)), x), square(-1, 1))
-    assert swapped.outcome is Roots.AT_LEAST_ONE  # only after the approximate inverse
-
-
-@METHODS
-def test_signs_of_dependent_equations_prove_nothing(method):
-    """x + y and x + y + d have opposite signs on faces, and no common zero."""
-    d = Fraction(1, 2**10)
-    for f in (
-        lambda x, y: (x + y, x + y + d),
-        lambda x, y: (x, x + d * y * y + d),
-        lambda x, y: (x * y, x * y + d),
-    ):
-        assert method(f, square(-1, 1)).outcome in (Roots.NONE, Roots.UNDECIDED)
-        outcome = method(f, [IntervalArray([(-1, 1)])] * 2).outcomes[0]
-        assert outcome in (Roots.NONE, Roots.UNDECIDED)
 
 
 @METHODS
@@ -201,13 +174,6 @@ def test_a_root_of_a_nonlinear_system_to_fifty_digits(method):
 # -- systems with known rational zeros -------------------------------------------------------------
 
 
-def from_roots(roots, t):
-    total = 0 * t + 1
-    for root in roots:
-        total = total * (t - root)
-    return total
-
-
 rationals = st.fractions(-2, 2, max_denominator=8)
 root_lists = st.lists(rationals, min_size=1, max_size=3)
 
@@ -247,68 +213,23 @@ def problems(draw, count):
     return f, roots, boxes
 
 
-def check(outcome, given_box, box, roots):
-    """What is claimed about the given box must be true."""
-    inside = [
-        root for root in roots if all(s.contains(r) for s, r in zip(given_box, root, strict=True))
-    ]
-    if outcome is Roots.NONE:
-        assert not inside
-        return
-    for root in inside:
-        assert all(side.contains(value) for side, value in zip(box, root, strict=True))
-    assert all(a.contains(b) for a, b in zip(given_box, box, strict=True))
-    if outcome is Roots.UNIQUE:
-        assert len(inside) == 1
-    if outcome is Roots.AT_LEAST_ONE:
-        assert inside
+methods, precisions = st.sampled_from([krawczyk, newton_system]), st.sampled_from([10, 24, 53, 150])
 
 
-def check_one(problem, method, precision):
+@for_all(problems(4), methods, precisions, tries=30, at_length=150)
+def test_what_is_claimed_is_true(problem, method, precision):
+    """Of each box at some precision, and of all of them in arrays."""
     f, roots, boxes = problem
     for pair in boxes:
         box = [Interval(*side, precision=precision) for side in pair]
         outcome, smaller, reason = method(f, box)
         assert reason
-        check(outcome, box, smaller, roots)
-
-
-def check_many(problem, method):
-    f, roots, boxes = problem
+        check_claim(outcome, box, smaller, roots)
     arrays = [IntervalArray(list(column)) for column in zip(*boxes, strict=True)]
     results = method(f, arrays)
     for i, outcome in enumerate(results.outcomes):
         box, smaller = ([x[i].item() for x in side] for side in (arrays, results.boxes))
-        check(outcome, box, smaller, roots)
-
-
-methods = st.sampled_from([krawczyk, newton_system])
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
-def test_what_is_claimed_of_one_box_is_true(problem, method, precision):
-    check_one(problem, method, precision)
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(problems(8), methods)
-def test_what_is_claimed_of_many_boxes_is_true(problem, method):
-    check_many(problem, method)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=300)
-@given(problems(2), methods, st.sampled_from([10, 24, 53, 150]))
-def test_what_is_claimed_of_one_box_is_true_at_length(problem, method, precision):
-    check_one(problem, method, precision)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=150)
-@given(problems(8), methods)
-def test_what_is_claimed_of_many_boxes_is_true_at_length(problem, method):
-    check_many(problem, method)
+        check_claim(outcome, box, smaller, roots)
 
 
 @METHODS
@@ -349,6 +270,5 @@ def test_four_variables(method):
     box = [Interval(t - Fraction(1, 500), t + Fraction(1, 300)) for t in target]
     outcome, smaller, _ = method(f, box)
     assert outcome is Roots.UNIQUE
-    assert all(
-        x.contains(t) and x.wid < Fraction(1, 2**40) for x, t in zip(smaller, target, strict=True)
-    )
+    assert holds(smaller, target)
+    assert max(x.wid for x in smaller) < Fraction(1, 2**40)

@@ -1,17 +1,18 @@
 """Interval Newton on functions whose zeros are known: it may fail to decide, never lie."""
 
 from fractions import Fraction
-from functools import reduce
+from functools import partial, reduce
 
 import flint
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example
 from hypothesis import strategies as st
 
 from intervals import Interval
 from intervals.newton import Roots, derivative, newton
-from tests.effort import examples
 from tests.intervals import oracle
+from tests.intervals.boxes import for_all
+from tests.intervals.claims import check_claim, horner
 from tests.intervals.oracle import pi_bounds, sqrt_down, sqrt_up, ulp
 
 
@@ -23,53 +24,85 @@ def twice(x):
     return 2 * x
 
 
-def cosine_slope(x):
-    return -x.sin()
+ONE, TWO = Fraction(1), Fraction(2)
 
 
 # -- single functions ------------------------------------------------------------------------------
 
 
+def equation(x):
+    return x * x.exp() - 1
+
+
+def omega(precision):
+    """The zero of x e^x - 1."""
+    with flint.ctx.workprec(precision + 60):
+        return oracle.ends(flint.arb(1).lambertw())
+
+
 @pytest.mark.parametrize("precision", [10, 53, 200, 1000])
-def test_the_square_root_of_two(precision):
-    result = newton(square_minus_two, twice, Interval(1, 2, precision=precision))
-    assert result.outcome is Roots.UNIQUE
-    assert result.box.inf <= sqrt_down(Fraction(2), precision)
-    assert sqrt_up(Fraction(2), precision) <= result.box.sup
-    assert result.box.wid <= 4 * ulp(Fraction(1), precision)
-
-
-@pytest.mark.parametrize("precision", [53, 300])
-def test_the_zero_of_the_cosine(precision):
-    result = newton(Interval.cos, cosine_slope, Interval(1, 2, precision=precision))
-    low, high = pi_bounds(precision + 50)
-    assert result.outcome is Roots.UNIQUE
-    assert result.box.inf <= low / 2 and high / 2 <= result.box.sup
-    assert result.box.wid <= 4 * ulp(Fraction(1), precision)
-
-
 @pytest.mark.parametrize(
-    "ends", [("1.42", 2), ("1.415", "1.416"), (3, 4), ("-1.41", "-1.3"), (1, "1.414")]
+    ("f", "df", "ends", "zero"),
+    [
+        (square_minus_two, twice, (1, 2), lambda p: (sqrt_down(TWO, p), sqrt_up(TWO, p))),
+        (Interval.cos, lambda x: -x.sin(), (1, 2), lambda p: [x / 2 for x in pi_bounds(p + 50)]),
+        (equation, derivative(equation), (0, 1), omega),
+    ],
 )
-def test_no_zero_in_the_box(ends):
-    assert newton(square_minus_two, twice, Interval(*ends)) == (
-        Roots.NONE,
-        None,
-        "the Newton image is disjoint from the box",
-    )
+def test_a_zero_to_every_precision(f, df, ends, zero, precision):
+    result = newton(f, df, Interval(*ends, precision=precision))
+    low, high = zero(precision)
+    assert result.outcome is Roots.UNIQUE
+    assert result.box.inf <= low and high <= result.box.sup
+    assert result.box.wid <= 4 * ulp(Fraction(1), precision)
 
 
-def test_a_zero_just_outside_the_box():
-    for precision in (53, 200):
-        below, above = (f(Fraction(2), precision) for f in (sqrt_down, sqrt_up))
-        for box in (
-            Interval(above, 2, precision=precision),
-            Interval(1, below, precision=precision),
-        ):
-            result = newton(square_minus_two, twice, box)
-            assert result.outcome is not Roots.UNIQUE
-            near = Interval(above, above + Fraction(1, 100), precision=precision)
-            assert newton(square_minus_two, twice, near).outcome is not Roots.UNIQUE
+def test_the_derivative_comes_from_a_jet():
+    assert derivative(lambda x: x * 0 + 3)(Interval(1, 2)) == Interval(0)
+    assert derivative(lambda x: 3 * x)(Interval(1, 2)) == Interval(3)
+
+
+def cube(x):
+    return x * x * x
+
+
+NOISE = Interval(Fraction(-1, 2**40), Fraction(1, 2**40))
+DISJOINT, UNKNOWN, SIGNS = "disjoint from the box", "enclosure contains 0", "changes its sign"
+CASES = [  # f, f', a box, the outcome and its reason
+    *(
+        (square_minus_two, twice, ends, Roots.NONE, DISJOINT)
+        for ends in (("1.42", 2), ("1.415", "1.416"), (3, 4), ("-1.41", "-1.3"), (1, "1.414"))
+    ),
+    (square_minus_two, twice, (-2, 2), Roots.UNDECIDED, UNKNOWN),
+    (Interval.sqr, twice, ("-0.3", "0.5"), Roots.UNDECIDED, UNKNOWN),
+    (Interval.sqr, twice, (0, 1), Roots.AT_LEAST_ONE, SIGNS),
+    (Interval.sqr, twice, (-1, "-0.01"), Roots.NONE, DISJOINT),
+    *(
+        (f, derivative(f), ends, Roots.AT_LEAST_ONE, SIGNS)
+        for f in (cube, lambda x: -cube(x))
+        for ends in ((-1, 2), (-2, 1), (0, 1), (-1, 0), (0, 0))
+    ),
+    (lambda x: cube(x) - x, derivative(lambda x: cube(x) - x), (-2, 2), Roots.AT_LEAST_ONE, SIGNS),
+    # the enclosure of f(0) is [-2^-40, 2^-40]: the sign at this end is open
+    (lambda x: cube(x) + NOISE, derivative(cube), (0, 1), Roots.UNDECIDED, UNKNOWN),
+    (lambda x: x.sqr() + 1, twice, (-1, 1), Roots.NONE, "f over the box excludes 0"),
+]
+
+
+@pytest.mark.parametrize(("f", "df", "ends", "outcome", "reason"), CASES)
+def test_outcomes(f, df, ends, outcome, reason):
+    box = Interval(*ends)
+    result = newton(f, df, box)
+    assert result[:2] == (outcome, None if outcome is Roots.NONE else box)
+    assert reason in result.reason
+
+
+@pytest.mark.parametrize("precision", [53, 200])
+def test_a_zero_just_outside_the_box(precision):
+    below, above = sqrt_down(TWO, precision), sqrt_up(TWO, precision)
+    for ends in ((above, 2), (1, below), (above, above + Fraction(1, 100))):
+        result = newton(square_minus_two, twice, Interval(*ends, precision=precision))
+        assert result.outcome is not Roots.UNIQUE
 
 
 def test_an_image_that_overlaps_the_box_proves_nothing():
@@ -79,68 +112,13 @@ def test_an_image_that_overlaps_the_box_proves_nothing():
     assert result.box.inf == Interval("1.42").inf and result.box.sup < Fraction("1.49")
 
 
-def test_a_double_zero_is_not_decided():
-    box = Interval("-0.3", "0.5")
-    result = newton(Interval.sqr, twice, box)
-    assert result == (Roots.UNDECIDED, box, "the derivative's enclosure contains 0")
-    assert newton(Interval.sqr, twice, Interval(0, 1)).outcome is Roots.AT_LEAST_ONE
-    assert newton(Interval.sqr, twice, Interval(-1, "-0.01")).outcome is Roots.NONE
-
-
-def test_two_zeros_are_not_decided():
-    assert newton(square_minus_two, twice, Interval(-2, 2)).outcome is Roots.UNDECIDED
-
-
-def cube(x):
-    return x * x * x
-
-
-def test_opposite_signs_at_the_ends_prove_a_zero():
-    slope = derivative(cube)
-    for ends in ((-1, 2), (-2, 1), (0, 1), (-1, 0), (0, 0)):
-        box = Interval(*ends)
-        result = newton(cube, slope, box)
-        assert (result.outcome, result.box) == (Roots.AT_LEAST_ONE, box)
-        assert "changes its sign" in result.reason
-        assert newton(lambda x: -cube(x), lambda x: -slope(x), box).outcome is Roots.AT_LEAST_ONE
-    three = newton(lambda x: cube(x) - x, derivative(lambda x: cube(x) - x), Interval(-2, 2))
-    assert three.outcome is Roots.AT_LEAST_ONE
-
-
-def test_signs_that_are_not_strictly_known_prove_nothing():
-    """The enclosure of f(0) is [-2^-40, 2^-40]: the sign at this end is open."""
-    noise = Interval(Fraction(-1, 2**40), Fraction(1, 2**40))
-    result = newton(lambda x: cube(x) + noise, derivative(cube), Interval(0, 1))
-    assert result.outcome is Roots.UNDECIDED
-
-
-def test_the_enclosure_of_f_excludes_a_zero_where_the_slope_is_not_known():
-    result = newton(lambda x: x.sqr() + 1, twice, Interval(-1, 1))
-    assert result == (Roots.NONE, None, "the enclosure of f over the box excludes 0")
-
-
-@pytest.mark.parametrize("precision", [53, 500])
-def test_the_derivative_comes_from_a_jet(precision):
-    def f(x):
-        return x * x.exp() - 1
-
-    result = newton(f, derivative(f), Interval(0, 1, precision=precision))
-    with flint.ctx.workprec(precision + 60):
-        low, high = oracle.ends(flint.arb(1).lambertw())
-    assert result.outcome is Roots.UNIQUE
-    assert result.box.inf <= low and high <= result.box.sup
-    assert result.box.wid < 8 * ulp(Fraction(1, 2), precision)
-    assert derivative(lambda x: x * 0 + 3)(Interval(1, 2)) == Interval(0)
-    assert derivative(lambda x: 3 * x)(Interval(1, 2)) == Interval(3)
-
-
 def test_a_zero_at_the_end_of_the_box():
     for ends in ((0, 1), (-1, 0), (0, 0)):
         for slope in (1, 3):
             box, constant = Interval(*ends), Interval(slope)
             result = newton(constant.__mul__, lambda x, constant=constant: constant, box)
             assert (result.outcome, result.box) == (Roots.UNIQUE, Interval(0))
-    low, high = sqrt_down(Fraction(2), 53), sqrt_up(Fraction(2), 53)
+    low, high = sqrt_down(TWO, 53), sqrt_up(TWO, 53)
     for ends in ((low, 2), (1, high), (low, high)):
         result = newton(square_minus_two, twice, Interval(*ends))
         assert result.outcome is not Roots.NONE
@@ -164,11 +142,6 @@ def test_no_step_proves_nothing():
     assert newton(square_minus_two, twice, box, steps=0)[:2] == (Roots.UNDECIDED, box)
 
 
-def test_the_outcome_has_a_reason():
-    for ends in ((1, 2), (3, 4), (-1, 1)):
-        assert newton(square_minus_two, twice, Interval(*ends)).reason
-
-
 # -- polynomials with known rational zeros ---------------------------------------------------------
 
 
@@ -179,13 +152,6 @@ def product(a, b):
         for j, y in enumerate(b):
             result[i + j] += x * y
     return result
-
-
-def polynomial(coefficients):
-    def value(x):
-        return reduce(lambda total, c: total * x + c, reversed(coefficients), x * 0)
-
-    return value
 
 
 rationals = st.fractions(-2, 2, max_denominator=12)
@@ -206,48 +172,28 @@ def problems(draw):
     low, high = sorted([draw(ends), draw(ends)])
     if draw(st.booleans()):
         high = low + (high - low) / draw(st.sampled_from([3, 40, 10**5]))
-    return (
-        coefficients,
-        set(roots),
-        Interval(low, high, precision=draw(st.sampled_from([8, 24, 53, 120]))),
-    )
+    precision = draw(st.sampled_from([8, 24, 53, 120]))
+    return coefficients, set(roots), Interval(low, high, precision=precision)
 
 
 def check_newton(coefficients, roots, box):
     slopes = [k * c for k, c in enumerate(coefficients)][1:] or [Fraction(0)]
-    result = newton(polynomial(coefficients), polynomial(slopes), box)
-    inside = [root for root in roots if box.inf <= root <= box.sup]
-    if result.outcome is Roots.NONE:
-        assert result.box is None
-        assert inside == []
-    else:
-        assert box.contains(result.box)
-        assert all(result.box.contains(root) for root in inside)
-    if result.outcome is Roots.UNIQUE:
-        assert len(inside) == 1
-    if result.outcome is Roots.AT_LEAST_ONE:
-        assert inside
+    result = newton(partial(horner, coefficients), partial(horner, slopes), box)
+    assert result.reason
+    assert (result.box is None) == (result.outcome is Roots.NONE)
+    check_claim(result.outcome, [box], [result.box], {(root,) for root in roots})
     return result
 
 
-@settings(deadline=None, max_examples=examples(60))
-@given(problems())
-@example(([Fraction(-1), Fraction(0), Fraction(1)], {Fraction(1), Fraction(-1)}, Interval(-1, 1)))
-@example(([Fraction(1), Fraction(-2), Fraction(1)], {Fraction(1)}, Interval(1, 2)))
-@example(([Fraction(-2), Fraction(1)], {Fraction(2)}, Interval(1, 2)))
+@for_all(problems(), tries=60, at_length=600)
+@example(([-ONE, 0 * ONE, ONE], {ONE, -ONE}, Interval(-1, 1)))
+@example(([ONE, -TWO, ONE], {ONE}, Interval(1, 2)))
+@example(([-TWO, ONE], {TWO}, Interval(1, 2)))
 def test_what_is_claimed_of_a_polynomial_is_true(problem):
     check_newton(*problem)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=600)
-@given(problems())
-def test_what_is_claimed_of_a_polynomial_is_true_at_length(problem):
-    check_newton(*problem)
-
-
-@settings(deadline=None, max_examples=examples(50))
-@given(
+@for_all(
     st.lists(st.integers(-20, 20), min_size=1, max_size=4, unique=True),
     st.fractions(Fraction(1, 10), 1, max_denominator=100),
     st.fractions(Fraction(1, 10), 1, max_denominator=100),

@@ -1,13 +1,12 @@
 """Branch and bound: signs, ranges and zeros of functions for which these are known."""
 
 from fractions import Fraction
-from functools import reduce
+from functools import partial
 from itertools import product
 
 import flint
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import DomainError, Interval, search
@@ -16,19 +15,12 @@ from intervals.branch import clusters, evaluated, one_box, split
 from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
 from intervals.zeros import _examined, zeros
-from tests.effort import examples
 from tests.intervals import oracle
+from tests.intervals.boxes import for_all
+from tests.intervals.claims import from_roots, holds, horner
 
 rationals = st.fractions(-2, 2, max_denominator=8)
 dyadics = st.integers(-32, 32).map(lambda k: Fraction(k, 16))
-
-
-def from_roots(roots, t):
-    return reduce(lambda total, root: total * (t - root), roots, 0 * t + 1)
-
-
-def horner(coefficients, t):
-    return reduce(lambda total, c: total * t + c, reversed(coefficients), 0 * t)
 
 
 # -- the parts -------------------------------------------------------------------------------------
@@ -63,11 +55,13 @@ def test_parts_outside_the_domain_are_isolated():
         list(evaluated(lambda b: 1 // 0, boxes))
 
 
-@settings(deadline=None, max_examples=examples(40))
-@given(st.lists(st.tuples(*[st.tuples(st.integers(0, 30), st.integers(0, 6))] * 2), max_size=12))
+corners = st.tuples(*[st.integers(0, 30)] * 2, *[st.integers(0, 6)] * 2)
+
+
+@for_all(st.lists(corners, max_size=12), tries=40)
 def test_clusters_are_disjoint_and_hold_their_members(sides):
-    lower = np.array([[x, y] for (x, _), (y, _) in sides], dtype=float).reshape(-1, 2)
-    upper = lower + np.array([[a, b] for (_, a), (_, b) in sides], dtype=float).reshape(-1, 2)
+    lower, sizes = np.split(np.array(sides, dtype=float).reshape(-1, 4), 2, axis=1)
+    upper = lower + sizes
     groups = clusters(lower, upper)
     assert sorted(i for _, _, members in groups for i in members) == list(range(len(sides)))
     for low, high, members in groups:
@@ -114,13 +108,20 @@ def test_zeros_at_the_ends_of_the_box():
             assert results[0].outcome is Roots.UNDECIDED
 
 
-def test_many_zeros_of_an_oscillation():
-    """sin(40 x) has 128 zeros k pi / 40 in [0, 10], 0 <= k <= 127."""
-    results = zeros(lambda x: (40 * x).sin(), Interval(0, 10))
-    assert outcomes(results) == [Roots.UNIQUE] * 128
+def oscillation(**options):
+    """sin(40 x) has 128 zeros k pi / 40 in [0, 10], 0 <= k <= 127: each is in some result."""
+    results = zeros(lambda x: (40 * x).sin(), Interval(0, 10), **options)
     low, high = oracle.pi_bounds(100)
-    for k, result in enumerate(results):
-        assert result.box[0].inf <= k * low / 40 and k * high / 40 <= result.box[0].sup
+    for k in range(128):
+        true = Interval(k * low / 40, k * high / 40, precision=200)
+        assert any(result.box[0].contains(true) for result in results)
+    return outcomes(results)
+
+
+def test_many_zeros_and_a_limit():
+    assert oscillation() == [Roots.UNIQUE] * 128
+    for limit in (1, 10, 50):
+        assert {Roots.UNDECIDED, Roots.AT_LEAST_ONE} & set(oscillation(limit=limit))
 
 
 def test_multiple_zeros_stay_undecided_or_change_sign():
@@ -134,12 +135,18 @@ def test_multiple_zeros_stay_undecided_or_change_sign():
 
 
 def test_no_zero_is_proved_by_no_result():
-    assert zeros(lambda x: x.exp(), Interval(-5, 5)) == []
-    assert zeros(lambda x, y: (x.sqr() + y.sqr() - 1, x + y - 2), [Interval(-3, 3)] * 2) == []
+    """Also where there is one just outside: inside the larger box that is tried, unique there."""
+    for f, *box in (
+        (lambda x: x.exp(), Interval(-5, 5)),
+        (lambda x, y: (x.sqr() + y.sqr() - 1, x + y - 2), *[Interval(-3, 3)] * 2),
+        (lambda x: x - 2, Interval(1)),
+        (lambda x: 100 * x - 101, Interval(0, 1)),
+        (lambda x, y: (100 * x + 1, y), Interval(0, 1), Interval(-1, 1)),
+    ):
+        assert zeros(f, box) == []
 
 
 def test_a_point_as_the_box():
-    assert zeros(lambda x: x - 2, Interval(1)) == []
     (result,) = zeros(lambda x: x - 1, Interval(1))
     assert result.outcome is not Roots.NONE and result.box == (Interval(1),)
 
@@ -152,17 +159,6 @@ def test_functions_with_a_domain():
     assert root.outcome is Roots.UNDECIDED and root.box[0].contains(0)
     (pole,) = zeros(lambda x: 1 / x, Interval(-1, 1))
     assert pole.outcome is Roots.UNDECIDED and pole.box[0].contains(0)
-
-
-def test_the_limit_leaves_undecided_boxes():
-    for limit in (1, 10, 50):
-        results = zeros(lambda x: (40 * x).sin(), Interval(0, 10), limit=limit)
-        low, high = oracle.pi_bounds(100)
-        for k in range(128):
-            assert any(
-                r.box[0].inf <= k * low / 40 and k * high / 40 <= r.box[0].sup for r in results
-            )
-        assert Roots.UNDECIDED in outcomes(results) or Roots.AT_LEAST_ONE in outcomes(results)
 
 
 def test_a_continuum_of_zeros_ends():
@@ -187,10 +183,10 @@ def test_a_system_in_three_variables():
 
 def check_zeros(results, roots, given_box):
     """Every zero in some box; exactly one in each UNIQUE one, never the same."""
-    inside = [r for r in roots if all(s.contains(v) for s, v in zip(given_box, r, strict=True))]
+    inside = [root for root in roots if holds(given_box, root)]
 
     def within(result):
-        return {r for r in inside if all(s.contains(v) for s, v in zip(result.box, r, strict=True))}
+        return {root for root in inside if holds(result.box, root)}
 
     assert set(inside) == set().union(*map(within, results))
     unique = [within(result) for result in results if result.outcome is Roots.UNIQUE]
@@ -198,15 +194,9 @@ def check_zeros(results, roots, given_box):
     assert len(set().union(*unique)) == len(unique)
     for result in results:
         assert result.outcome is not Roots.NONE and result.reason
-        assert all(a.contains(b) for a, b in zip(given_box, result.box, strict=True))
+        assert holds(given_box, result.box)
         assert result.outcome is not Roots.AT_LEAST_ONE or within(result)
     return inside
-
-
-def test_a_zero_just_outside_the_box_is_not_reported():
-    """It is inside the larger box that is tried, and unique there."""
-    assert zeros(lambda x: 100 * x - 101, Interval(0, 1)) == []
-    assert zeros(lambda x, y: (100 * x + 1, y), [Interval(0, 1), Interval(-1, 1)]) == []
 
 
 def test_a_hull_does_not_repeat_a_zero():
@@ -225,7 +215,8 @@ def polynomials(draw):
     return roots, draw(st.booleans()), Interval(low, high)
 
 
-def check_polynomial(problem):
+@for_all(polynomials(), tries=30, at_length=250)
+def test_all_zeros_of_a_polynomial(problem):
     roots, lifted, box = problem
     results = zeros(
         lambda x: from_roots(roots, x) * (x.sqr() + Fraction(1, 5) if lifted else 1), box
@@ -239,25 +230,10 @@ def check_polynomial(problem):
         assert simple <= unique
 
 
-@settings(deadline=None, max_examples=examples(30))
-@given(polynomials())
-def test_all_zeros_of_a_polynomial(problem):
-    check_polynomial(problem)
+few = st.lists(rationals, min_size=1, max_size=2)
 
 
-@pytest.mark.slow
-@settings(deadline=None, max_examples=250)
-@given(polynomials())
-def test_all_zeros_of_a_polynomial_at_length(problem):
-    check_polynomial(problem)
-
-
-@settings(deadline=None, max_examples=examples(10))
-@given(
-    st.lists(rationals, min_size=1, max_size=2, unique=True),
-    st.lists(rationals, min_size=1, max_size=2),
-    st.sampled_from([0, 1, -2]),
-)
+@for_all(few, few, st.sampled_from([0, 1, -2]), tries=10)
 def test_all_zeros_of_a_system(first, second, shear):
     def f(x, y):
         p, q = from_roots(first, x - shear * y), from_roots(second, y)
@@ -286,13 +262,11 @@ def test_all_zeros_of_a_system(first, second, shear):
 )
 def test_known_ranges(f, box, low, high):
     outer, inner = range_of(f, box, limit=60_000)
-    assert outer.inf <= low and high <= outer.sup
-    assert low - outer.inf < Fraction(1, 2**25) and outer.sup - high < Fraction(1, 2**25)
-    if inner is not None:
-        assert low <= inner.inf and inner.sup <= high
-        assert inner.inf - low < Fraction(1, 2**25) and high - inner.sup < Fraction(1, 2**25)
-    else:
+    assert 0 <= low - outer.inf < Fraction(1, 2**25) > outer.sup - high >= 0
+    if inner is None:
         assert low == high
+    else:
+        assert 0 <= inner.inf - low < Fraction(1, 2**25) > high - inner.sup >= 0
 
 
 def test_bounds_of_boxes_that_are_done_are_kept(monkeypatch):
@@ -344,61 +318,50 @@ def ranges(draw):
     return coefficients, low, high
 
 
-def check_range(problem):
+@for_all(ranges(), tries=25, at_length=250)
+def test_ranges_and_signs_of_polynomials(problem):
     coefficients, low, high = problem
-    box, tiny = Interval(low, high), Fraction(1, 2**24)
-
-    def f(x):
-        return horner(coefficients, x)
+    box, tiny, fine = Interval(low, high), Fraction(1, 2**24), Fraction(1, 2**60)
+    f = partial(horner, coefficients)
 
     with flint.ctx.workprec(300):
         bottom, top = true_range(coefficients, low, high)
     for tolerance in (2.0, 0.1, 0.001):
         rough = range_of(f, box, tolerance).outer
-        assert rough.inf <= bottom + Fraction(1, 2**60) and top - Fraction(1, 2**60) <= rough.sup
+        assert rough.inf <= bottom + fine and top - fine <= rough.sup
     outer, inner = range_of(f, box)
-    assert outer.inf - Fraction(1, 2**60) <= bottom <= outer.inf + tiny
-    assert outer.sup - tiny <= top <= outer.sup + Fraction(1, 2**60)
+    assert outer.inf - fine <= bottom <= outer.inf + tiny
+    assert outer.sup - tiny <= top <= outer.sup + fine
     for k in range(33):
-        assert outer.contains(horner(coefficients, low + (high - low) * Fraction(k, 32)))
+        assert outer.contains(f(low + (high - low) * Fraction(k, 32)))
     if inner is not None:
-        assert bottom <= inner.inf + Fraction(1, 2**60) and inner.sup <= top + Fraction(1, 2**60)
+        assert bottom <= inner.inf + fine and inner.sup <= top + fine
     sign = sign_of(f, box, limit=5000)
     if sign.sign is Sign.POSITIVE:
-        assert 0 < sign.lower <= bottom + Fraction(1, 2**60)
+        assert 0 < sign.lower <= bottom + fine
     elif sign.sign is Sign.NEGATIVE:
-        assert top - Fraction(1, 2**60) <= sign.upper < 0
+        assert top - fine <= sign.upper < 0
     elif sign.sign is Sign.ZERO:
         assert bottom <= 0 <= top
     else:
         assert sign.lower <= 0 <= sign.upper
-    for proved, holds in (
+    for proved, true in (
         (Sign.POSITIVE, bottom > tiny),
         (Sign.NEGATIVE, top < -tiny),
         (Sign.ZERO, bottom < -tiny and top > tiny),
     ):
-        assert not holds or sign.sign is proved
-
-
-@settings(deadline=None, max_examples=examples(25))
-@given(ranges())
-def test_ranges_and_signs_of_polynomials(problem):
-    check_range(problem)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=250)
-@given(ranges())
-def test_ranges_and_signs_of_polynomials_at_length(problem):
-    check_range(problem)
+        assert not true or sign.sign is proved
 
 
 def test_signs():
     box = [Interval(-1, 1)] * 2
     tiny = Fraction(1, 10**6)
-    assert sign_of(lambda x, y: x.sqr() + y.sqr() + tiny, box).sign is Sign.POSITIVE
-    assert sign_of(lambda x, y: -x.sqr() - y.sqr() - tiny, box).sign is Sign.NEGATIVE
-    assert sign_of(lambda x, y: x.sqr() + y.sqr() - tiny, box).sign is Sign.ZERO
+    for f, sign in (
+        (lambda x, y: x.sqr() + y.sqr() + tiny, Sign.POSITIVE),
+        (lambda x, y: -x.sqr() - y.sqr() - tiny, Sign.NEGATIVE),
+        (lambda x, y: x.sqr() + y.sqr() - tiny, Sign.ZERO),
+    ):
+        assert sign_of(f, box).sign is sign
     touching = sign_of(lambda x, y: (x - y).sqr(), box, limit=2000)
     assert touching.sign is Sign.UNDECIDED
     assert -tiny < touching.lower <= 0 and 4 <= touching.upper < 4 + tiny

@@ -2,18 +2,18 @@
 
 import random
 from fractions import Fraction
-from functools import reduce
 
 import flint
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intervals import DomainError, Interval
 from intervals.array import IntervalArray
 from intervals.taylor import polynomial_range, taylor
 from tests.intervals import oracle
+from tests.intervals.boxes import for_all
+from tests.intervals.claims import horner
 
 FUNCTIONS = {
     "wave": lambda x: x.sin() * x + 1 / (x * x + 2),
@@ -21,10 +21,6 @@ FUNCTIONS = {
     "square": lambda x: (3 * x - 1) * (3 * x + 2),
     "root": lambda x: (x * x + x + 1).sqrt() * x.cos(),
 }
-
-
-def horner(coefficients, t):
-    return reduce(lambda total, c: total * t + c, reversed(coefficients), 0 * t)
 
 
 def sharp_range(name, low, high):
@@ -128,19 +124,14 @@ rationals = st.fractions(-3, 3, max_denominator=12)
 @st.composite
 def families(draw):
     """Coefficients with widths, and an interval of any place and width."""
-    pairs = draw(
-        st.lists(st.tuples(rationals, st.sampled_from([0, 0, 1, 4])), min_size=1, max_size=6)
-    )
-    ends = [(c, c + Fraction(width, 16)) for c, width in pairs]
-    low = draw(rationals)
-    return (
-        ends,
-        low,
-        low + draw(st.sampled_from([Fraction(0), Fraction(1, 50), Fraction(1), Fraction(3)])),
-    )
+    pairs = st.tuples(rationals, st.sampled_from([0, 0, 1, 4]))
+    drawn = draw(st.lists(pairs, min_size=1, max_size=6))
+    low, width = draw(rationals), draw(st.sampled_from([Fraction(k, 50) for k in (0, 1, 50, 150)]))
+    return [(c, c + Fraction(w, 16)) for c, w in drawn], low, low + width
 
 
-def check_family(family, seed):
+@for_all(families(), st.integers(0, 99), tries=40, at_length=250)
+def test_ranges_of_families_of_polynomials(family, seed):
     ends, low, high = family
     rng = random.Random(seed)
     one = polynomial_range([Interval(*pair) for pair in ends], Interval(low, high))
@@ -156,21 +147,7 @@ def check_family(family, seed):
                 assert many[i].contains(horner(coefficients, a + (b - a) * part))
 
 
-@settings(deadline=None, max_examples=40)
-@given(families(), st.integers(0, 99))
-def test_ranges_of_families_of_polynomials(family, seed):
-    check_family(family, seed)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=250)
-@given(families(), st.integers(0, 99))
-def test_ranges_of_families_of_polynomials_at_length(family, seed):
-    check_family(family, seed)
-
-
-@settings(deadline=None, max_examples=50)
-@given(rationals, rationals, st.fractions(Fraction(1, 9), 3, max_denominator=9), st.booleans())
+@for_all(rationals, rationals, st.fractions(Fraction(1, 9), 3, max_denominator=9), st.booleans())
 def test_quadratics_are_exact_but_for_rounding(c0, c1, c2, flipped):
     c2 = -c2 if flipped else c2
     low, high = Fraction(-1), Fraction(3, 2)

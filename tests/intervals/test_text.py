@@ -5,12 +5,21 @@ import pickle
 import re
 from fractions import Fraction
 
+import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray
-from tests.intervals.boxes import boxes, precisions
+from tests.intervals.boxes import boxes, for_all, precisions
+
+NAMES = {"Interval": Interval, "IntervalArray": IntervalArray, "Fraction": Fraction}
+
+
+def copies(x):
+    """What text, pickle and copy make of it."""
+    yield eval(repr(x), NAMES)
+    yield from (pickle.loads(pickle.dumps(x, protocol)) for protocol in (2, 5))
+    yield from (copy.copy(x), copy.deepcopy(x))
 
 
 def ends_in(text):
@@ -18,16 +27,25 @@ def ends_in(text):
     return Fraction(low), Fraction(high)
 
 
-@given(st.data(), precisions, st.integers(1, 60))
+@for_all(st.data(), precisions, st.integers(1, 60))
 def test_printed_decimals_enclose_and_are_read_back(data, precision, digits):
     low, high = data.draw(boxes(precision, ("grid", "power", "near one")))
     x = Interval(low, high, precision=precision)
-    for text in (str(x), f"{x}", f"{x:{digits}}"):
-        below, above = ends_in(text)
-        assert below <= low and high <= above
+    worth = max(3, precision * 3 // 10)
+    for text, count in ((str(x), worth), (f"{x}", worth), (f"{x:{digits}}", digits)):
+        printed = ends_in(text)
+        assert printed[0] <= low and high <= printed[1]
+        for decimal, exact in zip(printed, (low, high), strict=True):
+            error = abs(decimal - exact)
+            assert error == 0 or error < abs(exact) * Fraction(10) ** (1 - count)
         assert Interval(text, precision=precision + 300).contains(x)
-    below, above = ends_in(f"{x:{digits}}")
-    assert low - below <= abs(low) / 10 ** (digits - 1)
+
+
+def test_text():
+    assert str(Interval("0.5", 2)) == "[0.500000000000000, 2.00000000000000]"
+    assert str(Interval(-1, 0)) == "[-1.00000000000000, 0]"
+    assert repr(Interval("0.5", 2)) == "Interval('1/2', '2', precision=53)"
+    assert str(Interval("0.1", precision=10)) == "[0.0999, 0.101]"
 
 
 @pytest.mark.parametrize(
@@ -50,17 +68,36 @@ def test_texts_that_are_intervals():
     assert Interval("[-1e-3, 2]").inf <= Fraction(-1, 1000)
 
 
-@given(st.data(), precisions)
+@for_all(st.data(), precisions)
 def test_copies_are_equal_and_keep_the_precision(data, precision):
     x = Interval(*data.draw(boxes(precision)), precision=precision)
-    names = {"Interval": Interval, "Fraction": Fraction}
-    for again in (
-        eval(repr(x), names),
-        pickle.loads(pickle.dumps(x)),
-        copy.copy(x),
-        copy.deepcopy(x),
-    ):
+    for again in copies(x):
         assert again == x and hash(again) == hash(x) and again.precision == x.precision
+        assert (again * 3) == x * 3
+
+
+@pytest.mark.parametrize(
+    "x",
+    [Interval(3, precision=20) ** 9999, Interval(Fraction(-1, 3**9999)), Interval(1) / 2**20000],
+)
+def test_very_large_and_small_numbers(x):
+    assert all(again == x for again in copies(x))
+    assert re.fullmatch(r"\[-?[\d.]+, -?[\d.]+\]", str(x))
+
+
+X = IntervalArray([[("1/3", "1/2"), (1, 2)], [(2, 2), (-7, 8)]])
+
+
+@pytest.mark.parametrize("x", [X, X[0, 0], X[:, ::-1], IntervalArray([]), X[:, :0]])
+def test_copies_of_arrays_are_exact(x):
+    for again in copies(x):
+        assert again.shape == x.shape and (again == x).all()
+
+
+def test_what_is_taken_out_of_an_array_is_a_copy():
+    upper = X.sup
+    upper[0, 0] = 9
+    assert X.sup[0, 0] < 1
 
 
 def test_what_notebooks_show():
@@ -76,6 +113,6 @@ def test_what_notebooks_show():
 
 
 def test_large_arrays_are_summarised():
-    x = IntervalArray([1] * 2000)
+    x = IntervalArray.from_floats(np.ones(2000))
     assert repr(x) == "<IntervalArray of shape (2000,)>"
     assert len(str(x)) < 2000

@@ -38,6 +38,18 @@ def _between_poles(x):
     return (quarter_turns(x.lower) + 1) // 2 == (quarter_turns(x.upper) + 1) // 2
 
 
+def _has_real_powers(x, y):
+    return x.lower > 0 or (x.lower == 0 and y.lower > 0)
+
+
+def _without_origin(y, x):
+    return not (_holds_zero(y) and _holds_zero(x))
+
+
+def _meet(x, y):
+    return x.lower <= y.upper and y.lower <= x.upper
+
+
 def _narrower(x, y):
     return y.upper - y.lower <= x.upper - x.lower
 
@@ -67,33 +79,24 @@ _PARTIAL = {  # of one interval, with the domain
     "recip": lambda x: not _holds_zero(x),
 }
 _RELATIONS = {
-    "equal": "equal",
-    "subset": "subset",
-    "interior": "interior",
-    "less": "less",
+    **{name: name for name in ("equal", "subset", "interior", "less", "precedes", "disjoint")},
     "strictLess": "strictly_less",
-    "precedes": "precedes",
     "strictPrecedes": "strictly_precedes",
-    "disjoint": "disjoint",
     "overlap": "overlap",
 }
 
 
-def _array_or_not(of_list, of_array):
+def _reduction(kinds, of_list, of_array):
     """Return the reduction of lists of points: of Intervals one by one, or of arrays at once."""
 
     def evaluate(*lists):
         return (of_array if isinstance(lists[0], IntervalArray) else of_list)(*lists)
 
-    return evaluate
+    return Operation("numeric", kinds, evaluate)
 
 
 def _total(points):
     return sum(points, Interval(0))
-
-
-def _reduction(kinds, of_list, of_array):
-    return Operation("numeric", kinds, _array_or_not(of_list, of_array))
 
 
 OPERATIONS = {
@@ -109,39 +112,25 @@ OPERATIONS = {
     "div": _forward("xx", truediv, lambda _x, y: not _holds_zero(y)),
     "fma": _forward("xxx", lambda x, y, z: x.fma(y, z)),
     "pown": _forward("xn", lambda x, n: x**n, lambda x, n: n >= 0 or not _holds_zero(x)),
-    "pow": _forward(
-        "xx",
-        lambda x, y: x.pow(y),
-        lambda x, y: x.lower > 0 or (x.lower == 0 and y.lower > 0),
-    ),
-    "atan2": _forward(
-        "xx", lambda y, x: y.atan2(x), lambda y, x: not (_holds_zero(y) and _holds_zero(x))
-    ),
+    "pow": _forward("xx", lambda x, y: x.pow(y), _has_real_powers),
+    "atan2": _forward("xx", lambda y, x: y.atan2(x), _without_origin),
     "hypot": _forward("xx", lambda x, y: x.hypot(y)),
     "min": _forward("xx", lambda x, y: x.minimum(y)),
     "max": _forward("xx", lambda x, y: x.maximum(y)),
     "cancelMinus": Operation("set", "xx", lambda x, y: x.cancel_minus(y), _narrower, None, False),
     "cancelPlus": Operation("set", "xx", lambda x, y: x.cancel_plus(y), _narrower, None, False),
     "convexHull": Operation("set", "xx", lambda x, y: x.hull(y)),
-    "intersection": Operation(
-        "set",
-        "xx",
-        lambda x, y: x.intersection(y),
-        lambda x, y: x.lower <= y.upper and y.lower <= x.upper,
-        None,
-    ),
+    "intersection": Operation("set", "xx", lambda x, y: x.intersection(y), _meet, None),
     **{
         name: Operation("boolean", "xx", lambda x, y, method=method: getattr(x, method)(y))
         for name, method in _RELATIONS.items()
     },
     "isMember": Operation("boolean", "rx", lambda r, x: x.contains(r)),
     "isSingleton": Operation("boolean", "x", methodcaller("is_singleton")),
-    "inf": Operation("numeric", "x", lambda x: (x.inf,)),
-    "sup": Operation("numeric", "x", lambda x: (x.sup,)),
-    "mag": Operation("numeric", "x", lambda x: (x.mag,)),
-    "mig": Operation("numeric", "x", lambda x: (x.mig,)),
-    "wid": Operation("numeric", "x", lambda x: (x.wid,)),
-    "mid": Operation("numeric", "x", lambda x: (x.mid,)),
+    **{
+        name: Operation("numeric", "x", lambda x, name=name: (getattr(x, name),))
+        for name in ("inf", "sup", "mag", "mig", "wid", "mid")
+    },
     "rad": Operation("numeric", "x", lambda x: (x.mid, x.rad)),
     "midRad": Operation("numeric", "x", lambda x: (x.mid, x.rad)),
     "sum_nearest": _reduction("l", _total, lambda x: x.sum()),

@@ -2,12 +2,15 @@
 
 from fractions import Fraction
 from math import inf
+from pathlib import Path
 from typing import NamedTuple
 
 from intervals import Interval, IntervalArray
 from tests.reference.itf1788_judge import CONTAINED, FAILED, OVERFLOW, Case, as_numbers, judged
 from tests.reference.itf1788_operations import CONSTRUCTORS, DECORATIONS, OPERATIONS, Operation
-from tests.reference.itl import Box, Name, Statement, Text, binary64, interval
+from tests.reference.itl import Box, Name, Statement, Text, binary64, interval, read
+
+FOLDER = Path(__file__).parent / "itf1788"
 
 
 class Outcome(NamedTuple):
@@ -21,7 +24,6 @@ class Outcome(NamedTuple):
     kind: str
     tight: bool = False  # of the Interval
     tight_array: bool = False
-    overflow_array: bool = False
     message: str = ""
 
 
@@ -31,20 +33,24 @@ class NotApplicable(Exception):
 
 def run(statements):
     """Return the outcomes of statements, one each, in their order."""
-    outcomes, cases = {}, {}
-    for index, statement in enumerate(statements):
-        try:
-            if statement.operation in CONSTRUCTORS:
-                outcomes[index] = _constructed(statement)
-            else:
-                cases[index] = _case(statement)
-        except NotApplicable as reason:
-            outcomes[index] = Outcome(statement, "", str(reason))
-    arrays = _in_batches({i: case for i, case in cases.items() if case.operation.arrays})
-    for index, case in cases.items():
-        scalar = judged(case, _attempt(_scalar, case))
-        outcomes[index] = _outcome(case, scalar, arrays.get(index))
-    return [outcomes[index] for index in range(len(statements))]
+    return [_outcome_of(statement) for statement in statements]
+
+
+def outcomes_of(path):
+    """Return the outcomes of the statements of a file."""
+    return run(read(path.read_text(encoding="utf-8-sig", errors="replace")))
+
+
+def _outcome_of(statement):
+    try:
+        if statement.operation in CONSTRUCTORS:
+            return _constructed(statement)
+        case = _case(statement)
+    except NotApplicable as reason:
+        return Outcome(statement, "", str(reason))
+    scalar = judged(case, _attempt(_scalar, case))
+    array = judged(case, _attempt(_element, case)) if case.operation.arrays else None
+    return _outcome(case, scalar, array)
 
 
 def _outcome(case, scalar, array):
@@ -57,7 +63,6 @@ def _outcome(case, scalar, array):
         scalar.kind if same else FAILED,
         scalar.tight,
         array.tight,
-        array.kind == OVERFLOW != scalar.kind,
         f"Interval {scalar.kind}: {scalar.message}; IntervalArray {array.kind}: {array.message}",
     )
 
@@ -146,67 +151,33 @@ def _scalar(case):
         "x": lambda x: Interval(x.lower, x.upper),
         "l": lambda numbers: list(map(Interval, numbers)),
     }
-    operands = [
-        make[kind](x) if kind in make else x
-        for kind, x in zip(case.operation.kinds, case.operands, strict=True)
-    ]
-    return as_numbers(case.operation.evaluate(*operands))
-
-
-def _in_batches(cases):
-    """Return the verdicts on IntervalArray: it evaluates the cases of an operation together.
-
-    One by one come those outside the domain, sums, and the cases of a batch that raises.
-    """
-    batches = {}
-    for index, case in cases.items():
-        ints = tuple(x for x in case.operands if isinstance(x, int))
-        alone = None if case.inside and "l" not in case.operation.kinds else index
-        batches.setdefault((case.operation, ints, alone), []).append(index)
-    verdicts = {}
-    for batch in batches.values():
-        results = _attempt(_elements, [cases[index] for index in batch])
-        if isinstance(results, Exception):
-            results = [_attempt(_element, cases[index]) for index in batch]
-        for index, result in zip(batch, results, strict=True):
-            verdicts[index] = judged(cases[index], result)
-    return verdicts
+    operands = zip(case.operation.kinds, case.operands, strict=True)
+    return as_numbers(case.operation.evaluate(*(make.get(k, _same)(x) for k, x in operands)))
 
 
 def _element(case):
-    (result,) = _elements([case])
-    return result
+    """Return the result of an IntervalArray of one element as plain data."""
+    make = {
+        "x": lambda x: IntervalArray.from_floats([float(x.lower)], [float(x.upper)]),
+        "l": lambda numbers: IntervalArray.from_floats(list(map(float, numbers))),
+        "r": lambda number: IntervalArray.from_floats([float(number)]),
+    }
+    operands = zip(case.operation.kinds, case.operands, strict=True)
+    return _plain(case.operation.evaluate(*(make.get(k, _same)(x) for k, x in operands)))
 
 
-def _elements(cases):
-    """Return the results of IntervalArray, as plain data, for cases of one operation."""
-    kinds = cases[0].operation.kinds
-    columns = zip(*(case.operands for case in cases), strict=True)
-    operands = [_array(kind, column) for kind, column in zip(kinds, columns, strict=True)]
-    return _listed(cases[0].operation.evaluate(*operands), len(cases))
+def _same(value):
+    return value
 
 
-def _array(kind, values):
-    if kind == "n":
-        return values[0]
-    if kind == "x":
-        lower, upper = zip(*((float(x.lower), float(x.upper)) for x in values), strict=True)
-        return IntervalArray.from_floats(lower, upper)
-    return IntervalArray.from_floats(list(map(float, values[0] if kind == "l" else values)))
-
-
-def _listed(result, count):
-    """Return plain data for each element of a result of IntervalArray."""
+def _plain(result):
+    """Return plain data for a result of IntervalArray that has one element."""
     if isinstance(result, IntervalArray):
         result = result.reshape(-1)
-        return [as_numbers(x) for x in zip(result.inf.tolist(), result.sup.tolist(), strict=True)]
+        return as_numbers((result.inf.item(), result.sup.item()))
     if isinstance(result, tuple):
-        return [as_numbers(row) for row in zip(*(x.tolist() for x in result), strict=True)]
-    if result is not None:
-        return list(map(as_numbers, result.tolist()))
-    if count > 1:
-        raise ValueError("one of the results is empty: they are to be found one by one")
-    return [None]
+        return as_numbers(tuple(x.item() for x in result))
+    return None if result is None else as_numbers(result.item())
 
 
 # -- constructors ------------------------------------------------------------------------------
@@ -259,4 +230,4 @@ def _pair(*operands):
         array = IntervalArray([Interval(operands[0].value)])
     else:
         array = IntervalArray.from_floats(*([float(x)] for x in operands))
-    return _listed(array, 1)[0]
+    return _plain(array)

@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 from intervals import Interval, IntervalArray
 from tests.reference.itf1788_judge import CONTAINED, FAILED, OVERFLOW, RAISED, down, up
 from tests.reference.itf1788_operations import CONSTRUCTORS, DECORATIONS, OPERATIONS
-from tests.reference.itf1788_report import FOLDER, main, outcomes_of, table
-from tests.reference.itf1788_run import run
+from tests.reference.itf1788_run import FOLDER, outcomes_of, run
 from tests.reference.itl import Box, binary64, read
 
 COMMITTED = sorted(FOLDER.glob("*.itl"))
@@ -37,10 +36,8 @@ def outcomes(path):
 
 def named(paths):
     """Each file a case; the longest ones are slow."""
-    cases = [
-        pytest.param(path, marks=[pytest.mark.slow] * (path.stat().st_size > 100_000))
-        for path in paths
-    ]
+    marks = {True: [pytest.mark.slow], False: []}
+    cases = [pytest.param(path, marks=marks[path.stat().st_size > 100_000]) for path in paths]
     return pytest.mark.parametrize("path", cases, ids=lambda path: path.name)
 
 
@@ -52,18 +49,11 @@ def test_every_case_contains_the_expected_result_or_raises(path):
         if x.kind == FAILED
     ]
     assert not failed, f"{len(failed)} of {len(outcomes(path))}:\n" + "\n".join(failed[:20])
-
-
-@named([*COMMITTED, *OTHERS])
-def test_every_statement_has_one_outcome(path):
     statements = read(path.read_text(encoding="utf-8-sig", errors="replace"))
-    kinds = Counter(x.kind for x in outcomes(path))
     assert [x.statement for x in outcomes(path)] == statements
-    assert set(kinds) <= {*RUN, FAILED, *REASONS}
-    assert kinds.total() == len(statements)
-    understood = len(statements) - kinds["not understood"]
-    assert understood >= 0.95 * len(statements)
-    assert path in OTHERS or understood == len(statements)
+    kinds = Counter(x.kind for x in outcomes(path))
+    assert set(kinds) <= {*RUN, *REASONS}
+    assert kinds["not understood"] <= (0.05 * len(statements) if path in OTHERS else 0)
 
 
 def test_a_folder_named_by_the_environment_has_vectors():
@@ -149,13 +139,16 @@ def test_a_result_that_is_an_ulp_too_narrow_fails():
     assert len(ranges) > 1000 and set(kinds) == {FAILED}
 
 
+def kinds_of(lines):
+    return [x.kind for x in run(read("testcase t {" + lines + "}"))]
+
+
 def test_a_wrong_truth_or_number_fails():
     lines = """equal [1.0, 2.0] [1.0, 2.0] = false; overlap [1.0, 2.0] [3.0, 4.0] = meets;
     isMember 1.5 [1.0, 2.0] = false; intersection [1.0, 2.0] [3.0, 4.0] = [2.0, 3.0];
     sup [1.0, 2.0] = 1.0; mag [-3.0, 2.0] = 2.0; mig [1.0, 2.0] = 0.0; sum_nearest {1.0} = 2.0;
     isSingleton [1.0, 1.0] = false; b-textToInterval "[1, 2]" = [1.0, 3.0];"""
-    found = run(read("testcase t {" + lines + "}"))
-    assert len(found) == 10 and {x.kind for x in found} == {FAILED}
+    assert kinds_of(lines) == [FAILED] * 10
 
 
 def test_what_is_empty_is_none():
@@ -170,48 +163,35 @@ def test_results_of_the_wrong_kind_are_not_understood():
     equal [1, 1] [1, 1] = 1; midRad [1.0, 1.0] = 1.0; neg [1.0, 1.0] = [-1.0, -1.0] [-1.0, -1.0];
     midRad [1, 1] [1, 1] = 1 0;
     pown [1.0, 1.0] 0.5 = [1.0, 1.0]; b-numsToInterval 1.0 = [1.0, 1.0]; sqr 1.0 = [1.0, 1.0];"""
-    found = run(read("testcase t {" + lines + "}"))
-    assert [x.kind for x in found] == ["not understood"] * 9
+    assert kinds_of(lines) == ["not understood"] * 9
+
+
+def inside_out(_x):
+    raise OverflowError
+
+
+def itself(x):
+    return x
+
+
+WRONG = [  # an operation, what it should give, wrong versions of it
+    ("wid [1.0, 5.0] = 4.0;", property(lambda x: x.sup - x.inf - 1)),
+    ("mid [1.0, 5.0] = 3.0;", property(lambda x: x.sup + 1), property(lambda x: x.inf - 1)),
+    ("rad [1.0, 5.0] = 2.0;", property(lambda x: (x.sup - x.inf) / 4)),
+    ("exp [0.0, 1.0] = [0x1p0, 0x1.5BF0A8B14576Ap+1];", inside_out, itself, lambda _x: None),
+    ("sqrt [-1.0, 4.0] = [0.0, 2.0];", itself),
+    ("log [0.0, 1.0] = [-infinity, 0.0];", itself),
+]
 
 
 @pytest.mark.parametrize("cls", [Interval, IntervalArray])
-@pytest.mark.parametrize(
-    ("name", "wrong"),
-    [
-        ("wid", lambda x: x.sup - x.inf - 1),
-        ("mid", lambda x: x.sup + 1),
-        ("mid", lambda x: x.inf - 1),
-        ("rad", lambda x: (x.sup - x.inf) / 4),
-    ],
-)
-def test_a_wrong_measure_fails(cls, name, wrong, monkeypatch):
-    expected = {"wid": 4.0, "mid": 3.0, "rad": 2.0}[name]
-    text = f"testcase t {{ {name} [1.0, 5.0] = {expected}; }}"
-    assert run(read(text))[0].kind == CONTAINED
-    monkeypatch.setattr(cls, name, property(wrong))
-    assert run(read(text))[0].kind == FAILED
-
-
-def test_a_function_that_answers_outside_its_domain_fails(monkeypatch):
-    text = "testcase t { sqrt [-1.0, 4.0] = [0.0, 2.0]; log [0.0, 1.0] = [-infinity, 0.0]; }"
-    assert {x.kind for x in run(read(text))} == {RAISED}
-    for cls in (Interval, IntervalArray):
-        with monkeypatch.context() as patch:
-            patch.setattr(cls, "sqrt", lambda x: x)
-            patch.setattr(cls, "log", lambda x: x)
-            assert {x.kind for x in run(read(text))} == {FAILED}
-
-
-@pytest.mark.parametrize("cls", [Interval, IntervalArray])
-def test_a_function_that_is_wrong_in_one_number_type_fails(cls, monkeypatch):
-    def inside_out(_x):
-        raise OverflowError
-
-    text = "testcase t { exp [0.0, 1.0] = [0x1p0, 0x1.5BF0A8B14576Ap+1]; }"
-    assert {x.kind for x in run(read(text))} == {CONTAINED}
-    for wrong in (inside_out, lambda x: x, lambda _x: None):
-        monkeypatch.setattr(cls, "exp", wrong)
-        assert {x.kind for x in run(read(text))} == {FAILED}
+@pytest.mark.parametrize(("line", "wrong"), [(line, wrong) for line, *wrong in WRONG])
+def test_what_is_wrong_in_one_number_type_fails(cls, line, wrong, monkeypatch):
+    name = line.split()[0]
+    assert kinds_of(line) == [RAISED if name in ("sqrt", "log") else CONTAINED]
+    for version in wrong:
+        monkeypatch.setattr(cls, name, version)
+        assert kinds_of(line) == [FAILED]
 
 
 def test_down_and_up_are_the_neighbours():
@@ -223,7 +203,7 @@ def test_down_and_up_are_the_neighbours():
     assert (down(-huge), up(-huge)) == (-inf, 2**971 - 2**1024)
 
 
-def test_vectors_of_another_style(tmp_path, capsys):
+def test_vectors_of_another_style(tmp_path):
     """Operations and numbers as other libraries write them; what is unknown is counted."""
     text = """testcase FI_LIB.sin {
         sin [0X1.0000000000000P+0, 0X1.0000000000000P+0]
@@ -238,8 +218,7 @@ def test_vectors_of_another_style(tmp_path, capsys):
         exp [800.0, 800.0] = [0x1.fffffffffffffp+1023, +infinity];
         pow [1.0, 4.0] [0.5, 0.5] <= [1.0, 3.0]; }
     """
-    (tmp_path / "deep").mkdir()
-    path = tmp_path / "deep" / "mpfi.itl"
+    path = tmp_path / "mpfi.itl"
     path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode() + b"/* \xff */")
     kinds = [x.kind for x in outcomes_of(path)]
     assert kinds == [
@@ -247,12 +226,6 @@ def test_vectors_of_another_style(tmp_path, capsys):
         *(CONTAINED, "not provided", "not understood"),
         *(CONTAINED, CONTAINED, "no tightest result"),
     ]
-    assert main([str(tmp_path)]) == 0
-    printed = capsys.readouterr().out
-    assert "frobnicate" in printed and "(none)" not in printed
-    path.write_text("testcase t { sin [0.0, 0.0] = [0.0, 1.0]; }")
-    assert main([str(tmp_path)]) == 1
-    assert "mpfi.itl:1: sin:" in capsys.readouterr().out
 
 
 LITERALS = [
@@ -279,9 +252,3 @@ def test_any_statement_has_an_outcome(operation, operands, results):
     line = " ".join([operation, *operands, "=", *results, ";"])
     (outcome,) = run(read("testcase t {" + line + "}"))
     assert outcome.kind in {*RUN, FAILED, *REASONS}
-
-
-def test_the_table_adds_up():
-    rows = table(everything())
-    cases = [int(row[18:].split()[0]) for row in rows[1:]]
-    assert cases[-1] == sum(cases[:-1]) == len(everything())

@@ -52,32 +52,20 @@ def test_a_file():
         assert (fourth.tightest, fourth.accurate) == ((box(1, 2),), (box(0, 3),))
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("1", 1),
-        ("-0.0", 0),
-        ("+1.e-3", Fraction(1, 1000)),
-        (".5", Fraction(1, 2)),
-        ("1E+400", 10**400),
-        ("0.1", Fraction(1, 10)),
-        ("2/3", Fraction(2, 3)),
-        ("-10 / 4", Fraction(-5, 2)),
-        ("0x1.8p+3", 12),
-        ("0X1.8P+3", 12),
-        ("-0X.8p1", -1),
-        ("0x10000000000001p0", 2**52 + 1),
-        ("0xFF", 255),
-        ("0x1.", 1),
-        ("0X0.0000000000001P-1022", Fraction(1, 2**1074)),
-        ("infinity", inf),
-        ("+inf", inf),
-        ("-Infinity", -inf),
-    ],
-)
-def test_numbers_are_exact(text, value):
-    assert number(text) == value
-    assert read_one(f"op {text}={text};").operands == (value,)
+def exactly(text):
+    return float(text) if "inf" in text else Fraction(text)
+
+
+NUMBERS = """1=1; -0.0=0; +1.e-3=1/1000; .5=1/2; 1E+400=1e400; 0.1=1/10; 2/3=2/3; -10 / 4=-5/2;
+0x1.8p+3=12; 0X1.8P+3=12; -0X.8p1=-1; 0x10000000000001p0=4503599627370497; 0xFF=255; 0x1.=1;
+infinity=inf; +inf=inf; -Infinity=-inf"""
+
+
+@pytest.mark.parametrize("line", NUMBERS.split(";"))
+def test_numbers_are_exact(line):
+    text, value = line.split("=")
+    assert number(text) == exactly(value)
+    assert read_one(f"op {text}={text};").operands == (exactly(value),)
 
 
 def test_nan():
@@ -106,35 +94,20 @@ def test_binary64_beyond_its_range():
     assert binary64(Fraction(2**1024 - 2**970 - 1)) == 2**1024 - 2**971
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("[1,2]", box(1, 2)),
-        ("[ -1.5 , +0x1p1 ]_com", box(Fraction(-3, 2), 2, "com")),
-        ("[3.5]", box("3.5", "3.5")),
-        ("[empty]", Box(inf, -inf)),
-        ("[ Empty ]_trv", Box(inf, -inf, "trv")),
-        ("[]", Box(inf, -inf)),
-        ("[entire]_dac", Box(-inf, inf, "dac")),
-        ("[ENTIRE]", Box(-inf, inf)),
-        ("[,]", Box(-inf, inf)),
-        ("[-1,]", Box(Fraction(-1), inf)),
-        ("[,1/3]_DEF", Box(-inf, Fraction(1, 3), "def")),
-        ("[-Inf, 2/3]", Box(-inf, Fraction(2, 3))),
-        ("3.56?1", box("3.55", "3.57")),
-        ("3.56?1e2", box(355, 357)),
-        ("3.560?2u", box("3.560", "3.562")),
-        ("3.56?", box("3.555", "3.565")),
-        ("-10?d", box("-10.5", "-10")),
-        ("-10?12", box(-22, 2)),
-        ("-10??u", Box(Fraction(-10), inf)),
-        ("10?3_com", box(7, 13, "com")),
-        ("2.500?5ue4_def", box(25000, 25050, "def")),
-    ],
-)
-def test_intervals(text, value):
-    assert interval(text) == value
-    assert read_one(f"op {text} {text} = {text};").operands == (value, value)
+INTERVALS = """[1,2]: 1 2; [ -1.5 , +0x1p1 ]_com: -3/2 2 com; [3.5]: 3.5 3.5; [empty]: inf -inf;
+[ Empty ]_trv: inf -inf trv; []: inf -inf; [entire]_dac: -inf inf dac; [ENTIRE]: -inf inf;
+[,]: -inf inf; [-1,]: -1 inf; [,1/3]_DEF: -inf 1/3 def; [-Inf, 2/3]: -inf 2/3; 3.56?1: 3.55 3.57;
+3.56?1e2: 355 357; 3.560?2u: 3.560 3.562; 3.56?: 3.555 3.565; -10?d: -10.5 -10; -10?12: -22 2;
+-10??u: -10 inf; 10?3_com: 7 13 com; 2.500?5ue4_def: 25000 25050 def"""
+
+
+@pytest.mark.parametrize("line", INTERVALS.split(";"))
+def test_intervals(line):
+    text, value = line.strip().split(": ")
+    lower, upper, *decoration = value.split()
+    box = Box(exactly(lower), exactly(upper), *decoration)
+    assert interval(text) == box
+    assert read_one(f"op {text} {text} = {text};").operands == (box, box)
 
 
 def test_nai():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,8 +16,6 @@ from proofs.trusted.numbers import Phases, Range, ceil_text, show, show_range, w
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-
-# -- the theorem -----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -47,40 +45,38 @@ class Horseshoe(Conclusion):
         return self.left[1], self.right[0]
 
     @property
+    def sets(self) -> str:
+        """I0 and I1, in words."""
+        return f"I0 = {show_range(self.left)}, I1 = {show_range(self.right)}"
+
+    @property
     def is_null(self) -> bool:
         """Whether the set has measure zero: 2^n intervals of |I| / g^(n-1) cover it, g > 2."""
         return self.slopes[0] > 2
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
         low, high = map(show, self.slopes)
         null = " of Lebesgue measure zero" if self.is_null else ""
         return (
-            f"let I = {show_range(self.interval)}, I0 = {show_range(self.left)}, I1 = "
-            f"{show_range(self.right)}. The impact map f is continuously differentiable and "
-            f"increasing on I0 and on I1, with {low} <= f' <= {high}; f(I0) and f(I1) both contain "
-            f"I, and f maps every phase of ({show(self.gap[0])}, {show(self.gap[1])}) outside I. "
-            "Hence, for every n, each of the 2^n words w_1 ... w_n over {0, 1} has its own closed "
-            "interval of phases phi with f^(k-1)(phi) in I_(w_k) for k = 1, ..., n, disjoint from "
-            f"those of the other words and at most |I| / {low}^(n-1) long; the set of phases whose "
-            f"orbit stays in I is a Cantor set{null}; on it f is topologically conjugate to the "
-            "full one-sided shift on two symbols: 2^n points are fixed by f^n, there are periodic "
-            "orbits of every period, uncountably many nonperiodic ones, and a dense one."
+            f"let I = {show_range(self.interval)}, {self.sets}. The impact map f is continuously "
+            f"differentiable and increasing on I0 and on I1, with {low} <= f' <= {high}; f(I0) and "
+            f"f(I1) both contain I, and f maps every phase of ({show(self.gap[0])}, "
+            f"{show(self.gap[1])}) outside I. Hence, for every n, each of the 2^n words w_1 ... w_n"
+            " over {0, 1} has its own closed interval of phases phi with f^(k-1)(phi) in I_(w_k) "
+            "for k = 1, ..., n, disjoint from those of the other words and at most "
+            f"|I| / {low}^(n-1) long; the set of phases whose orbit stays in I is a Cantor set"
+            f"{null}; on it f is topologically conjugate to the full one-sided shift on two "
+            "symbols: 2^n points are fixed by f^n, there are periodic orbits of every period, "
+            "uncountably many nonperiodic ones, and a dense one."
         )
 
     @property
     def brief(self) -> str:
-        """Return the sets."""
-        return (
-            f"a horseshoe on {show_range(self.left)} and {show_range(self.right)}, f' >= "
-            f"{show(self.slopes[0])}"
-        )
+        return f"a horseshoe on {self.sets}, f' >= {show(self.slopes[0])}"
 
 
-def horseshoe(
-    left: SlopeRange, right: SlopeRange, gaps: Sequence[Avoids], slopes: Range
-) -> Horseshoe:
+def horseshoe(left: SlopeRange, right: SlopeRange, gap: Avoids, slopes: Range) -> Horseshoe:
     """Theorem. Let f' lie in `slopes`, from above 1, on I0 and on I1, I0 before I1, let f(I0) and
     f(I1) contain I, from the left end of I0 to the right end of I1, and let f map the closed gap
     between them outside I. Then what `Horseshoe.sentence` says.
@@ -97,9 +93,9 @@ def horseshoe(
             raise Unproved(f"{part.brief}, not within {show_range(slopes)}")
         if not image_arc(part).covers(found.interval):
             raise Unproved(f"{image_arc(part).brief}: I is not covered")
-    if not any(escapes(gap, found.gap, found.interval) for gap in gaps):
+    if not escapes(gap, found.gap, found.interval):
         raise Unproved("the gap is not proved to leave I")
-    if len({left.at, right.at, *(gap.at for gap in gaps)}) > 1:
+    if not left.at == right.at == gap.at:
         raise Unproved("the hypotheses are about different oscillators")
     return found
 
@@ -110,18 +106,13 @@ def escapes(avoided: Avoids, gap: Range, interval: Range) -> bool:
 
 
 def prove_horseshoe(context: Context, reader: Reader) -> Horseshoe:
-    """Rule `horseshoe`: {left, right: slope-range steps and their parts I0, I1, gap, slopes}.
+    """Rule `horseshoe`: {left, right: `read_part` of I0 and of I1, gap: an avoids step, slopes}.
 
-    left, right: {slopes: name, domain: two of its points}; gap: the name of an avoids step.
     Conclusion: `horseshoe`.
     """
     left, right, gap, slopes = reader.fields("left", "right", "gap", "slopes")
-    return horseshoe(
-        read_part(context, left),
-        read_part(context, right),
-        [context.step(gap, Avoids)],
-        slopes.range(),
-    )
+    parts = read_part(context, left), read_part(context, right)
+    return horseshoe(*parts, context.step(gap, Avoids), slopes.range())
 
 
 def read_part(context: Context, reader: Reader) -> SlopeRange:
@@ -135,25 +126,21 @@ def read_part(context: Context, reader: Reader) -> SlopeRange:
     return part
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
-def slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
+def _slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
     """Return what is proved about f' on I0 and on I1, as far as it is known."""
-    parts = [
-        next((part for each in found.all(SlopeRange) if (part := each.over(domain))), None)
-        for domain in (of.left, of.right)
-    ]
-    return [part for part in parts if part is not None]
+    parts = []
+    for domain in (of.left, of.right):
+        parts += [part for each in found.all(SlopeRange) if (part := each.over(domain))][:1]
+    return parts
 
 
-def inside(of: Parameters, found: Found) -> list[Impact]:
-    """Return the phases in the interior of I0 or of I1 at which f and f' are known."""
-    return [
-        point
-        for point in found.all(Impact)
-        if any(low < point.phase < high for low, high in (of.left, of.right))
-    ]
+def _arcs_on(of: Parameters, found: Found) -> list[ImageArc]:
+    """Return f(I0) and f(I1), as far as they are proved to be arcs."""
+    arcs = []
+    for part in _slopes_on(of, found):
+        with suppress(Unproved):
+            arcs.append(image_arc(part))
+    return arcs
 
 
 def _bounded(
@@ -163,26 +150,25 @@ def _bounded(
     strict: bool = False,
     asked: Callable[[Impact], bool] = lambda point: True,
 ) -> Decision:
-    """Decide that f' is bounded on I0 and I1, by bounds on both or by one point.
+    """Decide that f' is bounded on I0 and I1, by bounds on both or by a point in their interior.
 
     margin: how far bounds (low, high) on f' are inside; of (high, low) it is how far at most.
     asked: whether a point of I0 or I1 is one of those that the claim is about.
     """
-    for point in inside(of, found):
-        if asked(point) and margin(point.slope[::-1]) < 0:
+    for point in found.all(Impact):
+        inside = any(low < point.phase < high for low, high in (of.left, of.right))
+        if inside and asked(point) and margin(point.slope[::-1]) < 0:
             return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
-    parts = slopes_on(of, found)
+    parts = _slopes_on(of, found)
     if len(parts) < 2:
         return undecided("no proof that f is differentiable on I0 and I1 with bounded slope")
     least = min(margin((part.minimum[0], part.maximum[1])) for part in parts)
-    known: dict[str, Range] = {
-        f"slope_{name}_I{index}": bounds
-        for index, part in enumerate(parts)
-        for name, bounds in (("min", part.minimum), ("max", part.maximum))
-    }
+    known: dict[str, Range] = {}
+    for index, part in enumerate(parts):
+        known |= {f"slope_min_I{index}": part.minimum, f"slope_max_I{index}": part.maximum}
     if least < 0 or (strict and least == 0):
         briefs = "; ".join(part.brief for part in parts)
-        return undecided(f"{briefs}: {ceil_text(-least)} short", known=known)
+        return undecided(f"{briefs}: {ceil_text(-least)} short", known)
     return decided(Verdict.VERIFIED, *parts, margin=least, known=known)
 
 
@@ -197,23 +183,12 @@ def _gap_escapes(of: Parameters, found: Found) -> Decision:
     return undecided("no proof that the first impacts of the gap avoid I, and no witness")
 
 
-def arcs_on(of: Parameters, found: Found) -> list[ImageArc]:
-    """Return f(I0) and f(I1), as far as they are proved to be arcs."""
-    arcs = []
-    for part in slopes_on(of, found):
-        with suppress(Unproved):
-            arcs.append(image_arc(part))
-    return arcs
-
-
 def _two_preimages(of: Parameters, found: Found) -> Decision:
     """H5: both images cover I and the gap leaves it; or one misses an end of I0 or of I1."""
-    arcs = arcs_on(of, found)
-    known: dict[str, Range] = {
-        f"image_{name}_I{0 if arc.domain == of.left else 1}": end
-        for arc in arcs
-        for name, end in (("low", arc.low), ("high", arc.high))
-    }
+    arcs, known = _arcs_on(of, found), dict[str, Range]()
+    for arc in arcs:
+        index = 0 if arc.domain == of.left else 1
+        known |= {f"image_low_I{index}": arc.low, f"image_high_I{index}": arc.high}
     low, high = of.left[0], of.right[1]
     for arc in arcs:
         if arc.is_interval and (low < arc.low[0] or arc.high[1] < high):
@@ -222,13 +197,13 @@ def _two_preimages(of: Parameters, found: Found) -> Decision:
         return undecided("no proof that f is monotone on I0 and on I1")
     margin = min(min(low - arc.low[1], arc.high[0] - high) for arc in arcs)
     if margin < 0:
-        return undecided(f"an image falls short of I by up to {ceil_text(-margin)}", known=known)
+        return undecided(f"an image falls short of I by up to {ceil_text(-margin)}", known)
     if of.interval != (low, high):
-        return undecided("I reaches beyond I0 and I1, where nothing is proved", known=known)
+        return undecided("I reaches beyond I0 and I1, where nothing is proved", known)
     for avoided in found.all(Avoids):
         if escapes(avoided, of.gap, of.interval):
             return decided(Verdict.VERIFIED, *arcs, avoided, margin=margin, known=known)
-    return undecided("f(I0) and f(I1) cover I; the gap is not proved to escape", known=known)
+    return undecided("f(I0) and f(I1) cover I; the gap is not proved to escape", known)
 
 
 def _short_preimages(of: Parameters, found: Found) -> Decision:
@@ -239,7 +214,7 @@ def _short_preimages(of: Parameters, found: Found) -> Decision:
         return point.slope[0] > 0 and any(a < low and high < b for a, b in (of.left, of.right))
 
     decision = _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0], True, lands)
-    if decision.verdict is Verdict.VERIFIED and len(arcs_on(of, found)) < 2:
+    if decision.verdict is Verdict.VERIFIED and len(_arcs_on(of, found)) < 2:
         return undecided("an image may be longer than the circle, a preimage in several pieces")
     return decision
 

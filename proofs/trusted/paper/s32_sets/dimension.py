@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.numbers import Phases, ceil_text, floor_text, hull, show_range, within
 from proofs.trusted.paper.s32_sets.invariant import InvariantSet, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.paper.s32_sets.repeller import Repeller
@@ -56,31 +56,26 @@ class StayingDimension(Conclusion):
         return self.staying.interval
 
     @property
+    def bounds(self) -> tuple[str, str]:
+        """The bounds of the dimension, to two places more than they decide."""
+        low, high = self.repeller.dimension
+        places = min(40, len(str(int(1 / (high - low)))) + 1)
+        return floor_text(low, places), ceil_text(high, places)
+
+    @property
     def sentence(self) -> str:
-        """Return the theorem."""
-        flat, steep = hull(self.repeller.slopes)
-        words, places = ", ".join(self.repeller.words), _places(self.repeller.dimension)
+        (flat, steep), (low, high) = hull(self.repeller.slopes), self.bounds
         return (
-            f"{self.staying.sentence} The slopes of f along the words {words} are between "
-            f"{floor_text(flat, 2)} and {ceil_text(steep, 2)}, and the Hausdorff dimension of "
-            f"Lambda lies between {floor_text(self.repeller.dimension[0], places)} and "
-            f"{ceil_text(self.repeller.dimension[1], places)}."
+            f"{self.staying.sentence} The slopes of f along the words "
+            f"{', '.join(self.repeller.words)} are between {floor_text(flat, 2)} and "
+            f"{ceil_text(steep, 2)}, and the Hausdorff dimension of Lambda lies between {low} and "
+            f"{high}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the dimension."""
-        low, high = self.repeller.dimension
-        places = _places((low, high))
-        return (
-            f"{floor_text(low, places)} <= dim <= {ceil_text(high, places)} for I = "
-            f"{show_range(self.interval)}"
-        )
-
-
-def _places(bounds: Range) -> int:
-    """Return how many places to write: two more than bounds decide."""
-    return min(40, len(str(int(1 / (bounds[1] - bounds[0])))) + 1)
+        low, high = self.bounds
+        return f"{low} <= dim <= {high} for I = {show_range(self.interval)}"
 
 
 def _dimension(of: Parameters, found: Found) -> Decision:
@@ -91,17 +86,16 @@ def _dimension(of: Parameters, found: Found) -> Decision:
     around = []
     for each in found.all(Repeller):
         with suppress(Unproved):
-            around.append(StayingDimension(each, staying(each.hull, found)))
-    around = [each for each in around if within(of.interval, each.interval)]
+            if within(of.interval, each.hull):
+                around.append(StayingDimension(each, staying(each.hull, found)))
     root = next((each for each in found.all(MoranRoot) if each.ratios == ratios), None)
     if root is None or not around:
         return undecided("no bracket of s_0, or no horseshoe around I with dimension")
-    itself = next((each for each in around if each.interval == of.interval), None)
-    best = around[0] if itself is None else itself
+    best = next((each for each in around if each.interval == of.interval), around[0])
     low, high = best.repeller.dimension
     known = {"dimension": around[0].repeller.dimension, "s0": root.root}
     known |= {} if best is around[0] else {"dimension_of_I": (low, high)}
-    if high < root.root[0] or (itself is not None and root.root[1] < low):
+    if high < root.root[0] or (best.interval == of.interval and root.root[1] < low):
         return decided(Verdict.REFUTED, best, root, corrected=around, known=known)
     return undecided(f"{best.brief}, and {root.brief}", known=known)
 

@@ -6,7 +6,7 @@ n-th image is in I, since f maps phases outside I into it too.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -16,16 +16,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import (
-    Phase,
-    Phases,
-    Range,
-    ceil_text,
-    floor_text,
-    show,
-    show_range,
-    within,
-)
+from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.subshift import Subshift
 from proofs.trusted.parameters import Parameters, Place
@@ -33,7 +24,7 @@ from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST = 10
-_BESIDE = ("below I0", "between I0 and I1", "above I1")
+_SPOTS = ("below I0", "in I0", "between I0 and I1", "in I1", "above I1")
 
 
 @dataclass(frozen=True)
@@ -43,32 +34,18 @@ class InHorseshoe(Conclusion):
     base: Horseshoe
 
     @property
-    def place(self) -> Place:
+    def at(self) -> Place:
         """The oscillators of the horseshoe."""
         return self.base.at
 
-    @property
-    def sets(self) -> str:
-        """Name both sets."""
-        return f"I0 = {show_range(self.base.left)} and I1 = {show_range(self.base.right)}"
 
-
-# -- orbits that leave the horseshoe ---------------------------------------------------------------
-
-
-def where(base: Horseshoe, x: Range) -> str:
-    """Return in which set, "0" or "1", or beside which an enclosed phase is."""
-    spots = {
-        _BESIDE[0]: x[1] < base.left[0],
-        "0": within(x, base.left),
-        _BESIDE[1]: base.gap[0] < x[0] and x[1] < base.gap[1],
-        "1": within(x, base.right),
-        _BESIDE[2]: base.right[1] < x[0],
-    }
-    known = [spot for spot, holds in spots.items() if holds]
-    if not known:
+def _spot(base: Horseshoe, x: Range) -> int:
+    """Return which of `_SPOTS` an enclosed phase is in: 1 and 3 are the sets, 0, 2, 4 are not."""
+    (a, b), (c, d) = base.left, base.right
+    known = (x[1] < a, within(x, base.left), b < x[0] and x[1] < c, within(x, base.right), d < x[0])
+    if True not in known:
         raise Unproved("it is not decided in which of I0 and I1 an image is")
-    return known[0]
+    return known.index(True)
 
 
 @dataclass(frozen=True)
@@ -84,14 +61,14 @@ class Itinerary(InHorseshoe):
         """Raise Unproved unless the orbit is in the sets, but for its last point."""
         for x in self.orbit:
             Phase(*x)
-        beside = [spot in _BESIDE for spot in self.spots]
-        if self.orbit[0] != (self.phase,) * 2 or beside != [False] * (len(beside) - 1) + [True]:
+        *inside, last = (spot % 2 for spot in self.spots)
+        if self.orbit[0] != (self.phase,) * 2 or not all(inside) or last:
             raise Unproved("an orbit starts at one phase and ends where it leaves I0 and I1")
 
     @cached_property
-    def spots(self) -> list[str]:
-        """Where the phase and its images are; all but the last are the letters of the word."""
-        return [where(self.base, x) for x in self.orbit]
+    def spots(self) -> list[int]:
+        """Where the phase and its images are, in `_SPOTS`."""
+        return [_spot(self.base, x) for x in self.orbit]
 
     @property
     def phase(self) -> Fraction:
@@ -101,16 +78,14 @@ class Itinerary(InHorseshoe):
     @property
     def cut(self) -> str:
         """The word, and then 0, 1 or 2 as the orbit ends below I0, between, or above I1."""
-        return "".join(self.spots[:-1]) + str(_BESIDE.index(self.spots[-1]))
+        return "".join(str(spot // 2) for spot in self.spots)
 
     @property
     def sentence(self) -> str:
-        """Return the orbit."""
-        word, last, x = self.cut[:-1], self.orbit[-1], show(self.phase)
+        word, x = self.cut[:-1], show(self.phase)
         return (
-            f"the orbit of {x} has the itinerary {word or 'of no letter'} in {self.sets}; then "
-            f"f^{len(word)}({x}), in [{floor_text(last[0])}, {ceil_text(last[1])}], is "
-            f"{self.spots[-1]}."
+            f"the orbit of {x} has the itinerary {word or 'of no letter'} in {self.base.sets}; then"
+            f" f^{len(word)}({x}), in {between(self.orbit[-1])}, is {_SPOTS[self.spots[-1]]}."
         )
 
 
@@ -123,11 +98,11 @@ def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> It
     parts = [each for each in slopes if each.at == base.at]
     known = [pair for each in parts for pair in zip(each.points, each.images, strict=True)]
     orbit = [(phase, phase)]
-    while (spot := where(base, orbit[-1])) not in _BESIDE:
+    while (spot := _spot(base, orbit[-1])) % 2:
         if len(orbit) > _LONGEST:
             raise Unproved(f"the orbit of {show(phase)} stays in I0 and I1 for {_LONGEST} steps")
         METER.get().spend(len(known))
-        domain, (low, high) = (base.left, base.right)[int(spot)], orbit[-1]
+        domain, (low, high) = base.left if spot == 1 else base.right, orbit[-1]
         below = [image[0] for p, image in known if domain[0] <= p <= low]
         above = [image[1] for p, image in known if high <= p <= domain[1]]
         if not below or not above:
@@ -139,15 +114,11 @@ def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> It
 def itinerary(context: Context, reader: Reader) -> Itinerary:
     """Rule `itinerary`: {horseshoe, slopes: names of slope-range steps, phase}.
 
-    Hypothesis: by f at the points of these steps, and as f increases on I0 and on I1, the orbit
-    of the phase is enclosed until it leaves both, within 10 steps. Conclusion: where it went.
+    Conclusion: where the phase goes until it leaves I0 and I1, within 10 steps: `follow`.
     """
     base, names, phase = reader.fields("horseshoe", "slopes", "phase")
     slopes = [context.step(name, SlopeRange) for name in names.items(most=10)]
     return follow(context.step(base, Horseshoe), slopes, phase.number())
-
-
-# -- the invariant set -----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -189,69 +160,46 @@ class InvariantSet(InHorseshoe):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem, and what `Subshift.chaotic` adds."""
         text = (
             f"let Lambda be the set of phases whose orbits stay in {show_range(self.interval)}, "
-            f"{self.sets}. The itinerary phi -> alpha_0 alpha_1 ..., f^k(phi) in I_(alpha_k) for "
-            f"k >= 0, is a homeomorphism from Lambda onto the one-sided {self._kind}, and "
-            "conjugates f to it."
+            f"{self.base.sets}. The itinerary phi -> alpha_0 alpha_1 ..., f^k(phi) in I_(alpha_k) "
+            f"for k >= 0, is a homeomorphism from Lambda onto the one-sided {self.shift.named}, and"
+            " conjugates f to it."
         )
         if not self.shift.arrows:
             return f"{text} There are none: Lambda is empty."
         if not self.shift.chaotic:
             return text
-        low, high = self.shift.growth
+        counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
         return (
             f"{text} This subshift is irreducible: Lambda is a Cantor set, with periodic orbits of "
-            "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; "
-            f"{self._counts}; the topological entropy of f on Lambda is the log of a number in "
-            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
+            "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; f^n "
+            f"has {counts} fixed points in Lambda for n = 1, ..., 8; the topological entropy of f "
+            f"on Lambda is the log of a number in {between(self.shift.growth, 12)}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the subshift."""
-        counts = f"; {self._counts}" if self.shift.chaotic else ""
-        return f"the itineraries of Lambda are the {self._kind}{counts}"
-
-    @property
-    def _kind(self) -> str:
-        factors = self.shift.factors
-        kind = f"subshift of the sequences without the factor {factors}"
-        return kind if factors else "full shift on 0 and 1"
-
-    @property
-    def _counts(self) -> str:
-        counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
-        return f"f^n has {counts} fixed points in Lambda for n = 1, ..., 8"
+        return f"the itineraries of Lambda are the {self.shift.named}"
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the bounds of the growth."""
         return {"growth": self.shift.growth} if self.shift.chaotic else {}
 
 
-def invariant_set(base: Horseshoe, interval: Phases, orbits: Iterable[Itinerary]) -> InvariantSet:
-    """Return the set of an interval, by orbits of its ends among those given."""
-    known = {orbit.phase: orbit for orbit in orbits if orbit.base == base}
+def staying(interval: Range, found: Found) -> InvariantSet:
+    """Return the set that stays in an interval, by a horseshoe around it and orbits of its ends."""
+    base = _around(interval, found)
+    known = {orbit.phase: orbit for orbit in found.all(Itinerary) if orbit.base == base}
     ends = sorted(set(interval) - set(base.interval))
-    return InvariantSet(base, interval, tuple(known[end] for end in ends if end in known))
+    return InvariantSet(base, Phases(*interval), tuple(known[x] for x in ends if x in known))
 
 
-# -- the rows --------------------------------------------------------------------------------------
-
-
-def around(interval: Range, found: Found) -> Horseshoe:
-    """Return a horseshoe whose interval contains this one; Unproved if there is none."""
+def _around(interval: Range, found: Found) -> Horseshoe:
     for base in found.all(Horseshoe):
         if within(interval, base.interval):
             return base
     raise Unproved("no horseshoe is proved on sets around the given interval I")
-
-
-def staying(interval: Range, found: Found) -> InvariantSet:
-    """Return the set that stays in an interval, by the conclusions found."""
-    return invariant_set(around(interval, found), Phases(*interval), found.all(Itinerary))
 
 
 def _homeomorphism(of: Parameters, found: Found) -> Decision:
@@ -275,7 +223,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _measure_zero(of: Parameters, found: Found) -> Decision:
-    base = around(of.interval, found)
+    base = _around(of.interval, found)
     if not base.is_null:
         return undecided(f"{base.brief}, not above 2")
     return decided(Verdict.VERIFIED, base)

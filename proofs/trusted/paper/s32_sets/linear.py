@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
@@ -49,13 +48,7 @@ class LinearSet(Conclusion):
 
     @property
     def brief(self) -> str:
-        """Return the first of the sentences."""
         return self.sentence.partition(". ")[0].rstrip(".")
-
-    def length(self, word: str) -> Fraction:
-        """Return |I_w|."""
-        sizes = [self.ratios[int(letter)] for letter in word]
-        return prod(sizes, start=self.interval[1] - self.interval[0])
 
 
 @dataclass(frozen=True)
@@ -79,7 +72,6 @@ class ExactMeasure(LinearSet):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
         return (
             f"for the linear Cantor set Lambda {self.named}, I_w0 and I_w1 the end parts of an "
             "interval I_w, eta0 and eta1 times as long, and eta0^s + eta1^s = 1: (1) if H0 in I_w0 "
@@ -98,7 +90,6 @@ class ExactMeasure(LinearSet):
 
     @property
     def brief(self) -> str:
-        """Return what it is about."""
         return f"Claim 1 holds for the linear set {self.named}, 0 < s < 1"
 
 
@@ -111,7 +102,6 @@ class LinearDimension(ExactMeasure):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        """Return the dimension and the measure."""
         return {"dimension": self.root, "measure": self.measure}
 
 
@@ -124,8 +114,7 @@ def power(base: Fraction, exponent: Range) -> Enclosure:
 def linear_set(context: Context, reader: Reader) -> LinearDimension:
     """Rule `linear-set`: {root: name of a moran-root step}.
 
-    Hypothesis: r0 + r1 < 1, exact. Conclusion: `ExactMeasure`, with bounds on s and on |I|^s: the
-    dimension and the Hausdorff measure of the linear set.
+    Conclusion: for its ratios, r0 + r1 < 1, `ExactMeasure`, with bounds on s and on |I|^s.
     """
     (name,) = reader.fields("root")
     step, interval = context.step(name, MoranRoot), context.of.interval
@@ -133,14 +122,12 @@ def linear_set(context: Context, reader: Reader) -> LinearDimension:
     return LinearDimension(step.ratios, interval, step.root, measure)
 
 
-# -- where the paper's proof fails -----------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Excess(LinearSet):
-    """(11) fails for L = I_w, w of n + 1 >= 2 letters, and |L'| = |L| + d, d = epsilon / 2^(n+1).
+    """(11) fails for L = I_w, w of n + 1 >= 2 ones, the longest of its level, and |L'| = |L| + d.
 
-    excess: bounds on |L'|^s - |L|^s - d, positive. It decreases in |L|, as 0 < s < 1.
+    d = epsilon / 2^(n+1). excess: bounds on |L'|^s - |L|^s - d, positive. It decreases in |L|, as
+    0 < s < 1.
     """
 
     epsilon: Fraction
@@ -151,38 +138,39 @@ class Excess(LinearSet):
         """Raise Unproved unless it refutes (11)."""
         super().__post_init__()
         n, longest = len(self.word) - 1, self.ratios[1]
-        if n < 1 or not 0 < self.epsilon < longest**n - longest ** (n + 1) or self.excess[0] <= 0:
-            raise Unproved(f"(11) is not refuted at n = {n}, epsilon = {show(self.epsilon)}")
+        if n < 1 or set(self.word) != {"1"} or self.excess[0] <= 0:
+            raise Unproved("(11) is not refuted by this interval")
+        if not 0 < self.epsilon < longest**n - longest ** (n + 1):
+            raise Unproved(f"(11) is not about epsilon = {show(self.epsilon)}")
 
     @property
     def sentence(self) -> str:
-        """Return the counterexample."""
-        n = len(self.word) - 1
-        beyond = self.length(self.word) + self.epsilon / 2 ** (n + 1) > self.length("1" * n)
+        n, longest = len(self.word) - 1, self.ratios[1]
+        most = longest**n * (self.interval[1] - self.interval[0])
+        beyond = longest * most + self.epsilon / 2 ** (n + 1) > most
         outside = "; |L'| > eta1^n |I|, so that L' is not in T_n" if beyond else ""
-        longest = ", as for all L of its level, I_1...1 being the longest, and for their sum"
         return (
             f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])} for the linear set "
-            f"{self.named}, n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), L = "
-            f"I_{self.word} and |L'| = |L| + epsilon/2^(n+1)"
-            f"{'' if '0' in self.word else longest}{outside}."
+            f"{self.named}, n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), |L'| = "
+            f"|L| + epsilon/2^(n+1) and L = I_{self.word}, the longest of its level: so for all L "
+            f"of the level, and for their sum{outside}."
         )
 
 
 def excess(context: Context, reader: Reader) -> Excess:
-    """Rule `excess`: {root: name of a moran-root step, epsilon > 0, word w of 2 to 12 letters}.
+    """Rule `excess`: {root: name of a moran-root step, epsilon > 0, word of 2 to 12 ones}.
 
-    Conclusion: (|L| + d)^s - |L|^s - d > 0, L = I_w, d = epsilon / 2^(length of w), r0 + r1 < 1.
+    Conclusion: `Excess`, r0 + r1 < 1.
     """
     root_of, epsilon_of, word_of = reader.fields("root", "epsilon", "word")
     step, epsilon, word = context.step(root_of, MoranRoot), epsilon_of.number(), word_of.string()
-    if not 2 <= len(word) <= _LONGEST_WORD or not {"0", "1"}.issuperset(word) or epsilon <= 0:
-        raise reader.fail("a positive number and a word over 0 and 1 are expected")
-    given, delta = LinearSet(step.ratios, context.of.interval), epsilon / 2 ** len(word)
-    size = given.length(word)
+    if epsilon <= 0 or word not in ("1" * letters for letters in range(2, _LONGEST_WORD + 1)):
+        raise reader.fail("a positive number and a word of ones are expected")
+    (low, high), delta = context.of.interval, epsilon / 2 ** len(word)
+    size = step.ratios[1] ** len(word) * (high - low)
     bounds = power(size + delta, step.root) - power(size, step.root)
     above = (bounds - rational(delta, bounds.bits)).range
-    return Excess(given.ratios, given.interval, epsilon, word, above)
+    return Excess(step.ratios, (low, high), epsilon, word, above)
 
 
 @dataclass(frozen=True)
@@ -203,7 +191,6 @@ class ShortGap(LinearSet):
 
     @property
     def sentence(self) -> str:
-        """Return both counterexamples, the second one where there is one with few letters."""
         (left, right), sizes = self.ratios, range(1, _LONGEST_WORD)
         exchanged = (
             " Nor does it help to exchange eta0 and eta1 where the right one is longer: an interval"
@@ -229,16 +216,12 @@ class Uncovered(LinearSet):
 
     @property
     def sentence(self) -> str:
-        """Return the cover."""
         return (
             f"the linear set {self.named} is covered by J, from below I to the gap of I_11, and "
             "J', from there to above I. J holds I_0, I_10, I_110 and no interval that is not in "
             "one of these, J' holds I_111; whichever two intervals replace J, here H0 = I_0 and "
             "H1 = I_10, all points of one of the three, here of I_110, are no longer covered."
         )
-
-
-# -- the rows --------------------------------------------------------------------------------------
 
 
 def linear_sets(of: Parameters) -> list[ExactMeasure]:
@@ -249,11 +232,12 @@ def linear_sets(of: Parameters) -> list[ExactMeasure]:
 
 def _linear_dimension(of: Parameters, found: Found) -> Decision:
     """H12: the lines of these slopes must map I0 and I1 exactly onto I."""
-    given, (low, high) = LinearSet(of.reciprocals, of.interval), of.interval
-    if (of.left, of.right) != ((low, low + given.length("0")), (high - given.length("1"), high)):
+    (low, high), (first, second) = of.interval, of.reciprocals
+    ends = low + first * (high - low), high - second * (high - low)
+    if (of.left, of.right) != ((low, ends[0]), (ends[1], high)):
         return undecided("lines of these slopes do not map I0 and I1 exactly onto I")
     for each in found.all(LinearDimension):
-        if (each.ratios, each.interval) == (given.ratios, given.interval):
+        if (each.ratios, each.interval) == (of.reciprocals, of.interval):
             return decided(Verdict.VERIFIED, each)
     return undecided("no bracket of s_0 for the ratios 1 / slopes")
 
@@ -270,7 +254,6 @@ def _covering_sum(of: Parameters, found: Found) -> Decision:
 
 def _gap_estimates(of: Parameters, found: Found) -> Decision:
     """H15: true for equal ratios, false for others; both pairs must agree."""
-    del found  # exact arithmetic on the ratios decides
     sets = linear_sets(of)
     true = [each for each in sets if each.ratios[0] == each.ratios[1]]
     false = [ShortGap(each.ratios, each.interval) for each in sets if each not in true]
@@ -283,7 +266,6 @@ def _gap_estimates(of: Parameters, found: Found) -> Decision:
 
 def _gap_function(of: Parameters, found: Found) -> Decision:
     """H16: exactly if eta0 + eta1 < 1."""
-    del found
     if sum(of.moran_ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(of.moran_ratios))
     return decided(Verdict.VERIFIED, ExactMeasure(of.moran_ratios, of.interval))
@@ -291,7 +273,6 @@ def _gap_function(of: Parameters, found: Found) -> Decision:
 
 def _replacing(of: Parameters, found: Found) -> Decision:
     """H17: for both pairs of ratios."""
-    del found
     sets = linear_sets(of)
     covers = [Uncovered(each.ratios, each.interval) for each in sets]
     return decided(Verdict.REFUTED, *covers, corrected=sets[-1:])

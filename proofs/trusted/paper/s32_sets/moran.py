@@ -10,7 +10,7 @@ from proofs.trusted.flights import bits_for
 from proofs.trusted.kernel.arithmetic import Unproved, exp, log, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, ceil_text, floor_text, show
+from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -24,16 +24,13 @@ class MoranRoot(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
             f"the equation ({show(self.ratios[0])})^s + ({show(self.ratios[1])})^s = 1 has exactly "
-            f"one root s > 0, and {floor_text(self.root[0], 12)} <= s <= "
-            f"{ceil_text(self.root[1], 12)}."
+            f"one root s > 0, in {between(self.root, 12)}."
         )
 
     @property
     def brief(self) -> str:
-        """Return the bounds."""
         return f"{floor_text(self.root[0])} <= s_0 <= {ceil_text(self.root[1])}"
 
 
@@ -44,17 +41,15 @@ def moran_root(context: Context, reader: Reader) -> MoranRoot:
     from 1 to -1: it has one root, in between.
     """
     ratios_of, root_of = reader.fields("ratios", "root")
-    ratios, root = ratios_of.numbers(2, 2), root_of.range()
-    if not all(0 < ratio < 1 for ratio in ratios) or root[0] <= 0:
+    (first, second), root = ratios_of.numbers(2, 2), root_of.range()
+    if not (0 < first < 1 and 0 < second < 1 and root[0] > 0):
         raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
     bits = bits_for(root)
-    logs = [log(ratio, bits) for ratio in ratios]
-    low, high = (
-        exp(rational(s, bits) * logs[0]) + exp(rational(s, bits) * logs[1]) - 1 for s in root
-    )
+    powers = (rational(s, bits) for s in root)
+    low, high = (exp(s * log(first, bits)) + exp(s * log(second, bits)) - 1 for s in powers)
     if low.lo <= 0 or high.hi >= 0:
         raise Unproved("the bracket of the root does not have the signs +, -")
-    return MoranRoot((ratios[0], ratios[1]), root)
+    return MoranRoot((first, second), root)
 
 
 @dataclass(frozen=True)
@@ -70,14 +65,10 @@ class NoGap(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         first, second = map(show, self.ratios)
         if max(self.ratios) >= 1:
             return f"({first})^s + ({second})^s > 1 for every s > 0: there is no s_0."
         return f"eta0 + eta1 >= 1 for {first} and {second}: s_0 >= 1, and q does not decrease."
-
-
-# -- the row ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -93,34 +84,29 @@ class Digits(Conclusion):
     printed: str
 
     @property
-    def unit(self) -> Fraction:
-        """The unit of the last place of a decimal; 0 for a fraction, which is exact."""
-        return Fraction("/" not in self.printed, 10 ** len(self.printed.partition(".")[2]))
+    def readings(self) -> tuple[bool | None, ...]:
+        """Whether these are the digits of the number, rounded and truncated; None: not decided.
+
+        Each end of `value` is below the numbers that are meant (-1), above them (1) or one of them.
+        """
+        printed = Fraction(self.printed)
+        unit = Fraction("/" not in self.printed, 10 ** len(self.printed.partition(".")[2]))
+        rounded = [(x >= printed + unit / 2) - (x <= printed - unit / 2) for x in self.value]
+        truncated = [(x >= printed + unit) - (x < printed) for x in self.value] if unit else rounded
+        return tuple(low == 0 if low == high else None for low, high in (rounded, truncated))
 
     @property
     def rounded(self) -> bool | None:
-        """Whether the digits are those of the number, rounded; None: not decided."""
-        (low, high), middle, half = self.value, Fraction(self.printed), self.unit / 2
-        if (middle - half < low and high < middle + half) or low == middle == high:
-            return True
-        return False if high <= middle - half or middle + half <= low else None
-
-    @property
-    def truncated(self) -> bool | None:
-        """Whether the digits are those of the number, truncated; None: not decided."""
-        (low, high), first = self.value, Fraction(self.printed)
-        if (first <= low and high < first + self.unit) or low == first == high:
-            return True
-        return False if high < first or first + self.unit <= low else None
+        """The first of these readings."""
+        return self.readings[0]
 
     @property
     def sentence(self) -> str:
-        """Return which readings of the digits hold."""
         words = {True: "is", False: "is not", None: "may be"}
+        rounded, truncated = (words[reading] for reading in self.readings)
         return (
-            f"{self.name}, in [{floor_text(self.value[0])}, {ceil_text(self.value[1])}], "
-            f"{words[self.rounded]} {self.printed} if rounded, and {words[self.truncated]} if "
-            "truncated."
+            f"{self.name}, in {between(self.value)}, {rounded} {self.printed} if rounded, and "
+            f"{truncated} if truncated."
         )
 
 
@@ -137,12 +123,12 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
         return undecided("no bracket of s_0")
     given, exact = roots[ratios], roots[of.reciprocals]
     known = {"s0": given.root, "s0_reciprocal_slopes": exact.root}
-    pair = dict.fromkeys((given, exact)) if of.printed_s0 else ()
-    read = [Digits("s_0", each.root, of.printed_s0 or "") for each in pair]
-    if read and all(each.rounded is each.truncated is False for each in read):
+    printed = of.printed_s0
+    read = [Digits("s_0", each.root, printed) for each in (given, exact) if printed]
+    if {reading for each in read for reading in each.readings} == {False}:
         return decided(Verdict.REFUTED, *read, corrected=[given], known=known)
     if not all(each.rounded for each in read):
-        return undecided("; ".join(each.brief for each in read), known=known)
+        return undecided("; ".join(each.brief for each in read), known)
     return decided(Verdict.VERIFIED, given, *read, known=known)
 
 

@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.flights import (
-    FirstImpact,
-    Motion,
-    bits_for,
-    read_phases,
-    transversal_step,
-    whole_turns,
-)
+from proofs.trusted.flights import FirstImpact, Motion, bits_for, transversal_step, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.series import Series, polynomial
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.numbers import Phases, Range, between, hull, show_range, within
 from proofs.trusted.parameters import Place
 
-_MOST_WORDS, _LONGEST_WORD, _MOST_PIECES, _HIGHEST = 16, 16, 200, 200
+_WORD = re.compile("[01]{1,16}")
+_MOST_WORDS, _MOST = 16, 200
 
 
 @dataclass(frozen=True)
@@ -47,20 +41,20 @@ class Repeller(Conclusion):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless domains and bounds are in order."""
-        if self.domains[0][1] >= self.domains[1][0] or self.dimension[0] >= self.dimension[1]:
-            raise Unproved("the domains or the bounds of the dimension are not in order")
+        if self.domains[0][1] >= self.domains[1][0]:
+            raise Unproved("the domains are not in order")
+        if not 0 < self.dimension[0] < self.dimension[1]:
+            raise Unproved("the bounds of the dimension are not in order")
         if min(low for low, _ in self.slopes) <= 1:
             raise Unproved("the inverse branches are not proved to contract")
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        domains, (low, high) = " and ".join(map(show_range, self.domains)), self.dimension
         return (
-            f"let g_0, g_1 be the inverse branches of f from {show_range(self.hull)} into {domains}"
-            f". The compact set that is the union of its images by {', '.join(self.words)}, which "
-            "are disjoint, has a Hausdorff dimension in "
-            f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
+            f"let g_0, g_1 be the inverse branches of f from {show_range(self.hull)} into "
+            f"{' and '.join(map(show_range, self.domains))}. The compact set that is the union of "
+            f"its images by {', '.join(self.words)}, which are disjoint, has a Hausdorff dimension "
+            f"in {between(self.dimension, 12)}."
         )
 
 
@@ -93,10 +87,8 @@ class _Branch:
 
     def brackets(self, around: Range, image: Range) -> bool:
         """Whether for each x in `image` the domain has one y with F(y) = x, and it is around."""
-        low, high = around
-        return within(around, self.domain) and self.excess(low, image) < 0 < self.excess(
-            high, image
-        )
+        signs = (self.excess(end, image) for end in around)
+        return within(around, self.domain) and tuple(signs) == (-1, 1)
 
     def inverse(self, x: Series, value: Range, order: int) -> Series:
         """Return g(x) up to an order, where F(g) = id and g(x_0) is in `value`.
@@ -118,66 +110,74 @@ class _Branch:
         return Series(known.__getitem__)
 
 
-@dataclass(frozen=True)
-class _System:
-    """The inverse branches of words over the hull, where they are known to be, and a test h, s.
+def _branch(context: Context, flight: Reader, phases: Reader, turns: Reader, bits: int) -> _Branch:
+    """Read a branch, and show that F' > 0: the slope's other factors have known signs."""
+    domain = Phases(*phases.range())
+    step = transversal_step(context, flight, domain)
+    if step.motion.clock(step.windows[0]).mass_sin.hi >= 0:
+        raise Unproved("f is not proved to increase on a domain")
+    return _Branch(step, domain, integer(turns, 0, 10**6), bits)
 
-    test: the coefficients of h, a polynomial in u = (x - middle of the hull) / half its width.
+
+class _System:
+    """The witness of the rule `dimension`, as it is read.
+
+    images: enclosures of g_w(x_0), ..., g_w(x_2n) for the words and their shorter ends w, x_i for
+    the empty one. test: the coefficients of h, a polynomial in u = (x - middle) / half the width.
     """
 
-    branches: tuple[_Branch, _Branch]
-    hull: Phases
-    words: tuple[str, ...]
-    centres: dict[str, tuple[Fraction, ...]]
-    radius: Fraction
-    pieces: int
-    order: int
-    test: tuple[Fraction, ...]
-    s: Fraction
-    bits: int
+    def __init__(self, context: Context, reader: Reader) -> None:
+        flights, turns, whole, domains, words, inverse, radius_of, *rest = reader.fields(
+            "flights", "turns", "hull", "domains", "words", "inverse", "radius",
+            "pieces", "order", "test", "dimension",
+        )  # fmt: skip
+        pieces, order, test, span = rest
+        self.order, self.test = integer(order, 1, _MOST), test.numbers(1, _MOST)
+        self.hull, self.dimension = Phases(*whole.range()), span.range()
+        self.words = tuple(word.string() for word in words.items(2, _MOST_WORDS))
+        radius, steps = radius_of.number(), 2 * integer(pieces, 1, _MOST)
+        if radius <= 0 or not all(map(_WORD.fullmatch, self.words)):
+            raise reader.fail("a positive radius, and words over 0 and 1 of up to 16 letters")
+        self.bits = bits_for((-radius, radius))
+        parts = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
+        self.branches = [_branch(context, *part, self.bits) for part in parts]
+        self.step = (self.hull[1] - self.hull[0]) / steps
+        points = [self.hull[0] + self.step * j for j in range(steps + 1)]
+        self.images = {"": [(x, x) for x in points]}
+        ends = sorted({word[k:] for word in self.words for k in range(len(word))})
+        for word, each in zip(ends, inverse.items(len(ends), len(ends)), strict=True):
+            centres = each.numbers(len(points), len(points))
+            self.images[word] = [(y - radius, y + radius) for y in centres]
 
-    @cached_property
-    def points(self) -> list[Fraction]:
-        """The ends and the middles of the pieces, in order."""
-        (low, high), steps = self.hull, 2 * self.pieces
-        return [low + (high - low) * j / steps for j in range(steps + 1)]
+    def around(self, word: str, first: int, last: int) -> Range:
+        """Return where g_word takes all phases from one x_i to another: it increases."""
+        return self.images[word][first][0], self.images[word][last][1]
 
-    def around(self, suffix: str, first: int, last: int) -> Range:
-        """Return where g_suffix takes [points[first], points[last]]: it increases."""
-        if not suffix:
-            return self.points[first], self.points[last]
-        centres = self.centres[suffix]
-        return centres[first] - self.radius, centres[last] + self.radius
-
-    def show(self) -> None:
-        """Show that all inverse branches are where the witness puts them, and disjoint."""
+    def require(self) -> None:
+        """Raise Unproved unless the inverse images are where they are said to be, and disjoint."""
         (low, high), turn = self.hull, whole_turns(1, self.bits)
         last, first = (high - turn[1], high - turn[0]), (low + turn[0], low + turn[1])
         for branch in self.branches:
             bottom, top = branch.domain
             if not branch.excess(bottom, last) > 0 > branch.excess(top, first):
                 raise Unproved("f is not proved to pass the hull only once on a domain")
-        for suffix in self.centres:
-            branch = self.branches[int(suffix[0])]
-            for j in range(len(self.points)):
-                if not branch.brackets(self.around(suffix, j, j), self.around(suffix[1:], j, j)):
-                    raise Unproved(f"an inverse image by {suffix} is not proved where it is said")
-        images = sorted(self.around(word, 0, 2 * self.pieces) for word in self.words)
-        if not within(hull(images), self.hull):
+        for word in filter(None, self.images):
+            brackets = self.branches[int(word[0])].brackets
+            if not all(map(brackets, self.images[word], self.images[word[1:]])):
+                raise Unproved(f"an inverse image by {word} is not proved where it is said")
+        spans = sorted(self.around(word, 0, -1) for word in self.words)
+        if not within(hull(spans), self.hull):
             raise Unproved("the inverse branches leave the hull")
-        if any(before[1] >= after[0] for before, after in pairwise(images)):
+        if any(before[1] >= after[0] for before, after in pairwise(spans)):
             raise Unproved("the images of the inverse branches are not proved disjoint")
 
     def germs(self, first: int, last: int) -> dict[str, Series]:
-        """Return the series of g_w(x) at all points of [points[first], points[last]], x for ""."""
-        x, one = (
-            Enclosure.of(*self.around("", first, last), self.bits),
-            rational(Fraction(1), self.bits),
-        )
-        found = {"": Series.polynomial(x, one)}
-        for suffix in sorted(self.centres, key=len):
-            branch, value = self.branches[int(suffix[0])], self.around(suffix, first, last)
-            found[suffix] = branch.inverse(found[suffix[1:]], value, self.order + 1)
+        """Return the series of g_w at all phases from one x_i to another, x for the empty w."""
+        x = Enclosure.of(*self.around("", first, last), self.bits)
+        found = {"": Series.polynomial(x, rational(Fraction(1), self.bits))}
+        for word in sorted(filter(None, self.images), key=len):
+            inverse, value = self.branches[int(word[0])].inverse, self.around(word, first, last)
+            found[word] = inverse(found[word[1:]], value, self.order + 1)
         return found
 
     def range(self, middle: Series, whole: Series) -> Range:
@@ -185,24 +185,22 @@ class _System:
 
         The series are those at the middle of the piece and at all of its points.
         """
-        step = (self.hull[1] - self.hull[0]) / (2 * self.pieces)
-        total, h = whole[self.order], Enclosure.of(-step, step, self.bits)
+        total, h = whole[self.order], Enclosure.of(-self.step, self.step, self.bits)
         for k in reversed(range(self.order)):
             total = total * h + middle[k]
         return total.range
 
     def h(self, x: Series) -> Series:
         """Return h(x)."""
-        low, high = self.hull
-        middle, scale = (rational(z, self.bits) for z in ((low + high) / 2, 2 / (high - low)))
-        u = (x - Series.constant(middle)) * Series.constant(scale)
-        return polynomial(self.test, u)
+        numbers = sum(self.hull, Fraction(0)) / 2, 2 / (self.hull[1] - self.hull[0])
+        middle, scale = (Series.constant(rational(z, self.bits)) for z in numbers)
+        return polynomial(self.test, (x - middle) * scale)
 
     def defect(self, germs: dict[str, Series]) -> Series:
         """Return L_s h - h, L_s h the sum of (g_w')^s h(g_w)."""
-        total, s = -self.h(germs[""]), Series.constant(rational(self.s, self.bits))
-        for word in self.words:
-            y = germs[word]
+        s = Series.constant(rational(sum(self.dimension, Fraction(0)) / 2, self.bits))
+        total = -self.h(germs[""])
+        for y in (germs[word] for word in self.words):
             total = total + (y.derivative().log() * s).exp() * self.h(y)
         return total
 
@@ -228,9 +226,7 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     By Taylor's formula of that `order` N on each piece, with Lagrange's remainder: coefficients
     at its middle below N, over the piece at N.
 
-    Conclusion: let K be the compact set with K = union of g_w(K) (Hutchinson). Its Hausdorff
-    dimension is in [l, u]; f, on the circle, takes no other points of domains[j] into the hull
-    than those of g_j. slopes: bounds of 1 / g_w' over [a, b], by word.
+    Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson).
 
     Proof (Bowen 1979; min-max: Pollicott, Vytnova 2022). L_(s+t) <= exp(-t m) L_s for t >= 0.
     So L_u h <= exp(-q) (1 + q) h <= h and L_l h >= (1 + q) (1 - q / (1 + q)) h = h.
@@ -243,76 +239,26 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     over 1 for a large n. As g_W contract by r_W at most and have disjoint images,
     dim K >= l - t (Falconer, Fractal Geometry, Proposition 9.7).
     """
-    system, span = _read(context, reader)
-    system.show()
+    system = _System(context, reader)
+    system.require()
     above = below = Fraction(0)  # the extremes of (L_s h - h) / h, at least 0
-    slopes: dict[str, list[Range]] = {word: [] for word in system.words}
-    for j in range(0, 2 * system.pieces, 2):
-        whole, middle = system.germs(j, j + 2), system.germs(j + 1, j + 1)
+    rates: dict[str, list[Range]] = {word: [] for word in system.words}
+    for j in range(1, len(system.images[""]), 2):
+        whole, middle = system.germs(j - 1, j + 1), system.germs(j, j)
         least = system.h(whole[""])[0].range[0]
         if least <= 0:
             raise Unproved("the test function is not proved positive")
         low, high = system.range(system.defect(middle), system.defect(whole))
         above, below = max(above, high / least), max(below, -low / least)
-        for word, bounds in slopes.items():
-            rates = system.range(middle[word].derivative(), whole[word].derivative())
-            if rates[0] <= 0:
-                raise Unproved("the inverse branches are not proved to increase")
-            bounds.append((1 / rates[1], 1 / rates[0]))
-    bounds_of = tuple(hull(bounds) for bounds in slopes.values())
-    domains = (system.branches[0].domain, system.branches[1].domain)
-    at = system.branches[0].step.at
-    found = Repeller(at, system.hull, domains, system.words, bounds_of, span)
-    q = (span[1] - span[0]) / 2 * log(hull(bounds_of)[0], system.bits).range[0]
+        for word, bounds in rates.items():
+            bounds.append(system.range(middle[word].derivative(), whole[word].derivative()))
+    if min(low for bounds in rates.values() for low, _ in bounds) <= 0:
+        raise Unproved("the inverse branches are not proved to increase")
+    slopes = tuple((1 / high, 1 / low) for low, high in map(hull, rates.values()))
+    first, second = system.branches
+    domains, span = (first.domain, second.domain), system.dimension
+    found = Repeller(first.step.at, system.hull, domains, system.words, slopes, span)
+    q = (span[1] - span[0]) / 2 * log(hull(slopes)[0], system.bits).range[0]
     if above > q or below * (1 + q) > q:
-        worst = float(min(Fraction(1), max(above, below)))  # a larger one may be no float
-        raise Unproved(f"the operator is only proved within {worst:.1e} of 1")
+        raise Unproved("the operator is not proved near enough to 1")
     return found
-
-
-def _read(context: Context, reader: Reader) -> tuple[_System, Range]:
-    """Read a witness of the rule `dimension`; return what it is about, and [l, u]."""
-    flights, turns, hull_of, domains, words_of, inverse, radius_of, *rest = reader.fields(
-        "flights", "turns", "hull", "domains", "words", "inverse", "radius",
-        "pieces", "order", "test", "dimension",
-    )  # fmt: skip
-    pieces_of, order_of, test, span_of = rest
-    radius, span = radius_of.number(), span_of.range()
-    words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
-    if not all(1 <= len(x) <= _LONGEST_WORD and set(x) <= {"0", "1"} for x in words):
-        raise words_of.fail("words over 0 and 1 are expected")
-    if radius <= 0 or len(set(words)) != len(words) or not 0 < span[0] < span[1]:
-        raise reader.fail("no radius, a word that is there twice, or no bounds of a dimension")
-    bits = bits_for((-radius, radius))
-    pieces, order = integer(pieces_of, 1, _MOST_PIECES), integer(order_of, 1, _HIGHEST)
-    suffixes = sorted({word[k:] for word in words for k in range(len(word))})
-    lists = inverse.items(len(suffixes), len(suffixes))
-    steps = 2 * pieces + 1
-    system = _System(
-        _branches(context, flights, domains, turns, bits),
-        Phases(*read_phases(hull_of)),
-        words,
-        {name: each.numbers(steps, steps) for name, each in zip(suffixes, lists, strict=True)},
-        radius,
-        pieces,
-        order,
-        test.numbers(1, _HIGHEST),
-        (span[0] + span[1]) / 2,
-        bits,
-    )
-    return system, span
-
-
-def _branches(
-    context: Context, flights: Reader, domains: Reader, turns: Reader, bits: int
-) -> tuple[_Branch, _Branch]:
-    """Read both branches, and show that F' > 0: the slope's other factors have known signs."""
-    found = []
-    for each in zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True):
-        domain = Phases(*read_phases(each[1]))
-        step = transversal_step(context, each[0], domain)
-        eta, time = (rational(step.motion.eta, step.motion.bits), step.windows[0])
-        if (eta * Enclosure.of(*time, step.motion.bits)).sincos()[0].hi >= 0:
-            raise Unproved("f is not proved to increase on a domain")
-        found.append(_Branch(step, domain, integer(each[2], 0, 10**6), bits))
-    return found[0], found[1]

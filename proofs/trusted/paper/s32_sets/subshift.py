@@ -23,8 +23,8 @@ class Subshift:
     """The sequences x_0 x_1 ... over 0, 1 that have no factor among `forbidden`.
 
     `forbidden` are words of one length n >= 2. The sequences are the infinite paths in the graph
-    whose states are words of length n - 1, with an arrow from u to v for each word u_1 ... u_(n-1)
-    v_(n-1) that is not forbidden, v being its last n - 1 letters.
+    whose states are the words of n - 1 letters, with an arrow for each word of n letters that is
+    not forbidden, from its first n - 1 letters to its last.
     """
 
     length: int
@@ -48,12 +48,14 @@ class Subshift:
             for state in words(self.length - 1)
         }
         while dead := {state for state, after in graph.items() if not after}:
-            graph = {
-                state: [then for then in after if then not in dead]
-                for state, after in graph.items()
-                if state not in dead
-            }
+            graph = {x: [y for y in after if y not in dead] for x, after in graph.items() if after}
         return graph
+
+    @property
+    def named(self) -> str:
+        """What it is, in words."""
+        kind = f"subshift of the sequences without the factor {self.factors}"
+        return kind if self.forbidden else "full shift on 0 and 1"
 
     @property
     def factors(self) -> str:
@@ -107,13 +109,9 @@ class Subshift:
         """
         if not self.chaotic:
             raise Unproved("the graph is not proved irreducible")
-        vector = dict.fromkeys(self.arrows, 1 << 200)
+        vector = image = dict.fromkeys(self.arrows, 1 << 200)
         for _ in range(_ROUNDS):
-            image = self._image(vector)
-            vector = {state: 1 + (vector[state] + image[state]) // 2 for state in vector}
-        image = self._image(vector)
-        quotients = [Fraction(image[state], vector[state]) for state in vector]
+            vector = {x: 1 + (vector[x] + image[x]) // 2 for x in vector}
+            image = {x: sum(vector[then] for then in after) for x, after in self.arrows.items()}
+        quotients = [Fraction(image[x], vector[x]) for x in vector]
         return min(quotients), max(quotients)
-
-    def _image(self, vector: dict[str, int]) -> dict[str, int]:
-        return {state: sum(map(vector.__getitem__, after)) for state, after in self.arrows.items()}

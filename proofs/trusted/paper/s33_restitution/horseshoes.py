@@ -5,7 +5,7 @@ Each theorem is a rule: a function from conclusions of earlier steps, named in t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
@@ -14,17 +14,8 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import (
-    TURN,
-    Phases,
-    Range,
-    ceil_text,
-    floor_text,
-    hull,
-    show,
-    show_range,
-)
-from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, restitution, size
+from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, hull, show_range
+from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap, sides, size
 from proofs.trusted.parameters import Place
 
 CONE = Fraction(2)  # unstable vectors have |dgamma| <= CONE |dphi|
@@ -40,7 +31,6 @@ class Strips:
     velocities: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved where they overlap or have no width."""
         if self.left[1] >= self.right[0] or self.velocities[0] >= self.velocities[1]:
             raise Unproved("the rectangles overlap or have no width")
 
@@ -50,9 +40,16 @@ class Strips:
         return self.left[0], self.right[1]
 
     def __str__(self) -> str:
-        """Write both."""
         left, right, gamma = map(show_range, (self.left, self.right, self.velocities))
         return f"V1 = {left} x {gamma}, V2 = {right} x {gamma} (closed, phases x velocities)"
+
+    @property
+    def smooth(self) -> str:
+        """The beginning of a theorem about them."""
+        return (
+            f"let {self}: all their states are physically possible (gap' <= 0), and F is smooth "
+            "on them"
+        )
 
 
 def strips(maps: Maps) -> Strips:
@@ -94,67 +91,103 @@ class Rates(NamedTuple):
     contraction: Fraction
 
     def __str__(self) -> str:
-        """Write what hyperbolic means."""
         return (
-            f"uniformly hyperbolic: unstable directions have |dgamma| <= {show(CONE)} |dphi| and "
-            f"each step stretches them at least {floor_text(self.expansion, 2)} times in phase, "
-            f"stable ones have |dphi| <= {show(1 / CONE)} |dgamma| and shrink in velocity to at "
-            f"most {ceil_text(self.contraction, 3)} times"
+            "uniformly hyperbolic: unstable directions have |dgamma| <= 2 |dphi| and are stretched "
+            f"at least {floor_text(self.expansion, 2)} times in phase by each step, stable ones "
+            f"have |dphi| <= |dgamma| / 2 and shrink to at most {ceil_text(self.contraction, 3)} "
+            "times in velocity"
         )
 
+    @staticmethod
+    def worst(each: Sequence[Rates]) -> Rates:
+        """Return rates that hold for all."""
+        return Rates(min(x.expansion for x in each), max(x.contraction for x in each))
 
-def worst(each: Iterable[Rates]) -> Rates:
-    """Return rates that hold for all."""
-    expansions, contractions = zip(*each, strict=True)
-    return Rates(min(expansions), max(contractions))
 
+def rates(maps: Sequence[RectangleMap]) -> Rates:
+    """Return the rates of hypothesis 3 of the rule `rectangle-horseshoe`, or Unproved.
 
-def rates(on: RectangleMap) -> Rates:
-    """Theorem. Let p > 0, and for D = (p q; r s), any matrix of numbers within the bounds on DF
-    in the coordinates (x, y) of `Rates`, and Q(x, y) = x^2 - y^2, let D^T Q D - Q be positive
-    definite. Then vectors with |y| <= |x| are mapped to such, those whose image has |x'| <= |y'|
-    have |x| <= |y|, and `Rates` holds, if its bounds are on the right sides of 1.
-
+    They hold, as does the hypothesis, if p > 0 and the bounds are on the right sides of 1.
     Proof. 1. The form is positive definite if its second diagonal entry, q^2 - s^2 + 1, and its
-    determinant, p^2 + s^2 - q^2 - r^2 - 1 - (p s - q r)^2, are positive. 2. Q increases, hence the
-    cones. 3. |x'| >= (|p| - |q|) |x| if |y| <= |x|. 4. If |x'| <= |y'|, then |p x| <= |y'| + |q y|
-    <= |r x| + (|q| + |s|) |y|, which bounds |x|, then |y'| <= |r x| + |s y|.
+    determinant, p^2 + s^2 - q^2 - r^2 - 1 - (p s - q r)^2, are positive. 2. Q increases, so vectors
+    with |y| <= |x| are mapped to such, and |x'| <= |y'| implies |x| <= |y|. 3. |x'| >= (|p| - |q|)
+    |x| if |y| <= |x|. 4. If |x'| <= |y'|, then |p x| <= |y'| + |q y| <= |r x| + (|q| + |s|) |y|,
+    which bounds |x|, then |y'| <= |r x| + |s y|.
     """
-    (p, q_range), (r_range, s_range) = on.derivative
-    q, r, s = CONE * size(q_range), size(r_range) / CONE, size(s_range)
-    determinant = p[0] ** 2 - q**2 - r**2 - 1 - (p[1] * s + q * r) ** 2
-    if p[0] <= r or s >= 1 or determinant <= 0:
-        raise Unproved("the cone condition is not proved")
-    found = Rates(p[0] - q, r * (q + s) / (p[0] - r) + s)
-    if found.expansion <= 1 or found.contraction >= 1:
+    found = []
+    for each in maps:
+        (p, q_range), (r_range, s_range) = each.derivative
+        q, r, s = CONE * size(q_range), size(r_range) / CONE, size(s_range)
+        determinant = p[0] ** 2 - q**2 - r**2 - 1 - (p[1] * s + q * r) ** 2
+        if p[0] <= r or s >= 1 or determinant <= 0:
+            raise Unproved("the cone condition is not proved")
+        found.append(Rates(p[0] - q, r * (q + s) / (p[0] - r) + s))
+    least = Rates.worst(found)
+    if least.expansion <= 1 or least.contraction >= 1:
         raise Unproved("the rates are not proved hyperbolic")
-    return found
+    return least
+
+
+@dataclass(frozen=True)
+class Hyperbolic(Conclusion):
+    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
+    `shrink`, and is hyperbolic where it stays there.
+    """
+
+    at: Place
+    strips: Strips
+    grow: Fraction
+    shrink: Fraction
+    rates: Rates
+
+    @property
+    def sentence(self) -> str:
+        return (
+            f"{self.strips.smooth}. The images of two states on one horizontal line of a rectangle "
+            f"are at least {floor_text(self.grow, 2)} times as far apart (phases on the line), of "
+            f"two on one vertical line at most {ceil_text(self.shrink, 3)} times. For every "
+            f"compact set K in V1 and V2 with F(K) = K, F on K is {self.rates}."
+        )
+
+    @property
+    def brief(self) -> str:
+        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
+        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
+
+
+def hyperbolic(maps: Maps) -> Hyperbolic:
+    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
+    |q| + |s| < 1.
+
+    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
+    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
+    on a compact invariant set makes it hyperbolic.
+    """
+    grow = min(each.derivative[0][0][0] for each in maps)
+    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
+    if grow <= 1 or shrink >= 1:
+        raise Unproved("distances are not proved to grow and to shrink")
+    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, rates(maps))
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
 
 
-class Crossing(NamedTuple):
-    """What `crossing` finds: the rectangles, by how far edges overshoot, and how vectors grow."""
+def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Fraction:
+    """Check hypotheses 1 and 2 of the rule `rectangle-horseshoe` for these arrows, or Unproved.
 
-    strips: Strips
-    margin: Fraction
-    rates: Rates
-
-
-def crossing(maps: Maps, arrows: tuple[tuple[int, ...], tuple[int, ...]]) -> Crossing:
-    """Check the hypotheses of the rule `rectangle-horseshoe`, for these arrows, or Unproved."""
-    found, margins = strips(maps), []
+    Return by how much at least edges overshoot the rectangles that they should.
+    """
+    (lowest, highest), margins = strips(maps).velocities, []
     for each, targets in zip(maps, arrows, strict=True):
         low, high = hull([maps[target].phases for target in targets])
         margins += [low - each.left[1], each.right[0] - high]
-        lowest, highest = found.velocities
         if not lowest < each.velocity[0] <= each.velocity[1] < highest:
             raise Unproved("an image velocity is not in the interior of the velocities")
     if min(margins) <= 0:
         short = ceil_text(-min(margins))
         raise Unproved(f"an edge is not mapped beyond the rectangles: up to {short} short")
-    return Crossing(found, min(margins), worst(map(rates, maps)))
+    return min(margins)
 
 
 @dataclass(frozen=True)
@@ -168,35 +201,26 @@ class RectangleHorseshoe(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem; for epsilon = 0 about the phases alone."""
-        least, most = restitution(self.at)
-        text = (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), F is smooth "
-            "on them and maps each across both, left edges to the left and right ones to the right "
-            f"of both by at least {floor_text(self.margin)}."
-        )
+        least, most = sides(self.at)[2]
+        text = f"{self.strips.smooth}. F maps each across both; {self.brief}."
         if most > 0:
             text += (
                 " Each two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of "
                 "F in V1 and V2; the states of these orbits are a compact set, on which F is "
-                f"{self.rates}. {'If epsilon > 0, ' if least == 0 else ''}F is one-to-one on V1 "
-                "and V2, and on this set conjugate to the two-sided full shift on two symbols, of "
-                "entropy log 2."
+                f"{self.rates}. For epsilon > 0 F is one-to-one on V1 and V2, and on this set "
+                "conjugate to the two-sided full shift on two symbols, of entropy log 2."
             )
         if least == 0:
-            phases = f"{show_range(self.strips.left)} and {show_range(self.strips.right)}"
             text += (
-                f" {'If epsilon = 0, the' if most > 0 else 'The'} plastic map f is continuously "
-                f"differentiable on {phases}, with f' >= {floor_text(self.rates.expansion, 2)}; "
-                "each one-sided sequence of 1 and 2 is the itinerary of exactly one phase whose "
-                "orbit stays in them, and f on these phases is conjugate to the one-sided full "
-                "shift on two symbols, of entropy log 2."
+                " For epsilon = 0 the plastic map f is continuously differentiable on the phases "
+                f"of V1 and of V2, with f' >= {floor_text(self.rates.expansion, 2)}; each "
+                "one-sided sequence is the itinerary of exactly one phase whose orbit stays there, "
+                "and f on these is conjugate to the one-sided full shift, of entropy log 2."
             )
         return text
 
     @property
     def brief(self) -> str:
-        """Return the margin."""
         return f"edges overshoot both rectangles by at least {floor_text(self.margin)}"
 
 
@@ -230,7 +254,8 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     relations for multidimensional dynamical systems, J. Differential Equations 202 (2004).
     """
     maps = read_maps(context, *reader.fields("rectangles"))
-    return RectangleHorseshoe(maps[0].at, *crossing(maps, ((0, 1), (0, 1))))
+    margin = crossing(maps, ((0, 1), (0, 1)))
+    return RectangleHorseshoe(maps[0].at, strips(maps), margin, rates(maps))
 
 
 def union(context: Context, reader: Reader) -> RectangleHorseshoe:
@@ -255,4 +280,4 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
                 raise Unproved(f"the boxes leave a hole in {name}")
             at = replace(at, **{name: hull([one, two])})
     margin = min(part.margin for part in parts)
-    return RectangleHorseshoe(at, sets, margin, worst(part.rates for part in parts))
+    return RectangleHorseshoe(at, sets, margin, Rates.worst([part.rates for part in parts]))

@@ -4,77 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show, within
-from proofs.trusted.paper.s33_restitution.horseshoes import (
-    Maps,
-    Rates,
-    RectangleHorseshoe,
-    Strips,
-    rates,
-    strips,
-    worst,
-)
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, outward, size
+from proofs.trusted.numbers import Phases, Range, between, floor_text, show, within
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips, hyperbolic
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
-_NO_RECTANGLES = "epsilon > 0 and velocities are needed: without restitution see H7 to H9"
-
-
-@dataclass(frozen=True)
-class Hyperbolic(Conclusion):
-    """F multiplies horizontal distances in V1 and V2 by at least `grow`, vertical ones by at most
-    `shrink`, and is hyperbolic where it stays there.
-    """
-
-    at: Place
-    strips: Strips
-    grow: Fraction
-    shrink: Fraction
-    rates: Rates
-
-    @property
-    def sentence(self) -> str:
-        """Return the theorem."""
-        return (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), and F is "
-            "smooth on them. The images of two states on one horizontal line of a rectangle are at "
-            f"least {floor_text(self.grow, 2)} times as far apart (phases on the line), of two on "
-            f"one vertical line at most {ceil_text(self.shrink, 3)} times. For every compact set K "
-            f"in V1 and V2 with F(K) = K, F on K is {self.rates}."
-        )
-
-    @property
-    def brief(self) -> str:
-        """Return the factors."""
-        grow, shrink = floor_text(self.grow, 2), ceil_text(self.shrink, 3)
-        return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
-
-
-def hyperbolic(maps: Maps) -> Hyperbolic:
-    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
-    |q| + |s| < 1.
-
-    Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
-    mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
-    on a compact invariant set makes it hyperbolic.
-    """
-    grow = min(each.derivative[0][0][0] for each in maps)
-    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
-    if grow <= 1 or shrink >= 1:
-        raise Unproved("distances are not proved to grow and to shrink")
-    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, worst(map(rates, maps)))
-
 
 @dataclass(frozen=True)
 class EdgeImage(Conclusion):
-    """The state (phase, velocity) of an edge of V1 or of V2 has its next impact in `image`."""
+    """The state (phase, velocity), a corner of V1 or of V2, has its next impact in `image`."""
 
     at: Place
     strips: Strips
@@ -83,145 +28,121 @@ class EdgeImage(Conclusion):
     image: Range
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless the state is a corner."""
         ends = (*self.strips.left, *self.strips.right)
         if self.phase not in ends or self.velocity not in self.strips.velocities:
             raise Unproved("the state is no corner of a rectangle")
 
     @property
-    def edge(self) -> tuple[str, int]:
-        """The side and the number of the rectangle."""
+    def is_left(self) -> bool:
+        """Whether the edge is a left one, whose images should be left of both rectangles."""
+        return self.phase in (self.strips.left[0], self.strips.right[0])
+
+    @property
+    def edge(self) -> str:
+        """The name of the edge."""
         number = 1 if self.phase in self.strips.left else 2
-        lefts = self.strips.left[0], self.strips.right[0]
-        return "left" if self.phase in lefts else "right", number
+        return f"{'left' if self.is_left else 'right'} edge of V{number}"
 
     @property
     def short(self) -> Fraction:
         """By how much it falls short of the outer edge, if > 0; it is not beyond the other."""
-        low, high = self.strips.outer
-        if not low < self.image[0] <= self.image[1] < high:
+        (first, last), (low, high) = self.strips.outer, self.image
+        if not first < low <= high < last:
             return Fraction(0)
-        return self.image[0] - low if self.edge[0] == "left" else high - self.image[1]
+        return low - first if self.is_left else last - high
 
     @property
     def brief(self) -> str:
-        """Return the image, and where."""
-        return f"{self._text}, at {self.at}"
+        target = show(self.strips.outer[0 if self.is_left else 1])
+        gap = f", short of {target} by at least {floor_text(self.short)}" if self.short > 0 else ""
+        return (
+            f"F maps the state ({show(self.phase)}, {show(self.velocity)}) of the {self.edge} to "
+            f"a phase in {between(self.image)}{gap}"
+        )
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        return f"{self._text}; {self.strips}."
-
-    @property
-    def _text(self) -> str:
-        side, number = self.edge
-        outer = show(self.strips.outer[0 if side == "left" else 1])
-        short = f", short of {outer} by at least {floor_text(self.short)}" if self.short > 0 else ""
-        return (
-            f"F maps the state ({show(self.phase)}, {show(self.velocity)}) of the {side} edge of "
-            f"V{number} to a phase in {outward(self.image)}{short}"
-        )
+        return f"{self.brief}; {self.strips}."
 
 
-def edge_images(strips: Strips, found: Sequence[Rebound]) -> list[EdgeImage]:
+def edge_images(strips: Strips, states: Sequence[Rebound]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
     images = []
-    for each in found:
-        (phase, last), (velocity, top) = each.phases, each.velocities
-        if phase == last and velocity == top:
+    for each in states:
+        phase, velocity = each.phases[0], each.velocities[0]
+        if (each.phases, each.velocities) == ((phase, phase), (velocity, velocity)):
             with suppress(Unproved):
                 images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
     return images
 
 
-def printed(of: Parameters) -> Strips | None:
-    """Return V1 and V2 as the statement has them; None without velocities or epsilon."""
-    if of.velocities is None or of.epsilon is None:
-        return None
-    return Strips(Phases(*of.left), Phases(*of.right), of.velocities)
+# -- the rows --------------------------------------------------------------------------------------
 
 
-def _crosses(of: Parameters, found: Found) -> Decision:
-    """N1: F maps V1 and V2 across both, at a point, so that edges that fall short refute it."""
-    if of.epsilon is None:
-        return undecided(_NO_RECTANGLES)
-    point = Place((of.eta, of.eta), (of.nu, of.nu), (of.epsilon, of.epsilon))
-    return _full(of, found, point, edges_refute=True)
+def stated(of: Parameters) -> tuple[Strips, Place]:
+    """Return V1 and V2 as the statement has them, and its oscillators."""
+    if of.velocities is None or of.box is None:
+        raise Unproved("epsilon and velocities are needed: without restitution see H7 to H9")
+    return Strips(Phases(*of.left), Phases(*of.right), of.velocities), Place(*of.box)
 
 
-def _on_box(of: Parameters, found: Found) -> Decision:
-    """N4: all words are followed, for the whole box."""
-    if of.box is None:
-        return undecided(_NO_RECTANGLES)
-    return _full(of, found, Place(*of.box), edges_refute=False)
+def with_restitution(of: Parameters) -> Strips:
+    """Return V1 and V2 where impacts are not plastic."""
+    if of.epsilon == 0:
+        raise Unproved("epsilon > 0 is needed: without restitution see H7 to H9")
+    return stated(of)[0]
 
 
-def _full(of: Parameters, found: Found, box: Place, *, edges_refute: bool) -> Decision:
-    """Decide by a horseshoe for a whole box, or by a point of it at which a word has no orbit."""
-    sets = printed(of)
-    if sets is None:
-        return undecided(_NO_RECTANGLES)
+def inside(one: Place, two: Place) -> bool:
+    """Whether the oscillators of one box are among those of another."""
+    return all(map(within, sides(one), sides(two)))
+
+
+def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decision:
+    """Decide by a horseshoe for a whole box, or by a point of it at which a word has no orbit.
+
+    edges_refute: whether edges that fall short there refute the claim, too.
+    """
+    sets, box = stated(of)
     nearby = found.all(RectangleHorseshoe)
-    whole = [each for each in nearby if each.strips == sets and inside(box, each.at)]
-    if whole:
-        return decided(Verdict.VERIFIED, whole[0], corrected=whole[:1])
+    for each in nearby:
+        if each.strips == sets and inside(box, each.at):
+            return decided(Verdict.VERIFIED, each, corrected=[each])
     words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and inside(x.at, box)]
     edges = edge_images(sets, [x for x in found.elsewhere(Rebound) if inside(x.at, box)])
     short = [each for each in edges if each.short > 0]
     corrected = (*found.all(GoldenMean), *nearby)
+    known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
     if words or (short and edges_refute):
-        reasons = (*shortest(words), *short)
-        return Decision(Verdict.REFUTED, reasons, corrected, quantities=_images(edges, box))
-    missing = "; ".join(["no proof about F on V1 and V2", *(each.brief for each in edges)])
-    return Decision(Verdict.UNDECIDED, (), corrected, None, missing, _images(edges, box))
-
-
-def _images(edges: Sequence[EdgeImage], at: Place) -> dict[str, Range]:
-    named = [(each.edge, each.image) for each in edges if each.at == at]
-    return {f"image_of_{side}_edge_of_V{number}": image for (side, number), image in named}
-
-
-def shortest(words: Sequence[BarredWord]) -> list[BarredWord]:
-    """Return the word that says most: of the fewest symbols, then the shortest."""
-    return sorted(words, key=lambda x: (len(set(x.word)), len(x.word), x.word))[:1]
+        words.sort(key=lambda x: (len(set(x.word)), len(x.word), x.word))  # of the fewest symbols
+        reasons = (*words[:1], *short)
+        return Decision(Verdict.REFUTED, reasons, corrected, quantities=known)
+    briefs = [f"{each.brief}, at {each.at}" for each in edges]
+    missing = "; ".join(["no proof about F on V1 and V2", *briefs])
+    return Decision(Verdict.UNDECIDED, (), corrected, None, missing, known)
 
 
 def _hyperbolic(of: Parameters, found: Found) -> Decision:
-    sets = printed(of)
-    if sets is None or not of.epsilon:
-        return undecided(_NO_RECTANGLES)
-    maps = [x for x in found.all(RectangleMap) if x.velocities == sets.velocities]
-    known = {each.phases: each for each in maps}
-    if sets.left not in known or sets.right not in known:
+    sets = with_restitution(of)
+    maps = {x.phases: x for x in found.all(RectangleMap) if x.velocities == sets.velocities}
+    if not {sets.left, sets.right} <= set(maps):
         return undecided("no proof about F on V1 and V2")
-    try:
-        proved = hyperbolic((known[sets.left], known[sets.right]))
-    except Unproved as failure:
-        return undecided(str(failure))
+    proved = hyperbolic((maps[sets.left], maps[sets.right]))
     return decided(Verdict.VERIFIED, proved, corrected=[proved])
 
 
 def _orbits(of: Parameters, found: Found) -> Decision:
     """N3: the golden mean shift, or the full one; beside it, on which boxes a full one holds."""
-    sets = printed(of)
-    if sets is None or not of.epsilon:
-        return undecided(_NO_RECTANGLES)
-    golden = [each for each in found.all(GoldenMean) if each.strips == sets]
-    whole = [each for each in found.all(RectangleHorseshoe) if each.strips == sets]
-    own = [*golden, *whole]
+    sets = with_restitution(of)
+    whole: list[GoldenMean | RectangleHorseshoe]
+    whole = [*found.all(GoldenMean), *found.all(RectangleHorseshoe)]
+    own = [each for each in whole if each.strips == sets]
     if not own:
         return undecided("no proof of which words orbits in V1 and V2 follow")
-    wide = [each for each in found.elsewhere(RectangleHorseshoe) if each not in whole]
+    wide = [each for each in found.elsewhere(RectangleHorseshoe) if each not in own]
     states = found.elsewhere(Rebound)
     edges = [x for each in wide[:1] for x in edge_images(each.strips, states) if x.short > 0]
     return decided(Verdict.VERIFIED, own[0], corrected=[*own, *wide, *edges])
-
-
-def inside(one: Place, two: Place) -> bool:
-    """Whether the oscillators of one box are among those of another, with restitution."""
-    within_epsilon = one.epsilon and two.epsilon and within(one.epsilon, two.epsilon)
-    return bool(within_epsilon) and within(one.eta, two.eta) and within(one.nu, two.nu)
 
 
 _SETS = "V1 = {i0} x {gamma}, V2 = {i1} x {gamma} (phases x velocities before an impact)"
@@ -233,7 +154,7 @@ ROWS = (
         "thus we have a topological horseshoe",
         _AT + "F maps V1 and V2 across both of them, a topological horseshoe: every sequence of 1 "
         "and 2 is followed by an orbit of F.",
-        _crosses,
+        lambda of, found: _full(replace(of, reach=None), found, edges_refute=True),
     ),
     Row(
         "N2",
@@ -260,6 +181,6 @@ ROWS = (
         "of exactly one full orbit of F in V1 and V2, and F on the states of these is uniformly "
         "hyperbolic, and conjugate to the full shift on two symbols (where epsilon = 0: f, on the "
         "phases whose orbits stay there, to the one-sided one).",
-        _on_box,
+        _full,
     ),
 )

@@ -6,10 +6,8 @@ state before the next impact; its phase is taken on the line, less a fixed numbe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import (
@@ -21,25 +19,23 @@ from proofs.trusted.equations import (
     return_map_derivative,
 )
 from proofs.trusted.flights import (
-    COVER_BITS,
-    LATEST,
-    MAX_BITS,
-    Gap,
     bits_for,
-    falls,
-    open_windows,
+    bits_for_pieces,
+    brackets,
+    first_windows,
+    lifted,
     read_phases,
+    read_times,
     whole_turns,
 )
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.numbers import Phases, Range, between, hull, show_range, within
 from proofs.trusted.parameters import Place
 
 Entries = tuple[tuple[Range, Range], tuple[Range, Range]]  # DF: rows (phase, velocity)
-_ZERO = Fraction(0)
 
 
 def size(values: Range) -> Fraction:
@@ -49,12 +45,12 @@ def size(values: Range) -> Fraction:
 
 def restitution(at: Place) -> Range:
     """Return the range of epsilon."""
-    return at.epsilon or (_ZERO, _ZERO)
+    return at.epsilon or (Fraction(0), Fraction(0))
 
 
-def outward(values: Range, places: int = 6) -> str:
-    """Write an enclosure, rounded outward."""
-    return f"[{floor_text(values[0], places)}, {ceil_text(values[1], places)}]"
+def sides(at: Place) -> tuple[Range, Range, Range]:
+    """Return the ranges of eta, nu and epsilon."""
+    return at.eta, at.nu, restitution(at)
 
 
 @dataclass(frozen=True)
@@ -74,44 +70,26 @@ class Rebound(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
         return (
             f"all states of {show_range(self.phases)} x {show_range(self.velocities)} (phases x "
             "velocities before an impact) are physically possible (gap' <= 0), and F is smooth on "
-            f"them, with values in {outward(self.phase)} (less {self.turns} turns) x "
-            f"{outward(self.velocity)}."
+            f"them, with values in {between(self.phase)} (less {self.turns} turns) x "
+            f"{between(self.velocity)}."
         )
 
 
 @dataclass(frozen=True)
-class RectangleMap(Conclusion):
-    """All states of the rectangle phases x velocities are possible, and F is smooth on it.
+class RectangleMap(Rebound):
+    """F on a whole rectangle: its left and right edges have images at phases in `left`, `right`."""
 
-    Phases of images are less `turns` turns. left, right: enclosures of those of the left and of
-    the right edge; velocity: of all image velocities; derivative: of DF.
-    """
-
-    at: Place
     phases: Phases
-    velocities: Range
-    turns: int
     left: Range
     right: Range
-    velocity: Range
-    derivative: Entries
 
     @property
     def sentence(self) -> str:
-        """Return the statement."""
-        return (
-            f"all states of {show_range(self.phases)} x {show_range(self.velocities)} are "
-            "physically possible (gap' <= 0), and F is smooth there: it maps the left edge to "
-            f"phases in {outward(self.left)}, the right one in {outward(self.right)} (less "
-            f"{self.turns} turns), all to velocities in {outward(self.velocity)}."
-        )
-
-
-# -- the rules -------------------------------------------------------------------------------------
+        left, right = between(self.left), between(self.right)
+        return f"{super().sentence} The left edge goes to phases in {left}, the right to {right}."
 
 
 def rebound(context: Context, reader: Reader) -> Rebound:
@@ -130,56 +108,39 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     closed pieces by the error of linear interpolation. In the open interval gap falls through its
     only zero. Then (15), the implicit function theorem, and `return_map_derivative`.
     """
-    *box_of, times_of, impact_of = reader.fields(
+    *box_of, phases_of, velocities_of, times_of, impact_of = reader.fields(
         "eta", "nu", "epsilon", "phases", "velocities", "times", "impact"
     )
-    at = Place(*(part.range() for part in box_of[:3]))
-    phases, velocities, impact = read_phases(box_of[3]), box_of[4].range(), impact_of.range()
-    times = times_of.numbers(least=2)
-    if times[-1] > LATEST or any(now <= before for before, now in pairwise((_ZERO, *times))):
-        raise times_of.fail(f"times must increase from 0, to at most {LATEST}")
-    shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    bits = max(bits_for(impact), COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-    sides = (at.eta, at.nu, restitution(at), phases, velocities)
-    eta, nu, epsilon, phi, gamma = (Enclosure.of(*part, min(MAX_BITS, bits)) for part in sides)
+    at, times = Place(*(side.range() for side in box_of)), read_times(times_of)
+    phases, velocities = read_phases(phases_of), velocities_of.range()
+    impact = impact_of.range()
+    bits = max(bits_for(impact), bits_for_pieces(times))
+    eta, nu, epsilon, phi, gamma = (
+        Enclosure.of(*values, bits) for values in (*sides(at), phases, velocities)
+    )
     side = 1 if at.nu[0] > 0 else -1
     start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
     if (side * closing(start, gamma)).lo < 0:
         raise Unproved("the states are not proved possible: the mass would come from the table")
 
     def gap_of(time: Range, order: int) -> Enclosure:
-        value: Enclosure = gap(start, clock(eta, Enclosure.of(*time, eta.bits)), order)
+        value: Enclosure = gap(start, clock(eta, Enclosure.of(*time, bits)), order)
         return value
 
-    _bracket(gap_of, times, impact)
-    now = clock(eta, Enclosure.of(*impact, eta.bits))
-    (p, q), (r, s) = return_map_derivative(start, now, epsilon)
-    turns = (phases[0] + impact[0]) // whole_turns(1, eta.bits)[0]
-    low, high = whole_turns(turns, eta.bits)
-    return Rebound(
-        at,
-        phases,
-        velocities,
-        turns,
-        (phases[0] + impact[0] - high, phases[1] + impact[1] - low),
-        arrival(start, now)[1].range,
-        ((p.range, q.range), (r.range, s.range)),
-    )
-
-
-def _bracket(gap_of: Gap, times: Sequence[Fraction], impact: Range) -> None:
-    """Raise Unproved unless all first impacts are proved to be transversal and in `impact`."""
-    first = (_ZERO, times[0])
-    if gap_of(first, 2).lo <= 0 and gap_of(first, 1).lo <= 0:
-        raise Unproved("the flights are not proved to leave the table")
-    windows = open_windows(gap_of, times)
-    if len(windows) != 1 or windows[0][1] != times[-1] or not falls(gap_of, windows[0]):
+    windows, transversal = first_windows(gap_of, times, 2, 1)
+    if not transversal:
         raise Unproved("the first impact is not transversal")
     if not within(impact, windows[0]):
         raise Unproved("the bracket leaves the window of the first impact")
-    low, high = (gap_of((time, time), 0) for time in impact)
-    if not low.lo > 0 > high.hi:
+    if not brackets(gap_of, impact):
         raise Unproved("the bracket does not have the signs +, - at its ends")
+    now = clock(eta, Enclosure.of(*impact, bits))
+    (p, q), (r, s) = return_map_derivative(start, now, epsilon)
+    early, late = phases[0] + impact[0], phases[1] + impact[1]
+    turns = early // whole_turns(1, bits)[0]
+    phase, velocity = lifted((early, late), -turns, bits), arrival(start, now)[1].range
+    derivative = (p.range, q.range), (r.range, s.range)
+    return Rebound(at, phases, velocities, turns, phase, velocity, derivative)
 
 
 def rectangle(context: Context, reader: Reader) -> RectangleMap:
@@ -211,13 +172,8 @@ def rectangle(context: Context, reader: Reader) -> RectangleMap:
         [hull([part.derivative[row][column] for part in parts]) for column in (0, 1)]
         for row in (0, 1)
     )
+    image = hull([part.phase for part in parts]), hull([part.velocity for part in parts])
+    states = Phases(low, high), left.velocities
     return RectangleMap(
-        left.at,
-        Phases(low, high),
-        left.velocities,
-        left.turns,
-        left.phase,
-        right.phase,
-        hull([part.velocity for part in parts]),
-        ((p, q), (r, s)),
+        left.at, *states, left.turns, *image, ((p, q), (r, s)), left.phase, right.phase
     )

@@ -17,10 +17,11 @@ from proofs.trusted.paper.s33_restitution.horseshoes import (
     Rates,
     Strips,
     crossing,
+    rates,
     read_maps,
     strips,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, restitution
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.parameters import Place
 
 _LONGEST = 10  # symbols of a barred word
@@ -39,27 +40,20 @@ class BarredWord(Conclusion):
     short: Fraction
 
     def __post_init__(self) -> None:
-        """Raise Unproved unless it falls short."""
         if self.short <= 0:
             raise Unproved("an orbit along the word is not excluded")
 
     @property
     def brief(self) -> str:
-        """Return the word, and where."""
-        return f"{self._text}, at {self.at}"
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        return f"{self._text}; {self.strips}."
-
-    @property
-    def _text(self) -> str:
         names = [f"V{symbol + 1}" for symbol in self.word]
         return (
             f"no orbit of F follows {' '.join(names)}: the last impact misses {names[-1]} by at "
             f"least {floor_text(self.short)}"
         )
+
+    @property
+    def sentence(self) -> str:
+        return f"{self.brief}; {self.strips}."
 
 
 def barred_word(context: Context, reader: Reader) -> BarredWord:
@@ -74,21 +68,21 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
     Proof. The next phase increases with phi. So if phi_k <= b_k and gamma_k is in G_k,
     then phi_(k+1) <= e_(k+1), and phi_(k+1) <= b_(k+1) if it is in the rectangle.
     """
-    maps_of, word_of, images_of, side = reader.fields("rectangles", "word", "images", "from")
-    maps, word = read_maps(context, maps_of), word_of.string()
-    if side.string() not in ("above", "below"):
-        raise side.fail("above or below")
+    maps_of, word_of, images_of, side_of = reader.fields("rectangles", "word", "images", "from")
+    maps, word, side = read_maps(context, maps_of), word_of.string(), side_of.string()
+    if side not in ("above", "below"):
+        raise side_of.fail("above or below")
     if not set(word) <= {"0", "1"} or not 2 <= len(word) <= _LONGEST:
         raise word_of.fail(f"a word is 2 to {_LONGEST} symbols 0 and 1")
-    above, path = side.string() == "above", [maps[int(symbol)] for symbol in word]
-    end = 1 if above else 0
-    gammas, extreme = path[0].velocities, path[0].phases[end]
-    for here, name in zip(path, images_of.items(len(word) - 1, len(word) - 1), strict=False):
-        image, (low, high) = context.step(name, Rebound), here.phases
+    *path, last = [maps[int(symbol)] for symbol in word]
+    end, sign = (1, 1) if side == "above" else (0, -1)  # all is mirrored from below
+    gammas, extreme = maps[0].velocities, maps[int(word[0])].phases[end]
+    for here, name in zip(path, images_of.items(len(path), len(path)), strict=True):
+        image = context.step(name, Rebound)
         bound = image.phases[0]
-        if bound != image.phases[1] or not low <= bound <= high:
+        if bound != image.phases[1] or not within(image.phases, here.phases):
             raise Unproved("a bound is not a phase of the rectangle")
-        if (bound < min(extreme, high)) if above else (bound > max(extreme, low)):
+        if sign * bound < min(sign * extreme, sign * here.phases[end]):
             raise Unproved("a phase beyond the bound is not excluded")
         if (image.at, image.turns) != (here.at, here.turns):
             raise Unproved("an image is about another oscillator, or whole turns apart")
@@ -97,8 +91,7 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
         extreme, gammas = image.phase[end], here.velocity
         if not within(gammas, here.velocities):
             raise Unproved("an image velocity leaves the rectangles")
-    low, high = path[-1].phases
-    short = low - extreme if above else extreme - high
+    short = sign * (last.phases[1 - end] - extreme)
     return BarredWord(maps[0].at, strips(maps), tuple(map(int, word)), short)
 
 
@@ -112,19 +105,16 @@ class GoldenMean(Conclusion):
 
     @property
     def sentence(self) -> str:
-        """Return the theorem."""
         return (
-            f"let {self.strips}. All their states are physically possible (gap' <= 0), F is smooth "
-            "and one-to-one on V1 and V2. Let Lambda_2 be the set of all states whose full orbits "
-            "stay in V1 and V2. F on Lambda_2 is conjugate, by the itinerary, to the shift on all "
-            f"two-sided sequences of 1 and 2 without 22 (golden mean shift), and is {self.rates}. "
-            "Lambda_2 has topological entropy log((1 + sqrt 5)/2), periodic orbits of every "
-            "period, uncountably many nonperiodic orbits and a dense orbit."
+            f"{self.strips.smooth}, and one-to-one. Let Lambda_2 be the set of all states whose "
+            "full orbits stay in V1 and V2. F on Lambda_2 is conjugate, by the itinerary, to the "
+            "shift on all two-sided sequences of 1 and 2 without 22 (golden mean shift), and is "
+            f"{self.rates}. Lambda_2 has topological entropy log((1 + sqrt 5)/2), periodic orbits "
+            "of every period, uncountably many nonperiodic orbits and a dense orbit."
         )
 
     @property
     def brief(self) -> str:
-        """Return the point."""
         return "F on Lambda_2 is conjugate to the two-sided shift on sequences without 22"
 
 
@@ -143,7 +133,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     maps, part = read_maps(context, names), context.step(part_of, RectangleMap)
     words = [context.step(name, BarredWord) for name in words_of.items(most=64)]
     (first, second), found = maps, strips(maps)
-    if restitution(first.at)[0] <= 0:
+    if sides(first.at)[2][0] <= 0:
         raise Unproved("without restitution F is not one-to-one")
     if any((word.at, word.strips) != (first.at, found) for word in words):
         raise Unproved("words are about other rectangles or oscillators")
@@ -152,7 +142,8 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     same = part.turns == second.turns and part.phases[0] == second.phases[0]
     if not same or part.phases[1] > second.phases[1]:
         raise Unproved("N is no part of V2 with the same left edge")
-    return GoldenMean(first.at, found, crossing((first, part), ((0, 1), (0,))).rates)
+    crossing((first, part), ((0, 1), (0,)))
+    return GoldenMean(first.at, found, rates((first, part)))
 
 
 def never_twice(words: Sequence[tuple[int, ...]]) -> bool:

@@ -7,14 +7,25 @@ TOP18/BOTTOM18.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 
-from proofs.trusted.kernel.values import Equal
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import show
-from proofs.trusted.paper.formulas import Derived, Passage, Theorem, at, derived_row, theorem
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.paper.formulas import (
+    Derived,
+    DerivedRow,
+    Equal,
+    Passage,
+    Theorem,
+    at,
+    derived_row,
+    theorem,
+)
+from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.verdicts import Decision, Found, Verdict, decided, undecided
 
 FIGURE_NU, FIGURE_ETAS = Fraction("0.2"), (Fraction("0.01"), Fraction(14))
 FIGURE_ETA, FIGURE_NUS = Fraction("0.237"), (Fraction("-0.9"), Fraction("0.9"))
@@ -77,10 +88,7 @@ def necessary() -> str:
     )
 
 
-@theorem(
-    *NECESSARY,
-    *ANGLE,
-)
+@theorem(*NECESSARY, *ANGLE)
 def solved() -> str:
     """1. alpha = 2 eta sin(pi n eta)^2 > 0 unless n eta is an integer; then alpha = r cos(theta),
     beta = r sin(theta) with r > 0 and cos(theta) > 0, tan(theta) = beta/alpha, and by ANGLE (16) is
@@ -101,9 +109,7 @@ def solved() -> str:
 _TRUE_SLOPE = "cos^2(pi n eta) (1 - nu sin(phi)/(eta^2 (1 + nu sin(phi))))"
 
 
-@theorem(
-    *SLOPE,
-)
+@theorem(*SLOPE)
 def slope() -> str:
     """1. A mass that leaves the table at once flies by (10) for all launches nearby, and where the
     first impact is transversal, the implicit function theorem gives db/da = (D_delta - D_a) /
@@ -119,7 +125,7 @@ def slope() -> str:
 
 @theorem(*LEMMAS)
 def orbits() -> str:
-    """Lemmas 1 to 3 of `single_facts`: 1. (16), the multiplier M and where it is 1, 0, -1 (lemma
+    """Lemmas 1 to 3 of `orbits.py`: 1. (16), the multiplier M and where it is 1, 0, -1 (lemma
     1). 2. Which n are possible (lemma 2), and that for the others stated nothing is hit before
     (lemma 3). 3. Leaving at once is side (p - eta^2) > 0, which gives the sign of M; on p > -e,
     A(p) = nu^2 grows, so that M < 1, the launch and M > -1 are bounds on nu^2.
@@ -158,62 +164,57 @@ def stiff(cosine: str, product: str) -> str:
 
 # -- rows ------------------------------------------------------------------------------------------
 
-THEOREMS: dict[str, tuple[Derived, ...]] = {
-    "P4": (solved, orbits),
-    "P5": (orbits, stiff),
-    "P6": (orbits,),
-}
-_NO_ORBITS = "not proved: solutions of (16) that are no orbits"
+
+def _proved(found: Found, *theorems: Derived) -> list[Theorem]:
+    proved = [known for each in theorems if (known := each.prove(found)) is not None]
+    if len(proved) < len(theorems):
+        raise Unproved("the theorems about orbits are not all proved")
+    return proved
 
 
-def _proved(claim: str, found: Found) -> list[Theorem]:
-    """Return the theorems of a claim; none if one is not proved."""
-    proved = [each.prove(found) for each in THEOREMS[claim]]
-    known = [each for each in proved if each is not None]
-    return known if len(known) == len(proved) else []
-
-
-def _counterexamples(found: Found) -> list[Solution]:
-    return [each for each in found.elsewhere(Solution) if each.contracts]
+def _counterexample(found: Found, asked: Callable[[Solution], bool]) -> Solution:
+    """Return a solution with |slope| < 1, of those asked for: they are no orbits."""
+    for each in found.elsewhere(Solution):
+        if each.contracts and asked(each):
+            return each
+    raise Unproved("not proved: solutions of (16) that are no orbits")
 
 
 def _stability(_: Parameters, found: Found) -> Decision:
     """P4: two solutions with |slope| < 1 that are no orbits; orbits that are."""
-    known = _proved("P4", found)
-    hits = [each for each in _counterexamples(found) if each.hits]
-    stuck = [each for each in _counterexamples(found) if each.sticks]
-    if not (known and hits and stuck):
-        return undecided(_NO_ORBITS)
-    bounds = {"slope_no_orbit": hits[0].multiplier, "slope_sticking": stuck[0].multiplier}
-    nearby = [*known, *found.all(Orbit)]
-    return decided(Verdict.CONDITIONAL, hits[0], stuck[0], corrected=nearby, known=bounds)
+    hits = _counterexample(found, lambda x: x.hits)
+    stuck = _counterexample(found, lambda x: x.sticks)
+    nearby = [*_proved(found, solved, orbits), *found.all(Orbit)]
+    bounds = {"slope_no_orbit": hits.multiplier, "slope_sticking": stuck.multiplier}
+    return decided(Verdict.CONDITIONAL, hits, stuck, corrected=nearby, known=bounds)
 
 
 def _figure_a(_: Parameters, found: Found) -> Decision:
     """P5: solutions above all windows, for p < 0 one that sticks, for p > 0 one that hits."""
-    known = _proved("P5", found)
-    asked = FIGURE_NU, FIGURE_ETAS[0]
-    windows = [each for each in found.all(EtaWindows) if (each.nu, each.low) == asked]
-    above = [x for x in _counterexamples(found) if STIFF <= x.at.eta[0] < FIGURE_ETAS[1]]
-    stuck = [x for x in above if x.sticks and x.at.nu[0] == FIGURE_NU]
-    hits = [x for x in above if x.hits and x.at.nu[0] == -FIGURE_NU]
-    if not (known and windows and stuck and hits):
-        return undecided(_NO_ORBITS)
-    return decided(Verdict.REFUTED, stuck[0], hits[0], corrected=[*known, windows[0]])
+
+    def above(one: Solution, nu: Fraction) -> bool:
+        return one.at.nu[0] == nu and STIFF <= one.at.eta[0] < FIGURE_ETAS[1]
+
+    stuck = _counterexample(found, lambda x: x.sticks and above(x, FIGURE_NU))
+    hits = _counterexample(found, lambda x: x.hits and above(x, -FIGURE_NU))
+    known = _proved(found, orbits, stiff)
+    for windows in found.all(EtaWindows):
+        if (windows.nu, windows.low) == (FIGURE_NU, FIGURE_ETAS[0]):
+            return decided(Verdict.REFUTED, stuck, hits, corrected=[*known, windows])
+    return undecided("no proof of all windows in eta")
 
 
 def _figure_b(_: Parameters, found: Found) -> Decision:
     """P6: the windows, all below |nu| = 0.9, and a solution that is no orbit."""
-    known = _proved("P6", found)
-    windows = [each for each in found.all(NuWindows) if each.eta == FIGURE_ETA]
-    low, high = FIGURE_NUS
-    solutions = [x for x in _counterexamples(found) if x.at.eta[0] == FIGURE_ETA]
-    hits = [each for each in solutions if each.hits and low < each.at.nu[0] < high]
-    if not (known and windows and hits):
-        return undecided(_NO_ORBITS)
-    if any(last[1] >= high for _, _, last in (*windows[0].above, *windows[0].below)):
-        return undecided("not proved: that the windows end before |nu| = 0.9")
-    return decided(Verdict.CONDITIONAL, hits[0], corrected=[*known, windows[0]])
+    (low, high), known = FIGURE_NUS, _proved(found, orbits)
+    hits = _counterexample(
+        found, lambda x: x.hits and x.at.eta[0] == FIGURE_ETA and low < x.at.nu[0] < high
+    )
+    for windows in found.all(NuWindows):
+        ends = [last[1] for _, _, last in (*windows.above, *windows.below)]
+        if windows.eta == FIGURE_ETA and all(end < high for end in ends):
+            return decided(Verdict.CONDITIONAL, hits, corrected=[*known, windows])
+    return undecided("no proof of all windows in nu, and that they end before |nu| = 0.9")
 
 
 ROWS = (
@@ -240,27 +241,30 @@ ROWS = (
         slope,
         corrected=(slope,),
     ),
-    Row(
+    DerivedRow(
         "P4",
         "4, after (17)",
         "stability of these fixed points can be determined",
         "A fixed point given by (17), with a launch that does not stick, is stable if |slope| < 1.",
         _stability,
+        needs=orbits.needs,
     ),
-    Row(
+    DerivedRow(
         "P5",
         "4, Figure 7a",
         "the various stable n-periodic fixed points",
         "Figure 7a: for nu = 0.2 the solutions of (16) with |slope| < 1 are stable n-periodic "
         "fixed points that leave the table at once, over eta in (0.01, 14).",
         _figure_a,
+        needs=stiff.needs,
     ),
-    Row(
+    DerivedRow(
         "P6",
         "4, Figure 7b",
         "fixed points vary as we change",
         "Figure 7b: for eta = 0.237 the solutions of (16) with |slope| < 1 are stable n-periodic "
         "fixed points that leave the table at once, over nu in (-0.9, 0.9).",
         _figure_b,
+        needs=orbits.needs,
     ),
 )

@@ -20,11 +20,11 @@ from proofs.trusted.numbers import Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, StayingDimension
-from proofs.trusted.paper.s32_sets.invariant import Itinerary, invariant_set
+from proofs.trusted.paper.s32_sets.invariant import Itinerary, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import periodic_dimension, reference
 
@@ -76,13 +76,15 @@ def test_contains_the_dimension_by_periodic_orbits(words, longest, read):
 @pytest.mark.slow
 def test_ten_digits_by_periodic_orbits():
     found = dimension.prove(PAPER, ["H13"], digits=10).proofs["H13"]
-    repellers = {each.words: each.dimension for _, each in found if isinstance(each, Repeller)}
-    for words, value in (
-        (FULL, periodic_dimension.dimension(7)),
-        (WITHOUT_000, periodic_dimension.dimension(6, periodic_dimension.blocks)),
-    ):
-        low, high = repellers[words]
-        assert low < value < high < low + Fraction(1, 10**10)
+    values = {
+        FULL: periodic_dimension.dimension(7),
+        WITHOUT_000: periodic_dimension.dimension(6, periodic_dimension.blocks),
+    }
+    repellers = [each for _, each in found if isinstance(each, Repeller)]
+    assert {each.words for each in repellers} == set(values)
+    for each in repellers:
+        low, high = each.dimension
+        assert low < values[each.words] < high < low + Fraction(1, 10**10)
 
 
 def test_the_slopes_are_those_of_the_branches():
@@ -156,18 +158,13 @@ def test_the_paper_is_refuted():
         assert low < Fraction(value) + Fraction(1, 10**15) and Fraction(value) < high
 
 
-def test_a_set_around_i_bounds_from_above():
+@pytest.mark.parametrize("of", [PAPER, replace(PAPER, left=LEFT, right=RIGHT, interval=HULL)])
+def test_a_set_around_i_bounds_from_above(of):
+    """The sets that are proved themselves, too."""
     found = [each for each in conclusions() if getattr(each, "words", None) != WITHOUT_000]
-    decision = decide(found)
-    assert decision.verdict is Verdict.REFUTED
-    assert "dimension_of_I" not in decision.quantities and "full shift" in decision.theorem
-
-
-def test_the_proved_sets_themselves():
-    of = replace(PAPER, left=LEFT, right=RIGHT, interval=HULL)
-    decision = decide(conclusions(), of)
-    assert decision.verdict is Verdict.REFUTED and "dimension_of_I" not in decision.quantities
-    assert "0.42508" in decision.why
+    for decision in (decide(found, of), *([] if of is PAPER else [decide(conclusions(), of)])):
+        assert decision.verdict is Verdict.REFUTED and "0.42508" in decision.why
+        assert "dimension_of_I" not in decision.quantities and "full shift" in decision.theorem
 
 
 @pytest.mark.parametrize("ratios", [("0.7", "0.8"), ("1/2", "1/2")])
@@ -222,15 +219,19 @@ def test_when_000_is_excluded():
     """By the orbit of the lower end of I, which leaves after 00; other words are not of the set."""
     base, orbit = one(Horseshoe), one(Itinerary)
     short = one(Repeller, words=WITHOUT_000)
-    assert StayingDimension(short, invariant_set(base, short.hull, [orbit])).interval == short.hull
+
+    def of(interval, *orbits):
+        return staying(interval, Found(PAPER, [base, *orbits]))
+
+    assert StayingDimension(short, of(short.hull, orbit)).interval == short.hull
     other = replace(orbit, orbit=(orbit.orbit[0], (Fraction("1.2"),) * 2))  # no 00 at all
-    for staying, repeller in (
-        (invariant_set(base, short.hull, [other]), short),
-        (invariant_set(base, base.interval, []), short),
-        (invariant_set(base, short.hull, [orbit]), replace(short, words=FULL)),
+    for known, repeller in (
+        (of(short.hull, other), short),
+        (of(base.interval), short),
+        (of(short.hull, orbit), replace(short, words=FULL)),
     ):
         with pytest.raises(Unproved):
-            StayingDimension(repeller, staying)
+            StayingDimension(repeller, known)
     found = [other if each is orbit else each for each in conclusions()]
     assert "dimension_of_I" not in decide(found).quantities
 
@@ -249,19 +250,13 @@ def test_a_repeller_is_canonical(change):
         replace(one(Repeller, words=FULL), **change)
 
 
-def test_a_larger_interval_is_not_bounded():
+def test_other_intervals_and_other_ratios():
     of = replace(PAPER, interval=(Fraction("1.09"), HULL[1]))
     assert decide(conclusions(), of).verdict is Verdict.UNDECIDED
-
-
-def test_a_root_for_other_ratios_is_not_s_0():
     found = changed(MoranRoot, {"ratios": (Fraction("0.19"), Fraction("0.24"))})
     assert decide(found).verdict is Verdict.UNDECIDED
-
-
-def test_no_root_no_dimension():
     of = replace(PAPER, ratios=(Fraction("0.2"), Fraction(1)))
-    assert decide([], of).verdict is Verdict.REFUTED
+    assert decide([], of).verdict is Verdict.REFUTED  # there is no s_0
 
 
 # -- the certificate -------------------------------------------------------------------------------

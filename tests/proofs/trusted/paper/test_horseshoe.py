@@ -63,18 +63,14 @@ def brute(phi):
     return phase, reference.slope(ETA, NU, reference.mpf(phi), flight)
 
 
-def test_numbers_against_brute_force_at_the_ends(outcome):
-    """f' increases on I0 and I1 (certified separately), so its extremes are at the ends."""
+def test_numbers_against_brute_force(outcome):
+    """f' increases on I0 and I1 (certified separately): inside it is between its extremes."""
     found = quantities(outcome)
     for which, ends in (("I0", ("1.11", "1.15")), ("I1", ("1.27", "1.32"))):
         for phi, side, least in zip(ends, ("low", "high"), ("min", "max"), strict=True):
             image, slope = brute(phi)
             assert near(found[f"image_{side}_{which}"], image, 30)
             assert near(found[f"slope_{least}_{which}"], slope, 13)
-
-
-def test_slopes_inside_stay_between_the_extremes(outcome):
-    found = quantities(outcome)
     for which, ends in (("I0", (1110, 1150)), ("I1", (1270, 1320))):
         for k in range(1, 6):
             phi = Fraction(ends[0] + (ends[1] - ends[0]) * k // 6, 1000)
@@ -174,13 +170,9 @@ def test_at_other_parameters_prover_and_checker_agree(changes):
 # -- the command line --------------------------------------------------------------------------
 
 
-def run(*arguments, module="proofs.horseshoe"):
+def run(*arguments):
     return subprocess.run(
-        [sys.executable, "-m", module, *arguments],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=False,
+        [sys.executable, *arguments], capture_output=True, text=True, cwd=ROOT, check=True
     )
 
 
@@ -189,10 +181,7 @@ def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
         "import sys; from proofs.horseshoe import main; status = main(sys.argv[1:]);"
         "print(sorted({'numpy', 'sympy', 'matplotlib', 'scipy'} & set(sys.modules)), status)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", script, "--out", str(tmp_path)],
-        capture_output=True, text=True, cwd=ROOT, check=True,
-    )  # fmt: skip
+    done = run("-c", script, "--out", str(tmp_path))
     assert done.stdout.splitlines()[-1] == "[] 0"
     assert "checker: accepted" in done.stdout
     assert (tmp_path / "horseshoe.json").exists() and (tmp_path / "horseshoe.md").exists()
@@ -204,9 +193,8 @@ def test_the_machine_form(capsys, tmp_path):
     printed = json.loads(capsys.readouterr().out)
     assert [claim["id"] for claim in printed["claims"]] == [*GROUPS["horseshoe"], "N1", "N2"]
     names = {name for claim in printed["claims"] for name in claim["quantities"]}
-    assert names >= {
-        f"slope_{kind}_{which}" for kind in ("min", "max") for which in ("I0", "I1")
-    } | {f"image_{side}_{which}" for side in ("low", "high") for which in ("I0", "I1")} | {"s0"}
+    values = ("slope_min", "slope_max", "image_low", "image_high")
+    assert names >= {"s0", *(f"{value}_{which}" for value in values for which in ("I0", "I1"))}
     for claim in printed["claims"]:
         for bounds in claim["quantities"].values():
             assert Fraction(bounds["lower"]) < Fraction(bounds["upper"])
@@ -215,21 +203,10 @@ def test_the_machine_form(capsys, tmp_path):
 
 BAD = [
     (["--eta", "x"], "not a number: 'x'"),
-    (["--eta", "nan"], "not a number"),
     (["--eta", "1e999999999"], "unreasonable size"),
-    (["--eta", "0"], "eta must be positive"),
-    (["--eta", "-1/5"], "eta must be positive"),
-    (["--nu", "0"], "nu must not be 0"),
-    (["--left", "1.15", "1.11"], "reversed"),
     (["--left", "1.1", "1.3"], "overlap"),
-    (["--left", "-1", "1.15"], "leaves [0, 2 pi)"),
-    (["--right", "1.27", "6.3"], "leaves [0, 2 pi)"),
-    (["--interval", "1.2", "1.3"], "must lie in"),
-    (["--slopes", "5", "4"], "increasing"),
     (["--only", "H99"], "H99"),
-    (["--digits", "many"], "whole number"),
     (["--digits", "0"], "whole number"),
-    (["--horizon", "-3"], "positive"),
     (["--horizon", "1e7"], "up to 1000000"),
     (["--eta", "0." + "1" * 200], "more than 190 digits"),
 ]
@@ -296,25 +273,20 @@ def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_figure_of_what_is_not_proved_is_refused(capsys, tmp_path):
-    arguments = ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H16", "--figure"]
-    assert horseshoe.main([*arguments, "--out", str(tmp_path)]) == 0
+@pytest.mark.parametrize(("claim", "status"), [("H16", 0), ("H2", 1)])  # 1: it is undecided
+def test_a_figure_of_what_is_not_proved_is_refused(claim, status, capsys, tmp_path):
+    sets = ["--left", "4", "4.5", "--right", "5", "5.5"]
+    arguments = [*sets, "--only", claim, "--figure", "--out", str(tmp_path)]
+    assert horseshoe.main(arguments) == status
     assert "no figure" in capsys.readouterr().err
     assert not (tmp_path / "horseshoe.svg").exists()
-
-
-def test_undecided_is_status_1(tmp_path):
-    status = horseshoe.main(
-        ["--left", "4", "4.5", "--right", "5", "5.5", "--only", "H2", "--out", str(tmp_path)]
-    )
-    assert status == 1
 
 
 @pytest.mark.slow
 def test_help_shows_examples():
     for module in ("proofs.horseshoe", "proofs.impact", "proofs.check"):
-        done = run("--help", module=module)
-        assert done.returncode == 0 and f"python -m {module}" in done.stdout.split("example")[-1]
+        done = run("-m", module, "--help")
+        assert f"python -m {module}" in done.stdout.split("example")[-1]
 
 
 @pytest.mark.slow

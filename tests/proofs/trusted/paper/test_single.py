@@ -18,7 +18,7 @@ from proofs import single_impact
 from proofs.motion.single_orbits import earlier, eta_end, last_period, nu_end, solutions
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock
-from proofs.trusted.paper.s4_single.single_facts import (
+from proofs.trusted.paper.s4_single.orbits import (
     FLIP,
     SADDLE,
     STICK,

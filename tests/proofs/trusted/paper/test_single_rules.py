@@ -21,7 +21,8 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.s4_single import single
-from proofs.trusted.paper.s4_single.orbits import EtaWindows, NuWindows, Orbit, Solution
+from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
@@ -336,24 +337,10 @@ def test_sentences_have_all_their_hypotheses(document):
     assert abs(slope_18(eta, nu, 1, phi) - mpf("0.463")) < 1e-3
 
 
-def test_edited_certificates_are_refused(document):
-    """Texts and bounds one by one are edited in the tests of all groups."""
-    for entry in range(len(CLAIMS)):
-        wrong = json.loads(json.dumps(document))
-        wrong["claims"][entry]["corrected"] += " "
-        with pytest.raises(Rejected):
-            check(json.dumps(wrong))
-
-
 @pytest.mark.slow
 def test_a_claim_alone_has_its_own_certificate():
     alone = produce({"single": ["P6"]}, PAPER, digits=15).certificate
     assert [one.id for one in check(alone).claims] == ["P6"]
-
-
-def test_the_catalogue_has_the_claims():
-    for claim in CLAIMS:
-        assert "{" not in find(claim).says(PAPER)
 
 
 @pytest.mark.slow
