@@ -98,11 +98,10 @@ class Tally:
 
 
 @cache
-def bases(odd: bool = False) -> tuple[Base, ...]:
-    """The committed certificates; with `odd` also what the provers find at other parameters."""
-    made = {name: committed(name) for name in certificates()}
-    made |= {f"{group} at {eta}, {nu}": proved(group, eta, nu) for group, eta, nu in ODD if odd}
-    return tuple(Base(name, each) for name, each in made.items())
+def base_of(group: str, eta: str = "", nu: str = "") -> Base:
+    """A committed certificate, or what the prover finds at other parameters."""
+    made = proved(group, eta, nu) if eta else committed(group)
+    return Base(f"{group} at {eta}, {nu}" if eta else group, made)
 
 
 def derived(of: Parameters, known: dict[str, Any], name: str, step: dict[str, Any]) -> Any:
@@ -124,12 +123,15 @@ def needed(steps: dict[str, Any], names: list[str]) -> dict[str, Any]:
 # -- edits -----------------------------------------------------------------------------------------
 
 
-def places(value: Any, path: tuple = ()) -> list[tuple]:
-    """The paths of all lists and strings inside."""
-    found = [path] if path and isinstance(value, list | str) else []
-    items = value.items() if isinstance(value, dict) else ()
-    items = enumerate(value) if isinstance(value, list) else items
-    return found + [place for key, inner in items for place in places(inner, (*path, key))]
+def place(value: Any, chance: random.Random) -> tuple:
+    """A path to a list or a string inside, as likely near the root as deep."""
+    inner = list(value) if isinstance(value, dict) else range(len(value))
+    if isinstance(value, str) or not inner or (isinstance(value, list) and chance.random() < 0.3):
+        return ()
+    key = chance.choice(inner)
+    return (
+        (key, *place(value[key], chance)) if isinstance(value[key], list | dict | str) else (key,)
+    )
 
 
 def number(text: Any) -> Fraction | None:
@@ -191,23 +193,25 @@ def edit_parameters(given: dict[str, Any], chance: random.Random) -> dict[str, A
     if chance.random() < 0.5 or made[name] is None:
         made[name] = copy.copy(chance.choice(PARAMETERS[name]))
     else:
-        _put(made, chance.choice([path for path in places(made) if path[0] == name]), chance)
+        _put(made, (name, *place(made[name], chance)), chance)
     return made
 
 
-def edit_step(steps: dict[str, Any], others: list[dict[str, Any]], chance: random.Random) -> None:
-    """Edit one of the last steps, which conclude, or of those they rest on; or take another's."""
-    names = list(steps)
-    name = names[-1 - min(int(chance.expovariate(0.7)), len(names) - 1)]
+def edit_step(
+    steps: dict[str, Any], proof: list[str], others: list[dict[str, Any]], chance: random.Random
+) -> None:
+    """Edit a step of the proof, or another that it rests on; or take one like it from elsewhere."""
+    known = [name for name in proof if name in steps]
+    name = chance.choice(known if known and chance.random() < 0.6 else list(steps))
     if chance.random() < 0.1:
         rule = steps[name]["rule"]
         alike = [step for each in others for step in each["steps"].values() if step["rule"] == rule]
         steps[name] = chance.choice(alike)
         return
     steps[name] = copy.deepcopy(steps[name])
-    paths = places(steps[name]["witness"], ("witness",))
-    if paths:
-        _put(steps[name], chance.choice(paths), chance)
+    path = place(steps[name]["witness"], chance)
+    if path:
+        _put(steps[name]["witness"], path, chance)
 
 
 def transplant(made: dict[str, Any], proof: list[str], other: dict, chance: random.Random) -> None:
@@ -246,7 +250,7 @@ def edited(base: Base, claim: str, sources: tuple[Base, ...], chance: random.Ran
         elif kind < 0.4:
             transplant(made, proof, chance.choice(others), chance)
         else:
-            edit_step(made["steps"], others, chance)
+            edit_step(made["steps"], proof, others, chance)
     same = all(base.made["steps"].get(name) is step for name, step in made["steps"].items())
     unchanged = same and proof == base.made["proofs"][claim]
     return None if unchanged and made["parameters"] == base.made["parameters"] else made
@@ -256,7 +260,8 @@ def _put(value: Any, path: tuple, chance: random.Random) -> None:
     for key in path[:-1]:
         value = value[key]
     old = value[path[-1]]
-    value[path[-1]] = (edit_list if isinstance(old, list) else edit_text)(old, chance)
+    if isinstance(old, list | str):
+        value[path[-1]] = (edit_list if isinstance(old, list) else edit_text)(old, chance)
 
 
 # -- judging ---------------------------------------------------------------------------------------
@@ -307,18 +312,26 @@ def judge(base: Base, claim: str, made: dict[str, Any], tally: Tally, seed: str)
         tally.complaints += [f"{where}: {one}" for one in told]
 
 
-def run(wanted: int, seed: int = 0, odd: bool = False, told: bool = False) -> Tally:
-    """Judge so many accepted documents, spread over all claims of all bases."""
-    tally, sources, index = Tally(), bases(odd), 0
+def run(
+    wanted: int, seed: int = 0, odd: tuple = (), told: bool = False, only: tuple[str, ...] = ()
+) -> Tally:
+    """Judge so many accepted documents, spread over all claims of all bases, or over some.
+
+    odd: groups and parameters, beside those of the committed certificates.
+    """
+    tally, index = Tally(), 0
+    sources = (*map(base_of, certificates()), *(base_of(*each) for each in odd))
     while tally.accepted < wanted and index < 60 * wanted:
         base = sources[index % len(sources)]
-        claims = list(base.made["proofs"])
-        claim = claims[index // len(sources) % len(claims)]
+        claims = [each for each in base.made["proofs"] if not only or each in only]
         chance = random.Random(f"{seed} {index}")
+        index += 1
+        if not claims:
+            continue
+        claim = claims[index // len(sources) % len(claims)]
         made = edited(base, claim, sources, chance)
         if made is not None:
             judge(base, claim, made, tally, f"{seed} {index}")
-        index += 1
         if told and index % 2000 == 0:
             print(report(tally), flush=True)
     return tally
@@ -338,6 +351,6 @@ def report(tally: Tally) -> str:
 
 
 if __name__ == "__main__":
-    found = run(int(sys.argv[1]), int((sys.argv[2:] or ["0"])[0]), odd=True, told=True)
+    found = run(int(sys.argv[1]), int((sys.argv[2:] or ["0"])[0]), odd=ODD, told=True)
     print(report(found))
     sys.exit(bool(found.complaints))

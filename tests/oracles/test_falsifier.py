@@ -1,0 +1,44 @@
+"""What the checker accepts of edited documents is true, as far as the oracles see."""
+
+from contextlib import ExitStack
+
+import pytest
+
+from tests.oracles.falsifier import ODD, report, run
+from tests.oracles.holes import ASKED, EQUAL, GAP, ORDER, POINT, reopened
+
+
+@pytest.mark.slow
+def test_what_is_accepted_of_edited_documents_is_true():
+    found = run(200, seed=3)
+    assert found.accepted == 200
+    assert found.refused > 100
+    assert len(found.conclusions) > 30
+    assert not found.complaints, report(found)
+
+
+@pytest.mark.slow
+@pytest.mark.long
+def test_thousands_that_are_accepted_are_true():
+    found = run(5000, seed=4, odd=ODD)
+    assert found.accepted == 5000
+    assert not found.complaints, report(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("claim", "lines", "odd"),
+    [
+        ("G5", ORDER, ()),
+        ("H15", (EQUAL,), ()),
+        ("H17", (GAP,), ()),
+        ("M6", POINT, ()),
+        ("G3", (ASKED,), (ODD[4],)),
+    ],
+)
+def test_holes_are_found_by_edits_alone(claim, lines, odd):
+    """Only the image that straddles 2 pi takes a document that is made for it."""
+    with ExitStack() as stack:
+        for each in lines:
+            stack.enter_context(reopened(each))
+        assert run(60, seed=2, odd=odd, only=(claim,)).complaints
