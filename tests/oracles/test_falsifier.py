@@ -41,4 +41,4 @@ def test_holes_are_found_by_edits_alone(claim, lines, odd):
     with ExitStack() as stack:
         for each in lines:
             stack.enter_context(reopened(each))
-        assert run(60, seed=2, odd=odd, only=(claim,)).complaints
+        assert run(80, odd=odd, only=(claim,)).complaints

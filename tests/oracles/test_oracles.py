@@ -160,7 +160,7 @@ FALSE = {
     ],
     "MoranRoot": [offs("root"), put("ratios", (F(1, 9), F(1, 8)))],
     "NoGap": [put("ratios", (F(1, 4), F(1, 3)))],
-    "Digits": [put("rounded", False), put("printed", "0.46"), offs("value")],
+    "Digits": [put("readings", (False, True)), put("printed", "0.46"), offs("value")],
     "ExactMeasure": LINEAR,
     "LinearDimension": [*LINEAR, offs("measure"), offs("root")],
     "Excess": [*LINEAR, offs("excess"), put("epsilon", F(1))],
