@@ -22,6 +22,7 @@ from tests.oracles.sources import (
 from tests.oracles.verdicts import TRUTHS, verdict_oracle
 
 F = Fraction
+pytestmark = pytest.mark.slow  # all certificates are derived
 
 
 @cache
