@@ -14,7 +14,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Horseshoe": ("interval",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
-    "Digits": ("rounded", "truncated"),
+    "Digits": ("readings",),
     "Itinerary": ("cut",),
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),

@@ -147,6 +147,8 @@ def edit_list(value: list, chance: random.Random) -> list:
     value, kind = list(value), chance.randrange(5)
     pair = [number(each) for each in value]
     if len(value) == 2 and None not in pair and chance.random() < 0.75:
+        if chance.random() < 0.15:
+            return [chance.choice(value)] * 2
         step = (pair[1] - pair[0] or 1) / chance.choice((2, 10, 1000, 10**6, -3, -10, -1000))
         sides = chance.choice(((1, 1), (1, 0), (0, 1)))
         return [str(pair[0] - step * sides[0]), str(pair[1] + step * sides[1])]

@@ -104,7 +104,7 @@ def digits(view, rng):
     for x in values:
         near = abs(x - ball(printed)) < ball(unit / 2) or view.value == (printed,) * 2
         cut = (x >= ball(printed) and x < ball(printed + unit)) or view.value == (printed,) * 2
-        known = ((view.rounded, near), (view.truncated, cut))
+        known = zip(view.readings, (near, cut), strict=True)
         if any(given not in (None, bool(own)) for given, own in known):
             told.append(f"{view.name} is {x.str(12)}")
     return told

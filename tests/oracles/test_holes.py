@@ -13,6 +13,8 @@ from tests.oracles.judge import oracle
 from tests.oracles.sources import conclusions, rows
 from tests.oracles.verdicts import verdict_oracle
 
+pytestmark = pytest.mark.slow
+
 
 @cache
 def document(hole):
