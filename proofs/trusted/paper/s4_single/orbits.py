@@ -189,8 +189,9 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null}.
 
     Hypotheses: n eta is no integer; K changes its sign between lo and hi, dK/dphi has one sign
-    there, so K and (16) have exactly one zero in between; at the time `early`, in (0, 2 pi n), gap
-    < 0 for all launches from the bracket. The multiplier is from the slope formula.
+    there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket.
+    Conclusion: K and (16) have exactly one zero in between; its flight has an earlier impact, if
+    `early` is given. The multiplier is from the slope formula.
     """
     eta_of, nu_of, n_of, phase_of, early_of = reader.fields("eta", "nu", "n", "phase", "early")
     eta, nu, periods, phase = eta_of.number(), nu_of.number(), n_of.number(), phase_of.range()
@@ -224,8 +225,8 @@ def single_orbit(context: Context, reader: Reader) -> Orbit:
     """Rule `single-orbit`: {solution, flight}.
 
     Hypotheses: the earlier step `flight` proves a transversal first impact, at these eta and nu,
-    for all launches from the solution's bracket, and 2 pi n is inside its window. Since gap = 0
-    there and has one zero in the window, that is the first impact.
+    for all launches from the solution's bracket, and 2 pi n is inside its window. Conclusion:
+    2 pi n is the first impact of the solution, since gap = 0 there and has one zero in the window.
     """
     solution_of, flight_of = reader.fields("solution", "flight")
     solution = context.step(solution_of, Solution)

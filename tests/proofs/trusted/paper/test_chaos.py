@@ -13,10 +13,9 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
-from proofs.motion.flight import Flight
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.motion.windows import Candidates, Windows, prove_branch
+from proofs.motion.windows import Candidates, prove_branch
 from proofs.search.evidence import Evidence
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
@@ -353,15 +352,13 @@ def test_g5_is_decided_by_what_stays_in_the_printed_interval():
 def test_every_meeting_is_in_a_window(phase, turns):
     """Where brute force has the mass on or below the table, the windows must look."""
     motion = Motion(PAPER.eta, PAPER.nu, (F(phase), F(phase)), BITS)
-    flight = Flight(SYSTEM, (F(phase), F(phase)), BITS)
-    windows = [list(one.before(turns)) for one in (Meetings.of(motion), Windows.of(flight))]
+    found = list(Meetings.of(motion).before(turns))
     last = 2 * math.pi * (turns - 1)
     times = [i * math.pi / 50 for i in range(10, int(50 * last / math.pi))]
     met = [t for t in times if distance(float(phase), t) <= 0]
     assert met
-    for found in windows:
-        assert all(any(low <= t <= high for low, high in found) for t in met)
-        assert len(found) < turns / 2
+    assert all(any(low <= t <= high for low, high in found) for t in met)
+    assert len(found) < turns / 2
 
 
 def test_an_impact_in_the_first_turn_is_not_overlooked():

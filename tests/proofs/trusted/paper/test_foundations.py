@@ -11,14 +11,14 @@ from fractions import Fraction
 
 import pytest
 from mpmath import mp, mpf
-from proofs.trusted.kernel.derivation import equal
-from proofs.trusted.kernel.derivation import value as bounds_of
 
 from proofs.methods import derive
 from proofs.search.s2_foundations import prove
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.values import equal
+from proofs.trusted.kernel.values import value as bounds_of
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper import s2_foundations as eq
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts

@@ -173,7 +173,8 @@ def box_of(phases, slope, image):
     """An invented conclusion: F on phases x [-1, 0], linear, from its centre to the image."""
     point, zero = ((image, image), (Fraction(-1, 2),) * 2), (Fraction(0), Fraction(0))
     slopes = (((slope, slope), zero), (zero, (slope, slope)))
-    box = tuple((x, x) for x in (PAPER.eta, PAPER.nu, Fraction("0.1")))
+    tenth = (Fraction("0.1"),) * 2
+    box = Place((PAPER.eta,) * 2, (PAPER.nu,) * 2, tenth)
     centre = (sum(phases) / 2,) * 2
     return (
         Rebound(box, phases, (Fraction(-1), Fraction(0)), 1, *point, slopes),
@@ -192,8 +193,8 @@ def test_a_pair_of_invented_boxes():
     assert stable_pair(*steps(half)).second == (high, (-1, 0))
     assert no_pair(steps(one)), "an isometry contracts nothing"
     assert no_pair(steps(half, low)), "a fixed point is no 2-periodic orbit"
-    wide = ((PAPER.eta, PAPER.eta + 1), *steps(half)[0].box[1:])
-    assert no_pair([replace(x, box=wide) for x in steps(half)]), "not one oscillator"
+    wide = replace(steps(half)[0].at, eta=(PAPER.eta, PAPER.eta + Fraction(1, 100)))
+    assert no_pair([replace(x, at=wide) for x in steps(half)]), "not one oscillator"
 
 
 @pytest.mark.parametrize(
@@ -202,7 +203,7 @@ def test_a_pair_of_invented_boxes():
         lambda step: widened(step, 2),
         lambda step: replace(step, turns=step.turns + 1),
         lambda step: replace(step, phases=(step.phases[1], step.phases[1] + Fraction(1, 10**9))),
-        lambda step: replace(step, box=(*step.box[:2], (Fraction("0.28"), Fraction("0.28")))),
+        lambda step: replace(step, at=replace(step.at, epsilon=(Fraction("0.28"),) * 2)),
     ],
 )
 @pytest.mark.parametrize("index", [0, 2])
