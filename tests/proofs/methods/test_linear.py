@@ -16,11 +16,8 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, render
 from proofs.trusted.verify import Rejected, check
 
-MODULUS = ["sqrt", ["^", "x", "2"]]
-LINEAR = (
-    ["x", "y"],
-    [["-", ["*", "5", MODULUS], "4"], ["+", ["/", "y", "4"], ["/", "x", ["*", "2", MODULUS]]]],
-)
+MODULUS = "sqrt(x**2)"
+LINEAR = (["x", "y"], [f"5*{MODULUS} - 4", f"y/4 + x/(2*{MODULUS})"])
 
 
 def horseshoe(reach="21/100"):
@@ -69,6 +66,7 @@ def edits():
     yield "more growth", ("entropy-1", "growth"), "3"
     yield "one strip moved off", ("h-set-2", "centre"), ["9/10", "0"]
     yield "a strip as its own edge", ("h-set-1", "matrix"), [["1/5", "0"], ["0", "1"]]
+    yield "an inverse of another strip", ("h-set-1", "inverse"), [["5", "0"], ["0", "1"]]
     yield "a flat strip", ("h-set-1", "matrix"), [["21/100", "0"], ["0", "0"]]
     yield "a low strip", ("h-set-1", "matrix"), [["21/100", "0"], ["0", "1/2"]]
     yield "the other orientation", ("covers-2", "sign"), "+"
@@ -78,12 +76,21 @@ def edits():
     yield "no cone in y", ("cone-1", "forms"), [["1", "0"], ["1", "0"]]
 
 
+def inverse_of_diagonal(rows):
+    return [
+        [str(1 / Fraction(x)) if i == j else "0" for j, x in enumerate(row)]
+        for i, row in enumerate(rows)
+    ]
+
+
 @pytest.mark.parametrize(("place", "value"), [e[1:] for e in edits()], ids=[e[0] for e in edits()])
 def test_edited_files_are_refused(place, value):
     document = json.loads(certificate())
     step, name = place
     assert document["steps"][step]["witness"][name] != value
     document["steps"][step]["witness"][name] = value
+    if name == "matrix" and value[1][1] != "0":  # not refused for the inverse of the old one
+        document["steps"][step]["witness"]["inverse"] = inverse_of_diagonal(value)
     with pytest.raises((Rejected, Malformed)):
         check(json.dumps(document))
 
@@ -91,7 +98,7 @@ def test_edited_files_are_refused(place, value):
 def test_another_map_in_the_file():
     """5 becomes 4: no strip is covered any more."""
     document = copy.deepcopy(json.loads(certificate()))
-    text = json.dumps(document).replace('["*", "5", ', '["*", "4", ')
+    text = json.dumps(document).replace("5*sqrt(", "4*sqrt(")
     with pytest.raises(Rejected):
         check(text)
 
