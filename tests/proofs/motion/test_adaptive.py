@@ -155,10 +155,11 @@ def test_sticking_is_no_reason_of_its_own():
 @pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
 def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
     sets = ["--left", "3.3", "3.31", "--right", *right]
-    assert horseshoe(["--only", "H1", "H3", *sets, "--out", str(tmp_path)]) == 0
+    assert horseshoe(["--only", "H1", "H2", "H3", *sets, "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out
     assert said.count("REFUTED ") == 2 and "checker: accepted" in said
-    entry = json.loads((tmp_path / "horseshoe.json").read_text())["claims"][0]
+    entry = json.loads((tmp_path / "horseshoe.json").read_text())["claims"][1]
+    assert entry["verdict"] == "VERIFIED"
     low, high = (Fraction(x) for x in entry["quantities"]["slope_min_I1"].values())
     slopes = [short_flight(PAPER, x, ONSET - x)[1] for x in map(Fraction, right)]
     assert low <= min(slopes)

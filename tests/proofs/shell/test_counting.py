@@ -15,6 +15,7 @@ import proofs
 from intervals import Interval, IntervalArray, Jet
 from proofs import impact, period_doubling, resonance, single_impact
 from proofs.methods.extremes import extremes
+from proofs.motion import single_orbits
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.flight import Flight
 from proofs.motion.impact import bisected, first_impact
@@ -44,7 +45,6 @@ from proofs.trusted import equations
 from proofs.trusted.equations import clock, gap, launch, slope
 from proofs.trusted.kernel.arithmetic import Dual, rational
 from proofs.trusted.kernel.expression import Tape
-from proofs.trusted.paper.s4_single import single_facts
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.test_stats import AT, CASES, COMMANDS, by, shown
 
@@ -200,7 +200,7 @@ def test_the_map_s_evaluations_are_those_that_wrappers_count(arguments, status, 
 
 def test_other_formulas_are_those_that_wrappers_count(watch, monkeypatch, capsys):
     rows = shown(capsys, single_impact, *AT, "--n", "4")
-    calls = watch(single_facts.multiplier, "multiplier", lambda *_, **__: {"": 1})
+    calls = watch(single_orbits.multiplier, "multiplier", lambda *_, **__: {"": 1})
     assert single_impact.main([*AT, "--n", "4"]) == 0
     assert rows[FORMULAS][INTERVALS] == calls[""] > 0
     for epsilon in ("0", "0.1"):

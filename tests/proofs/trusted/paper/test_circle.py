@@ -29,7 +29,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Cell, absorbed, in_order
-from proofs.trusted.paper.s34_circle.circle import FixedPoint, repelling_fixed_point
+from proofs.trusted.paper.s34_circle.circle import ROWS, FixedPoint, repelling_fixed_point
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.slopes import SlopeRange
@@ -40,6 +40,7 @@ from tests.proofs.trusted.paper.steps import add, apply, derive, edited, texts
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 SYSTEM = System(PAPER.eta, PAPER.nu)
+CLAIMS = tuple(row.id for row in ROWS)
 
 
 def third(low, high, image):
@@ -516,13 +517,13 @@ def _every(low, high, unit=Fraction(1, 100)):
 
 
 def test_nothing_is_decided_without_conclusions():
-    for claim in circle.CLAIMS:
+    for claim in CLAIMS:
         assert find(claim).decide(PAPER, []).verdict is Verdict.UNDECIDED
 
 
 def test_nothing_is_claimed_where_the_mass_does_not_stick_and_fly():
     of = replace(PAPER, nu=Fraction(1, 5))
-    assert not any(circle.prove(of, circle.CLAIMS).proofs.values())
+    assert not any(circle.prove(of, CLAIMS).proofs.values())
 
 
 def test_an_orbit_elsewhere_is_not_the_printed_one(arc):
@@ -590,8 +591,8 @@ def test_long_transients_need_phases_beside_the_fixed_point(arc, within, domain,
 def test_rows_about_printed_phases_are_not_asked_elsewhere():
     """At (1/6, -0.45) a motion sticks too, at (5.17, 6.22): not at the phases printed."""
     of = replace(PAPER, eta=Fraction(1, 6), nu=Fraction("-0.45"))
-    evidence = circle.prove(of, circle.CLAIMS)
-    lines = {claim: decide(claim, of, evidence, 30)[0] for claim in circle.CLAIMS}
+    evidence = circle.prove(of, CLAIMS)
+    lines = {claim: decide(claim, of, evidence, 30)[0] for claim in CLAIMS}
     printed = [claim for claim, line in lines.items() if "not asked here" in line.why]
     assert printed == ["G1", "G2", "G3", "G4", "G6"]
     assert {lines[claim].verdict for claim in printed} == {Verdict.UNDECIDED}
@@ -602,7 +603,7 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
     assert Fraction("6.2196") < leave[0] < Fraction("6.2197")
     assert wanted("circle", of) == {"circle": ("M6",)}
     assert wanted("circle", of, ["G3"]) == {"circle": ("G3",)}
-    assert wanted("circle", PAPER)["circle"] == circle.CLAIMS
+    assert wanted("circle", PAPER)["circle"] == CLAIMS
 
 
 # -- the command's own numbers -------------------------------------------------------------------
@@ -610,8 +611,8 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
 
 @pytest.mark.slow
 def test_all_claims_at_the_papers_numbers():
-    evidence = circle.prove(PAPER, circle.CLAIMS)
-    lines = {claim: decide(claim, PAPER, evidence, 30)[0] for claim in circle.CLAIMS}
+    evidence = circle.prove(PAPER, CLAIMS)
+    lines = {claim: decide(claim, PAPER, evidence, 30)[0] for claim in CLAIMS}
     assert {claim: line.verdict.value for claim, line in lines.items()} == {
         "M6": "CONDITIONAL",
         "G1": "VERIFIED",

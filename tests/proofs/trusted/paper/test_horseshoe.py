@@ -265,7 +265,10 @@ def test_the_figure_is_drawn_and_does_not_change(tmp_path):
 
 
 def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(runner, "find_spec", lambda name: None)
+    find = runner.find_spec
+    monkeypatch.setattr(
+        runner, "find_spec", lambda name: None if name == "matplotlib" else find(name)
+    )
     with pytest.raises(SystemExit) as leave:
         horseshoe.main(["--figure", "--out", str(tmp_path / "new")])
     assert leave.value.code == 2 and "needs matplotlib" in capsys.readouterr().err
