@@ -207,7 +207,6 @@ F2_PSI_PSI_PSI = "-(3*pi**2*m**2 + 2)"
 
 # Mass minus table at time tau of the flight from a fixed point.
 GAP = f"rho*sin(psi) + {LAUNCH}*tau - tau**2 - rho*sin(psi + tau)"
-FIXED_GAP = "tau*(2*pi*m - tau) + rho*sin(psi)*(1 - cos(tau)) - rho*cos(psi)*sin(tau)"
 
 # -- springs of any stiffness ----------------------------------------------------------------------
 # k and q as above, s = pi m k, big = 2 + k^2 (rho sin psi - q): fixed points by psi and big.
