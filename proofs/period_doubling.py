@@ -108,7 +108,7 @@ def answer_for(options: Namespace) -> Answer:
     answer["at"] = {show(rho): _at(springs, rho, least, places) for rho in options.rho}
     if options.follow and flip is not None:
         pairs = followed(springs)
-        answer["followed"] = [_motion(springs, *pair, places) for pair in pairs]
+        answer["followed"] = [_stable(springs, *pair, places) for pair in pairs]
     return answer
 
 
@@ -134,7 +134,7 @@ def _at(springs: Springs, rho: Fraction, least: Interval | None, places: int) ->
     double = double_at(springs, rho) if springs.flip is not None else None
     if double is not None:
         found.append((double, judge(springs, double)))
-    return [_motion(springs, *pair, places) for pair in found]
+    return [_stable(springs, *pair, places) for pair in found]
 
 
 def _motion(springs: Springs, motion: Motion, found: Judgement, places: int) -> Answer:
@@ -151,8 +151,13 @@ def _motion(springs: Springs, motion: Motion, found: Judgement, places: int) -> 
     }
     real = eigenvalues(springs, motion)
     said["eigenvalues"] = [_written(each, places) for each in real or ()]
+    return said | {"orbit": found.orbit, "reason": found.reason}
+
+
+def _stable(springs: Springs, motion: Motion, found: Judgement, places: int) -> Answer:
+    """Return the JSON object of a periodic motion with its stability."""
     stable = attracts(springs, motion)
-    return said | {"orbit": found.orbit, "reason": found.reason, "attracting": stable}
+    return _motion(springs, motion, found, places) | {"attracting": stable}
 
 
 def _written(value: Interval, places: int) -> dict[str, str]:

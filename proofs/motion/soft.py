@@ -4,10 +4,10 @@ The equations are (24), (25) with k = omega_n / omega, q = 2 omega^2 p / g, rho 
 g, lambda = 2 omega v / g, and their limit for k = 0; flights go over m table periods, c = 2 pi m.
 
 Fixed points. Let r = (1 - epsilon) / (1 + epsilon), w = tan(pi m k) / k, pi m for k = 0. For each a
-there is one with rho sin psi = a: rho cos psi = r w B, lambda = -w B, B = 2 + k^2 (a - q) > 0. So rho^2
-is a quadratic in a, least at the saddle-node, a = -(r w k)^2 (2 - k^2 q) / (1 + (r w k^2)^2). The
-flip is at a = M (2 - k^2 q) / ((1 + epsilon)^2 (1 + C) - k^2 M), C = cos(2 pi m k), M = (1 +
-epsilon)^2 + 2 (1 + epsilon^2) + (1 - epsilon)^2 C. Proof. Claims S10 and S18.
+with B = 2 + k^2 (a - q) > 0 there is one with rho sin psi = a: rho cos psi = r w B, lambda = -w B.
+So rho^2 is a quadratic in a, least at a = -(r w k)^2 (2 - k^2 q) / (1 + (r w k^2)^2), where B > 0:
+the saddle-node. The eigenvalue -1 is at a = M (2 - k^2 q) / ((1 + epsilon)^2 (1 + C) - k^2 M), C =
+cos(2 pi m k), M = (1 + epsilon)^2 + 2 (1 + epsilon^2) + (1 - epsilon)^2 C. Proof. Claims S10, S18.
 
 Period 2. For each d there is one motion psi, psi + d, psi, ... with flights of c + d and c - d,
 where a determinant is not 0: with rho cos(psi + d/2), rho sin(psi + d/2) and the two velocities as

@@ -16,13 +16,13 @@ from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s5_soft import orbits as eq
 
-_PIECES = 2000  # of a flight, at most
+_PIECES = 500  # of a flight, at most
 _EDGE = 64  # the part of a flight, at first, that is its launch, and that is its impact
 _HALVINGS = 40
 _STEP = Fraction(1, 32)  # of the shift, along the orbits of period 2
-_LARGEST_SHIFT = 3
-_COARSE = 80  # bits of candidates
-_GUARD = 24  # bits that rounding may take
+_SHIFTS = 96
+_COARSE = 56  # bits of candidates, beside those that rounding may take
+_GUARD = 24  # bits that rounding may take, for m = 1
 
 
 @dataclass(frozen=True)
@@ -181,30 +181,35 @@ def double_at(springs: Springs, rho: Fraction) -> Motion | None:
     It is looked for by bisection and secants, and proved by the signs on both sides of its shift.
     """
 
-    def excess(shift: Fraction, bits: int = springs.bits) -> Interval:
+    spare = _GUARD + 4 * springs.m.bit_length()
+
+    def excess(shift: Fraction, bits: int) -> Interval:
         return replace(springs, bits=bits).double(Interval(shift, precision=bits)).rho - rho
 
-    shifts = [n * _STEP for n in range(1, int(_LARGEST_SHIFT / _STEP))]
-    high = next((shift for shift in shifts if excess(shift, _COARSE).mid > 0), None)
-    low = shifts[0] * _STEP**4 if high == shifts[0] else (high or 0) - _STEP
-    if high is None or excess(low, _COARSE).mid > 0:
+    def above(shift: Fraction) -> bool:
+        return excess(shift, _COARSE + spare).mid > 0
+
+    high = next((n * _STEP for n in range(1, _SHIFTS) if above(n * _STEP)), None)
+    low = _STEP**5 if high == _STEP else (high or 0) - _STEP
+    if high is None or above(low):
         return None
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        low, high = (low, middle) if excess(middle, _COARSE).mid > 0 else (middle, high)
-    width, last, now = Fraction(1, 2 ** (springs.bits - _GUARD)), low, high
+        low, high = (low, middle) if above(middle) else (middle, high)
+    bits, last, now = springs.bits, low, high
+    width = Fraction(1, 2 ** (bits - spare))
     while abs(now - last) > width:
-        slope = (excess(now).mid - excess(last).mid) / (now - last)
-        last, now = now, around(now - excess(now).mid / slope, springs.bits)[0]
-    below, above = now - width, now + width
-    if excess(below).sup < 0 < excess(above).inf:
-        return springs.double(Interval(below, above, precision=springs.bits))
+        slope = (excess(now, bits).mid - excess(last, bits).mid) / (now - last)
+        last, now = now, around(now - excess(now, bits).mid / slope, bits)[0]
+    ends = now - width, now + width
+    if excess(ends[0], bits).sup < 0 < excess(ends[1], bits).inf:
+        return springs.double(Interval(*ends, precision=bits))
     raise Undecided("the orbit of period 2 at this rho")
 
 
 def followed(springs: Springs) -> Iterator[tuple[Motion, Judgement]]:
     """Yield motions of period 2 from the flip on, up to the first that is no attracting orbit."""
-    for n in range(1, int(_LARGEST_SHIFT / _STEP)):
+    for n in range(1, _SHIFTS):
         motion = springs.double(springs.exact(n * _STEP))
         found = judge(springs, motion)
         yield motion, found
