@@ -102,7 +102,10 @@ def _at(springs: Springs, u: Interval) -> list[Interval]:
 
 
 def _falls_through(springs: Springs, of: Callable[[Interval], Interval]) -> Range:
-    """Bracket the zero of a function that falls through 0 on (0, 2), to the precision."""
+    """Bracket the zero on (0, pi/2) of a function that falls there, and is negative up to 2.
+
+    R - r and H are: R falls on (0, pi), and H rises from pi/2 to 2 without coming to 0.
+    """
     low, high, width = Fraction(0), Fraction(2), Fraction(1, 2 ** (springs.bits - _GUARD))
     while high - low > high * width:
         middle = (low + high) / 2

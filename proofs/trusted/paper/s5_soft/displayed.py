@@ -148,7 +148,7 @@ def flip(alpha: str) -> str:
     return f"1/(1 + epsilon)*sqrt(({alpha})**2 + (1 - epsilon)**2*(2*pi*m)**2)"
 
 
-RHO_FLIP, RHO_MF = flip(ALPHA_FLIP), flip(PRINTED_ALPHA_FLIP)
+RHO_MF = flip(PRINTED_ALPHA_FLIP)
 RHO_O, TRUE_RHO_O = "sqrt(4 + (2*pi*m)**2)", "sqrt(16 + (2*pi*m)**2)"
 
 # The characteristic polynomial at 1 and at -1.

@@ -171,8 +171,9 @@ ROWS = (
                 "Let beta, omega, g > 0, m >= 1, 0 <= epsilon < 1, rho = 2 omega^2 beta/g and X = "
                 "(1 - epsilon) pi m g/((1 + epsilon) omega^2 beta) = ((1 - epsilon)/(1 + epsilon)) "
                 "2 pi m/rho. If X < 1, for every small omega_n > 0 there are exactly two fixed "
-                "phases; they tend to arccos X and -arccos X as omega_n -> 0. If X > 1 there is "
-                "none for small omega_n. The limit equation is cos psi = X.",
+                "phases with flights over m periods; they tend to arccos X and -arccos X as "
+                "omega_n -> 0. If X > 1 there is none for small omega_n. The limit equation is cos "
+                "psi = X.",
                 _VELOCITY,
                 _PHASE,
                 *_TRUE_LIMITS,

@@ -118,7 +118,7 @@ ROWS = (
                 at(_MINUS_ONE, 1, epsilon="1/2", rho="43/20", m="1"),
             ),
         ),
-        corrected=(given.diagram,),
+        corrected=(given.first_kind,),
     ),
     derived_row(
         Passage("S17", "5, rho_m^f", "saddles of the second kind"),
@@ -139,19 +139,7 @@ ROWS = (
                 at(_MINUS_ONE, 1, epsilon="9/10", rho="1", m="1"),
             ),
         ),
-        corrected=(
-            given.diagram,
-            corollary(
-                "With a = 4 (1 - epsilon)/(1 - 2 epsilon^2), the paper's value of alpha at its "
-                "rho_m^f, a^2 - (4 (1 + epsilon^2)/(1 + epsilon))^2 = 64 epsilon^4 (1 - epsilon^2 "
-                "- epsilon^4)/((1 - 2 epsilon^2)^2 (1 + epsilon)^2): so rho_m^f is rho_F for "
-                "epsilon = 0 and epsilon^2 = (sqrt(5) - 1)/2 only; it is larger, and rho > rho_m^f "
-                "is sufficient but not necessary for a saddle of the second kind, if 0 < epsilon^2 "
-                "< (sqrt(5) - 1)/2, epsilon^2 not 1/2; it is smaller, with sinks between, if "
-                "epsilon^2 > (sqrt(5) - 1)/2.",
-                *given.THRESHOLDS,
-            ),
-        ),
+        corrected=(given.second_kind,),
     ),
     derived_row(
         Passage("S18", "5, rho_m, rho_m^f", "a pair of fixed points appear in a saddle-node"),
@@ -169,7 +157,7 @@ ROWS = (
                 at(f"at({eq.AT_MINUS_ONE}, alpha={eq.PRINTED_ALPHA_FLIP})", -1, epsilon="1/2"),
             ),
         ),
-        corrected=(given.diagram, admissible, sticking, given.stiff),
+        corrected=(given.bifurcations, admissible, sticking, given.stiff),
     ),
     derived_row(
         Passage("S19", "5", "we have shown that this assumption is unnecessary"),

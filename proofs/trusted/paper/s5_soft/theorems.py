@@ -196,13 +196,38 @@ diagram = corollary(
     "exactly for rho < rho_G; if epsilon < epsilon_m, the first exactly for rho > rho_G, the "
     "second for no rho; if epsilon = epsilon_m, the first for rho > rho_SN, the second for no rho. "
     "If epsilon = 0, the first exactly for rho >= sqrt(4 + c^2), the second for no rho: the mass "
-    "sticks. So a saddle-node bifurcation of orbits takes place at rho_SN exactly if epsilon > "
-    "epsilon_m, of solutions for every epsilon; the flip at rho_F always is one of an orbit.",
+    "sticks.",
     *CHARACTERISTIC,
     admissible,
 )
+first_kind = corollary(
+    "For m >= 1, 0 < epsilon < 1 and rho > 0 a fixed point is a saddle of the first kind exactly "
+    "if it is the second one of S15, psi = -arccos(rho_SN/rho), and rho > rho_SN; and an orbit, "
+    "too, exactly if epsilon > epsilon_m and rho < rho_G, with epsilon_m and rho_G of S15.",
+    diagram,
+)
+second_kind = corollary(
+    "For m >= 1, 0 < epsilon < 1 and rho > 0 a fixed point is a saddle of the second kind exactly "
+    "if it is the first one of S15, psi = arccos(rho_SN/rho), and rho > rho_F; it is an orbit "
+    "then. With a = 4 (1 - epsilon)/(1 - 2 epsilon^2), the paper's value of alpha at its rho_m^f, "
+    "a^2 - (4 (1 + epsilon^2)/(1 + epsilon))^2 = 64 epsilon^4 (1 - epsilon^2 - epsilon^4)/((1 - 2 "
+    "epsilon^2)^2 (1 + epsilon)^2): so rho_m^f is rho_F for epsilon = 0 and epsilon^2 = (sqrt(5) - "
+    "1)/2 only; it is larger, and rho > rho_m^f is sufficient but not necessary for a saddle of "
+    "the second kind, if 0 < epsilon^2 < (sqrt(5) - 1)/2, epsilon^2 not 1/2; it is smaller, with "
+    "sinks between, if epsilon^2 > (sqrt(5) - 1)/2.",
+    diagram,
+    *THRESHOLDS,
+)
+bifurcations = corollary(
+    "For m >= 1 and 0 <= epsilon < 1 two solutions, the fixed points of S15, appear at rho_SN in a "
+    "saddle-node bifurcation, and the first has a flip at rho_F. The flip is one of an orbit; the "
+    "saddle-node is one of orbits exactly if epsilon > epsilon_m, epsilon_1 = 0.0204576.... If 0 < "
+    "epsilon < epsilon_m the first becomes an orbit at rho_G > rho_SN, where the mass grazes the "
+    "table, if epsilon = 0 at sqrt(4 + (2 pi m)^2).",
+    diagram,
+)
 stiff = corollary(
-    "For springs of any stiffness k = omega_n/omega with 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < "
+    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < "
     "1, q = 2 omega^2 p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of "
     "(24), (25), an orbit or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a "
     "flight over m periods, where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the "
