@@ -6,9 +6,10 @@ K the limit omega_n -> 0. At rho_saddle_node two fixed points of the impact equa
 rho_flip one of them has the eigenvalue -1. Each is said to be an orbit, the mass staying above the
 table from launch to impact, or not. For K = 0 fixed points are orbits exactly if rho sin psi >
 height_least, which is negative exactly for epsilon > epsilon_least; at rho_graze it is |rho sin
-psi|. cubic is the K > 0 of h -> h - 2 K h^3 on the centre manifold. For plastic impacts in the
-limit f2_psi_rho and f2_psi_psi_psi are derivatives of the second iterate of the phase map at the
-flip. Proofs: claims S18, S22, S23 of `python -m proofs.soft`.
+psi|. Orbits of period 2 with phases 2 h apart are at rho^2 = rho_flip^2 + rise h^2 + O(h^4). For K
+= 0 cubic is the coefficient of h -> h - 2 cubic h^3 on the centre manifold, the second iterate, and
+for plastic impacts f2_psi_rho and f2_psi_psi_psi are its derivatives. Proofs: claims S18, S22, S23
+of `python -m proofs.soft`.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from proofs.shell.cli import Parser, number, whole
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.numbers import between, show
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft.doubling import LIMIT_RISE, RISE
 
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified:
@@ -104,7 +106,7 @@ def answer_for(options: Namespace) -> Answer:
         answer["rho_flip"] = _written(flip.rho, places)
         answer["psi"] = _written(flip.impacts[0].psi, places)
         answer["flip"] = _motion(springs, flip, judge_fixed(springs, flip, least), places)
-        answer |= _cubic(springs, places)
+        answer |= _kind(springs, places)
     answer["at"] = {show(rho): _at(springs, rho, least, places) for rho in options.rho}
     if options.follow and flip is not None:
         pairs = followed(springs)
@@ -112,20 +114,22 @@ def answer_for(options: Namespace) -> Answer:
     return answer
 
 
-def _cubic(springs: Springs, places: int) -> Answer:
-    """Return the values at the flip that S22 and S23 prove, where they do."""
+def _kind(springs: Springs, places: int) -> Answer:
+    """Return the values at the flip that S22 and S23 prove."""
     point = {"m": Fraction(springs.m)}
-    if springs.k and springs.epsilon:
-        return {}
     if springs.k:
-        half = f"{springs.m}*pi*k"
-        cubic = f"at({eq.STIFF_CUBIC}, t=sin({half})/cos({half}))"
-        return {"cubic": bounds(enclose(cubic, places, k=springs.k), places)}
-    formulas = {"cubic": f"at({eq.CUBIC}, c=2*pi*m)"}
-    if not springs.epsilon:
-        formulas |= {"f2_psi_rho": eq.F2_PSI_RHO, "f2_psi_psi_psi": eq.F2_PSI_PSI_PSI}
+        tangent, ratio = "t=sin(pi*m*k)/cos(pi*m*k)", springs.ratio
+        big = "(2 - k**2*q)/(1 - k**2*(1 + t**2 + r**2))"
+        rise = f"at(at({RISE}, big={big}), {tangent})"
+        point |= {"k": springs.k, "q": springs.q, "r": ratio}
+        return {"rise": bounds(enclose(rise, places, **point), places)}
+    found = {"rise": enclose(LIMIT_RISE, places, r=springs.ratio, **point)}
     point |= {"epsilon": springs.epsilon}
-    return {name: bounds(enclose(each, places, **point), places) for name, each in formulas.items()}
+    found["cubic"] = enclose(f"at({eq.CUBIC}, c=2*pi*m)", places, **point)
+    if not springs.epsilon:
+        found["f2_psi_rho"] = enclose(eq.F2_PSI_RHO, places, **point)
+        found["f2_psi_psi_psi"] = enclose(eq.F2_PSI_PSI_PSI, places, **point)
+    return {name: bounds(ends, places) for name, ends in found.items()}
 
 
 def _at(springs: Springs, rho: Fraction, least: Interval | None, places: int) -> list[Answer]:
@@ -190,12 +194,11 @@ def _open(part: object) -> bool:
 def _text(answer: Answer) -> str:
     springs = "the limit of soft springs" if answer["k"] == "0" else f"q = {answer['q']}"
     said = [f"m = {answer['m']}, epsilon = {answer['epsilon']}, k = {answer['k']}, {springs}"]
-    said += [f"saddle-node of two fixed points: {_kind(answer['saddle_node'])}"]
+    said += [f"saddle-node of two fixed points: {_whether(answer['saddle_node'])}"]
     said += _named(answer, ("rho_saddle_node", "height_least", "rho_graze", "epsilon_least"))
     if "flip" in answer:
-        proved = "a supercritical period doubling" if "cubic" in answer else "an eigenvalue -1"
-        said += [f"{proved}: {_kind(answer['flip'])}"]
-        at_flip = ("rho_flip", "psi", "cubic", "f2_psi_rho", "f2_psi_psi_psi")
+        said += [f"a supercritical period doubling: {_whether(answer['flip'])}"]
+        at_flip = ("rho_flip", "psi", "rise", "cubic", "f2_psi_rho", "f2_psi_psi_psi")
         said += _named(answer, at_flip) + _matrix(answer["flip"])
     else:
         said.append("no fixed point has the eigenvalue -1")
@@ -213,14 +216,14 @@ def _named(answer: Answer, names: Iterable[str]) -> list[str]:
     return [line for name in names if name in answer for line in lines(name, answer[name], 15)]
 
 
-def _kind(motion: Answer) -> str:
+def _whether(motion: Answer) -> str:
     kind = {True: "an orbit", False: "no orbit", None: "undecided"}[motion["orbit"]]
     return f"{kind} ({motion['reason']})"
 
 
 def _stability(motion: Answer) -> str:
     words = {True: "attracting", False: "not attracting", None: "stability undecided"}
-    return f"{_kind(motion)}, {words[motion['attracting']]}"
+    return f"{_whether(motion)}, {words[motion['attracting']]}"
 
 
 def _short(ends: dict[str, str]) -> str:

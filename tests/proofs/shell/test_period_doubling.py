@@ -6,6 +6,7 @@ from fractions import Fraction
 import pytest
 from flint import arb, ctx
 
+from proofs.motion.soft import Springs
 from proofs.period_doubling import main
 
 
@@ -19,7 +20,9 @@ def expected(m, epsilon):
     ctx.prec = 600
     e, c = arb(epsilon.numerator) / epsilon.denominator, 2 * arb.pi() * m
     alpha = 4 * (1 + e**2) / (1 + e)
+    r = (1 - e) / (1 + e)
     found = {
+        "rise": (r * c) ** 2 + 4 * (1 - 2 * r**2 + 3 * r**4) / 3,
         "rho_flip": (alpha**2 + ((1 - e) * c) ** 2).sqrt() / (1 + e),
         "rho_saddle_node": (1 - e) / (1 + e) * c,
         "psi": (alpha / ((1 - e) * c)).atan(),
@@ -83,15 +86,19 @@ def test_at_the_numbers_of_a_referee(capsys):
 
 
 def test_springs_of_any_stiffness(capsys):
-    """The flip of S23, the eigenvalues -1 and -epsilon^2, and a kind where one is proved."""
+    """The flip of S23, the eigenvalues -1 and -epsilon^2; the rise, by an orbit of period 2."""
     plastic = answer(capsys, "--k", "0.1")
-    assert near(plastic["rho_flip"], 7.91012305614) and float(plastic["cubic"]["lower"]) > 0
+    assert near(plastic["rho_flip"], 7.91012305614)
     found = answer(capsys, "--k", "0.1", "--epsilon", "0.3", "--q", "2")
     for ends, value in zip(found["flip"]["eigenvalues"], (-0.09, -1), strict=True):
         assert near(ends, value)
     assert "cubic" not in found and found["flip"]["orbit"] is True
+    springs = Springs(1, Fraction(3, 10), Fraction(1, 10), Fraction(2), 100)
+    rho = springs.double(springs.exact(Fraction(1, 500))).rho  # h = 1/1000
+    rise = (rho.sqr() - springs.flip.rho.sqr()) * 10**6
+    assert near(found["rise"], float(rise.mid), 1e-4)
     assert main(["--k", "0.1", "--epsilon", "0.3"]) == 0
-    assert "an eigenvalue -1: an orbit" in capsys.readouterr().out
+    assert "a supercritical period doubling: an orbit" in capsys.readouterr().out
 
 
 def test_the_orbit_of_period_2_is_followed(capsys):

@@ -6,6 +6,7 @@ from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import theorems as given
+from proofs.trusted.paper.s5_soft.doubling import doubling
 from proofs.trusted.paper.s5_soft.orbits import admissible, sticking
 from proofs.trusted.verdicts import Verdict
 
@@ -250,7 +251,7 @@ ROWS = (
         "The plastic limit map f undergoes a period-doubling bifurcation.",
         Verdict.VERIFIED,
         given.flip,
-        given.stiff_flip,
-        corrected=(given.flip, given.stiff_flip),
+        doubling,
+        corrected=(given.flip, doubling, given.stiff_flip),
     ),
 )

@@ -149,6 +149,70 @@ def test_orbits_that_stick_after_their_impact(m):
             assert rho * mp.sin(landing(rho)[1]) > 2  # it leaves again at once
 
 
+# -- period doublings ------------------------------------------------------------------------------
+
+
+def cycle(m, eps, k, q, h):
+    """rho^2 of the motion with flights of 2 pi m + 2 h and 2 pi m - 2 h: by its equations."""
+    c = 2 * mp.pi * m
+
+    def flights(across, up, one, other):
+        rho, x = mp.hypot(across, up), mp.atan2(up, across)
+        defects = []
+        for sign, lam, after in ((1, one, other), (-1, other, one)):
+            psi, t = x - sign * h, c + 2 * sign * h
+            out, rest = -eps * lam + (1 + eps) * rho * mp.cos(psi), rho * mp.sin(psi) - q + 2 / k**2
+            end = rest * mp.cos(k * t) + out * mp.sin(k * t) / k - 2 / k**2 + q
+            defects += [end - rho * mp.sin(psi + t)]
+            defects += [out * mp.cos(k * t) - k * rest * mp.sin(k * t) - after]
+        return defects
+
+    a, b, lam = flip(m, eps, k, q)[:3]
+    across, up, _, _ = mp.findroot(flights, (b, a, lam, lam))
+    return across**2 + up**2
+
+
+def flip(m, eps, k, q):
+    """rho sin psi, rho cos psi, lambda at the flip, and kappa: as printed."""
+    r, t = (1 - eps) / (1 + eps), mp.tan(mp.pi * m * k)
+    whole = 1 + t**2 + r**2
+    big = (2 - k**2 * q) / (1 - k**2 * whole)
+    n = 3 * r**2 * t**2
+    n += k**2 * ((1 + t**2) ** 2 + r**2 * (1 + t**2) * (t**2 - 2) + 3 * r**4 * (1 - t**2))
+    n += k**4 * ((1 + t**2) ** 2 * (3 * t**2 - 1 + 5 * r**2) + 3 * r**4 * (1 + t**2) - 3 * r**6)
+    kappa = big**2 * n / (3 * k**2 * (1 - k**2 * whole))
+    return whole * big, r * t * big / k, -t * big / k, kappa
+
+
+@pytest.mark.parametrize(
+    ("m", "eps", "k", "q"),
+    [(1, "0", "0.1", 0), (1, "0.3", "0.2", 5), (2, "0.8", "0.03", -4), (1, "0.99", "0.001", 0)],
+)
+def test_orbits_of_period_2_are_above_the_flip(m, eps, k, q):
+    with mp.workdps(50):
+        eps, k = mp.mpf(eps), mp.mpf(k)
+        a, b, _, kappa = flip(m, eps, k, q)
+        assert kappa > 0
+        ends = [
+            (cycle(m, eps, k, q, h) - a**2 - b**2) / h**2 for h in (mp.mpf("1e-6"), mp.mpf("2e-6"))
+        ]
+        assert abs((4 * ends[0] - ends[1]) / 3 - kappa) < 1e-15 * kappa
+        if k < 0.01:  # the limit
+            r = (1 - eps) / (1 + eps)
+            limit = 4 * (3 * r**2 * (mp.pi * m) ** 2 + 1 - 2 * r**2 + 3 * r**4) / 3
+            assert abs(limit - kappa) < 1e-3
+
+
+def test_kappa_is_positive_wherever_there_is_a_flip():
+    chance, least = random.Random(7), math.inf
+    for _ in range(4000):
+        m, eps, k = chance.randint(1, 4), chance.random(), 10 ** chance.uniform(-3, 0)
+        r = (1 - eps) / (1 + eps)
+        if k < 1 / (2 * m) and k * k * (1 + math.tan(math.pi * m * k) ** 2 + r * r) < 1:
+            least = min(least, flip(m, eps, k, 0)[3])
+    assert 0 < least < 4
+
+
 # -- hypotheses ------------------------------------------------------------------------------------
 
 
@@ -211,8 +275,12 @@ def test_five_conditions_fail(said):
     assert holds == ["d^2(f^2)/dpsi^2 = 0"]
 
 
-def test_kinds_of_period_doublings_are_for_plastic_impacts(said):
-    assert "plastic impacts only, epsilon = 0" in said("S23").why
+def test_kinds_of_period_doublings(said):
+    """Any stiffness and restitution; the cubic coefficient only for plastic impacts."""
+    line = said("S23")
+    assert "every m >= 1, 0 <= epsilon < 1 and springs of any stiffness 0 < k" in line.why
+    assert "k^2 q < 2" in line.corrected
+    assert "For plastic impacts only, epsilon = 0" in line.corrected
 
 
 def test_diagrams_say_which_points_are_orbits(said):
