@@ -107,10 +107,10 @@ def _falls_through(springs: Springs, of: Callable[[Interval], Interval]) -> Rang
     R - r and H are: R falls on (0, pi), and H rises from pi/2 to 2 without coming to 0.
     """
     low, high, width = Fraction(0), Fraction(2), Fraction(1, 2 ** (springs.bits - _GUARD))
-    while high - low > high * width:
+    for _ in range(2 * springs.bits):
         middle = (low + high) / 2
         value = of(springs.exact(middle))
-        if value.contains_zero():
+        if value.contains_zero() or high - low <= high * width:
             break
         low, high = (middle, high) if value.inf > 0 else (low, middle)
     if not low:

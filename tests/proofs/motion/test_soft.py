@@ -1,12 +1,13 @@
 """Soft springs: enclosures of periodic motions against flights typed once more, in mpmath."""
 
 from fractions import Fraction
+from types import SimpleNamespace
 
 import mpmath as mp
 import pytest
 
-from intervals import Undecided
-from proofs.motion.soft import Springs
+from intervals import Interval, Undecided
+from proofs.motion.soft import Motion, Springs, State
 from proofs.motion.soft_orbits import (
     attracts,
     critical_epsilon,
@@ -201,3 +202,38 @@ def test_a_saddle_node_is_not_told_from_two_points():
     springs = Springs(1, Fraction(1, 2), Fraction(0), Fraction(0), 60)
     with pytest.raises(Undecided):
         springs.at(springs.saddle_node.rho.mid)
+
+
+@pytest.mark.parametrize(
+    ("matrix", "expected"),
+    [
+        (((0, 1), ("-1/2", 0)), True),
+        (((0, 1), ("-3/2", 0)), False),  # a pair of modulus above 1
+        (((0, 1), (1, 0)), None),
+        ((("3/2", 0), (0, "1/2")), False),
+        ((("-3/2", 0), (0, "1/2")), False),
+    ],
+)
+def test_both_eigenvalues_have_to_be_inside(matrix, expected):
+    rows = [[Interval(entry) for entry in row] for row in matrix]
+    assert attracts(SimpleNamespace(derivative=lambda motion: rows), None) is expected
+
+
+def test_a_launch_into_the_table_is_no_orbit():
+    """A velocity with which no mass arrives: below the table at first, above it from then on."""
+    springs = Springs(1, Fraction(1, 10), Fraction(0), Fraction(0), 80)
+    rho, psi, lam = mp.mpf(20), mp.mpf(1), 20 * mp.cos(1) + mp.mpf("0.01")
+    gap, _ = flight(springs, rho, psi, lam)
+    end = mp.findroot(gap, (4, 12), solver="anderson")
+    assert gap(mp.mpf("1e-5")) < 0 and all(gap(end * n / 500) > 0 for n in range(1, 500))
+    state = State(springs.exact(1), springs.exact(Fraction(str(lam))))
+    times = (springs.exact(Fraction(str(end))).widen(Fraction(1, 10**9)),)
+    assert judge(springs, Motion(springs.exact(20), (state,), times)).orbit is None
+
+
+def test_fixed_points_are_those_of_falling_masses():
+    """With stiff springs there may be no flip, and one fixed point instead of two."""
+    springs = Springs(1, Fraction(0), Fraction(2, 5), Fraction(10), 80)
+    assert springs.flip is None
+    (motion,) = springs.at(Fraction(40))
+    assert motion.impacts[0].lam.sup < 0
