@@ -34,6 +34,7 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "single": "s4_single",
         "soft": "s5_soft",
         "resonance": "s6_resonance",
+        "explore": "beyond",
     }
 )
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(

@@ -130,13 +130,20 @@ class ImageArc(Conclusion):
         """Whether the arc does not pass phase 0."""
         return self.low[1] < self.high[0]
 
+    @property
+    def passes_zero(self) -> bool:
+        """Whether the arc is all phases from `low` on and all up to `high`."""
+        return self.high[1] < self.low[0]
+
     def covers(self, target: Range) -> bool:
         """Whether the image is proved to contain an interval of phases."""
-        return self.low[1] <= target[0] and target[1] <= self.high[0]
+        after, before = self.low[1] <= target[0], target[1] <= self.high[0]
+        return after or before if self.passes_zero else after and before
 
     def misses(self, target: Range) -> bool:
         """Whether the image is proved to miss an interval of phases."""
-        return self.is_interval and (target[1] < self.low[0] or self.high[1] < target[0])
+        under, above = target[1] < self.low[0], self.high[1] < target[0]
+        return (self.passes_zero and under and above) or (self.is_interval and (under or above))
 
     @property
     def sentence(self) -> str:

@@ -26,6 +26,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "single": ("P1", "P2", "P3", "P4", "P5", "P6"),
         "soft": tuple(f"S{number}" for number in range(1, 24)),
         "resonance": (*(f"R{number}" for number in range(1, 14)), "E1"),
+        "explore": ("X1", "X2", "X3", "X4"),
     }
 )
 
@@ -47,6 +48,8 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s5_soft.stability": GROUPS["soft"][10:],
         "s6_resonance.resonance": GROUPS["resonance"],
         "s7_appendix": ("A1", "A2"),
+        "beyond.chaos": ("X2",),
+        "beyond.attractors": ("X1", "X3", "X4"),
     }
 )
 
