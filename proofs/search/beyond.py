@@ -16,6 +16,7 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
+from proofs.search.s34_chaos import prove_entropy
 from proofs.search.s34_circle import prove_arc
 from proofs.search.shifts import full_shifts
 from proofs.search.steps import Prover
@@ -26,7 +27,8 @@ from proofs.trusted.paper.beyond.chaos import markov_set
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
-_TRIES = 6  # of horseshoes
+_TRIES = 6  # of full shifts
+_TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in covering graphs
 _STARTS = 24  # phases whose orbits are followed
 _IMPACTS = 200
 _FARTHEST = 400.0  # the longest flight among them
@@ -34,6 +36,7 @@ _LONGEST = 60  # period
 _NEAR = 1e-9
 _RADIUS = 1e-5  # of the sets around the points of an orbit
 _LEAST = 1e-3  # the least |f'| that radii follow
+_THINNEST = 1e-12
 _PLACES = 14
 Part = tuple[str, SlopeRange]
 
@@ -68,7 +71,17 @@ def _cells(parts: Sequence[Part]) -> list[dict[str, object]]:
 # -- horseshoes ------------------------------------------------------------------------------------
 
 
-def _horseshoe(prover: Prover) -> Proof:
+def _chaos(prover: Prover) -> Proof:
+    """Prove a full shift, or else a covering graph of positive entropy."""
+    with suppress(*FAILED):
+        return _full_shift(prover)
+    graph = [x for x in prove_entropy(prover, _TURNS, _DEPTH) if x[1].growth > 1]
+    if not graph:
+        raise Undecided("no sets are seen that f maps over each other in several ways")
+    return [*graph]
+
+
+def _full_shift(prover: Prover) -> Proof:
     """Prove a full shift (rule markov-set), on the first sets that allow it."""
     failure = "no sets are seen with images across them all"
     for sets, _ in zip(full_shifts(prover.system), range(_TRIES), strict=False):
@@ -118,6 +131,8 @@ def _around(
     """Enclose f' on sets around the points of an orbit, each `growth` times the image before."""
     parts = []
     for phase, slope in points:
+        if radius < _THINNEST:
+            raise Undecided("the orbit is too steep for sets of the precision of floating point")
         parts.append(prover.slopes([_decimal(phase - radius), _decimal(phase + radius)]))
         radius *= growth * max(abs(slope), _LEAST)
     return parts
@@ -175,7 +190,7 @@ def _cycle(system: System, phase: float) -> list[tuple[float, float]] | None:
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[Prover], Proof]]] = MappingProxyType(
     {
-        "X2": ("horseshoes", _horseshoe),
+        "X2": ("horseshoes", _chaos),
         "X3": ("motions that stick", _sticking),
         "X4": ("stable orbits that do not", _stable),
     }

@@ -15,6 +15,7 @@ from proofs.trusted.numbers import Phases, Range, between, floor_text, show_rang
 from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.paper.s32_sets.subshift import irreducible, spectral_radius
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import apart
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_arc
@@ -149,9 +150,12 @@ def prove_markov_set(context: Context, reader: Reader) -> MarkovSet:
 
 
 def _chaotic(of: Parameters, found: Found) -> Decision:
-    known = found.all(MarkovSet)
-    if known:
-        return decided(Verdict.VERIFIED, max(known, key=lambda each: each.growth))
+    shifts = found.all(MarkovSet)
+    if shifts:
+        return decided(Verdict.VERIFIED, max(shifts, key=lambda each: each.growth))
+    graphs = [each for each in found.all(EntropyBound) if each.growth > 1]
+    if graphs:
+        return decided(Verdict.VERIFIED, max(graphs, key=lambda each: each.growth))
     try:
         return decided(Verdict.REFUTED, AtRest(of.place))
     except Unproved:
@@ -163,8 +167,8 @@ ROWS = (
         "X2",
         "beyond",
         "",
-        "At (eta, nu) = ({eta}, {nu}), for plastic impacts: f has an invariant Cantor set on which "
-        "it expands and is conjugate to a subshift of finite type of positive entropy.",
+        "At (eta, nu) = ({eta}, {nu}), for plastic impacts: f has a compact invariant set on which "
+        "it is continuous and its topological entropy is positive.",
         _chaotic,
     ),
 )
