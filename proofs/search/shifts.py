@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
+from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.parameters import Parameters
 
 _GRID = 1500  # phases that are looked at
 _FARTHEST = 200.0  # the longest flight among them
@@ -119,35 +121,77 @@ def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] |
 
 
 def full_shifts(system: System) -> Iterator[list[Range]]:
-    """Yield sets, in short decimals, on which f seems to be a full shift: `families` with spare."""
-    return map(short, families(symbols(pieces(system))))
+    """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
+    found = symbols(pieces(system))
+    for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
+        yield from _with_spare(family)
 
 
-def families(found: Sequence[Symbol]) -> Iterator[list[tuple[float, float]]]:
-    """Yield sets of full shifts, those of more symbols first, with as much spare as there is."""
+def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
+    """Yield I0 and I1, likewise, on which f seems to be an increasing horseshoe."""
+    found = [x for x in symbols(pieces(system)) if x[0].images[0] < x[0].images[-1]]
+    for family in families(found, 2):
+        yield from ((left, right) for left, right in _with_spare(family))
+
+
+def own_sets(of: Parameters) -> Parameters | None:
+    """Return the statement about I0 and I1 found at its oscillator, bounds of f' rounded outward.
+
+    None where no increasing horseshoe is seen.
+    """
+    system = System(of.eta, of.nu)
+    for sets in rising_pairs(system):
+        seen = [
+            next_impact(system, float(low + (high - low) * Fraction(k, 8)))
+            for low, high in sets
+            for k in range(9)
+        ]
+        slopes = [found[2] for found in seen if found is not None]
+        bounds = rounded_slopes((Fraction(min(slopes)), Fraction(max(slopes))), 1)
+        interval = sets[0][0], sets[1][1]
+        return replace(
+            of,
+            left=sets[0],
+            right=sets[1],
+            interval=interval,
+            slopes=bounds,
+            ratios=None,
+            printed_s0=None,
+        )
+    return None
+
+
+def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
+    """Return symbols that seem to make a full shift, up to so many together, each family once."""
     least = _SPARES[-1]
-    good = [list(pair) for pair in combinations(found, 2) if cells(pair, least)]
-    grown = []
-    for pair in good[:200]:
-        family = pair
+    grown: list[list[Symbol]] = []
+    for pair in combinations(found, 2):
+        if any(set(map(id, pair)) <= set(map(id, family)) for family in grown):
+            continue
+        family = list(pair)
+        if not cells(family, least):
+            continue
         for symbol in found:
-            if len(family) < _MOST_SYMBOLS and symbol not in family:
+            if len(family) < most and symbol not in family:
                 more = [*family, symbol]
                 family = more if cells(more, least) else family
         grown.append(family)
-    grown.sort(key=len, reverse=True)
-    for family in grown:
-        for spare in _SPARES:
-            sets = cells(family, spare)
-            if sets:
-                yield sets
-                break
+    return grown
 
 
-def short(sets: Sequence[tuple[float, float]], most: int = 12) -> list[Range]:
-    """Round sets outward to decimals, of the fewest places that keep them apart and near."""
+def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
+    """Yield the sets of a full shift with as much spare as there is, rounded outward."""
+    for spare in _SPARES:
+        sets = cells(family, spare)
+        if sets:
+            yield _short(sets, spare)
+            return
+
+
+def _short(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
+    """Round sets outward to decimals, of the fewest places that leave room around them."""
     narrowest = min(high - low for low, high in sets)
     gap = min(two[0] - one[1] for one, two in pairwise(sets))
-    places = max(2, math.ceil(-math.log10(min(narrowest, gap) / 20)))
-    unit = Fraction(1, 10 ** min(most, places))
+    room = min(narrowest / 20, gap / 20, spare / 5)
+    unit = Fraction(1, 10 ** max(2, math.ceil(-math.log10(room))))
     return [(Fraction(low) // unit * unit, -(Fraction(-high) // unit) * unit) for low, high in sets]
