@@ -26,9 +26,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "single": ("P1", "P2", "P3", "P4", "P5", "P6"),
         "soft": tuple(f"S{number}" for number in range(1, 24)),
         "resonance": (*(f"R{number}" for number in range(1, 14)), "E1"),
-        "explore": ("X1", "X2", "X3", "X4"),
     }
 )
+BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"explore": ("X1", "X2", "X3", "X4")}
+)  # asked at any parameters, and not of the paper: no part of the ledger
 
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -56,7 +58,8 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 def group_of(claim: str) -> str | None:
     """Return the group that a claim belongs to, None for an unknown id."""
-    return next((group for group, claims in GROUPS.items() if claim in claims), None)
+    known = {**GROUPS, **BEYOND}
+    return next((group for group, claims in known.items() if claim in claims), None)
 
 
 def find(claim: str) -> Row | None:

@@ -8,7 +8,7 @@ import pytest
 from proofs.shell.groups import produce
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
-from proofs.trusted.paper import GROUPS
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.paper.beyond.attractors import (
     AtRest,
     Leaves,
@@ -238,6 +238,6 @@ ASKED = [  # verdicts of X1 to X4; X2 and X4 by simulation in the oracles
 @pytest.mark.parametrize(("eta", "nu", "verdicts"), ASKED)
 def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu))
-    made = produce({"explore": GROUPS["explore"]}, of, digits=20)
+    made = produce(BEYOND, of, digits=20)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
     assert len(check(made.certificate).claims) == 4
