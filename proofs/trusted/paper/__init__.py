@@ -56,12 +56,6 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 
 
-def group_of(claim: str) -> str | None:
-    """Return the group that a claim belongs to, None for an unknown id."""
-    known = {**GROUPS, **BEYOND}
-    return next((group for group, claims in known.items() if claim in claims), None)
-
-
 def find(claim: str) -> Row | None:
     """Return the row of a claim by its id; only its own module is imported."""
     for name, claims in _MODULES.items():
