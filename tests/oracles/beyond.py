@@ -25,6 +25,11 @@ def leaves(view, rng):
     return [] if not all(_pushes(view)) else ["at no phase that is looked at the mass leaves"]
 
 
+def never_sticks(view, rng):
+    """At no phase the mass sticks, but perhaps for one."""
+    return [] if _pushes(view).count(True) <= 1 else ["at some phases the mass sticks"]
+
+
 def _over(view, cell, target):
     """Whether f maps a cell over another, or misses it; None where neither is seen."""
     ends = [lifted(view, phase) for phase in cell]
@@ -108,6 +113,7 @@ def stable_orbit(view, rng):
 JUDGES = {
     "AtRest": at_rest,
     "Leaves": leaves,
+    "NeverSticks": never_sticks,
     "MarkovSet": markov_set,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,

@@ -37,7 +37,7 @@ def true_views():
         found += [(f"{name} {step}", one, of) for step, one in known.items()]
         for claim, _, shown in committed_rows(name)[1]:
             found += [(f"{name} {claim}", one, of) for one in shown]
-    for eta, nu in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2")):
+    for eta, nu in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"), ("2", "-0.2")):
         made = proved("explore", eta, nu)
         of, known = conclusions(made)
         found += [(f"explore {eta} {step}", one, of) for step, one in known.items()]
@@ -258,6 +258,7 @@ FALSE = {
     "Theorem": [put("text", "")],
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "Leaves": [put("nu", F("0.01"))],
+    "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
     "MarkovSet": [
         put("cells", lambda old: old[::-1]),
         put("cells", lambda old: (off(old[0]), *old[1:])),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -31,44 +32,52 @@ def _named(cells: Sequence[Phases]) -> str:
 # -- X1: the mass that never leaves ----------------------------------------------------------------
 
 
+def _has_an_arc(at: Place) -> bool:
+    """Whether |nu| |1 - eta^2| > eta^2, eta and nu being numbers: A, below, takes both signs.
+
+    A = nu (1 - eta^2) sin(phi) - eta^2 is the relative acceleration of a free mass at the table, in
+    units of the sign of nu: the mass sticks where sign(nu) A < 0 (`sticking`, in section 2). Where
+    A = 0 = cos(phi) the gap begins with its fourth derivative, -sign(nu) eta^2.
+    """
+    (eta, last), (nu, most) = at.eta, at.nu
+    if (eta, nu) != (last, most):
+        raise Unproved("one eta and one nu are expected")
+    return abs(nu * (1 - eta * eta)) > eta * eta
+
+
 @dataclass(frozen=True)
 class AtRest(Conclusion):
     """Theorem. Let nu > 0 and nu |1 - eta^2| <= eta^2. Then what the sentence says.
 
-    Proof. The relative acceleration of a mass that rests on the table at phase phi is A = nu (1 -
-    eta^2) sin(phi) - eta^2, in units of the sign of nu: at most nu |1 - eta^2| - eta^2 <= 0, so the
-    table pushes. Where it is 0, cos(phi) = 0 and the gap of a free mass would begin with its fourth
-    derivative, -eta^2 < 0 (`sticking`, in section 2): the mass stays.
+    Proof. A <= 0 at every phase; where it is 0, the mass stays: `_has_an_arc`.
     """
 
     at: Place
 
     def __post_init__(self) -> None:
-        (eta, last), (nu, most) = self.at.eta, self.at.nu
-        if (eta, nu) != (last, most) or nu < 0 or nu * abs(1 - eta * eta) > eta * eta:
+        if self.at.nu[0] < 0 or _has_an_arc(self.at):
             raise Unproved("the mass leaves the table at some phase")
 
     @property
     def sentence(self) -> str:
         return (
-            "the table pushes the mass at every phase: after its first plastic impact the mass "
+            "nothing lifts the mass off the table at any phase: after its first plastic impact it "
             "stays on the table for ever, and f is defined at no phase."
         )
 
 
 @dataclass(frozen=True)
 class Leaves(Conclusion):
-    """Theorem. If nu < 0 or nu |1 - eta^2| > eta^2, then what the sentence says.
+    """Theorem. If nu < 0 or |nu| |1 - eta^2| > eta^2, then what the sentence says.
 
-    Proof. A, see `AtRest`, times the sign of nu, is eta^2 > 0 at the phase 0 if nu < 0. If nu > 0
-    it is nu |1 - eta^2| - eta^2 > 0 at the phase pi/2 or 3 pi/2. Each phase comes within one turn.
+    Proof. sign(nu) A is eta^2 > 0 at the phase 0 if nu < 0. If nu > 0 it is nu |1 - eta^2| - eta^2
+    > 0 at the phase pi/2 or 3 pi/2. Each phase comes within one turn.
     """
 
     at: Place
 
     def __post_init__(self) -> None:
-        (eta, last), (nu, most) = self.at.eta, self.at.nu
-        if (eta, nu) != (last, most) or (nu > 0 and nu * abs(1 - eta * eta) <= eta * eta):
+        if self.at.nu[0] > 0 and not _has_an_arc(self.at):
             raise Unproved("the mass may rest on the table for ever")
 
     @property
@@ -76,12 +85,38 @@ class Leaves(Conclusion):
         return "after a plastic impact the mass leaves the table, within one turn at the latest."
 
 
+@dataclass(frozen=True)
+class NeverSticks(Conclusion):
+    """Theorem. Let nu < 0 and |nu| |1 - eta^2| <= eta^2. Then what the sentence says.
+
+    Proof. -A >= 0 at every phase; where it is 0, the mass leaves: `_has_an_arc`.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        if self.at.nu[0] > 0 or _has_an_arc(self.at):
+            raise Unproved("the mass sticks at some phase")
+
+    @property
+    def sentence(self) -> str:
+        return "the mass leaves the table at once after every plastic impact: it never sticks."
+
+
+def first_proved(at: Place, *kinds: type[Conclusion]) -> Conclusion | None:
+    """Return the first of these conclusions about an oscillator that holds."""
+    for kind in kinds:
+        with suppress(Unproved):
+            return kind(at)
+    return None
+
+
 def _rests(of: Parameters, found: Found) -> Decision:
     del found
-    try:
-        return decided(Verdict.VERIFIED, AtRest(of.place))
-    except Unproved:
-        return decided(Verdict.REFUTED, Leaves(of.place))
+    rests = first_proved(of.place, AtRest)
+    if rests is not None:
+        return decided(Verdict.VERIFIED, rests)
+    return decided(Verdict.REFUTED, Leaves(of.place))
 
 
 # -- X3: motions that stick ------------------------------------------------------------------------
@@ -169,13 +204,10 @@ def prove_sticking_motion(context: Context, reader: Reader) -> StickingMotion:
 
 
 def _sticks(of: Parameters, found: Found) -> Decision:
-    motion = found.first(StickingMotion)
+    motion, none = found.first(StickingMotion), first_proved(of.place, AtRest, NeverSticks)
     if motion is not None:
         return decided(Verdict.VERIFIED, motion)
-    try:
-        return decided(Verdict.REFUTED, AtRest(of.place))
-    except Unproved:
-        return undecided("none is proved")
+    return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
 # -- X4: stable orbits -----------------------------------------------------------------------------
@@ -249,13 +281,10 @@ def prove_stable_orbit(context: Context, reader: Reader) -> StableOrbit:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    orbits = found.all(StableOrbit)
+    orbits, none = found.all(StableOrbit), first_proved(of.place, AtRest)
     if orbits:
         return decided(Verdict.VERIFIED, *orbits)
-    try:
-        return decided(Verdict.REFUTED, AtRest(of.place))
-    except Unproved:
-        return undecided("none is proved")
+    return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
 _AT = "At (eta, nu) = ({eta}, {nu}), for plastic impacts: "

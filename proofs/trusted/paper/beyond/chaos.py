@@ -12,7 +12,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phases, Range, between, floor_text, show_range
-from proofs.trusted.paper.beyond.attractors import AtRest
+from proofs.trusted.paper.beyond.attractors import AtRest, first_proved
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.paper.s32_sets.subshift import irreducible, spectral_radius
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
@@ -150,16 +150,11 @@ def prove_markov_set(context: Context, reader: Reader) -> MarkovSet:
 
 
 def _chaotic(of: Parameters, found: Found) -> Decision:
-    shifts = found.all(MarkovSet)
-    if shifts:
-        return decided(Verdict.VERIFIED, max(shifts, key=lambda each: each.growth))
     graphs = [each for each in found.all(EntropyBound) if each.growth > 1]
-    if graphs:
-        return decided(Verdict.VERIFIED, max(graphs, key=lambda each: each.growth))
-    try:
-        return decided(Verdict.REFUTED, AtRest(of.place))
-    except Unproved:
-        return undecided("no horseshoe is proved")
+    for known in (*found.all(MarkovSet), *graphs):
+        return decided(Verdict.VERIFIED, known)
+    none = first_proved(of.place, AtRest)
+    return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
 ROWS = (

@@ -12,6 +12,7 @@ from proofs.trusted.paper import BEYOND
 from proofs.trusted.paper.beyond.attractors import (
     AtRest,
     Leaves,
+    NeverSticks,
     StableOrbit,
     StickingMotion,
     stable_orbit,
@@ -117,24 +118,36 @@ def test_a_markov_set_cannot_be_made_of_false_data(changes):
 
 
 @pytest.mark.parametrize(
-    ("eta", "nu", "rests"),
+    ("eta", "nu", "holds"),
     [
-        ("1/2", "1/5", True),
-        ("1/2", "1/3", True),  # 1/3 * 3/4 = 1/4: pushed but at one phase
-        ("1/2", "0.33334", False),
-        ("1/5", "1/5", False),
-        ("1", "5", True),
-        ("2", "4/3", True),
-        ("2", "1.33334", False),
-        ("1/2", "-1/5", False),
-        ("3", "-1/1000", False),
+        ("1/2", "1/5", {AtRest}),
+        ("1/2", "1/3", {AtRest}),  # 1/3 * 3/4 = 1/4: no force at one phase
+        ("1/2", "0.33334", {Leaves}),
+        ("1/5", "1/5", {Leaves}),
+        ("1", "5", {AtRest}),
+        ("2", "4/3", {AtRest}),
+        ("2", "1.33334", {Leaves}),
+        ("1/2", "-1/5", {Leaves, NeverSticks}),
+        ("1/2", "-1/3", {Leaves, NeverSticks}),
+        ("1/2", "-0.33334", {Leaves}),
+        ("3", "-1/1000", {Leaves, NeverSticks}),
+        ("1", "-5", {Leaves, NeverSticks}),
     ],
 )
-def test_the_mass_rests_or_leaves(eta, nu, rests):
+def test_the_mass_rests_leaves_or_never_sticks(eta, nu, holds):
     at = Place.plastic(F(eta), F(nu))
-    (AtRest if rests else Leaves)(at)
-    with pytest.raises(Unproved):
-        (Leaves if rests else AtRest)(at)
+    for kind in (AtRest, Leaves, NeverSticks):
+        if kind in holds:
+            kind(at)
+        else:
+            with pytest.raises(Unproved):
+                kind(at)
+
+
+def test_a_box_of_oscillators_is_none():
+    for nu in ((F(1, 9), F(1, 5)), (F(-1, 5), F(-1, 9))):
+        with pytest.raises(Unproved, match="one eta"):
+            (AtRest if nu[0] > 0 else NeverSticks)(Place((F(1, 2),) * 2, nu))
 
 
 # -- motions that stick ----------------------------------------------------------------------------
@@ -231,6 +244,7 @@ ASKED = [  # verdicts of X1 to X4; X2 and X4 by simulation in the oracles
     ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED"),
     ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED"),
     ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED"),
+    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED"),
 ]
 
 
