@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -103,7 +103,7 @@ class NeverSticks(Conclusion):
         return "the mass leaves the table at once after every plastic impact: it never sticks."
 
 
-def first_proved(at: Place, *kinds: type[Conclusion]) -> Conclusion | None:
+def first_proved(at: Place, *kinds: Callable[[Place], Conclusion]) -> Conclusion | None:
     """Return the first of these conclusions about an oscillator that holds."""
     for kind in kinds:
         with suppress(Unproved):
