@@ -136,14 +136,12 @@ class ImageArc(Conclusion):
         return self.high[1] < self.low[0]
 
     def covers(self, target: Range) -> bool:
-        """Whether the image is proved to contain an interval of phases."""
-        after, before = self.low[1] <= target[0], target[1] <= self.high[0]
-        return after or before if self.passes_zero else after and before
+        """Whether the image is proved to be an interval that contains an interval of phases."""
+        return self.low[1] <= target[0] and target[1] <= self.high[0]
 
     def misses(self, target: Range) -> bool:
-        """Whether the image is proved to miss an interval of phases."""
-        under, above = target[1] < self.low[0], self.high[1] < target[0]
-        return (self.passes_zero and under and above) or (self.is_interval and (under or above))
+        """Whether the image is proved to be an interval that misses an interval of phases."""
+        return self.is_interval and (target[1] < self.low[0] or self.high[1] < target[0])
 
     @property
     def sentence(self) -> str:

@@ -18,7 +18,7 @@ from proofs.trusted.paper.s32_sets.subshift import irreducible, spectral_radius
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import apart
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import SlopeRange, image_arc
+from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _MOST_CELLS = 100
@@ -106,6 +106,18 @@ class MarkovSet(Conclusion):
         return {"growth": self.growth, "entropy": (low[0], high[1])}
 
 
+def contains(arc: ImageArc, cell: Phases) -> bool:
+    """Whether an image, which may pass phase 0, is proved to contain a cell."""
+    beyond = arc.low[1] <= cell[0] or cell[1] <= arc.high[0]
+    return beyond if arc.passes_zero else arc.covers(cell)
+
+
+def misses(arc: ImageArc, cell: Phases) -> bool:
+    """Whether an image, which may pass phase 0, is proved to miss a cell."""
+    between_ends = arc.high[1] < cell[0] and cell[1] < arc.low[0]
+    return between_ends if arc.passes_zero else arc.misses(cell)
+
+
 def markov_set(parts: Sequence[SlopeRange]) -> MarkovSet:
     """Theorem. Let f be C^1 on disjoint closed intervals C_0, C_1, ... of phases, |f'| > 1, and map
     each onto an arc that contains or misses each of them; let the graph of "contains" lead from
@@ -129,8 +141,8 @@ def markov_set(parts: Sequence[SlopeRange]) -> MarkovSet:
     onward = []
     for part in parts:
         arc = image_arc(part)
-        covered = [arc.covers(other.domain) for other in parts]
-        missed = [arc.misses(other.domain) for other in parts]
+        covered = [contains(arc, other.domain) for other in parts]
+        missed = [misses(arc, other.domain) for other in parts]
         if not all(a or b for a, b in zip(covered, missed, strict=True)):
             raise Unproved("an image is proved neither to contain a cell nor to miss it")
         onward.append(tuple(j for j, each in enumerate(covered) if each))

@@ -64,16 +64,20 @@ def test_golden_mean():
     assert "0 by 0, 1, 1 by 0" in found.sentence
 
 
+def cell(low, high):
+    return Phases(F(low), F(high))
+
+
 def test_images_that_pass_phase_0():
-    arc = ImageArc(HERE, Phases(F(1), F(2)), around(6), around(1))
+    arc = ImageArc(HERE, cell(1, 2), around(6), around(1))
     assert arc.passes_zero and not arc.is_interval
-    assert arc.covers((F("6.1"), F("6.2"))) and arc.covers((F("0.1"), F("0.9")))
-    assert not arc.covers((F("0.9"), F("1.1"))) and not arc.covers((F("5.9"), F("6.1")))
-    assert arc.misses((F("1.1"), F("5.9")))
-    assert not arc.misses((F("0.9"), F(2))) and not arc.misses((F(2), F("6.1")))
-    open_ends = ImageArc(HERE, arc.domain, Phase(F(2), F(4)), Phase(F(3), F(5)))
-    assert not open_ends.passes_zero and not open_ends.covers((F("4.1"), F("4.2")))
-    assert not open_ends.misses((F("5.1"), F("5.2")))
+    assert contains(arc, cell("6.1", "6.2")) and contains(arc, cell("0.1", "0.9"))
+    assert not contains(arc, cell("0.9", "1.1")) and not contains(arc, cell("5.9", "6.1"))
+    assert misses(arc, cell("1.1", "5.9"))
+    assert not misses(arc, cell("0.9", 2)) and not misses(arc, cell(2, "6.1"))
+    vague = ImageArc(HERE, arc.domain, Phase(F(2), F(4)), Phase(F(3), F(5)))
+    assert not vague.passes_zero and not contains(vague, cell("4.1", "4.2"))
+    assert not misses(vague, cell("5.1", "5.2"))
 
 
 @pytest.mark.parametrize(
