@@ -18,7 +18,7 @@ from proofs.trusted.paper.beyond.attractors import (
     stable_orbit,
     sticking_motion,
 )
-from proofs.trusted.paper.beyond.chaos import markov_set
+from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
