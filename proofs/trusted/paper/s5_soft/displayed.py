@@ -148,7 +148,7 @@ def flip(alpha: str) -> str:
     return f"1/(1 + epsilon)*sqrt(({alpha})**2 + (1 - epsilon)**2*(2*pi*m)**2)"
 
 
-RHO_FLIP, RHO_MF = flip(ALPHA_FLIP), flip(PRINTED_ALPHA_FLIP)
+RHO_MF = flip(PRINTED_ALPHA_FLIP)
 RHO_O, TRUE_RHO_O = "sqrt(4 + (2*pi*m)**2)", "sqrt(16 + (2*pi*m)**2)"
 
 # The characteristic polynomial at 1 and at -1.
@@ -207,7 +207,6 @@ F2_PSI_PSI_PSI = "-(3*pi**2*m**2 + 2)"
 
 # Mass minus table at time tau of the flight from a fixed point.
 GAP = f"rho*sin(psi) + {LAUNCH}*tau - tau**2 - rho*sin(psi + tau)"
-FIXED_GAP = "tau*(2*pi*m - tau) + rho*sin(psi)*(1 - cos(tau)) - rho*cos(psi)*sin(tau)"
 
 # -- springs of any stiffness ----------------------------------------------------------------------
 # k and q as above, s = pi m k, big = 2 + k^2 (rho sin psi - q): fixed points by psi and big.

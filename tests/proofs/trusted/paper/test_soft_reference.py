@@ -91,7 +91,7 @@ def test_jacobian_against_differences(m, eps, rho):
 
 @pytest.mark.parametrize(("m", "eps"), [(1, "1/2"), (2, "1/5"), (1, "9/10"), (3, "0")])
 def test_the_flip_is_where_an_eigenvalue_is_minus_one(m, eps):
-    low, high = enclose(eq.RHO_FLIP, 40, m=Fraction(m), epsilon=Fraction(eps))
+    low, high = enclose(eq.flip(eq.ALPHA_FLIP), 40, m=Fraction(m), epsilon=Fraction(eps))
     with mp.workdps(50):
         rho = mp.mpf(low.numerator) / low.denominator + mp.mpf(high.numerator) / high.denominator
         (a, b), (c, d) = jacobian(
