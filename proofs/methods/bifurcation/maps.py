@@ -8,6 +8,7 @@ a smooth function of the point, with the Jacobian J that G_x1 J + G_x = 0 determ
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,7 @@ from typing import Any
 from proofs.methods import derive
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.formulas import read_formulas, spelled
+from proofs.trusted.kernel.solutions import implicit_derivative
 
 Rows = list[list[str]]  # a matrix of formulas
 _DECIMAL = re.compile(r"(?<![A-Za-z0-9_.])([0-9]*\.[0-9]+|[0-9]+\.)(?![0-9.])")
@@ -127,37 +129,41 @@ class Map:
         )
         return [f"(-{determinant(each)}/{below})" for each in replaced]
 
-    def implicit(self, jacobian: Rows) -> list[str]:
+    def implicit(self, jacobian: Rows) -> tuple[str, ...]:
         """Return the entries of G_x1 J + G_x, which are 0 if J is the Jacobian."""
-        columns = list(zip(*jacobian, strict=True))
-        return [
-            " + ".join([*(f"{a}*({b})" for a, b in zip(row, column, strict=True)), rest])
-            for row, rests in zip(
-                self.partials(self.images), self.partials(self.state), strict=True
-            )
-            for column, rest in zip(columns, rests, strict=True)
-        ]
+        flat = [entry for row in jacobian for entry in row]
+        return implicit_derivative(self.equations, self.state, self.images, flat)
 
     # -- by sympy ----------------------------------------------------------------------------------
 
     @cached_property
     def jacobian(self) -> Any:
         """The Jacobian at any point and its image, as a matrix of sympy."""
-        import sympy
-
-        here, there = (
-            sympy.Matrix([[derive.read(entry) for entry in row] for row in self.partials(names)])
-            for names in (self.state, self.images)
-        )
-        return (-there.inv() * here).applyfunc(derive.simplest)
+        return self._jacobian([])
 
     @cached_property
     def jacobian_at_rest(self) -> Any:
         """The Jacobian at fixed points."""
+        return self.jacobian_at({})
+
+    def jacobian_at(self, point: Mapping[str, Any]) -> Any:
+        """Return the Jacobian at a fixed point, given by expressions of sympy by name."""
         import sympy
 
         pairs = [(sympy.Symbol(image_of(x)), sympy.Symbol(x)) for x in self.state]
-        return self.jacobian.subs(pairs).applyfunc(derive.simplest)
+        return self._jacobian(pairs + [(sympy.Symbol(x), value) for x, value in point.items()])
+
+    def _jacobian(self, places: list[tuple[Any, Any]]) -> Any:
+        import sympy
+
+        def placed(text: str) -> Any:
+            return derive.simplest(derive.read(text).subs(places))
+
+        here, there = (
+            sympy.Matrix([[placed(entry) for entry in row] for row in self.partials(names)])
+            for names in (self.state, self.images)
+        )
+        return (-there.inv() * here).applyfunc(derive.simplest)
 
 
 def determinant(rows: Rows) -> str:

@@ -50,7 +50,7 @@ class NormalForm:
     def __post_init__(self) -> None:
         if self.kind == "neimark_sacker" and len(self.map.state) == 1:
             raise ValueError("a map of one variable has no Neimark-Sacker bifurcation")
-        own = {*self.coordinates, *self.coefficients, *self.unknowns, "t"} - {*self.map.state}
+        own = {*self.coordinates, *self.coefficients, *self.unknowns} - {*self.map.state}
         if taken := sorted(own & {*self.map.parameters, *self.map.images}):
             raise ValueError(f"a name that is used for something else: {taken[0]}")
 

@@ -14,14 +14,18 @@ Solution = dict[str, Any]  # expressions of sympy by name
 
 
 def points(form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
-    """Return bifurcations in closed form, solved for these names; Undecided where none is found.
+    """Return bifurcations in closed form, solved for these names; Undecided where none is found."""
+    return solve([derive.read(each) for each in (*form.map.fixed, form.condition())], names)
+
+
+def solve(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
+    """Return solutions in closed form, without roots; Undecided where none is found.
 
     There may be others: of each equation one factor is solved for a name in which it is linear, or
     that is the last one in it, and that is put into the others.
     """
     import sympy
 
-    equations = [derive.read(each) for each in (*form.map.fixed, form.condition())]
     found: list[Solution] = []
     for each in _solved(equations, [sympy.Symbol(name) for name in names]):
         point = {str(name): value for name, value in each.items()}

@@ -18,7 +18,9 @@ ROWS = (
         Verdict.VERIFIED,
         corollary(
             "All four entries, by implicit differentiation of the limits of (24), (25), for the "
-            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign.",
+            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign. "
+            "With a = rho sin psi_o and c = 2 pi m, rho cos psi_o = {b}, lambda_o = {lam}, the "
+            "rows are ({j11}, {j12}) and ({j21}, {j22}); alpha = (1 + epsilon) a.",
             *given.JACOBIAN,
         ),
     ),
@@ -232,7 +234,7 @@ ROWS = (
             "of S20 has df/dpsi = 0, d(f^2)/drho = pi m/rho_o, d^2(f^2)/dpsi drho = 0 and "
             "d^3(f^2)/dpsi^3 = 0, and f = psi_o = arccos(2 pi m/rho_o) is not 0, nor is it at "
             "sqrt(16 + (2 pi m)^2): five of the six fail, all but d^2(f^2)/dpsi^2 = 0.",
-            *given.CONDITIONS,
+            *given.PRINTED_CONDITIONS,
         ),
         corrected=(
             corollary(
