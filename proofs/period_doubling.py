@@ -36,7 +36,7 @@ from proofs.shell.answers import Answer, add_answer, answering, bounds, give, li
 from proofs.shell.cli import Parser, number, whole
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.numbers import between, show
-from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified:
@@ -119,11 +119,11 @@ def _cubic(springs: Springs, places: int) -> Answer:
         return {}
     if springs.k:
         half = f"{springs.m}*pi*k"
-        cubic = f"at({eq.STIFF_CUBIC}, t=sin({half})/cos({half}))"
+        cubic = f"at({near.STIFF_CUBIC}, t=sin({half})/cos({half}))"
         return {"cubic": bounds(enclose(cubic, places, k=springs.k), places)}
-    formulas = {"cubic": f"at({eq.CUBIC}, c=2*pi*m)"}
+    formulas = {"cubic": f"at({near.CUBIC}, c=2*pi*m)"}
     if not springs.epsilon:
-        formulas |= {"f2_psi_rho": eq.F2_PSI_RHO, "f2_psi_psi_psi": eq.F2_PSI_PSI_PSI}
+        formulas |= {"f2_psi_rho": near.F2_PSI_RHO, "f2_psi_psi_psi": near.F2_PSI_PSI_PSI}
     point |= {"epsilon": springs.epsilon}
     return {name: bounds(enclose(each, places, **point), places) for name, each in formulas.items()}
 

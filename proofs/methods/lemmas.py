@@ -26,6 +26,8 @@ from proofs.methods.formulas import (
 from proofs.trusted.certificate import SCHEMA, Reader, texts
 from proofs.trusted.kernel.enclose import Box
 from proofs.trusted.kernel.formulas import Formulas, read_formulas, read_function
+from proofs.trusted.kernel.solutions import Expressions
+from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.numbers import Range
 
 _COARSE_DIGITS = 3
@@ -73,6 +75,26 @@ def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Values], bo
     formulas = read_formulas(Reader(text))
     sides = tuple(box.get(name, (Fraction(0), Fraction(0))) for name in formulas.variables)
     return subdivide(sides, lambda part: decided(enclosed(formulas, part)))
+
+
+def witness_of(lemma: Equal | Series) -> dict[str, Any]:
+    """Return what the checker needs for an equation or a series."""
+    if isinstance(lemma, Equal):
+        return {"left": lemma.left, "right": lemma.right}
+    return {
+        "function": lemma.function,
+        "variable": lemma.variable,
+        "coefficients": list(lemma.coefficients),
+        "nonzero": list(lemma.nonzero),
+    }
+
+
+def solution_witness(found: Expressions) -> dict[str, Any]:
+    """Return what the checker needs for expressions that solve equations."""
+    return {
+        "expressions": dict(found.expressions),
+        "lemmas": [witness_of(each) for each in found.lemmas],
+    }
 
 
 @dataclass
@@ -142,12 +164,18 @@ class Lemmas:
 
     def equal(self, left: str, right: str) -> str:
         """Add a step `formula-equal`."""
-        return self.add("formula-equal", {"left": left, "right": right})
+        return self.add("formula-equal", witness_of(Equal(left, right)))
 
     def series(self, text: str, variable: str, *coefficients: str, nonzero: Any = ()) -> str:
         """Add a step `formula-series`."""
-        witness = {"function": text, "variable": variable, "coefficients": list(coefficients)}
-        return self.add("formula-series", {**witness, "nonzero": list(nonzero)})
+        return self.add(
+            "formula-series", witness_of(Series(text, variable, coefficients, tuple(nonzero)))
+        )
+
+    def solution(self, expressions: Mapping[str, str], *lemmas: Equal | Series) -> str:
+        """Add a step `formula-solution`."""
+        found = Expressions(tuple(expressions.items()), lemmas)
+        return self.add("formula-solution", solution_witness(found))
 
     # -- zeros ---------------------------------------------------------------------------------
 

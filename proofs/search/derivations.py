@@ -12,23 +12,22 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
-from intervals import Interval, decimal_bounds
+from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods import derive
 from proofs.methods.formulas import Tree, values
-from proofs.methods.lemmas import bounds_of
+from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
 from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.formulas import read_formulas
-from proofs.trusted.kernel.solutions import Solution
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import (
     Asked,
     DerivedRow,
     Equal,
     Lemma,
-    Series,
     Unknowns,
     Value,
 )
@@ -57,7 +56,7 @@ class Steps:
     """The steps of a certificate about formulas, each with what it proves, once."""
 
     digits: int
-    solvers: Solvers
+    solvers: Solvers = field(default_factory=dict)
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     names: dict[Lemma | Asked, tuple[str, Conclusion]] = field(default_factory=dict)
 
@@ -70,17 +69,18 @@ class Steps:
                 self._solution(wanted)
             elif isinstance(wanted, Equal):
                 if derive.equal(wanted.left, wanted.right):
-                    self._add(wanted, wanted, "formula-equal", _witness(wanted))
+                    self._add(wanted, wanted, "formula-equal", witness_of(wanted))
             elif derive.begins(wanted.function, wanted.variable, wanted.coefficients):
-                self._add(wanted, wanted, "formula-series", _witness(wanted))
+                self._add(wanted, wanted, "formula-series", witness_of(wanted))
         return self.names.get(wanted)
 
     def _solution(self, wanted: Unknowns) -> None:
-        expressions = self.solvers[wanted](wanted)
-        lemmas = [_witness(each) for each in wanted.lemmas]
-        found = Solution(tuple(expressions.items()), wanted.lemmas)
-        witness = {"expressions": expressions, "lemmas": lemmas}
-        self._add(wanted, found, "formula-solution", witness)
+        try:
+            expressions = self.solvers[wanted](wanted)
+        except Undecided:
+            return
+        found = Expressions(tuple(expressions.items()), wanted.lemmas)
+        self._add(wanted, found, "formula-solution", solution_witness(found))
 
     def _value(self, asked: Asked) -> None:
         tree: Tree = None
@@ -105,18 +105,6 @@ class Steps:
         name = f"{rule.removeprefix('formula-')}-{len(self.steps) + 1}"
         self.steps[name] = {"rule": rule, "witness": witness}
         self.names[wanted] = (name, found)
-
-
-def _witness(lemma: Equal | Series) -> dict[str, Any]:
-    """Return what the checker needs for a lemma."""
-    if isinstance(lemma, Equal):
-        return {"left": lemma.left, "right": lemma.right}
-    return {
-        "function": lemma.function,
-        "variable": lemma.variable,
-        "coefficients": list(lemma.coefficients),
-        "nonzero": list(lemma.nonzero),
-    }
 
 
 def prove_rows(

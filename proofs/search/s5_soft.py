@@ -13,11 +13,10 @@ from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import coefficients, solve
 from proofs.search.derivations import prove_rows
 from proofs.trusted.paper.formulas import Unknowns
-from proofs.trusted.paper.s5_soft import displayed as eq
-from proofs.trusted.paper.s5_soft import soft, stability
+from proofs.trusted.paper.s5_soft import near, soft, stability
 
-_LIMIT = NormalForm(Map(("x", "lam"), eq.LOCAL), "flip")
-_STIFF = NormalForm(Map(("x",), (f"at({eq.STIFF_LOCAL}, {eq.STIFF_HERE})",)), "flip")
+_LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
+_STIFF = NormalForm(Map(("x",), (f"at({near.STIFF_LOCAL}, {near.STIFF_HERE})",)), "flip")
 
 
 def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
@@ -59,7 +58,7 @@ def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
     terms = (h, h**2, h**3, r, r * h)
     unknowns = [sympy.Symbol(name) for name in wanted.names[:5]]
     image = slope * h + sum(s * x for s, x in zip(unknowns[1:], terms[1:], strict=True))
-    side = derive.read(f"at({eq.LOCAL_PLASTIC}, a={height}, x=h)").subs("x1", image)
+    side = derive.read(f"at({near.LOCAL_PLASTIC}, a={height}, x=h)").subs("x1", image)
     known = {unknowns[0]: sympy.Integer(slope)}
     for unknown, term in zip(unknowns[1:], terms[1:], strict=True):
         rate = side.diff(*_by(term)).subs({h: 0, r: 0}).subs(known)
@@ -81,11 +80,11 @@ prove = partial(
     (*soft.ROWS, *stability.ROWS),
     solvers=MappingProxyType(
         {
-            eq.POINT: _point,
-            eq.FLIP: _flip,
-            eq.STIFF_FLIP: _stiff_flip,
-            eq.JET: partial(_jet, height=4, slope=-1),
-            eq.PRINTED_JET: partial(_jet, height=2, slope=0),
+            near.POINT: _point,
+            near.FLIP: _flip,
+            near.STIFF_FLIP: _stiff_flip,
+            near.JET: partial(_jet, height=4, slope=-1),
+            near.PRINTED_JET: partial(_jet, height=2, slope=0),
         }
     ),
 )

@@ -16,6 +16,7 @@ from proofs.methods.formulas import dot, inverse, jacobian, values
 from proofs.methods.lemmas import Lemmas
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.numbers import Range
 
 _SPARE_DIGITS = 12
@@ -31,22 +32,16 @@ def prove_jacobian(file: Lemmas, of: Map) -> None:
 
 def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter: str) -> None:
     """Add that it is a bifurcation with these coefficients, see `normal_forms`."""
-    texts = {name: derive.write(value) for name, value in found.items()}
-    names = [name for name in texts if name not in ("critical", "speed")]
-    places = ", ".join(f"{name}={texts[name]}" for name in names)
-    for each in (*form.map.fixed, form.condition()):
-        file.equal(f"at({each}, {places})", "0")
     scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
-    for side in form.conjugacy():
-        text = f"at({side}, {places})"
-        text = f"at({text}, {scaled})" if scaled else text
-        nought = ["0"] * (form.order + 1)
-        file.series(text, "h", *nought, nonzero=_divisors(form, found))
-    for text, value in (
-        (form.criticality, texts["critical"]),
-        (form.speed(parameter), texts["speed"]),
-    ):
-        file.equal(f"at({text}, {places})", value)
+    sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
+    nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
+    file.solution(
+        {name: derive.write(value) for name, value in found.items()},
+        *(Equal(each, "0") for each in (*form.map.fixed, form.condition())),
+        *(Series(each, "h", nought, nonzero) for each in sides),
+        Equal(form.criticality, "critical"),
+        Equal(form.speed(parameter), "speed"),
+    )
 
 
 def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solution]:

@@ -17,7 +17,7 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,19}")
 
 
 @dataclass(frozen=True)
-class Solution(Conclusion):
+class Expressions(Conclusion):
     """Lemmas about unknowns that hold with these expressions in their places."""
 
     expressions: tuple[tuple[str, str], ...]
@@ -30,7 +30,7 @@ class Solution(Conclusion):
         return f"With {given}: {' '.join(each.sentence for each in self.lemmas)}"
 
 
-def solution(context: Context, reader: Reader) -> Solution:
+def solution(context: Context, reader: Reader) -> Expressions:
     """Rule `formula-solution`: {expressions: {unknown: formula}, lemmas}.
 
     lemmas: a list of {left, right} and {function, variable, coefficients, nonzero}. Hypothesis: by
@@ -47,7 +47,7 @@ def solution(context: Context, reader: Reader) -> Solution:
         expressions.append((name, text.string()))
     given = ", ".join(f"{name}={text}" for name, text in expressions)
     lemmas = tuple(_lemma(context, each, given) for each in lemmas_of.items(1, _MOST))
-    return Solution(tuple(expressions), lemmas)
+    return Expressions(tuple(expressions), lemmas)
 
 
 def _lemma(context: Context, reader: Reader, given: str) -> Equal | Series:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.formulas import read_formulas
-from proofs.trusted.kernel.solutions import Solution
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import Range, between
 from proofs.trusted.parameters import Parameters
@@ -75,7 +75,7 @@ class Unknowns:
 
     def solved(self, found: Found) -> dict[str, str] | None:
         """Return the expressions, None if none are proved."""
-        for each in found.all(Solution):
+        for each in found.all(Expressions):
             texts = dict(each.expressions)
             if (
                 each.lemmas == self.lemmas
@@ -86,9 +86,16 @@ class Unknowns:
         return None
 
 
-def unknowns(names: str, variables: str, *lemmas: Equal | Series) -> Unknowns:
-    """Ask for expressions for these names, in these variables, for which the lemmas hold."""
-    return Unknowns(tuple(names.split()), frozenset(variables.split()), lemmas)
+def unknowns(
+    names: str, variables: str, *lemmas: Equal | Series, nonzero: tuple[str, ...] = ()
+) -> Unknowns:
+    """Ask for expressions for these names, in these variables, for which the lemmas hold.
+
+    They are to be defined where the formulas `nonzero` are not 0: h times their sum is O(h) there.
+    """
+    parts = tuple(names.split())
+    defined = Series(f"h*({' + '.join(parts)})", "h", ("0",), nonzero)
+    return Unknowns(parts, frozenset(variables.split()), (defined, *lemmas))
 
 
 def spoken(formula: str) -> str:

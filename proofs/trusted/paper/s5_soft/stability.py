@@ -5,6 +5,7 @@ from __future__ import annotations
 from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft import theorems as given
 from proofs.trusted.paper.s5_soft.orbits import admissible, sticking
 from proofs.trusted.verdicts import Verdict
@@ -242,7 +243,7 @@ ROWS = (
                 "arccos(2 pi m/rho_o): f = psi_o, df/dpsi = -1, d(f^2)/drho = 0, d^2(f^2)/dpsi^2 = "
                 "0, d^2(f^2)/dpsi drho = rho_o/4 > 0, d^3(f^2)/dpsi^3 = -(3 pi^2 m^2 + 2) < 0.",
                 *given.CONDITIONS,
-                values=(at(eq.F2_PSI_RHO, m="1"), at(eq.F2_PSI_PSI_PSI, m="1")),
+                values=(at(near.F2_PSI_RHO, m="1"), at(near.F2_PSI_PSI_PSI, m="1")),
                 reports=("f2_psi_rho", "f2_psi_psi_psi"),
             ),
         ),

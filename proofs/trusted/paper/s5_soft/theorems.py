@@ -5,6 +5,7 @@ from __future__ import annotations
 from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.paper.formulas import Lemma, at, corollary, over
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft.orbits import admissible
 
 _SCALED = ("omega", "g")
@@ -17,10 +18,10 @@ MAP: tuple[Lemma, ...] = (
     Equal(f"({eq.ALPHA})**2", f"at({eq.ALPHA_SQUARE}, rho={eq.RHO})"),
 )
 LOCAL: tuple[Lemma, ...] = tuple(
-    Equal(f"at({each}, {eq.MOVED})", f"at({near}, {eq.HERE})")
-    for each, near in zip((eq.MAP, f"lam1 - ({eq.VELOCITY})"), eq.LOCAL, strict=True)
+    Equal(f"at({each}, {near.MOVED})", f"at({local}, {near.HERE})")
+    for each, local in zip((eq.MAP, f"lam1 - ({eq.VELOCITY})"), near.LOCAL, strict=True)
 )
-JACOBIAN: tuple[Lemma, ...] = (*MAP, *LOCAL, eq.POINT)
+JACOBIAN: tuple[Lemma, ...] = (*MAP, *LOCAL, near.POINT)
 _A, _B, _C, _D = (f"({entry})" for entry in eq.JACOBIAN)
 DETERMINANT = Equal(f"{_A}*{_D} - {_B}*{_C}", "epsilon**2")
 TRACE: tuple[Lemma, ...] = (Equal(f"{_A} + {_D}", eq.TRACE),)
@@ -60,11 +61,11 @@ CONDITIONS: tuple[Lemma, ...] = (
     PLASTIC_LIMIT,
     Equal(f"at({eq.MAP}, epsilon=0)", eq.PLASTIC),
     *LOCAL,
-    eq.JET,
-    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", eq.F2_PSI_PSI_PSI),
-    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", eq.F2_PSI_RHO),
+    near.JET,
+    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", near.F2_PSI_PSI_PSI),
+    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", near.F2_PSI_RHO),
 )
-PRINTED_CONDITIONS: tuple[Lemma, ...] = (*CONDITIONS, eq.PRINTED_JET)
+PRINTED_CONDITIONS: tuple[Lemma, ...] = (*CONDITIONS, near.PRINTED_JET)
 SLOPES: tuple[Lemma, ...] = (
     *JACOBIAN,
     Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.RHO_O})", "2**2"),
@@ -79,31 +80,34 @@ HIGH_BOUNCE: tuple[Lemma, ...] = (
 _TANGENT = "(sin(s)/cos(s))"
 _STIFF_STEP = "psi=x + y, psi1=x1 + y, m=s/(pi*k)"
 _STIFF_HERE = "a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s)"
+_LOCAL = near.STIFF_LOCAL
 STIFF_PLASTIC: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({eq.STIFF_LOCAL}, {_STIFF_HERE})"),
+    Equal(
+        f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({near.STIFF_LOCAL}, {_STIFF_HERE})"
+    ),
     Equal(f"cos(2*s)*(1 + {_TANGENT}**2)", f"1 - {_TANGENT}**2"),
     Equal(f"sin(2*s)*(1 + {_TANGENT}**2)", f"2*{_TANGENT}"),
-    Equal(f"at(at({eq.STIFF_LOCAL}, x=0, x1=0), {eq.STIFF_HERE})", "0"),
-    Equal(f"at(at(D({eq.STIFF_LOCAL}, x1), x=0, x1=0), {eq.STIFF_HERE})", "-2*t*big/k"),
+    Equal(f"at(at({_LOCAL}, x=0, x1=0), {near.STIFF_HERE})", "0"),
+    Equal(f"at(at(D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})", "-2*t*big/k"),
     Equal(
-        f"at(at(-D({eq.STIFF_LOCAL}, x)/D({eq.STIFF_LOCAL}, x1), x=0, x1=0), {eq.STIFF_HERE})",
+        f"at(at(-D({_LOCAL}, x)/D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})",
         "(1 - a/big)/(1 + t**2)",
     ),
-    eq.STIFF_FLIP,
-    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={eq.STIFF_HEIGHT})", "0"),
+    near.STIFF_FLIP,
+    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={near.STIFF_HEIGHT})", "0"),
     Equal(
-        f"at(D({eq.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
+        f"at(D({near.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
         "4*a*(1 + t**2)/(2 + t**2)",
     ),
-    Equal(f"at({eq.STIFF_LOCAL}, x=0, x1=tau, C=1, S=0)", eq.STIFF_GAP),
+    Equal(f"at({_LOCAL}, x=0, x1=tau, C=1, S=0)", near.STIFF_GAP),
     Equal("D(a/(2 + k**2*(a - q)), a)", "(2 - k**2*q)/(2 + k**2*(a - q))**2"),
 )
 _STIFF_POINT = {"m": "1", "k": "1/10", "q": "0"}
-_STIFF_RATE = f"D({eq.STIFF_FLIP_GAP}, tau)"
+_STIFF_RATE = f"D({near.STIFF_FLIP_GAP}, tau)"
 STIFF_VALUES = (
-    at(eq.STIFF_FLIP_RHO, **_STIFF_POINT),
+    at(near.STIFF_FLIP_RHO, **_STIFF_POINT),
     over(f"D({_STIFF_RATE}, tau)", 1, "tau", ("0", "1/2"), **_STIFF_POINT),
-    over(eq.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
+    over(near.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
     over(_STIFF_RATE, -1, "tau", ("6", "63/10"), **_STIFF_POINT),
 )
 
@@ -190,7 +194,7 @@ flip = corollary(
     *CHARACTERISTIC,
     *CONDITIONS,
     *LOCAL,
-    eq.FLIP,
+    near.FLIP,
     admissible,
     tex=r"h - 2 K h^3 + O(h^4), \quad K = \frac{3 c^2 (1 - \varepsilon^2)^2 + 8 (1 - \varepsilon)^4"
     r" + 64 \varepsilon^2}{48 (1 - \varepsilon^4)}",
