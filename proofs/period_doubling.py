@@ -37,7 +37,7 @@ from proofs.shell.answers import Answer, add_answer, answering, bounds, give, li
 from proofs.shell.cli import Parser, number, whole
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.numbers import between, show
-from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft.doubling import LIMIT_RISE, RISE
 
 EPILOG = """\
@@ -125,10 +125,10 @@ def _kind(springs: Springs, places: int) -> Answer:
         return {"rise": bounds(enclose(rise, places, **point), places)}
     found = {"rise": enclose(LIMIT_RISE, places, r=springs.ratio, **point)}
     point |= {"epsilon": springs.epsilon}
-    found["cubic"] = enclose(f"at({eq.CUBIC}, c=2*pi*m)", places, **point)
+    found["cubic"] = enclose(f"at({near.CUBIC}, c=2*pi*m)", places, **point)
     if not springs.epsilon:
-        found["f2_psi_rho"] = enclose(eq.F2_PSI_RHO, places, **point)
-        found["f2_psi_psi_psi"] = enclose(eq.F2_PSI_PSI_PSI, places, **point)
+        found["f2_psi_rho"] = enclose(near.F2_PSI_RHO, places, **point)
+        found["f2_psi_psi_psi"] = enclose(near.F2_PSI_PSI_PSI, places, **point)
     return {name: bounds(ends, places) for name, ends in found.items()}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft import theorems as given
 from proofs.trusted.paper.s5_soft.doubling import doubling
 from proofs.trusted.paper.s5_soft.orbits import admissible, sticking
@@ -19,7 +20,9 @@ ROWS = (
         Verdict.VERIFIED,
         corollary(
             "All four entries, by implicit differentiation of the limits of (24), (25), for the "
-            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign.",
+            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign. "
+            "With a = rho sin psi_o and c = 2 pi m, rho cos psi_o = {b}, lambda_o = {lam}, the "
+            "rows are ({j11}, {j12}) and ({j21}, {j22}); alpha = (1 + epsilon) a.",
             *given.JACOBIAN,
         ),
     ),
@@ -233,7 +236,7 @@ ROWS = (
             "of S20 has df/dpsi = 0, d(f^2)/drho = pi m/rho_o, d^2(f^2)/dpsi drho = 0 and "
             "d^3(f^2)/dpsi^3 = 0, and f = psi_o = arccos(2 pi m/rho_o) is not 0, nor is it at "
             "sqrt(16 + (2 pi m)^2): five of the six fail, all but d^2(f^2)/dpsi^2 = 0.",
-            *given.CONDITIONS,
+            *given.PRINTED_CONDITIONS,
         ),
         corrected=(
             corollary(
@@ -241,7 +244,7 @@ ROWS = (
                 "arccos(2 pi m/rho_o): f = psi_o, df/dpsi = -1, d(f^2)/drho = 0, d^2(f^2)/dpsi^2 = "
                 "0, d^2(f^2)/dpsi drho = rho_o/4 > 0, d^3(f^2)/dpsi^3 = -(3 pi^2 m^2 + 2) < 0.",
                 *given.CONDITIONS,
-                values=(at(eq.F2_PSI_RHO, m="1"), at(eq.F2_PSI_PSI_PSI, m="1")),
+                values=(at(near.F2_PSI_RHO, m="1"), at(near.F2_PSI_PSI_PSI, m="1")),
                 reports=("f2_psi_rho", "f2_psi_psi_psi"),
             ),
         ),

@@ -5,13 +5,8 @@ from __future__ import annotations
 from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.paper.formulas import Lemma, at, corollary, over
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft.orbits import admissible
-
-
-def _by_phase(entry: str) -> str:
-    """Write an entry of the Jacobian by the phase of the fixed point."""
-    return f"at({entry}, alpha={eq.ALPHA})" if "alpha" in entry else entry
-
 
 _SCALED = ("omega", "g")
 MAP: tuple[Lemma, ...] = (
@@ -22,13 +17,11 @@ MAP: tuple[Lemma, ...] = (
     Equal(f"at({eq.LAUNCH}, lam=-2*pi*m, rho={eq.RHO})", "2*pi*m"),
     Equal(f"({eq.ALPHA})**2", f"at({eq.ALPHA_SQUARE}, rho={eq.RHO})"),
 )
-JACOBIAN: tuple[Lemma, ...] = (
-    *MAP,
-    *(
-        Equal(f"at({derived}, {eq.FIXED})", _by_phase(printed))
-        for derived, printed in zip(eq.DERIVED_JACOBIAN, eq.JACOBIAN, strict=True)
-    ),
+LOCAL: tuple[Lemma, ...] = tuple(
+    Equal(f"at({each}, {near.MOVED})", f"at({local}, {near.HERE})")
+    for each, local in zip((eq.MAP, f"lam1 - ({eq.VELOCITY})"), near.LOCAL, strict=True)
 )
+JACOBIAN: tuple[Lemma, ...] = (*MAP, *LOCAL, near.POINT)
 _A, _B, _C, _D = (f"({entry})" for entry in eq.JACOBIAN)
 DETERMINANT = Equal(f"{_A}*{_D} - {_B}*{_C}", "epsilon**2")
 TRACE: tuple[Lemma, ...] = (Equal(f"{_A} + {_D}", eq.TRACE),)
@@ -58,45 +51,6 @@ STIFF: tuple[Lemma, ...] = (
     Equal(f"at({eq.STIFF_TRACE}, {eq.STIFF_FIXED})", eq.FOUND_TRACE),
     Equal(f"at({eq.STIFF_DETERMINANT}, {eq.STIFF_FIXED})", "epsilon**2"),
 )
-_ZERO4 = ("0", "0", "0", "0")
-_RESTITUTION = ("1 + epsilon", "1 - epsilon", "1 + epsilon**2", "c")
-MANIFOLD: tuple[Lemma, ...] = (
-    Equal(f"at(D({eq.LOCAL}, j), h=0, j=0, l=0)", "-2*c"),
-    Equal(f"(1 + epsilon)*at({eq.MAP}, {eq.MOVED})", f"at({eq.LOCAL}, {eq.HERE})"),
-    Equal(f"at({eq.VELOCITY}, {eq.MOVED})", f"at({eq.LOCAL_VELOCITY}, {eq.HERE})"),
-    Series(
-        f"at({eq.LOCAL}, a={eq.ALPHA_FLIP}, j={eq.REDUCED}, l={eq.MANIFOLD})",
-        "h",
-        _ZERO4,
-        _RESTITUTION,
-    ),
-    Series(
-        f"at({eq.LOCAL_VELOCITY}, a={eq.ALPHA_FLIP}, j={eq.REDUCED}, l={eq.MANIFOLD})"
-        f" + c - at({eq.MANIFOLD}, h={eq.REDUCED})",
-        "h",
-        _ZERO4,
-        _RESTITUTION,
-    ),
-    Equal(f"({eq.SECOND})**2 + {eq.THIRD}", eq.CUBIC),
-)
-
-
-def _jet(slope: str, jet: str) -> tuple[Series, Series]:
-    """Return that a polynomial in h and r is the plastic map, but for h^4, h^2 r and r^2."""
-    near = f"at({eq.LOCAL_PLASTIC}, a={slope}, j={jet})"
-    return (
-        Series(f"at({near}, r=0)", "h", _ZERO4, ("c",)),
-        Series(f"at(D({near}, r), r=0)", "h", ("0", "0"), ("c",)),
-    )
-
-
-def _second(jet: str, by: str) -> str:
-    """Write a derivative of the second iterate of a polynomial at h = r = 0."""
-    return f"at(D(at({jet}, h={jet}), {by}), h=0, r=0)"
-
-
-_PLASTIC_MOVED = "psi=x + h, psi1=x + j, rho=rho*(1 + r)"
-_PLASTIC_HERE = "a=rho*sin(x), c=rho*cos(x)"
 PLASTIC_LIMIT = Series(
     f"at({eq.S24}, epsilon=0, beta=rho*g/(2*omega**2))*2*omega**2/g",
     "omega_n",
@@ -105,25 +59,13 @@ PLASTIC_LIMIT = Series(
 )
 CONDITIONS: tuple[Lemma, ...] = (
     PLASTIC_LIMIT,
-    Equal(f"at(D({eq.LOCAL_PLASTIC}, j), h=0, j=0, r=0)", "-2*c"),
-    Equal(
-        f"at({eq.PLASTIC}, {_PLASTIC_MOVED}, m=rho*cos(x)/(2*pi))",
-        f"at({eq.LOCAL_PLASTIC}, {_PLASTIC_HERE})",
-    ),
-    *_jet("4", eq.F_FLIP),
-    *_jet("2", eq.F_PRINTED),
-    Equal(f"at(D({eq.F_PRINTED}, h), h=0, r=0)", "0"),
-    Equal(_second(eq.F_PRINTED, "r"), "c/2"),
-    Equal(_second(eq.F_PRINTED, "h, r"), "0"),
-    Equal(_second(eq.F_PRINTED, "h, h, h"), "0"),
-    Equal(f"at(D({eq.F_FLIP}, h), h=0, r=0)", "-1"),
-    Equal(_second(eq.F_FLIP, "r"), "0"),
-    Equal(_second(eq.F_FLIP, "h, h"), "0"),
-    Equal(_second(eq.F_FLIP, "h, r"), "(c**2 + 16)/4"),
-    Equal(_second(eq.F_FLIP, "h, h, h"), "-(3*c**2/4 + 2)"),
-    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", eq.F2_PSI_PSI_PSI),
-    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", eq.F2_PSI_RHO),
+    Equal(f"at({eq.MAP}, epsilon=0)", eq.PLASTIC),
+    *LOCAL,
+    near.JET,
+    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", near.F2_PSI_PSI_PSI),
+    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", near.F2_PSI_RHO),
 )
+PRINTED_CONDITIONS: tuple[Lemma, ...] = (*CONDITIONS, near.PRINTED_JET)
 SLOPES: tuple[Lemma, ...] = (
     *JACOBIAN,
     Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.RHO_O})", "2**2"),
@@ -136,39 +78,36 @@ HIGH_BOUNCE: tuple[Lemma, ...] = (
 )
 
 _TANGENT = "(sin(s)/cos(s))"
-_STIFF_STEP = "psi=x + h, psi1=x + j, m=s/(pi*k)"
-_STIFF_HERE = "a=rho*sin(x), b=rho*cos(x), C=cos(2*s), S=sin(2*s)"
+_STIFF_STEP = "psi=x + y, psi1=x1 + y, m=s/(pi*k)"
+_STIFF_HERE = "a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s)"
+_LOCAL = near.STIFF_LOCAL
 STIFF_PLASTIC: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({eq.STIFF_LOCAL}, {_STIFF_HERE})"),
+    Equal(
+        f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({near.STIFF_LOCAL}, {_STIFF_HERE})"
+    ),
     Equal(f"cos(2*s)*(1 + {_TANGENT}**2)", f"1 - {_TANGENT}**2"),
     Equal(f"sin(2*s)*(1 + {_TANGENT}**2)", f"2*{_TANGENT}"),
-    Equal(f"at(at({eq.STIFF_LOCAL}, h=0, j=0), {eq.STIFF_HERE})", "0"),
-    Equal(f"at(at(D({eq.STIFF_LOCAL}, j), h=0, j=0), {eq.STIFF_HERE})", "-2*t*big/k"),
+    Equal(f"at(at({_LOCAL}, x=0, x1=0), {near.STIFF_HERE})", "0"),
+    Equal(f"at(at(D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})", "-2*t*big/k"),
     Equal(
-        f"at(at(-D({eq.STIFF_LOCAL}, h)/D({eq.STIFF_LOCAL}, j), h=0, j=0), {eq.STIFF_HERE})",
+        f"at(at(-D({_LOCAL}, x)/D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})",
         "(1 - a/big)/(1 + t**2)",
     ),
-    Series(
-        f"at(at(at({eq.STIFF_LOCAL}, j={eq.STIFF_FLIP}), {eq.STIFF_HERE}), big=a/(2 + t**2))",
-        "h",
-        _ZERO4,
-        ("k", "t", "1 + t**2", "2 + t**2"),
-    ),
-    Equal(f"({eq.STIFF_SECOND})**2 + {eq.STIFF_THIRD}", eq.STIFF_CUBIC),
-    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={eq.STIFF_HEIGHT})", "0"),
+    near.STIFF_FLIP,
+    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={near.STIFF_HEIGHT})", "0"),
     Equal(
-        f"at(D({eq.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
+        f"at(D({near.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
         "4*a*(1 + t**2)/(2 + t**2)",
     ),
-    Equal(f"at({eq.STIFF_LOCAL}, h=0, j=tau, C=1, S=0)", eq.STIFF_GAP),
+    Equal(f"at({_LOCAL}, x=0, x1=tau, C=1, S=0)", near.STIFF_GAP),
     Equal("D(a/(2 + k**2*(a - q)), a)", "(2 - k**2*q)/(2 + k**2*(a - q))**2"),
 )
 _STIFF_POINT = {"m": "1", "k": "1/10", "q": "0"}
-_STIFF_RATE = f"D({eq.STIFF_FLIP_GAP}, tau)"
+_STIFF_RATE = f"D({near.STIFF_FLIP_GAP}, tau)"
 STIFF_VALUES = (
-    at(eq.STIFF_FLIP_RHO, **_STIFF_POINT),
+    at(near.STIFF_FLIP_RHO, **_STIFF_POINT),
     over(f"D({_STIFF_RATE}, tau)", 1, "tau", ("0", "1/2"), **_STIFF_POINT),
-    over(eq.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
+    over(near.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
     over(_STIFF_RATE, -1, "tau", ("6", "63/10"), **_STIFF_POINT),
 )
 
@@ -254,7 +193,8 @@ flip = corollary(
     "flights.)",
     *CHARACTERISTIC,
     *CONDITIONS,
-    *MANIFOLD,
+    *LOCAL,
+    near.FLIP,
     admissible,
     tex=r"h - 2 K h^3 + O(h^4), \quad K = \frac{3 c^2 (1 - \varepsilon^2)^2 + 8 (1 - \varepsilon)^4"
     r" + 64 \varepsilon^2}{48 (1 - \varepsilon^4)}",

@@ -93,6 +93,7 @@ def test_bent_formulas_are_refused(believing):
         steps = {other: copy.deepcopy(whole["steps"][other]) for other in entry["proof"]}
         document = dict(whole, steps=steps, claims=[entry])
         witness = steps[name]["witness"]
+        witness = witness.get("expressions", witness)
         field = chance.choice([key for key, text in witness.items() if isinstance(text, str)])
         witness[field] = _bent(witness[field], chance)
         tried += 1
