@@ -16,7 +16,8 @@ from proofs.trusted.paper.formulas import Unknowns
 from proofs.trusted.paper.s5_soft import near, soft, stability
 
 _LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
-_STIFF = NormalForm(Map(("x",), (f"at({near.STIFF_LOCAL}, {near.STIFF_HERE})",)), "flip")
+_STIFF = Map(("x", "lam"), tuple(f"at({each}, {near.STIFF_HERE})" for each in near.STIFF))
+_PLASTIC = NormalForm(Map(("x",), (f"at({near.STIFF_LOCAL}, {near.STIFF_HERE})",)), "flip")
 
 
 def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
@@ -29,12 +30,11 @@ def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
     return {name: derive.write(found[name]) for name in wanted.names}
 
 
-def _point(wanted: Unknowns) -> dict[str, str]:
-    """Solve for the fixed point of the limit map and its Jacobian."""
-    found = _at_origin(*_LIMIT.map.fixed, names=("lam", "b"))
-    matrix = _LIMIT.map.jacobian_at(found)
-    entries = {f"j{i + 1}{j + 1}": matrix[i, j] for i in (0, 1) for j in (0, 1)}
-    return _written(wanted, found | entries)
+def _point(wanted: Unknowns, *, of: Map) -> dict[str, str]:
+    """Solve for the fixed point of a map and its Jacobian, the last four names."""
+    found = _at_origin(*of.fixed, names=("lam", "b"))
+    entries = zip(wanted.names[-4:], of.jacobian_at(found), strict=True)
+    return _written(wanted, found | dict(entries))
 
 
 def _flip(wanted: Unknowns) -> dict[str, str]:
@@ -45,9 +45,9 @@ def _flip(wanted: Unknowns) -> dict[str, str]:
 
 
 def _stiff_flip(wanted: Unknowns) -> dict[str, str]:
-    """Solve for the normal form of the flip of springs of any stiffness."""
-    point = _at_origin(_STIFF.condition(), names=("a",))
-    return _written(wanted, coefficients(_STIFF, point, "a"))
+    """Solve for the normal form of the flip of plastic impacts, springs of any stiffness."""
+    point = _at_origin(_PLASTIC.condition(), names=("a",))
+    return _written(wanted, coefficients(_PLASTIC, point, "a"))
 
 
 def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
@@ -80,7 +80,8 @@ prove = partial(
     (*soft.ROWS, *stability.ROWS),
     solvers=MappingProxyType(
         {
-            near.POINT: _point,
+            near.POINT: partial(_point, of=_LIMIT.map),
+            near.STIFF_POINT: partial(_point, of=_STIFF),
             near.FLIP: _flip,
             near.STIFF_FLIP: _stiff_flip,
             near.JET: partial(_jet, height=4, slope=-1),

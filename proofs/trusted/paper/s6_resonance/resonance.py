@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Passage, corollary, derived_row, theorem
+from proofs.trusted.paper.formulas import Passage, corollary, derived_row, spoken, theorem
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.verdicts import Verdict
 
@@ -100,6 +100,8 @@ no_subharmonic = corollary(
     "j < n/2 (nine in eight for tan(pi/9)); such motions attract nothing.",
     iterates,
 )
+
+_NAMES = ("a11", "a12", "a21", "a22")
 
 # -- the rows --------------------------------------------------------------------------------------
 
@@ -241,6 +243,15 @@ ROWS = (
         "The entries a11, a12, a22 of the Jacobian of F, gamma being gamma_o.",
         Verdict.VERIFIED,
         jacobian,
+        corollary(
+            "DF has, at an impact at phi = phi_o, gamma = gamma_o and the next one at phi1, the "
+            "entries "
+            + "; ".join(
+                f"{a} = {spoken(text)}" for a, text in zip(_NAMES, eq.JACOBIAN, strict=True)
+            )
+            + ".",
+            jacobian,
+        ),
     ),
     derived_row(
         Passage("R11", "6.2, a21", "studying the eigenvalues of the Jacobian"),

@@ -8,6 +8,7 @@ import pytest
 
 from proofs.search.derivations import enclose
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near as nearby
 
 
 def printed_equations(p, beta, omega, wn, eps, g, m, psi, v, psi1):
@@ -226,7 +227,7 @@ def test_stiff_plastic_flips_are_supercritical(m, k, q):
         assert abs(third / (-12 * cubic) - 1) < 1e-12
         if (m, q) == (1, 0):
             low, high = enclose(
-                near.STIFF_FLIP_RHO, 30, m=Fraction(1), k=Fraction(1, 10), q=Fraction(0)
+                nearby.STIFF_FLIP_RHO, 30, m=Fraction(1), k=Fraction(1, 10), q=Fraction(0)
             )
             assert mp.mpf(low.numerator) / low.denominator <= rho
             assert rho <= mp.mpf(high.numerator) / high.denominator
