@@ -244,10 +244,10 @@ ROWS = (
         Verdict.VERIFIED,
         jacobian,
         corollary(
-            "DF has, at an impact at phi = phi_o, gamma = gamma_o and the next one at phi1, the "
-            "entries "
+            "At eta = 1 DF has four such entries, a21 corrected. At an impact at phi = phi_o, gamma "
+            "= gamma_o, the next one being at phi1: "
             + "; ".join(
-                f"{a} = {spoken(text)}" for a, text in zip(_NAMES, eq.JACOBIAN, strict=True)
+                f"{x} = {spoken(text)}" for x, text in zip(_NAMES, eq.JACOBIAN, strict=True)
             )
             + ".",
             jacobian,
