@@ -101,8 +101,6 @@ no_subharmonic = corollary(
     iterates,
 )
 
-_PLACES = (11, 12, 21, 22)
-
 # -- the rows --------------------------------------------------------------------------------------
 
 ROWS = (
@@ -244,10 +242,11 @@ ROWS = (
         Verdict.VERIFIED,
         jacobian,
         corollary(
-            "At eta = 1 DF has four such entries, a21 corrected. At an impact at phi = phi_o, gamma "
-            "= gamma_o, the next one being at phi1: "
+            "At eta = 1 DF has four such entries, a21 corrected. At an impact at phi = phi_o, "
+            "gamma = gamma_o, the next one being at phi1: "
             + "; ".join(
-                f"{x} = {spoken(text)}" for x, text in zip(_NAMES, eq.JACOBIAN, strict=True)
+                f"a{n} = {spoken(text)}"
+                for n, text in zip((11, 12, 21, 22), eq.JACOBIAN, strict=True)
             )
             + ".",
             jacobian,
