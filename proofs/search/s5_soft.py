@@ -16,6 +16,7 @@ from proofs.trusted.paper.formulas import Unknowns
 from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 
 _LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
+_STIFF = Map(("x", "lam"), tuple(f"at({each}, {near.STIFF_HERE})" for each in near.STIFF))
 
 
 def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
@@ -28,12 +29,11 @@ def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
     return {name: derive.write(found[name]) for name in wanted.names}
 
 
-def _point(wanted: Unknowns) -> dict[str, str]:
-    """Solve for the fixed point of the limit map and its Jacobian."""
-    found = _at_origin(*_LIMIT.map.fixed, names=("lam", "b"))
-    matrix = _LIMIT.map.jacobian_at(found)
-    entries = {f"j{i + 1}{j + 1}": matrix[i, j] for i in (0, 1) for j in (0, 1)}
-    return _written(wanted, found | entries)
+def _point(wanted: Unknowns, *, of: Map) -> dict[str, str]:
+    """Solve for the fixed point of a map and its Jacobian, the last four names."""
+    found = _at_origin(*of.fixed, names=("lam", "b"))
+    entries = zip(wanted.names[-4:], of.jacobian_at(found), strict=True)
+    return _written(wanted, found | dict(entries))
 
 
 def _flip(wanted: Unknowns) -> dict[str, str]:
@@ -86,7 +86,8 @@ prove = partial(
     (*soft.ROWS, *stability.ROWS),
     solvers=MappingProxyType(
         {
-            near.POINT: _point,
+            near.POINT: partial(_point, of=_LIMIT.map),
+            near.STIFF_POINT: partial(_point, of=_STIFF),
             near.FLIP: _flip,
             doubling.CYCLE: _cycle,
             near.JET: partial(_jet, height=4, slope=-1),

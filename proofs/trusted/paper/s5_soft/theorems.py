@@ -46,10 +46,18 @@ THRESHOLDS: tuple[Lemma, ...] = (
     ),
 )
 STIFF: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, {eq.STIFF_FIXED})", "0"),
-    Equal(f"at({eq.STIFF_VELOCITY}, {eq.STIFF_FIXED})", eq.STIFF_LAMBDA),
-    Equal(f"at({eq.STIFF_TRACE}, {eq.STIFF_FIXED})", eq.FOUND_TRACE),
-    Equal(f"at({eq.STIFF_DETERMINANT}, {eq.STIFF_FIXED})", "epsilon**2"),
+    *(
+        Equal(
+            f"at({each}, psi=x + y, psi1=x1 + y, m=s/(pi*k))",
+            f"at({local}, a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s))",
+        )
+        for each, local in zip(
+            (eq.STIFF_MAP, f"lam1 - ({eq.STIFF_VELOCITY})"), near.STIFF, strict=True
+        )
+    ),
+    Equal("cos(2*s)*(1 + (sin(s)/cos(s))**2)", "1 - (sin(s)/cos(s))**2"),
+    Equal("sin(2*s)*(1 + (sin(s)/cos(s))**2)", "2*sin(s)/cos(s)"),
+    near.STIFF_POINT,
 )
 PLASTIC_LIMIT = Series(
     f"at({eq.S24}, epsilon=0, beta=rho*g/(2*omega**2))*2*omega**2/g",
@@ -132,14 +140,15 @@ bifurcations = corollary(
     diagram,
 )
 stiff = corollary(
-    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < "
-    "1, q = 2 omega^2 p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of "
-    "(24), (25), an orbit or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a "
-    "flight over m periods, where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the "
-    "determinant is epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) "
-    "- (1 + epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 "
-    "+ epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 "
-    "+ epsilon^2) + (1 - epsilon)^2 cos(2 s).",
+    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < 1, q = 2 omega^2 "
+    "p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25), an orbit "
+    "or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a flight over m periods, "
+    "where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the Jacobian has the rows "
+    "({k11}, {k12}) and ({k21}, {k22}), a = rho sin psi, t = tan s, big = B. The determinant is "
+    "epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) - (1 + "
+    "epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 + "
+    "epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 + "
+    "epsilon^2) + (1 - epsilon)^2 cos(2 s).",
     *STIFF,
 )
 flip = corollary(
