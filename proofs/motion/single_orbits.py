@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from mpmath import MPContext
+from mpmath.libmp import to_rational
+
 from intervals import DomainError, Interval, Undecided
 from intervals.newton import Roots, derivative, newton
 from proofs.motion.digits import around
@@ -20,7 +23,7 @@ from proofs.motion.impact import first_impact
 from proofs.motion.phase import on_circle
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
-from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
+from proofs.trusted.equations import Clock, clock, launch, launch_acceleration, sincos
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s4_single.orbits import defect, distance, excess, records
 
@@ -29,6 +32,7 @@ Function = Callable[[Any], Any]
 _LOOKS = 64  # times looked at in a table period
 _DEEP = 1e-12  # far above rounding
 _ATTEMPTS = 6
+_LITTLE = 1e-6  # below 2, where the flight for n = 1 is inside the table after half its time
 _LONGEST = 10**4  # time of flight that is followed
 
 
@@ -191,18 +195,59 @@ def bisected(function: Callable[[float], float], low: float, high: float) -> flo
     return low
 
 
-def eta_end(nu: Fraction, n: int, end: int, bits: int) -> Range:
-    """Enclose the eta in (0, 1/(2 n)) at which the solution for nu in (0, 1) has slope `end`."""
+def eta_end(nu: Fraction, n: int, end: int, bits: int, falls: Range | None = None) -> Range:
+    """Enclose the eta at which the solution has slope `end`.
+
+    In (0, 1/(2 n)), where excess grows with eta, for nu in (0, 1), or where it falls, for nu < 0.
+    """
+    low, high = falls or (Fraction(0), Fraction(1, 2 * n))
 
     def beyond(eta: float) -> float:
-        return float(excess(eta, float(nu), turn(eta, n, math.pi), end))
+        value = float(excess(eta, float(nu), turn(eta, n, math.pi), end))
+        return -value if falls else value
 
     def formula(eta: Any) -> Any:
         precision = 2 * bits + 60
         pi = Interval.pi(precision=precision)
         return excess(eta, Interval(nu, precision=precision), turn(eta, n, pi), end)
 
-    return root(formula, bisected(beyond, 0.0, 0.5 / n), bits)
+    return root(formula, bisected(beyond, float(low), float(high)), bits)
+
+
+def graze_end(nu: Fraction, saddle: float, bits: int) -> tuple[Range, Fraction]:
+    """Return a bracket of the eta in (saddle, 2) at which flights for n = 1 touch early, and when.
+
+    nu < 0, slope < 1. A candidate: there D = D' = 0, D the `distance`, says mpmath.
+    """
+    times = [math.pi + k / _LOOKS / 8 for k in range(-_LOOKS, _LOOKS)]
+
+    def highest(eta: float) -> float:
+        return max(_above(eta, nu, time, math) for time in times)
+
+    about = bisected(highest, saddle, 2 - _LITTLE)
+    touch = max(times, key=lambda time: _above(about, nu, time, math))
+    precise = MPContext()
+    precise.prec = 2 * bits + 60
+
+    def both(eta: Any, time: Any) -> tuple[Any, Any]:
+        def along(t: Any) -> Any:
+            return _above(eta, nu, t, precise)
+
+        return along(time), precise.diff(along, time)
+
+    eta, time = (Fraction(*to_rational(x._mpf_)) for x in precise.findroot(both, (about, touch)))
+    return around(eta, bits), around(time, bits)[0]
+
+
+def _above(eta: Any, nu: Fraction, time: Any, functions: Any) -> Any:
+    """Return D for n = 1 at the solution with slope < 1, by the functions of a module."""
+    sines = functions.sin(functions.pi * eta), functions.cos(functions.pi * eta)
+    tangent, square = eta * sines[0] / sines[1], eta * 0 + nu.numerator**2
+    square /= nu.denominator**2
+    share = (functions.sqrt(square - (1 - square) * tangent * tangent) - square) / (1 - square)
+    angles = (functions.sin, functions.cos)
+    now = Clock(*(each(eta * time) for each in angles), *(each(time) for each in angles))
+    return distance(eta, sines, now, share)
 
 
 def nu_end(eta: Fraction, n: int, end: int, bits: int) -> Range | None:

@@ -46,9 +46,9 @@ def prove(
     """Prove what the claims asked for rest on."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
     evidence = Evidence(prover.steps)
-    if "G5" in claims:
+    if asked := {"G5", "G11"}.intersection(claims):
         tell("which orbits stay in [1.32, 1.48], and around it")
-        evidence.proofs["G5"] = prove_staying(prover, PRINTED, of.interval)
+        evidence.proofs |= dict.fromkeys(asked, prove_staying(prover, PRINTED, of.interval))
     if "G9" in claims:
         tell("branches of f, and their covering graph")
         evidence.proofs["G9"] = prove_entropy(prover)
