@@ -222,7 +222,7 @@ def graze_end(nu: Fraction, saddle: float, bits: int) -> tuple[Range, Fraction]:
     times = [math.pi + k / _LOOKS / 8 for k in range(-_LOOKS, _LOOKS)]
 
     def highest(eta: float) -> float:
-        return max(_above(eta, nu, time, math) for time in times)
+        return max(float(_above(eta, nu, time, math)) for time in times)
 
     about = bisected(highest, saddle, 2 - _LITTLE)
     touch = max(times, key=lambda time: _above(about, nu, time, math))

@@ -108,7 +108,7 @@ def run(
 
 
 def add_parameters(parser: Parser, used: Sequence[str] | None = None) -> None:
-    """Add the options for the numbers of a statement, the paper's by default; all, or those used."""
+    """Add the options for the numbers of a statement, the paper's by default: all, or some."""
 
     def add(option: str, **more: Any) -> None:
         if used is None or option in used:

@@ -138,7 +138,8 @@ def _basin(decide: Callable[[Absorption, NeverImpacts | None], Verdict]) -> Deci
         if known is None or not _is_the_printed_orbit(known.arc):
             return undecided(_NOT_FOLLOWED)
         rest = [] if never is None else [never]
-        basin = {"basin_fraction": (known.share, 1 - sum(each.share for each in rest))}
+        most = Fraction(1) if never is None else 1 - never.share
+        basin = {"basin_fraction": (known.share, most)}
         verdict = decide(known, never)
         if verdict is Verdict.UNDECIDED:
             return undecided(f"{known.brief}; of the rest nothing is known", basin)

@@ -1,4 +1,6 @@
-"""Section 3.4 with restitution: does the stable orbit persist, do transients grow? Claims G7, G8, G12.
+"""Section 3.4 with restitution: does the stable orbit persist, do transients grow?
+
+Claims G7, G8, and G12 of our own.
 
 A bounce, here, is a launch at a phase phi with a relative velocity w >= 0 away from the table,
 where the table pushes: let a(psi) be the launch acceleration of a mass at rest on the table at

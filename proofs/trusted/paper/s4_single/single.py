@@ -178,12 +178,12 @@ def _figure_a(_: Parameters, found: Found) -> Decision:
 
     stuck = _counterexample(found, lambda x: x.sticks and shown(x, FIGURE_NU))
     hits = _counterexample(found, lambda x: x.hits and shown(x, -FIGURE_NU))
-    both = [*found.all(EtaWindows), *found.all(BelowWindows)]
-    windows = [x for x in both if (abs(x.nu), x.low) == (FIGURE_NU, FIGURE_ETAS[0])]
-    if [x.nu for x in windows] != [FIGURE_NU, -FIGURE_NU]:
+    known, asked = _proved(found, orbits), (FIGURE_NU, FIGURE_ETAS[0])
+    above = [x for x in found.all(EtaWindows) if (x.nu, x.low) == asked]
+    below = [x for x in found.all(BelowWindows) if (-x.nu, x.low) == asked]
+    if not (above and below):
         return undecided("no proof of all windows in eta, for both signs of p")
-    known = _proved(found, orbits)
-    return decided(Verdict.CONDITIONAL, stuck, hits, corrected=[*known, *windows])
+    return decided(Verdict.CONDITIONAL, stuck, hits, corrected=[*known, above[0], below[0]])
 
 
 def _figure_b(_: Parameters, found: Found) -> Decision:
