@@ -34,8 +34,8 @@ derivative of the left side is the smaller one for 9 tau^2 <= 1; tau <= N/sqrt(1
 Lemma 8 (n = 1, 3/2 < eta < 2). If N <= 3/10, stable orbits are between the saddle-node, where
 e/(1 + e) = nu^2, and the eta_G at which the flight touches the table on its way, at a t in J =
 [pi - 5/7, pi + 5/7]. On J, D'' < -1/5 where p < 0; if D > 0 at eta, t in J, then eta_G < eta.
-Proof. tau < 0.315, so d < 0.066, eta > 1.934, 1/cos(pi d) < 1.014. e falls with eta, so p grows. At t
-= pi + s, D = cos(eta s)/cos(pi d) - 1 + p (1 + cos s) - tau sin s. If p >= 0, D > 0 at s = 0. Let
+Proof. tau < 0.315, so d < 0.066, eta > 1.934, 1/cos(pi d) < 1.014. e falls with eta, so p grows. At
+pi + s, D = cos(eta s)/cos(pi d) - 1 + p (1 + cos s) - tau sin s. If p >= 0, D > 0 at s = 0. Let
 p < 0. (1) For 0 < t <= 1, cos(eta t) - 1 <= -(25/72) eta^2 t^2 < -1.29 t^2 and sin t - sin(eta t)/
 eta <= 2 t^3/3, so D < 0; for T - t = v in (0, 1], D = cos(eta v) - 1 - tau sin(eta v)/eta + p (1 -
 cos v) - tau sin v < 0; for 5/7 <= |s| <= pi - 1, cos(eta s) < 0.19, so D < 0. (2) For |s| <= 5/7,
