@@ -179,7 +179,7 @@ def examples(system: System, most: int) -> Iterator[SingleImpact]:
 
 
 def _contracts(one: SingleImpact) -> bool:
-    return one.multiplier[0] > -1 and one.multiplier[1] < 1
+    return one.multiplier is not None and -1 < one.multiplier[0] <= one.multiplier[1] < 1
 
 
 def _first(system: System, most: int, reason: str) -> SingleImpact:
