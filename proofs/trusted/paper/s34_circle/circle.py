@@ -26,6 +26,7 @@ ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printe
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
 _MAJORITY = Fraction(1, 2)  # more than it is most of the circle
+_OPEN = Verdict.UNDECIDED
 _NOT_FOLLOWED = "no proof which phases reach the sticking arc"
 
 
@@ -117,7 +118,7 @@ def _by_the_arc(verdict: Verdict, holds: Callable[[Separation], bool]) -> Decide
         if arc is None:
             return undecided("no proof where the mass sticks, and where it lands then")
         if not holds(arc):
-            return undecided(arc.brief, arc.quantities)
+            return Decision(_OPEN, (), (arc,), missing=arc.brief, quantities=arc.quantities)
         return decided(verdict, arc, corrected=[arc])
 
     return decide
@@ -135,15 +136,16 @@ def _basin(decide: Callable[[Absorption, NeverImpacts | None], Verdict]) -> Deci
     def decision(of: Parameters, found: Found) -> Decision:
         del of
         known, never = found.first(Absorption), found.first(NeverImpacts)
-        if known is None or not _is_the_printed_orbit(known.arc):
+        if known is None or not known.arc.returns:
             return undecided(_NOT_FOLLOWED)
-        rest = [] if never is None else [never]
         most = Fraction(1) if never is None else 1 - never.share
         basin = {"basin_fraction": (known.share, most)}
-        verdict = decide(known, never)
-        if verdict is Verdict.UNDECIDED:
-            return undecided(f"{known.brief}; of the rest nothing is known", basin)
-        nearby = [known.arc, known, *rest, *found.all(FixedPoint)[:1]]
+        rest = [] if never is None else [never]
+        nearby = (known.arc, known, *rest, *found.all(FixedPoint)[:1])
+        verdict = decide(known, never) if _is_the_printed_orbit(known.arc) else _OPEN
+        if verdict is _OPEN:
+            missing = f"{known.brief}; of the rest nothing is known"
+            return Decision(_OPEN, (), nearby, missing=missing, quantities=basin)
         return decided(verdict, known, *rest, corrected=nearby, known=basin)
 
     return decision
@@ -154,13 +156,13 @@ def _most(known: Absorption, never: NeverImpacts | None) -> Verdict:
     what of the circle; which ones were chosen the paper does not say.
     """
     del never
-    return Verdict.VERIFIED if known.share > _MAJORITY else Verdict.UNDECIDED
+    return Verdict.VERIFIED if known.share > _MAJORITY else _OPEN
 
 
 def _almost_every(known: Absorption, never: NeverImpacts | None) -> Verdict:
     """G10: an interval of phases that never impact again refutes it."""
     del known
-    return Verdict.UNDECIDED if never is None else Verdict.REFUTED
+    return _OPEN if never is None else Verdict.REFUTED
 
 
 def _transient(of: Parameters, found: Found) -> Decision:
