@@ -43,7 +43,14 @@ if TYPE_CHECKING:
     from proofs.shell.counting import Counts
 
 _USED: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"foundations": ("--eta", "--nu"), "single": ("--eta", "--nu"), "soft": (), "resonance": ()}
+    {
+        "foundations": ("--eta", "--nu"),
+        "circle": ("--eta", "--nu"),
+        "persistence": ("--eta", "--nu", "--epsilon"),
+        "single": ("--eta", "--nu"),
+        "soft": (),
+        "resonance": (),
+    }
 )  # the numbers that a command's claims are about, where not all; see `proofs.report.page`
 EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json

@@ -77,7 +77,8 @@ def necessary() -> str:
     """NECESSARY: (16) is (10) with b = a = phi, delta = 2 pi n, and its factors."""
     return (
         "(10) with psi_(k+1) = psi_k + 2 pi n is (16), which is necessary for an orbit with an "
-        "impact every n table periods. With x = pi n eta it is (2/eta) sin(x) (nu cos(phi) cos(x) "
+        "impact every n table periods after which the mass leaves the table at once (after one "
+        "that sticks the flight starts at phi_s instead). With x = pi n eta it is (2/eta) sin(x) (nu cos(phi) cos(x) "
         "- eta (1 + nu sin(phi)) sin(x)) = 0: all phases satisfy it if n eta is an integer."
     )
 
@@ -202,8 +203,8 @@ def _figure_b(_: Parameters, found: Found) -> Decision:
 ROWS = (
     derived_row(
         Passage("P1", "4, (16)", "of the map is given by"),
-        "The fixed points with n table periods between impacts satisfy (16), which is (10) with "
-        "psi_(k+1) - psi_k = 2 pi n.",
+        "The fixed points with n table periods between impacts, where the mass leaves the table at "
+        "once, satisfy (16), which is (10) with psi_(k+1) - psi_k = 2 pi n.",
         Verdict.VERIFIED,
         necessary,
         corrected=(necessary,),

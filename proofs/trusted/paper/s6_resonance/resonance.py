@@ -99,9 +99,9 @@ rebound = corollary(
     *eq.TEST,
 )
 no_subharmonic = corollary(
-    "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu "
-    "(an observation, simulated by proofs.report.resonance_figure): the steady motion is a sine of "
-    "the frequency of the table (nu < 0), or rest on it (nu > 0). For epsilon = 1 all flights of a "
+    "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu: "
+    "the motion that all others tend to is a sine of the frequency of the table (nu < 0), or rest "
+    "on it (nu > 0). For epsilon = 1 all flights of a "
     "motion with c = gamma + nu cos(phi) not 0, which is constant, last T = 2 pi - 2 arctan|c| for "
     "nu < 0, T = 2 arctan|c| for nu > 0, so the displacement, table plus gap, has only the "
     "frequency of the table and multiples of 2 pi/T times it, larger ones. It repeats after n "
@@ -286,7 +286,8 @@ ROWS = (
     derived_row(
         Passage("E1", "7, Fig. 10", "eighth subharmonic appearing as the amplitude is increased"),
         "Figure 10: at resonance subharmonics of the table frequency, an eighth one, appear as "
-        "the amplitude grows (an experiment).",
+        "the amplitude grows (an experiment; python -m proofs.resonance --figure draws motions of "
+        "the model beside it).",
         Verdict.SIMULATED,
         no_subharmonic,
         corrected=(iterates, no_subharmonic),
