@@ -185,10 +185,9 @@ def _arrives(system: System, n: int, start: Launch) -> Interval:
 
     By lemma 1 that is the sign of side h tan x, which is exact but for h.
     """
-    if _is_half(n * system.eta):
-        return start.rate * system.side
-    rises = n * system.eta % 1 < Fraction(1, 2)
-    return (start.lift + 1) * (system.side if rises else -system.side)
+    number: Interval = start.rate if _is_half(n * system.eta) else start.lift + 1
+    rises = n * system.eta % 1 <= Fraction(1, 2)
+    return number * (system.side if rises else -system.side)
 
 
 @lru_cache(maxsize=8)

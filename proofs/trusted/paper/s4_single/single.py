@@ -78,8 +78,9 @@ def necessary() -> str:
     return (
         "(10) with psi_(k+1) = psi_k + 2 pi n is (16), which is necessary for an orbit with an "
         "impact every n table periods after which the mass leaves the table at once (after one "
-        "that sticks the flight starts at phi_s instead). With x = pi n eta it is (2/eta) sin(x) (nu cos(phi) cos(x) "
-        "- eta (1 + nu sin(phi)) sin(x)) = 0: all phases satisfy it if n eta is an integer."
+        "that sticks the flight starts at phi_s instead). With x = pi n eta it is (2/eta) sin(x) "
+        "(nu cos(phi) cos(x) - eta (1 + nu sin(phi)) sin(x)) = 0: all phases satisfy it if n eta "
+        "is an integer."
     )
 
 
