@@ -24,7 +24,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 _ZERO = Fraction(0)
@@ -319,5 +319,6 @@ ROWS = (
         _AT + ": trajectories take the longer to reach the stable orbit the larger the coefficient "
         "of restitution is.",
         _transients,
+        PAPER.place,
     ),
 )

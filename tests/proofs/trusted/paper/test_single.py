@@ -73,6 +73,15 @@ def test_solutions_satisfy_the_impact_equation():
             assert 0 <= one.phase[0] < 7 and one.phase[1] - one.phase[0] < 2**-110
 
 
+def test_an_orbit_that_sticks_need_not_solve_16():
+    """Why P1 is about masses that leave at once: (0.2121, -0.2), one impact in four periods."""
+    eta, nu = mpf("0.2121"), mpf("-0.2")
+    leave = reference.separation_phase(eta, nu)
+    time, phi = reference.first_impact(eta, nu, leave + mpf(10) ** -20)
+    assert abs((leave + time - phi) / (2 * mp.pi) - 4) < 1e-15
+    assert abs(reference.left_side_10(eta, nu, phi, 8 * mp.pi)) > 0.1
+
+
 def test_there_are_two_solutions_or_none():
     """Counted by the changes of sign of (16) on a fine grid of phases."""
     for of, n in drawn(2, 60):
