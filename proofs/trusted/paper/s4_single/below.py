@@ -26,23 +26,24 @@ both is 1/cos(pi d) < 1 + tau^2 (1 - cos r) <= 1 + 2 tau^2: so eta >= cos(a)/2, 
 sin(a) <= N. (1) m > 1. Let 2 pi/eta = 2 pi q + c, q whole, |c| <= pi. As 4 a < pi, r grows by c
 from peak to peak: (m - 1) |c| < 4 a. k = 0, for odd m, gives r = pi n, n odd; k = 1, for even m, n
 + q odd. So n - (m + 1) q is odd; but it is (m + 1) c/(2 pi) - d/eta, by n eta = m + 1 - d, and
-smaller than (6 asin N + 4 atan N/sqrt(1 - N^2))/pi < 1. (2) m = 1. n is odd, for k = 0. At t = pi n
+its size below (6 asin N + 4 atan N/sqrt(1 - N^2))/pi < 1. (2) m = 1. n is odd, for k = 0. At t = pi n
 - 2 a the table is at h, so the mass, cos(2 a eta) h/cos(pi d), is below: 2 eta atan(tau) > pi d =
 atan(tau/eta). For n >= 3, eta < 2/3, but 4/3 atan(tau) <= atan(3 tau/2): they are 0 at 0, and the
 derivative of the left side is the smaller one for 9 tau^2 <= 1; tau <= N/sqrt(1 - N^2) < 0.315.
 
 Lemma 8 (n = 1, 3/2 < eta < 2). If N <= 3/10, stable orbits are between the saddle-node, where
 e/(1 + e) = nu^2, and the eta_G at which the flight touches the table on its way, at a t in J =
-[pi - 5/7, pi + 5/7]. On J, D'' < -1/5 where p < 0; if D > 0 at eta, t in J, then eta_G < eta.
-Proof. tau < 0.315, so d < 0.066, eta > 1.934, 1/cos(pi d) < 1.014. e falls with eta, so p grows. At
-pi + s, D = cos(eta s)/cos(pi d) - 1 + p (1 + cos s) - tau sin s. If p >= 0, D > 0 at s = 0. Let
-p < 0. (1) For 0 < t <= 1, cos(eta t) - 1 <= -(25/72) eta^2 t^2 < -1.29 t^2 and sin t - sin(eta t)/
-eta <= 2 t^3/3, so D < 0; for T - t = v in (0, 1], D = cos(eta v) - 1 - tau sin(eta v)/eta + p (1 -
-cos v) - tau sin v < 0; for 5/7 <= |s| <= pi - 1, cos(eta s) < 0.19, so D < 0. (2) For |s| <= 5/7,
-D'' = -eta^2 cos(eta s)/cos(pi d) - p cos s + tau sin s < -0.53 + 0.1 + 0.21. (3) There D grows with
-eta. As dp/dtau = -tau (1 - p)/(p + tau^2) < -1/tau < -3.17 and -dtau/deta = pi eta (1 + (tau/
-eta)^2) - tau/eta > 5.9, the derivative is at least 5.9 (3.17 (1 + cos s) - |sin s|) > 28 from p and
-tau, less s sin(eta s)/cos(pi d) + pi (tau/eta) cos(eta s)/cos(pi d) < 1.3.
+[pi - 5/7, pi + 5/7]. On J, D'' < -1/5; if D > 0 at eta and a t in J, then eta_G < eta.
+Proof. tau < 0.315, so d < 0.066, eta > 1.934, 1/cos(pi d) < 1.014. At t = pi + s, D = cos(eta s)/
+cos(pi d) - 1 + p (1 + cos s) - tau sin s. (1) For |s| <= 5/7, D'' = -eta^2 cos(eta s)/cos(pi d) - p
+cos s + tau sin s < -0.53 + 0.1 + 0.21, as p >= -e. (2) If p >= 0, D > 0 at s = 0. Let p < 0. For 0
+< t <= 1, cos(eta t) - 1 <= -(25/72) eta^2 t^2 < -1.29 t^2 and sin t - sin(eta t)/eta <= 2 t^3/3, so
+D < 0; for T - t = v in (0, 1], D = cos(eta v) - 1 - tau sin(eta v)/eta + p (1 - cos v) - tau sin v
+< 0; for 5/7 <= |s| <= pi - 1, cos(eta s) < 0.19, so D < 0. (3) tau falls and p grows with eta: it
+is -dtau/deta = pi eta (1 + (tau/eta)^2) - tau/eta > 5.9, dp/dtau = -tau (1 - p)/(p + tau^2) <
+-1/tau < -3.17 for p < 0. So for |s| <= 5/7 D grows with eta as long as p < 0: its derivative is at
+least 5.9 (3.17 (1 + cos s) - |sin s|) > 28 from p and tau, less s sin(eta s)/cos(pi d) + pi (tau/
+eta) cos(eta s)/cos(pi d) < 1.3.
 """
 
 from __future__ import annotations
