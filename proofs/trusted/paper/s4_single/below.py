@@ -26,7 +26,7 @@ both is 1/cos(pi d) < 1 + tau^2 (1 - cos r) <= 1 + 2 tau^2: so eta >= cos(a)/2, 
 sin(a) <= N. (1) m > 1. Let 2 pi/eta = 2 pi q + c, q whole, |c| <= pi. As 4 a < pi, r grows by c
 from peak to peak: (m - 1) |c| < 4 a. k = 0, for odd m, gives r = pi n, n odd; k = 1, for even m, n
 + q odd. So n - (m + 1) q is odd; but it is (m + 1) c/(2 pi) - d/eta, by n eta = m + 1 - d, and
-its size below (6 asin N + 4 atan N/sqrt(1 - N^2))/pi < 1. (2) m = 1. n is odd, for k = 0. At t = pi n
+its size below (6 asin N + 4 atan N/sqrt(1 - N^2))/pi < 1. (2) m = 1. n is odd: k = 0. At t = pi n
 - 2 a the table is at h, so the mass, cos(2 a eta) h/cos(pi d), is below: 2 eta atan(tau) > pi d =
 atan(tau/eta). For n >= 3, eta < 2/3, but 4/3 atan(tau) <= atan(3 tau/2): they are 0 at 0, and the
 derivative of the left side is the smaller one for 9 tau^2 <= 1; tau <= N/sqrt(1 - N^2) < 0.315.
