@@ -60,6 +60,9 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-below-windows": "paper.s4_single.below.below_windows",
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
+        "markov-set": "paper.beyond.chaos.prove_markov_set",
+        "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
+        "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
     }
 )
 
