@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from proofs.motion.simulate import transients
+from proofs.motion.simulate import INITIAL_STATES, TURNS, transients
 from proofs.motion.system import System
 from proofs.report.markup import drawn
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
@@ -31,7 +31,7 @@ def svg(source: str) -> str:
         axes.plot(epsilons, [row.mean_turns for row in rows], "s--", label="mean, simulated")
         axes.set_xlabel("epsilon")
         axes.set_ylabel("turns of the table until rest")
-        title = "Transients (SIMULATED: 500 random impacts, at most 200 turns)"
+        title = f"SIMULATED: {INITIAL_STATES} random impacts; not at rest: counted as {TURNS} turns"
         axes.set_title(f"{title}\n{proof.of.place}", fontsize=9)
         axes.legend(fontsize=8)
 
