@@ -1,8 +1,10 @@
 """`python -m proofs`: every claim decided so far, with one exit status."""
 
-import sys
-
-from proofs.shell.ledger import main
-
 if __name__ == "__main__":
-    sys.exit(main())
+    from proofs.shell.entry import launch
+
+    launch("proofs.__main__")
+
+from proofs.shell import ledger
+
+main = ledger.main

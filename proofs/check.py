@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.check")
+
 import argparse
 import sys
 from collections import Counter
@@ -119,7 +124,3 @@ def print_report(name: str, report: Report, digest_of: str) -> None:
             print(f"       corrected, VERIFIED: {claim.corrected}")
     for sentence in report.sentences:
         print(f"  {sentence}")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

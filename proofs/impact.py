@@ -11,6 +11,11 @@ This is the plastic map. With a coefficient of restitution EPSILON and the veloc
 (PHI, GAMMA), instead of the slope.
 """
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.impact")
+
 import sys
 from argparse import Namespace
 from fractions import Fraction
@@ -176,7 +181,3 @@ def _text(answer: Answer) -> str:
     ]
     said = [at, *(line for label, ends in rows if ends is not None for line in lines(label, ends))]
     return "\n".join([*said, f"  sticks first       {'yes' if answer['sticking'] else 'no'}"])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

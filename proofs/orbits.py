@@ -11,6 +11,11 @@ of its orbit).
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.orbits")
+
 import csv
 import io
 import sys
@@ -220,7 +225,3 @@ def _text(of: Parameters, rows: list[Answer], orbits: int, seconds: float) -> st
         f"I1 = {show_range(of.right)}; orbits: {orbits}, in {seconds:.2f} s"
     )
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

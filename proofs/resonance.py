@@ -10,6 +10,11 @@ to:
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.resonance")
+
 import sys
 from argparse import Namespace
 
@@ -94,7 +99,3 @@ def _text(answer: Answer) -> str:
         said += [f"  {label:18} none"] if ends is None else lines(label, ends)
     said.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.benchmark.__main__")
+
 import shutil
 import subprocess
 import sys
@@ -114,7 +119,3 @@ def _intervals(mode: str, python: str) -> int:
     wide = [python, "-m", "proofs.benchmark.operations", "--quiet", *effort.get(mode, few)]
     long = [*wide, "--bits=333", "--length=100", "--libraries", OURS, FLINT, IV]
     return int(any(subprocess.run(command, check=False).returncode for command in (wide, long)))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,4 +1,19 @@
-"""What the command lines share: exact numbers, one-line errors, files, counts, colour."""
+"""What the command lines share: exact numbers, one-line errors, files, counts, colour.
+
+A command is a module `proofs.<name>`, or a package with a `__main__`, whose docstring begins with
+the line that the list of commands shows, and which has `main(arguments=None)` that returns the
+exit status. It begins, before its imports, with
+
+    if __name__ == "__main__":
+        from proofs.shell.entry import launch
+
+        launch("proofs.<name>")
+
+and needs nothing more: `launch` imports it and calls `main` where Ctrl-C, SIGTERM, a closed pipe
+and a full disk end the process with a line and the status that is due, no traceback. So an OSError
+need not be caught, nor KeyboardInterrupt. Processes of its own it takes from `entry.workers`, which
+end with it.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +27,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from fractions import Fraction
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from intervals import fraction
 from proofs.trusted.verdicts import Verdict
@@ -37,6 +52,10 @@ class Parser(argparse.ArgumentParser):
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         self._negative_number_matcher = re.compile(r"^-[0-9.]")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
+        (file or sys.stderr).write(message)
 
     def error(self, message: str) -> NoReturn:
         """Print one line and leave with status 2."""

@@ -12,7 +12,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
@@ -22,6 +22,7 @@ from proofs.report import page
 from proofs.shell import runner
 from proofs.shell.cli import Parser, coloured, counting, progress, writable
 from proofs.shell.counting import Counts, show
+from proofs.shell.entry import workers
 from proofs.shell.groups import FILES, Made, produce, wanted
 from proofs.trusted.certificate import LEDGER, Malformed, read, render, write_atomically
 from proofs.trusted.paper import GROUPS
@@ -176,7 +177,7 @@ def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 def _settle_all(wanted: Sequence[Job]) -> list[Settled]:
     """Settle the files in processes of their own, as many at a time as there are processors."""
-    with progress() as tell, ProcessPoolExecutor(min(len(wanted), os.cpu_count() or 1)) as pool:
+    with progress() as tell, workers(min(len(wanted), os.cpu_count() or 1)) as pool:
         futures = {pool.submit(settle_counting, job): job for job in wanted}
         found = {}
         for future in as_completed(futures):
@@ -194,7 +195,3 @@ def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: 
         print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
     counts = Counter(row["verdict"] for row in rows)
     print(", ".join(f"{count} {name}" for name, count in counts.items()), f"in {seconds:.1f} s")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

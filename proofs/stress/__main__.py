@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.stress.__main__")
+
 import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
@@ -114,7 +119,3 @@ def _write(folder: Path, run: report.Run) -> None:
         write_atomically(folder / "stress.svg", report.svg(run))
     except ImportError:
         print("no picture: matplotlib is not installed", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
