@@ -37,8 +37,8 @@ asked for are certified; for an interval the bounds enclose the images of all it
 the map jumps in the interval (grazing, the edge of the sticking arc), the set of possible
 images is printed instead, and the exit status is 1.
 
-exit status: 0 certified, 1 only a set of possible images, or undecided,
-             2 bad input, or no impact within the horizon
+exit status: 0 certified, 1 only a set of possible images, undecided, or no impact within the
+             horizon, 2 bad input
 
 examples:
   python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11
@@ -67,10 +67,11 @@ def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -
     """Print or write the image; return the exit status."""
     try:
         found = _image(system, phases, options)
-    except (NoImpact, Impossible) as failure:
+    except Impossible as failure:
         parser.error(str(failure))
     except (Undecided, IntervalError) as failure:
-        print(f"{parser.prog}: undecided: {failure}", file=sys.stderr)
+        kind = "no impact" if isinstance(failure, NoImpact) else "undecided"
+        print(f"{parser.prog}: {kind}: {failure}", file=sys.stderr)
         return 1
     answer = {"eta": show(system.eta), "nu": show(system.nu), "phi": [show(x) for x in phases]}
     if options.gamma:

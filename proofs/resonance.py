@@ -26,7 +26,7 @@ from proofs.shell.runner import run
 from proofs.trusted.numbers import TURN, show
 
 _NUMBERS = ("nu", "epsilon", "phi", "gamma")
-_STATE = ("--phi", "--gamma")  # options that only the map takes
+_STATE = ("--nu", "--epsilon", "--phi", "--gamma")  # options that only the map takes
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified. A
 mass that rests on the table for ever has no next impact, elastic impacts have no limit phase:
