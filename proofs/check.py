@@ -13,7 +13,7 @@ from collections import Counter
 from pathlib import Path
 
 from proofs import __version__
-from proofs.shell.screen import fitted, say
+from proofs.shell.screen import Help, fitted, say
 from proofs.trusted.certificate import (
     LEDGER,
     MANIFEST,
@@ -49,11 +49,9 @@ def main(arguments: list[str] | None = None) -> int:
         prog="python -m proofs.check",
         description=__doc__,
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
-    files = (
-        "a certificate, MANIFEST.json or ledger.json beside the files it lists; - for one piped in"
-    )
+    files = "a certificate, or MANIFEST.json or ledger.json beside those; - for one piped in"
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")

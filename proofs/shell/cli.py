@@ -35,7 +35,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from intervals import fraction
 from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
-from proofs.shell.screen import fitted
+from proofs.shell.screen import Help
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -43,13 +43,6 @@ if TYPE_CHECKING:
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
 _LARGEST = 10**_DIGITS
 _LONGEST_FLIGHT = 10**6  # the checker looks no further
-
-
-class _Help(argparse.RawDescriptionHelpFormatter):
-    """Keeps lines as they are, unless the terminal is narrower."""
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        return fitted(super()._fill_text(text, width, indent), sys.stdout)
 
 
 class Parser(argparse.ArgumentParser):
@@ -60,7 +53,7 @@ class Parser(argparse.ArgumentParser):
             prog=f"python -m {prog}",
             description=description,
             epilog=epilog,
-            formatter_class=_Help,
+            formatter_class=Help,
         )
         self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
         self._negative_number_matcher = re.compile(r"^-[0-9.]")

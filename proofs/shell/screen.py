@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import sys
+from argparse import RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from shutil import get_terminal_size
 from textwrap import wrap
@@ -22,6 +23,13 @@ _COLOURS = {
     Verdict.UNDECIDED: "yellow",
     Verdict.SIMULATED: "magenta",
 }
+
+
+class Help(RawDescriptionHelpFormatter):
+    """Keeps the lines of descriptions and examples, unless the terminal is narrower."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return fitted(super()._fill_text(text, width, indent), sys.stdout)
 
 
 class Decided(NamedTuple):
