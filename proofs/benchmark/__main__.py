@@ -20,6 +20,7 @@ from proofs.benchmark import page
 from proofs.benchmark.page import Run, Section, Tell
 from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
@@ -88,7 +89,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     check_targets(parser, options.json)
     if shutil.which(options.codac_python) is None:
-        parser.error(f"no such interpreter: {options.codac_python}")
+        say(f"{parser.prog}: no such interpreter: {options.codac_python}", sys.stderr)
+        return USAGE_ERROR
     if options.subject == "intervals":
         return _intervals(options.mode, options.codac_python)
     if options.out is not None:

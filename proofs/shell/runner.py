@@ -118,12 +118,10 @@ def run(
     asked = wanted(file, of, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
-    chosen = {claim for ids in asked.values() for claim in ids}
-    is_other = of != PAPER or options.figure or options.horizon is not None
-    choose_folder(parser, options, is_other or not chosen.issuperset(claims))
-    kept = paper_claims(options.out / f"{file}.json")
-    if kept and (of != PAPER or kept - chosen):
-        parser.error(f"{options.out}/{file}.json has the paper's claims: choose another --out")
+    is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
+    choose_folder(parser, options, is_less or options.figure or options.horizon is not None)
+    if is_less and is_whole(options.out, file):
+        parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
     return _run(parser, file, asked, of, options)
 
 
@@ -183,14 +181,19 @@ def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
     check_folder(parser, options.out)
 
 
-def paper_claims(path: Path) -> set[str]:
-    """Return the claims that a certificate decides at the paper's parameters, if it is one."""
+def is_whole(folder: Path, file: str) -> bool:
+    """Whether the folder has the paper's certificate of this name, with all its claims."""
     try:
-        there = json.loads(path.read_text(encoding="utf-8"))
-        is_paper = there["parameters"] == parameters_to_json(PAPER)
-        return {entry["id"] for entry in there["claims"]} if is_paper else set()
+        there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))
+        claims = {entry["id"] for entry in there["claims"]}
+        return there["parameters"] == parameters_to_json(PAPER) and claims >= claims_of(file)
     except (OSError, ValueError, KeyError, TypeError):
-        return set()
+        return False
+
+
+def claims_of(file: str) -> set[str]:
+    """Return all claims of a certificate."""
+    return {claim for ids in FILES[file].values() for claim in ids}
 
 
 def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
@@ -228,7 +231,7 @@ def write(folder: Path, name: str, made: Made, figure: str = "") -> None:
         for kind, content in (("json", made.certificate), ("md", made.page), ("svg", figure)):
             if content:
                 put(f"{name}.{kind}", content)
-        put(manifest.NAME, manifest.entered(folder, f"{name}.json", made.certificate))
+        put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
 
 
 def finish(
