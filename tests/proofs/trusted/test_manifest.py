@@ -150,7 +150,7 @@ WRONG = {
     "parameters": (lambda d: d["files"][FILE]["parameters"].update(eta="1/5"), "file proves"),
     "made": (lambda d: d["files"][FILE].update(made="python -m proofs.sets"), "the command is"),
     "checked": (lambda d: d["files"][FILE].update(checked="true"), "proves 'python -I -m"),
-    "verdict": (lambda d: of(d)["H2"].update(verdict="VERIFIED"), "H1.: .'verdict': 'VERIFIED'"),
+    "verdict": (lambda d: of(d)["H2"].update(verdict="VERIFIED"), "file proves"),
     "statement": (lambda d: of(d)["H2"].update(statement="f' <= 7."), "file proves"),
     "claim": (lambda d: of(d).update(G1=of(d)["H1"]), "file proves"),
     "claim left out": (lambda d: of(d).pop("H1"), "file proves"),
