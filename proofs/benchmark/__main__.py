@@ -70,7 +70,9 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
 def _parser() -> Parser:
     parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
     add = parser.add_argument
-    add("subject", nargs="?", choices=SUBJECTS, default="all", help="default: all")
+    parser.usage = "%(prog)s [SUBJECT] [OPTION ...]"
+    what = f"one of {', '.join(SUBJECTS)} (default: all)"
+    add("subject", nargs="?", choices=SUBJECTS, default="all", metavar="SUBJECT", help=what)
     modes = parser.add_mutually_exclusive_group()
     for mode, text in {"quick": "default", "full": "more runs", "smallest": "each once"}.items():
         modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode, help=text)

@@ -35,7 +35,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from intervals import fraction
 from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
-from proofs.shell.screen import Help
+from proofs.shell.screen import Help, fitted
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -64,7 +64,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print one line and leave with status 2."""
-        self.exit(USAGE_ERROR, f"{self.prog}: {message}\n")
+        self.exit(USAGE_ERROR, fitted(f"{self.prog}: {message}", sys.stderr) + "\n")
 
 
 def number(text: str) -> Fraction:

@@ -197,6 +197,7 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     with workers(min(len(todo), os.cpu_count() or 1)) as pool:
         futures = {pool.submit(settle_counting, job): job for job in todo}
         with progress() as tell:
+            tell(f"0 of {len(todo)} groups of claims")
             for future in as_completed(futures):
                 job, found = futures[future], future.result()
                 if found.found != job.folder:

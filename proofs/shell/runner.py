@@ -182,7 +182,9 @@ def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
 
 
 def is_whole(folder: Path, file: str) -> bool:
-    """Whether the folder has the paper's certificate of this name, with all its claims."""
+    """Whether the folder has the paper's certificate with all claims, and is not that of runs."""
+    if folder == RUNS:
+        return False
     try:
         there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))
         claims = {entry["id"] for entry in there["claims"]}
