@@ -30,12 +30,10 @@ from shutil import get_terminal_size
 from textwrap import shorten
 from threading import Event, Lock, Thread
 from time import monotonic
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from intervals import fraction
-from proofs import __version__
-from proofs.shell.entry import USAGE_ERROR
-from proofs.shell.screen import Help, fitted
+from proofs.shell.screen import Arguments
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -45,26 +43,12 @@ _LARGEST = 10**_DIGITS
 _LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
-class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line, and that takes -1/5 and -2e-3 for numbers."""
+class Parser(Arguments):
+    """A parser of arguments that takes -1/5 and -2e-3 for numbers."""
 
     def __init__(self, prog: str, description: str | None, epilog: str) -> None:
-        super().__init__(
-            prog=f"python -m {prog}",
-            description=description,
-            epilog=epilog,
-            formatter_class=Help,
-        )
-        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+        super().__init__(prog, description, epilog)
         self._negative_number_matcher = re.compile(r"^-[0-9.]")
-
-    def _print_message(self, message: str, file: Any = None) -> None:
-        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
-        (file or sys.stderr).write(message)
-
-    def error(self, message: str) -> NoReturn:
-        """Print one line and leave with status 2."""
-        self.exit(USAGE_ERROR, fitted(f"{self.prog}: {message}", sys.stderr) + "\n")
 
 
 def number(text: str) -> Fraction:

@@ -268,9 +268,10 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
     for name, ends in numbers.items():
         lower, upper = printed(ends, digits).values()
         say(f"{name} in [{lower}, {upper}]")
-    for text in dict.fromkeys(line.corrected for line in lines if line.corrected is not None):
-        beside = ", ".join(line.id for line in lines if line.corrected == text)
-        say(f"\nTheorem beside {beside}, VERIFIED: {gist(text)}")
+    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
+    for text in dict.fromkeys(gists.values()):
+        beside = ", ".join(claim for claim, same in gists.items() if same == text)
+        say(f"\nTheorem beside {beside}, VERIFIED: {text}")
     say(f"\nall of it: {page}")
 
 

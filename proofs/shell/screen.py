@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import re
 import sys
-from argparse import RawDescriptionHelpFormatter
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterator, Sequence
 from shutil import get_terminal_size
 from textwrap import wrap
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple, NoReturn
 
+from proofs import __version__
+from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
 
-_SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
+_SENTENCE = re.compile(r"(?<=[^.]\.) ")
 _COLOURS = {
     Verdict.VERIFIED: "green",
     Verdict.REFUTED: "red",
@@ -25,7 +27,25 @@ _COLOURS = {
 }
 
 
-class Help(RawDescriptionHelpFormatter):
+class Arguments(ArgumentParser):
+    """A parser of a command's arguments whose errors are one line."""
+
+    def __init__(self, prog: str, description: str | None, epilog: str) -> None:
+        super().__init__(
+            f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
+        )
+        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
+        (file or sys.stderr).write(message)
+
+    def error(self, message: str) -> NoReturn:
+        """Print one line and leave with status 2."""
+        self.exit(USAGE_ERROR, fitted(f"{self.prog}: {message}", sys.stderr) + "\n")
+
+
+class _Help(RawDescriptionHelpFormatter):
     """Keeps the lines of descriptions and examples, unless the terminal is narrower."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
