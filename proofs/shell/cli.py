@@ -132,16 +132,19 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
     if not sys.stderr.isatty():
         yield lambda stage: None
         return
-    began, stage, over, drawing = monotonic(), "at work", Event(), Lock()
+    began, stage, drawn, over, drawing = monotonic(), "at work", "", Event(), Lock()
 
-    def draw(text: str) -> None:
-        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+    def draw(line: str) -> None:
+        nonlocal drawn
+        if line != drawn:
+            print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
+            drawn = line
 
     def tell(what: str) -> None:
         nonlocal stage
         with drawing:
             stage = what
-            if not what and monotonic() - began > after:
+            if not stage:
                 draw("")
 
     def show() -> None:

@@ -4,10 +4,12 @@ import json
 import re
 import sys
 from io import StringIO
+from time import sleep
 
 import pytest
 
 from proofs import check, horseshoe
+from proofs.shell.cli import progress
 from proofs.shell.screen import Decided, fitted, gist, show_verdicts
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.shell.processes import (
@@ -76,10 +78,10 @@ def test_a_pipe_has_plain_lines_the_same_each_time(name, tmp_path):
     assert len(said) == 1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_long_work_shows_that_it_goes_on():
     status, _, raw = on_terminal("orbits", ["--period", "12"], 80)
-    assert status == 0 and re.search(r"\r\x1b\[K[12] s: [a-z]", raw)
+    assert status == 0 and re.search(r"\r\x1b\[K[12] s: [0-9a-z]", raw)
     assert raw.rindex("\x1b[K") < raw.rindex("\n")  # wiped
 
 
@@ -109,6 +111,27 @@ def test_no_word_is_broken_or_lost(width, monkeypatch):
     assert fits(lines, width)
     for word in text.split():
         assert sum(word in line.split() for line in lines) >= len(rows), word
+
+
+def test_progress_is_one_line_that_is_wiped(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setenv("COLUMNS", "30")
+    with progress(after=10) as tell:
+        tell("too short to be shown")
+    assert screen.getvalue() == ""
+    with progress(after=0.02) as tell:
+        tell("the first of several parts, at length")
+        sleep(0.2)
+        tell("")
+        assert screen.getvalue() == "\r\x1b[K0 s: the first of several ...\r\x1b[K"
+        sleep(0.1)
+    assert screen.getvalue().endswith("...\r\x1b[K")
+    monkeypatch.setattr(sys, "stderr", StringIO())
+    with progress(after=0.01) as tell:
+        tell("nobody sees it")
+        sleep(0.05)
+    assert sys.stderr.getvalue() == ""
 
 
 def test_no_colour_where_it_is_not_wanted(monkeypatch):
