@@ -17,7 +17,8 @@ from time import perf_counter
 
 import proofs.benchmark
 from proofs.benchmark import page
-from proofs.benchmark.page import Run, Section, Tell
+from proofs.benchmark.measure import Tell
+from proofs.benchmark.page import Run, Section
 from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import Parser, heard, progress, share
 from proofs.shell.entry import USAGE_ERROR

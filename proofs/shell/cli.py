@@ -24,6 +24,7 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
 from shutil import get_terminal_size
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
 _LARGEST = 10**_DIGITS
+_TELLING: ContextVar[Callable[[str], None] | None] = ContextVar("telling", default=None)
 _LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
@@ -127,10 +129,12 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
     """Yield a function that tells the stage of the work inside the `with`; "" wipes the line.
 
     On a terminal the last stage is shown on standard error, with the seconds, once the work takes
-    longer than `after`, and then every second; the line is wiped at the end.
+    longer than `after`, and then every second; the line is wiped at the end. Inside another one
+    the line is the other's.
     """
-    if not sys.stderr.isatty():
-        yield lambda stage: None
+    outer = _TELLING.get()
+    if outer is not None or not sys.stderr.isatty():
+        yield outer or (lambda stage: None)
         return
     began, stage, drawn, over, drawing = monotonic(), "at work", "", Event(), Lock()
 
@@ -155,9 +159,11 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
 
     thread = Thread(target=show, daemon=True)
     thread.start()
+    token = _TELLING.set(tell)
     try:
         yield tell
     finally:
+        _TELLING.reset(token)
         over.set()
         thread.join()
         tell("")

@@ -28,6 +28,7 @@ from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
 from proofs.trusted.numbers import show
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -52,6 +53,7 @@ HEEDED = MappingProxyType(  # by which parameters what a certificate says change
         "single": _OSCILLATOR,
         "soft": (),
         "resonance": (),
+        "explore": _OSCILLATOR,
     }
 )
 _MEANING = {
@@ -119,7 +121,8 @@ def run(
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
     is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
-    choose_folder(parser, options, is_less or options.figure or options.horizon is not None)
+    is_other = is_less or file in BEYOND or options.figure or options.horizon is not None
+    choose_folder(parser, options, is_other)
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
     return _run(parser, file, asked, of, options)

@@ -127,6 +127,8 @@ def test_progress_is_one_line_that_is_wiped(monkeypatch):
         assert screen.getvalue() == "\r\x1b[K0 s: the first of several ...\r\x1b[K"
         sleep(0.1)
     assert screen.getvalue().endswith("...\r\x1b[K")
+    with progress(after=0.02) as tell, progress(after=0.02) as inner:
+        assert inner is tell
     monkeypatch.setattr(sys, "stderr", StringIO())
     with progress(after=0.01) as tell:
         tell("nobody sees it")
