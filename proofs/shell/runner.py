@@ -185,8 +185,8 @@ def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
 
 
 def is_whole(folder: Path, file: str) -> bool:
-    """Whether the folder has the paper's certificate with all claims, and is not that of runs."""
-    if folder == RUNS:
+    """Whether the folder is that of the paper's results, and has this one, with all claims."""
+    if folder.resolve() != REPORTS.resolve():
         return False
     try:
         there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))
