@@ -110,7 +110,9 @@ def run(
     if find_spec(f"proofs.report.{file}_figure") is not None:
         help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
-    options = parser.parse_args(arguments)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        parser.error(_refusal(unknown, heeded))
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     try:
@@ -126,6 +128,15 @@ def run(
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
     return _run(parser, file, asked, of, options)
+
+
+def _refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
+    """Say why options are not taken: at times as nothing here depends on them."""
+    names = [option.partition("=")[0] for option in unknown]
+    if not any(name.removeprefix("--") in _MEANING for name in names):
+        return f"unrecognized arguments: {' '.join(unknown)}"
+    taken = ", ".join(f"--{name}" for name in heeded) or "no numbers"
+    return f"{names[0]} would change nothing here: what is proved depends on {taken}"
 
 
 def _run(
