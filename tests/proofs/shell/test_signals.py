@@ -37,9 +37,13 @@ def stopped(name, folder, number, after, everyone=True):
         sleep(after)
         began = monotonic()
         (os.killpg if everyone else os.kill)(process.pid, number)
-        _, err = process.communicate(timeout=20)
-        took = monotonic() - began
-        left = children(process)
+        try:
+            _, err = process.communicate(timeout=20)
+            took = monotonic() - began
+            left = children(process)
+        finally:
+            if children(process):  # a failing test is to leave nothing behind
+                os.killpg(process.pid, signal.SIGKILL)
     return process.returncode, err.decode(), took, left
 
 
