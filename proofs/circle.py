@@ -5,12 +5,13 @@ phases that never impact again, and a partition of the circle into cells whose i
 until they stick.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.circle")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "circle", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,7 +7,11 @@ is N periods later and transversal), and whether that is stable.
 
 from __future__ import annotations
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.single_impact")
+
 from argparse import Namespace
 from collections.abc import Callable, Sequence
 
@@ -151,7 +155,3 @@ def _summary(answer: Answer) -> list[str]:
 
 def _count(found: Sequence[Answer], noun: str) -> str:
     return f"{len(found) or 'no'} {noun}" + "s" * (len(found) != 1)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
