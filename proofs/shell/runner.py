@@ -11,13 +11,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import FIGURES
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import (
@@ -36,7 +36,7 @@ from proofs.trusted.certificate import Malformed, read, write_atomically
 from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -65,7 +65,7 @@ def run(
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
-    `proofs.report.<file>_figure.svg`, if there is one, draws it.
+    With --figure the figures that are drawn from this certificate alone are written, too.
     """
     claims = [claim for ids in FILES[file].values() for claim in ids]
     epilog = EPILOG.format(group=file, first=claims[0]) + examples
@@ -76,8 +76,10 @@ def run(
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    if find_spec(f"proofs.report.{file}_figure") is not None:
-        help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
+    figures = [figure for figure in FIGURES if figure.certificates == (file,)]
+    if figures:
+        names = ", ".join(f"{figure.name}.svg" for figure in figures)
+        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
     options = parser.parse_args(arguments)
     if options.figure and find_spec("matplotlib") is None:
@@ -93,9 +95,9 @@ def run(
     seconds = perf_counter() - began
     try:
         write(options.out, file, made)
-        if options.figure:
-            draw = import_module(f"proofs.report.{file}_figure").svg
-            write_atomically(options.out / f"{file}.svg", draw(made.certificate))
+        for figure in figures if options.figure else ():
+            text = figure.svg({file: premises(made.certificate)})
+            write_atomically(options.out / "figures" / f"{figure.name}.svg", text)
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     except (Undecided, OverflowError) as failure:

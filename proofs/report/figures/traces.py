@@ -4,8 +4,7 @@ The paper's experiment drives the table at the natural frequency, raises the amp
 eighth subharmonic. Here is what the model does. Impacts are found by `motion.simulate`, which knows
 nothing of the closed form.
 
-  python -m proofs.report.resonance_figure > figure-10.csv
-  python -m proofs.resonance --figure
+  python -m proofs.report.figures.traces > figure-10.csv
 
 Rows: the amplitude of the table, the window of table periods, the amplitude of the displacement
 at the frequency of the table, and the largest one at a multiple of an eighth of it, but below it.
@@ -17,18 +16,17 @@ import cmath
 import csv
 import math
 import sys
-from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.report.markup import drawn
+from proofs.report.figures.figure import Documents, Figure
 from proofs.trusted.equations import arrival, clock, launch
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
 NUS = tuple(Fraction(text) for text in ("-1/20", "-1/10", "-1/5", "-1/2", "-1", "-2"))
 EPSILON = 0.9
@@ -89,23 +87,29 @@ def spectrum(nu: Fraction) -> list[Row]:
     return rows
 
 
-def svg(source: str) -> str:
-    """Return an SVG of the displacement at the lowest and the highest amplitude, early and late.
+def plot(documents: Documents) -> Drawing:
+    """Draw the displacement at the lowest and the highest amplitude, early and late: simulated."""
+    from matplotlib import pyplot as plt
 
-    It is a simulation, whatever a certificate proves.
-    """
-    del source
+    del documents
+    drawing, all_axes = plt.subplots(2, 2, figsize=(6.4, 4.4))
+    for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
+        samples = displacement(nu, WINDOWS[-1] + _WINDOW)
+        for axes, first in zip(row, WINDOWS, strict=True):
+            part = samples[first * _SAMPLES : (first + _WINDOW) * _SAMPLES]
+            axes.plot([first + k / _SAMPLES for k in range(len(part))], part, lw=0.7)
+            axes.set(title=f"simulated, nu = {float(nu)}", xlabel="table periods")
+        row[0].set_ylabel("x / |p|")
+    return drawing
 
-    def draw(all_axes: Sequence[Sequence[Axes]]) -> None:
-        for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
-            samples = displacement(nu, WINDOWS[-1] + _WINDOW)
-            for axes, first in zip(row, WINDOWS, strict=True):
-                part = samples[first * _SAMPLES : (first + _WINDOW) * _SAMPLES]
-                axes.plot([first + k / _SAMPLES for k in range(len(part))], part, lw=0.7)
-                axes.set(title=f"simulated, nu = {float(nu)}", xlabel="table periods")
-            row[0].set_ylabel("x / |p|")
 
-    return drawn("figure-10", (6.4, 4.4), draw, rows=2, columns=2)
+def caption(documents: Documents) -> str:
+    """Return what was simulated: it proves nothing."""
+    del documents
+    return f"Simulated in floating point at resonance (eta = 1), epsilon = {EPSILON}."
+
+
+FIGURE = Figure("figure-10", "Figure 10: the mass at resonance", ("E1",), (), caption, plot)
 
 
 def main() -> None:

@@ -7,28 +7,28 @@ solutions of (16) with |slope| < 1 that are none. Curves are (17).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.report.markup import drawn
+from proofs.report.figures.figure import Documents, Figure
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
-from proofs.trusted.verify import premises
+from proofs.trusted.verdicts import told
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
 Floats = NDArray[np.float64]
 _POINTS = 2000
 _LABELLED = 8  # n up to which windows in eta are labelled
 
 
-def proved(source: str) -> tuple[EtaWindows, NuWindows]:
-    """Return the windows that a certificate proves, derived again."""
-    known = premises(source).known.values()
+def proved(documents: Documents) -> tuple[EtaWindows, NuWindows]:
+    """Return the windows that are proved."""
+    known = documents["single"].known.values()
     eta = next((each for each in known if isinstance(each, EtaWindows)), None)
     nu = next((each for each in known if isinstance(each, NuWindows)), None)
     if eta is None or nu is None:
@@ -70,7 +70,6 @@ def _figure_a(axes: Axes, windows: EtaWindows) -> None:
                 str(n), (place, curve(place, nu, n)[0]), xytext=(0, 5), textcoords="offset points"
             )
     axes.set(xlabel=r"$\eta$", ylabel=r"$\phi$", xscale="log")
-    axes.set_title(rf"$\nu$ = {nu:g}: stable orbits (thick), one window for each n")
     axes.legend(fontsize=7)
 
 
@@ -92,15 +91,39 @@ def _figure_b(axes: Axes, windows: NuWindows) -> None:
                 textcoords="offset points",
             )
     axes.set(xlabel=r"$\nu$", ylabel=r"$\phi$")
-    axes.set_title(rf"$\eta$ = {eta:g}: stable orbits (thick)")
 
 
-def svg(source: str) -> str:
-    """Return an SVG of what a certificate proves."""
-    eta, nu = proved(source)
+def plot_a(documents: Documents) -> Drawing:
+    """Draw figure 7a."""
+    from matplotlib import pyplot as plt
 
-    def draw(both: Sequence[Axes]) -> None:
-        _figure_a(both[0], eta)
-        _figure_b(both[1], nu)
+    drawing, axes = plt.subplots(figsize=(6.4, 3.2))
+    _figure_a(axes, proved(documents)[0])
+    return drawing
 
-    return drawn("figure-7", (6.4, 6.4), draw, rows=2)
+
+def plot_b(documents: Documents) -> Drawing:
+    """Draw figure 7b."""
+    from matplotlib import pyplot as plt
+
+    drawing, axes = plt.subplots(figsize=(6.4, 3.2))
+    _figure_b(axes, proved(documents)[1])
+    return drawing
+
+
+FIGURE_A = Figure(
+    "figure-7a",
+    "Figure 7a: stable orbits with one impact a period, against eta",
+    ("P5",),
+    ("single",),
+    lambda documents: told([proved(documents)[0]]),
+    plot_a,
+)
+FIGURE_B = Figure(
+    "figure-7b",
+    "Figure 7b: stable orbits with one impact a period, against nu",
+    ("P6",),
+    ("single",),
+    lambda documents: told([proved(documents)[1]]),
+    plot_b,
+)

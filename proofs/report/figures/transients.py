@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from proofs.report.markup import drawn
+from proofs.report.figures.figure import Documents, Figure
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.verify import premises
+from proofs.trusted.verdicts import told
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
 Bars = list[tuple[float, float, int]]
 
 
-def proved(source: str) -> tuple[Bars, list[tuple[float, float]]]:
-    """Return from a certificate's text the intervals that stick within n impacts, and those that
+def proved(documents: Documents) -> tuple[Bars, list[tuple[float, float]]]:
+    """Return the intervals that stick within n impacts, and those that
     never impact again; phases in [0, 2 pi)."""
     bars: Bars = []
     never: list[tuple[float, float]] = []
-    for step in premises(source).known.values():
+    for step in documents["circle"].known.values():
         if isinstance(step, Absorption):
             for phases, count in step.within:
                 bars += [(low, high, count) for low, high in _on_circle(phases)]
@@ -47,18 +47,23 @@ def _on_circle(phases: Range) -> list[tuple[float, float]]:
     )
 
 
-def svg(source: str) -> str:
-    """Return an SVG of what a certificate proves: the whole circle, and around [1.1, 1.76]."""
-    bars, never = proved(source)
+def plot(documents: Documents) -> Drawing:
+    """Draw what is proved: on the whole circle, and around [1.1, 1.76]."""
+    from matplotlib import pyplot as plt
 
-    def draw(both: Sequence[Axes]) -> None:
-        for axes, ends in zip(both, ((0.0, math.tau), (1.09, 1.77)), strict=True):
-            _draw(axes, bars, never)
-            axes.set(xlim=ends, xlabel=r"$\phi$", ylabel="impacts, at most")
-        both[0].set_title("Impacts before the mass sticks, proved for every phase of each bar")
-        both[1].legend(fontsize=7, loc="upper left")
+    bars, never = proved(documents)
+    drawing, both = plt.subplots(2, 1, figsize=(6.4, 5.2))
+    for axes, ends in zip(both, ((0.0, math.tau), (1.09, 1.77)), strict=True):
+        _draw(axes, bars, never)
+        axes.set(xlim=ends, xlabel=r"$\phi$ [rad]", ylabel="impacts, at most")
+    both[1].legend(fontsize=7, loc="upper left")
+    return drawing
 
-    return drawn("figure-6", (6.4, 5.2), draw, rows=2)
+
+def caption(documents: Documents) -> str:
+    """Return what is proved of the circle."""
+    kinds = Absorption, NeverImpacts, Separation
+    return told(x for x in documents["circle"].known.values() if isinstance(x, kinds))
 
 
 def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:
@@ -69,3 +74,13 @@ def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:
     for low, high in never:
         axes.axvspan(low, high, color="C3", lw=1, label="no impact ever")
     axes.set_ylim(0, max(heights, default=0) + 2)
+
+
+FIGURE = Figure(
+    "figure-6",
+    "Figure 6: impacts before the mass sticks",
+    ("G4", "G6"),
+    ("circle",),
+    caption,
+    plot,
+)
