@@ -17,7 +17,7 @@ from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import show
 
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
-_SUM, _PRODUCT, _POWER, _ATOM = range(4)  # how tightly a formula is bound
+_SUM, _SIGNED, _PRODUCT, _POWER, _ATOM = range(5)  # how tightly a formula is bound
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
 _OPERATORS = {ast.Add: "+", ast.Sub: "-"}
 
@@ -71,7 +71,7 @@ def _printed(node: ast.expr) -> tuple[str, int]:
         case ast.Name():
             return _symbol(node.id), _ATOM
         case ast.UnaryOp():
-            return f"-{_inside(node.operand, _PRODUCT)}", _SUM
+            return f"-{_inside(node.operand, _PRODUCT)}", _SIGNED
         case ast.BinOp(op=ast.Add() | ast.Sub()):
             right = _inside(node.right, _PRODUCT if isinstance(node.op, ast.Sub) else _SUM)
             right = f"({right})" if right.startswith("-") else right
@@ -88,10 +88,8 @@ def _printed(node: ast.expr) -> tuple[str, int]:
 
 
 def _product(node: ast.BinOp) -> tuple[str, int]:
-    if isinstance(node.left, ast.UnaryOp):  # (-a) b, which is written -a b
-        left, bound = _printed(node.left)[0], _SUM
-    else:
-        left, bound = _inside(node.left, _PRODUCT), _PRODUCT
+    left, bound = _printed(node.left)
+    left, bound = _bracketed(left, bound, _SIGNED), _SIGNED if bound == _SIGNED else _PRODUCT
     right = _inside(node.right, _PRODUCT)
     if right[0].isdigit() or right.startswith(r"\frac"):
         dot = r" \cdot "
@@ -118,14 +116,21 @@ def _inside(node: ast.expr, least: int) -> str:
 
 
 def _bracketed(text: str, bound: int, least: int) -> str:
-    return text if bound >= least else f"({text})"
+    return text if bound >= least else _fenced(text)
+
+
+def _fenced(text: str, fence: str = "()") -> str:
+    """Put brackets around, as high as what is inside."""
+    if any(tall in text for tall in (r"\frac", r"\sqrt", "]_")):
+        return rf"\left{fence[0]}{text}\right{fence[1]}"
+    return f"{fence[0]}{text}{fence[1]}"
 
 
 def _power(base: ast.expr, exponent: str) -> str:
     if isinstance(base, ast.Call) and isinstance(base.func, ast.Name):
         name = base.func.id
         if name in ("sin", "cos", "log"):
-            return rf"\{name}^{{{exponent}}}{_argument(base.args[0])}"
+            return rf"\{name}^{{{exponent}}}{_fenced(_printed(base.args[0])[0])}"
     return f"{_inside(base, _ATOM)}^{_short(exponent)}"
 
 
@@ -133,24 +138,20 @@ def _short(script: str) -> str:
     return script if len(script) == 1 else f"{{{script}}}"
 
 
-def _argument(node: ast.expr) -> str:
-    text = _printed(node)[0]
-    return f" {text}" if isinstance(node, ast.Name) else f"({text})"
-
-
 def _application(name: str, call: ast.Call) -> tuple[str, int]:
     first = call.args[0]
     if name == "D":
         by = "".join(_printed(each)[0] for each in call.args[1:])
-        return rf"\partial_{{{by}}}({_printed(first)[0]})", _POWER
+        return rf"\partial_{{{by}}}{_fenced(_printed(first)[0])}", _POWER
     if name == "at":
         places = r",\,".join(
             f"{_symbol(each.arg or '')} = {_printed(each.value)[0]}" for each in call.keywords
         )
-        return f"[{_printed(first)[0]}]_{{{places}}}", _POWER
+        inner = _fenced(_printed(first)[0], "[]")
+        return f"{{{inner}}}_{{{places}}}", _POWER
     if name == "sqrt":
         return rf"\sqrt{{{_printed(first)[0]}}}", _ATOM
-    return rf"\{name}{_argument(first)}", _POWER
+    return rf"\{name}{_fenced(_printed(first)[0])}", _POWER
 
 
 def _symbol(name: str) -> str:
@@ -170,4 +171,6 @@ def mathml(formula: str, display: str = "inline") -> str:
     from latex2mathml.converter import convert
 
     text = unescape(convert(formula, display=display))
-    return text.replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")
+    for spare in (' xmlns="http://www.w3.org/1998/Math/MathML"', ' display="inline"'):
+        text = text.replace(spare, "")
+    return text.replace(' fence="true"', "").replace(' stretchy="true"', "")
