@@ -22,40 +22,39 @@ _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
 _OPERATORS = {ast.Add: "+", ast.Sub: "-"}
 
 
-def conclusion_latex(conclusion: Conclusion) -> str:
-    """Return a conclusion as a formula; "" where there is none."""
+def lines(conclusion: Conclusion) -> list[str]:
+    """Return a conclusion as formulas in LaTeX, which may stand below each other."""
     if isinstance(conclusion, Equal):
-        return f"{latex(conclusion.left)} = {latex(conclusion.right)}"
+        return [latex(conclusion.left), f"= {latex(conclusion.right)}"]
     if isinstance(conclusion, Series):
-        return _series(conclusion)
+        return [latex(conclusion.function), *_series(conclusion)]
     if isinstance(conclusion, Value):
-        low, high = map(_number, conclusion.bounds)
-        box = r",\ ".join(
-            f"{latex(name)} = {_number(ends[0])}"
-            if ends[0] == ends[1]
-            else rf"{latex(name)} \in [{_number(ends[0])}, {_number(ends[1])}]"
-            for name, ends in conclusion.box
-        )
-        within = f"= {low}" if low == high else rf"\in [{low}, {high}]"
-        return f"{latex(conclusion.function)} {within}" + (rf",\quad {box}" if box else "")
-    return conclusion.latex
+        return [latex(conclusion.function), *_bounds(conclusion)]
+    return conclusion.latex.split(r",\quad ") if conclusion.latex else []
 
 
-def _series(series: Series) -> str:
+def _bounds(value: Value) -> list[str]:
+    low, high = map(show, value.bounds)
+    box = r",\ ".join(f"{latex(name)} {_within(*map(show, ends))}" for name, ends in value.box)
+    return [_within(low, high), *([rf"\text{{for }} {box}"] if box else [])]
+
+
+def _within(low: str, high: str) -> str:
+    return f"= {low}" if low == high else rf"\in [{low}, {high}]"
+
+
+def _series(series: Series) -> list[str]:
     name, parts = latex(series.variable), []
     for power, coefficient in enumerate(series.coefficients):
         if coefficient != "0":
             term, bound = _printed(ast.parse(coefficient, mode="eval").body)
             term = _bracketed(term, bound, _PRODUCT) if power else term
-            parts.append(term + (f" {name}^{{{power}}}" if power > 1 else f" {name}" * power))
-    parts.append(f"O({name}^{{{len(series.coefficients)}}})")
+            parts.append(term + (f" {name}^{power}" if power > 1 else f" {name}" * power))
+    parts.append(f"O({name}^{_short(str(len(series.coefficients)))})")
     total = " + ".join(parts).replace("+ -", "- ")
-    where = "".join(rf",\quad {latex(each)} \ne 0" for each in series.nonzero)
-    return rf"{latex(series.function)} = {total}\quad ({name} \to 0){where}"
-
-
-def _number(value: object) -> str:
-    return show(value)  # type: ignore[arg-type]
+    where = r",\ ".join(rf"{latex(each)} \ne 0" for each in series.nonzero)
+    limit = rf"\text{{as }} {name} \to 0" + (rf",\ \text{{where }} {where}" if where else "")
+    return [f"= {total}", limit]
 
 
 def latex(formula: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,7 +16,7 @@ from proofs.report import graph
 from proofs.report.dependencies import RESTS
 from proofs.report.differences import marked
 from proofs.report.findings import Finding, Findings, Statement, Step
-from proofs.report.formulas import conclusion_latex, mathml
+from proofs.report.formulas import lines, mathml
 from proofs.report.names import (
     DEFINITIONS,
     MEANINGS,
@@ -25,8 +24,10 @@ from proofs.report.names import (
     quantity_name,
     rule_theorem,
     summary,
+    tally,
     verdict_name,
 )
+from proofs.report.pictures import Picture
 from proofs.report.typeset import html
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import ceil_text, floor_text
@@ -34,19 +35,8 @@ from proofs.trusted.verdicts import Verdict
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
 _TEMPLATES = Path(__file__).parent / "templates"
-_LONGEST = 700  # characters of a formula that is set; longer ones are shown as they are read
+_LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
 _MANY = 6  # steps of one rule that are shown behind a line of their own
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """A figure as the page shows it."""
-
-    name: str
-    title: str
-    caption: str
-    svg: str
-    claims: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -58,7 +48,7 @@ class Block:
     style: str = ""
 
 
-def page(findings: Findings, figures: Sequence[Drawn] = (), extra: str = "") -> str:
+def page(findings: Findings, figures: Sequence[Picture] = (), extra: str = "") -> str:
     """Return the page. extra: HTML at the end of its body, trusted."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
@@ -89,13 +79,12 @@ class View:
     """What the templates ask for."""
 
     findings: Findings
-    figures: Sequence[Drawn]
+    figures: Sequence[Picture]
 
     @cached_property
     def tally(self) -> list[tuple[Verdict, int]]:
         """How many of the paper's claims have which verdict."""
-        counts = Counter(claim.verdict for claim in self.findings.claims if not claim.row.own)
-        return [(verdict, counts[verdict]) for verdict in Verdict if counts[verdict]]
+        return tally(self.findings)
 
     @property
     def own(self) -> int:
@@ -206,7 +195,7 @@ class View:
             if each.id in RESTS and claim.id in RESTS[each.id].on
         ]
 
-    def figures_of(self, claim: Finding) -> list[Drawn]:
+    def figures_of(self, claim: Finding) -> list[Picture]:
         """Return the figures that belong to a claim."""
         return [figure for figure in self.figures if claim.id in figure.claims]
 
@@ -229,7 +218,7 @@ class View:
         steps = (s for claim in self.findings.claims for s in (*claim.own_steps, *claim.other_steps))
         return [(rule, rule_theorem(rule)) for rule in dict.fromkeys(step.rule for step in steps)]
 
-    def caption(self, figure: Drawn) -> Markup:
+    def caption(self, figure: Picture) -> Markup:
         """Return the caption of a figure; a theorem that stands on this page is linked."""
         text = html(figure.caption)
         for each in self.findings.statements.values():
@@ -237,7 +226,7 @@ class View:
             text = text.replace(html(each.text), link)
         return Markup(text)
 
-    def picture(self, figure: Drawn) -> Markup:
+    def picture(self, figure: Picture) -> Markup:
         """Return an SVG for use inside a page: without the XML declaration."""
         return Markup(figure.svg[figure.svg.index("<svg") :])
 
@@ -249,13 +238,11 @@ def _sentence(text: str) -> str:
 
 
 def formula(conclusion: Conclusion) -> Markup:
-    """Return a conclusion as a formula, "" where it has none."""
-    latex = conclusion_latex(conclusion)
-    if not latex:
-        return Markup("")
-    if len(latex) > _LONGEST:
+    """Return a conclusion as formulas, "" where it has none."""
+    parts = lines(conclusion)
+    if any(len(latex) > _LONGEST for latex in parts):
         return Markup("<code>{}</code>").format(conclusion.sentence)
-    return Markup(mathml(latex))
+    return Markup("".join(map(mathml, parts)))
 
 
 def sentences(text: str) -> list[str]:

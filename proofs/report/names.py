@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections import Counter
 from types import MappingProxyType
 
 from proofs.report.findings import Findings
@@ -63,6 +64,12 @@ def summary(findings: Findings) -> str:
         f"are its {count} claims, one by one: what is true, what is not, and what is true instead, "
         "with proofs that a small independent program checks."
     )
+
+
+def tally(findings: Findings) -> list[tuple[Verdict, int]]:
+    """Return how many of the paper's claims have which verdict."""
+    counts = Counter(claim.verdict for claim in findings.claims if not claim.row.own)
+    return [(verdict, counts[verdict]) for verdict in Verdict if counts[verdict]]
 
 
 def rule_theorem(name: str) -> list[str]:
