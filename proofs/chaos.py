@@ -4,12 +4,13 @@ Claim G5: which orbits stay in [1.32, 1.48], and the full shifts around it. Clai
 bound on the topological entropy, from all branches of f near the phase pi/2.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.chaos")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "chaos", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

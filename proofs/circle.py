@@ -4,12 +4,13 @@ Claims M6, G1-G4 and G6: the sticking arc and the orbit through it, an interval 
 impact again, and a partition of the circle into cells whose images are followed until they stick.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.circle")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "circle", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -4,7 +4,11 @@ The main job: proves or refutes each claim at exact parameters, repairs the sets
 printed numbers fail, writes certificate and report, and has the checker re-derive them.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.horseshoe")
+
 from functools import partial
 
 from proofs.shell.runner import run
@@ -15,6 +19,3 @@ EXAMPLES = """
 """
 
 main = partial(run, "horseshoe", description=__doc__, examples=EXAMPLES)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -9,7 +9,11 @@ of `python -m proofs.soft`.
 
 from __future__ import annotations
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.period_doubling")
+
 from argparse import ArgumentTypeError
 from fractions import Fraction
 
@@ -94,7 +98,3 @@ def _text(answer: Answer) -> str:
         if isinstance(ends, dict):
             said += lines(name, ends, 15)
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

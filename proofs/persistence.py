@@ -4,12 +4,13 @@ Claims G7 and G8. The flight from the separation phase does not depend on epsilo
 ever larger epsilon, the bounces are enclosed until they are proved to end before that phase.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.persistence")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "persistence", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,7 +7,11 @@ is N periods later and transversal), and whether that is stable.
 
 from __future__ import annotations
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.single_impact")
+
 from argparse import Namespace
 from collections.abc import Iterable
 
@@ -116,7 +120,3 @@ def _text(answer: Answer) -> str:
     if answer["complete"]:
         said.append("for greater n no solution is an orbit")
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -14,13 +14,13 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from proofs.report.markup import markdown_table
-from proofs.trusted.certificate import write_atomically
+from proofs.shell.files import writing
 
 if TYPE_CHECKING:
     from proofs.benchmark.diagrams import Diagram
 
 Tell = Callable[[str], None]
-SCHEMA = "impact-proofs-benchmark-1"
+SCHEMA = "impact-proofs.benchmark/1"
 _PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 _ABOUT = """\
 Times are on the clock: medians, with the least and the largest in brackets. What is
@@ -171,6 +171,7 @@ def write(folder: Path, run: Run) -> bool:
         files, drawn = {}, False
     files["benchmark.json"] = machine_form(run)
     files["benchmark.md"] = markdown(run, drawn)
-    for name, content in files.items():
-        write_atomically(folder / name, content)
+    with writing(folder) as put:
+        for name, content in files.items():
+            put(name, content)
     return drawn

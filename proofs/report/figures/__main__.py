@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from proofs.report.figures import FIGURES, Certificates
-from proofs.trusted.certificate import write_atomically
+from proofs.shell.files import writing
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -18,9 +18,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     options = parser.parse_args(arguments)
     documents = Certificates(options.out)
-    for figure in FIGURES:
-        if not options.only or figure.name in options.only:
-            write_atomically(options.out / "figures" / f"{figure.name}.svg", figure.svg(documents))
+    with writing(options.out / "figures") as put:
+        for figure in FIGURES:
+            if not options.only or figure.name in options.only:
+                put(f"{figure.name}.svg", figure.svg(documents))
     return 0
 
 
