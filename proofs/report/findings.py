@@ -80,6 +80,11 @@ class Finding:
         return self.decision.verdict
 
     @property
+    def steps(self) -> tuple[Step, ...]:
+        """All steps of the proof: those that decide the claim, then the others."""
+        return (*self.own_steps, *self.other_steps)
+
+    @property
     def checked(self) -> str:
         """The command that checks it."""
         return f"python -m proofs.check reports/{self.file}"
@@ -214,5 +219,3 @@ def _statements(claims: list[Finding]) -> dict[Conclusion, Statement]:
             kind = "Theorem" if each in lasting else kind
             statements[each] = Statement(f"{claim.id}.{number}", kind, each, claim.id)
     return statements
-
-

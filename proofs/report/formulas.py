@@ -19,7 +19,6 @@ from proofs.trusted.numbers import show
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
 _SUM, _SIGNED, _PRODUCT, _POWER, _ATOM = range(5)  # how tightly a formula is bound
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
-_OPERATORS = {ast.Add: "+", ast.Sub: "-"}
 
 
 def lines(conclusion: Conclusion) -> list[str]:
@@ -71,19 +70,25 @@ def _printed(node: ast.expr) -> tuple[str, int]:
             return _symbol(node.id), _ATOM
         case ast.UnaryOp():
             return f"-{_inside(node.operand, _PRODUCT)}", _SIGNED
-        case ast.BinOp(op=ast.Add() | ast.Sub()):
-            right = _inside(node.right, _PRODUCT if isinstance(node.op, ast.Sub) else _SUM)
-            right = f"({right})" if right.startswith("-") else right
-            return f"{_inside(node.left, _SUM)} {_OPERATORS[type(node.op)]} {right}", _SUM
-        case ast.BinOp(op=ast.Mult()):
-            return _product(node)
-        case ast.BinOp(op=ast.Div()):
-            return _quotient(node), _PRODUCT
-        case ast.BinOp(op=ast.Pow()):
-            return _power(node.left, _printed(node.right)[0]), _POWER
+        case ast.BinOp():
+            return _operation(node)
         case ast.Call(func=ast.Name(id=name)):
             return _application(name, node)
     raise ValueError(f"not a formula: {ast.unparse(node)}")
+
+
+def _operation(node: ast.BinOp) -> tuple[str, int]:
+    match node.op:
+        case ast.Mult():
+            return _product(node)
+        case ast.Div():
+            return _quotient(node), _PRODUCT
+        case ast.Pow():
+            return _power(node.left, _printed(node.right)[0]), _POWER
+    minus = isinstance(node.op, ast.Sub)
+    right = _inside(node.right, _PRODUCT if minus else _SUM)
+    right = f"({right})" if right.startswith("-") else right
+    return f"{_inside(node.left, _SUM)} {'-' if minus else '+'} {right}", _SUM
 
 
 def _product(node: ast.BinOp) -> tuple[str, int]:

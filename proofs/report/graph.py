@@ -33,7 +33,7 @@ _CHAPTERS = {
 }
 _WIDTH, _COLUMN, _ROW, _LEFT, _TOP = 54, 86, 54, 16, 48
 _BOX = 26  # the height of a claim
-_CHAPTER_OF = {letter: "3" for letter in "HNG"} | {"E": "7", "A": "7"}  # by the claims' letters
+_CHAPTER_OF = dict.fromkeys("HNG", "3") | {"E": "7", "A": "7"}  # by the claims' letters
 _STYLE = """
 .edge{fill:none;stroke:var(--line,#9aa3ad);stroke-width:1.1}
 .edge.fallen{stroke:var(--refuted,#b3400c);stroke-dasharray:4 3}

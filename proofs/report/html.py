@@ -48,8 +48,10 @@ class Block:
     style: str = ""
 
 
-def page(findings: Findings, figures: Sequence[Picture] = (), extra: str = "") -> str:
-    """Return the page. extra: HTML at the end of its body, trusted."""
+def page(
+    findings: Findings, figures: Sequence[Picture], drawn: Mapping[str, str], extra: str = ""
+) -> str:
+    """Return the page. drawn: the figures as SVG, by name. extra: HTML at its end, trusted."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
         autoescape=True,
@@ -57,7 +59,7 @@ def page(findings: Findings, figures: Sequence[Picture] = (), extra: str = "") -
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    view = View(findings, figures)
+    view = View(findings, figures, drawn)
     environment.globals.update(view=view, RESTS=RESTS)
     environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
     return environment.get_template("page.html").render(
@@ -80,6 +82,7 @@ class View:
 
     findings: Findings
     figures: Sequence[Picture]
+    drawn: Mapping[str, str]
 
     @cached_property
     def tally(self) -> list[tuple[Verdict, int]]:
@@ -104,7 +107,7 @@ class View:
         """The claim at which a step of a certificate is shown."""
         shown: dict[tuple[str, str], str] = {}
         for claim in self.findings.claims:
-            for step in (*claim.own_steps, *claim.other_steps):
+            for step in claim.steps:
                 shown.setdefault((claim.file, step.name), claim.id)
         return shown
 
@@ -142,7 +145,7 @@ class View:
 
     def count(self, claim: Finding) -> str:
         """Return how many steps the proof has."""
-        number = len(claim.own_steps) + len(claim.other_steps)
+        number = len(claim.steps)
         return f"{number} step{'s' if number > 1 else ''}"
 
     def statements(self, conclusions: Iterable[Conclusion]) -> list[Statement]:
@@ -215,7 +218,9 @@ class View:
     @cached_property
     def rules(self) -> list[tuple[str, list[str]]]:
         """The rules that the proofs use, with their theorems."""
-        steps = (s for claim in self.findings.claims for s in (*claim.own_steps, *claim.other_steps))
+        steps = (
+            s for claim in self.findings.claims for s in (*claim.own_steps, *claim.other_steps)
+        )
         return [(rule, rule_theorem(rule)) for rule in dict.fromkeys(step.rule for step in steps)]
 
     def caption(self, figure: Picture) -> Markup:
@@ -228,7 +233,8 @@ class View:
 
     def picture(self, figure: Picture) -> Markup:
         """Return an SVG for use inside a page: without the XML declaration."""
-        return Markup(figure.svg[figure.svg.index("<svg") :])
+        svg = self.drawn[figure.name]
+        return Markup(svg[svg.index("<svg") :])
 
 
 def _sentence(text: str) -> str:

@@ -132,6 +132,8 @@ def _links(ids: Iterable[str]) -> str:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    cells = [[cell.replace("|", "\\|").replace("\\\\|", "\\|") for cell in r] for r in (head, *rows)]
+    cells = [
+        [cell.replace("|", "\\|").replace("\\\\|", "\\|") for cell in r] for r in (head, *rows)
+    ]
     first, *others = (f"| {' | '.join(row)} |" for row in cells)
     return "\n".join([first, "|" + "---|" * len(head), *others])

@@ -67,14 +67,6 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
     return "\n\n".join(sections) + "\n"
 
 
-def ledger(rows: Sequence[dict[str, Any]]) -> str:
-    """Return the page on all claims, given their entries with the file that each is in."""
-    names = ("id", "verdict", "statement", "why", "file")
-    cells = [[str(row[name]) for name in names] for row in rows]
-    table = _table(("claim", "verdict", "statement", "because", "certificate"), cells)
-    return "\n\n".join(["# The claims of the paper, decided", table, *_theorems(rows)]) + "\n"
-
-
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     cells = [[cell.replace("|", "\\|") for cell in row] for row in (head, *rows)]
     first, *others = (f"| {' | '.join(row)} |" for row in cells)

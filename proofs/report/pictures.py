@@ -5,21 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from proofs.report.findings import section_of
 from proofs.report.figures import FIGURES, Figure
+from proofs.report.findings import section_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import find
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure that is drawn. claims: those of the report that it belongs to."""
+    """A figure with its caption. claims: those of the report that it belongs to."""
 
-    name: str
-    title: str
+    figure: Figure
     caption: str
-    svg: str
     claims: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """The name of its file, without ".svg"."""
+        return self.figure.name
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self.figure.title
 
     @property
     def section(self) -> str:
@@ -29,16 +37,14 @@ class Picture:
 
 
 def pictures(documents: Mapping[str, Context], claims: Iterable[str]) -> list[Picture]:
-    """Draw the figures for which there are certificates and claims; matplotlib is imported here."""
+    """Return the figures for which there are certificates and claims."""
     present = set(claims)
     return [
-        _drawn(figure, documents, present)
+        Picture(
+            figure,
+            figure.caption(documents),
+            tuple(claim for claim in figure.claims if claim in present),
+        )
         for figure in FIGURES
         if present.intersection(figure.claims) and set(figure.certificates) <= set(documents)
     ]
-
-
-def _drawn(figure: Figure, documents: Mapping[str, Context], present: set[str]) -> Picture:
-    claims = tuple(claim for claim in figure.claims if claim in present)
-    caption, svg = figure.caption(documents), figure.svg(documents)
-    return Picture(figure.name, figure.title, caption, svg, claims)

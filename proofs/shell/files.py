@@ -8,7 +8,7 @@ meanwhile (flock), so that nobody else writes between what one run reads there a
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -44,6 +44,15 @@ def writing(folder: Path) -> Iterator[Put]:
         for left in folder.glob(".*.[0-9]*.part"):
             left.unlink(missing_ok=True)
         yield put
+
+
+def write_files(folder: Path, files: Mapping[str, str]) -> None:
+    """Write files by their names, which may be in folders inside the folder."""
+    for inner in sorted({Path(name).parent for name in files}):
+        with writing(folder / inner) as put:
+            for name, content in files.items():
+                if Path(name).parent == inner:
+                    put(Path(name).name, content)
 
 
 @contextmanager

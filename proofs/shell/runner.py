@@ -23,7 +23,14 @@ from proofs.report.figures import FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import Parser, counting, heard, horizon, number, progress, share
-from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.files import (
+    check_folder,
+    check_targets,
+    refusing,
+    write_files,
+    write_target,
+    writing,
+)
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
@@ -155,10 +162,7 @@ def _run(
         say(f"{parser.prog}: no figure: {failure}", sys.stderr)
     with refusing(parser, options.out):
         write(options.out, file, made)
-        if drawn:
-            with writing(options.out / "figures") as put:
-                for name, text in drawn.items():
-                    put(name, text)
+        write_files(options.out / "figures", drawn)
     return finish(parser, options, made, file, seconds=seconds, counts=counts)
 
 

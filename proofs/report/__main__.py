@@ -1,0 +1,57 @@
+"""One page on all claims, its Markdown and figures, from the certificates that are there."""
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.report.__main__")
+
+from pathlib import Path
+
+from proofs.report.build import INSTALL, built, missing
+from proofs.shell.cli import Parser, progress
+from proofs.shell.files import check_folder, refusing, write_files
+from proofs.shell.screen import say
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.verify import Rejected
+
+EPILOG = """\
+Reads DIR/ledger.json and the certificates beside it, and writes DIR/index.html, a page that needs
+nothing else and opens from the disk; DIR/ledger.md, the same as Markdown; DIR/figures/*.svg. What
+the certificates conclude is derived again; nothing is proved anew.
+
+exit status: 0 written, 1 a package of the extra `report` is missing, 2 bad input (nothing is
+             written), 3 the ledger says what its certificates do not prove
+
+examples:
+  python -m proofs.report
+  python -m proofs.report --out runs
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Write the pages of a folder; return the exit status."""
+    parser = Parser("proofs.report", __doc__, EPILOG)
+    parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
+    parser.add_argument("--quiet", action="store_true", help="print nothing")
+    options = parser.parse_args(arguments)
+    if not (options.out / "ledger.json").is_file():
+        parser.error(f"no {options.out}/ledger.json: python -m proofs writes it")
+    check_folder(parser, options.out)
+    packages = missing()
+    try:
+        with progress() as tell:
+            files = built(options.out, tell, only_text=bool(packages))
+    except Malformed as error:
+        parser.error(f"{options.out}/ledger.json: {error}")
+    except KeyError as error:
+        parser.error(f"no certificate {options.out}/{error.args[0]}.json")
+    except Rejected as error:
+        say(f"{parser.prog}: the ledger is not what its certificates prove: {error}")
+        return 3
+    with refusing(parser, options.out):
+        write_files(options.out, files)
+    if packages:
+        say(f"{parser.prog}: no index.html, {', '.join(packages)} missing: {INSTALL}")
+    elif not options.quiet:
+        say(f"{options.out}/index.html and {len(files) - 1} more files")
+    return int(bool(packages))
