@@ -17,6 +17,7 @@ from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import show
 
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
+_SIGNED_NUMBER = re.compile(r"(<mo[^>]*>[(\[=,∈≤]</mo>(?:<mrow>)?)<mo>−</mo>")  # no difference
 _SUM, _SIGNED, _PRODUCT, _POWER, _ATOM = range(5)  # how tightly a formula is bound
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
 
@@ -177,4 +178,5 @@ def mathml(formula: str, display: str = "inline") -> str:
     text = unescape(convert(formula, display=display))
     for spare in (' xmlns="http://www.w3.org/1998/Math/MathML"', ' display="inline"'):
         text = text.replace(spare, "")
-    return text.replace(' fence="true"', "").replace(' stretchy="true"', "")
+    text = text.replace(' fence="true"', "").replace(' stretchy="true"', "")
+    return _SIGNED_NUMBER.sub(r'\1<mo form="prefix">−</mo>', text)

@@ -35,7 +35,7 @@ _WIDTH, _COLUMN, _ROW, _LEFT, _TOP = 54, 86, 54, 16, 48
 _BOX = 26  # the height of a claim
 _CHAPTER_OF = dict.fromkeys("HNG", "3") | {"E": "7", "A": "7"}  # by the claims' letters
 _STYLE = """
-.edge{fill:none;stroke:var(--line,#9aa3ad);stroke-width:1.1}
+.edge{fill:none;stroke:var(--edge,#8a939d);stroke-width:1.1}
 .edge.fallen{stroke:var(--refuted,#b3400c);stroke-dasharray:4 3}
 .edge.decides{stroke:var(--verified,#00694f);stroke-width:.9;stroke-dasharray:1 3}
 .band{fill:var(--band,#f3f5f7)}

@@ -28,7 +28,7 @@ from proofs.report.names import (
     verdict_name,
 )
 from proofs.report.pictures import Picture
-from proofs.report.typeset import html
+from proofs.report.typeset import begun, html
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import ceil_text, floor_text
 from proofs.trusted.verdicts import Verdict
@@ -131,7 +131,7 @@ class View:
     def lead(self) -> Markup:
         """The headline theorem in a line."""
         statement = self.headline
-        return Markup("") if statement is None else Markup(_sentence(statement.conclusion.brief))
+        return Markup("") if statement is None else Markup(html(begun(statement.conclusion.brief)) + ".")
 
     def words(self, claim: Finding) -> Markup:
         """Return the paper's own words, a formula between dollars as one."""
@@ -228,7 +228,8 @@ class View:
         text = html(figure.caption)
         for each in self.findings.statements.values():
             link = f'<a href="#{each.label}">{each.kind} {each.label}</a>.'
-            text = text.replace(html(each.text), link)
+            for whole in (each.text, begun(each.conclusion.sentence)):
+                text = text.replace(html(whole), link)
         return Markup(text)
 
     def picture(self, figure: Picture) -> Markup:
@@ -237,18 +238,16 @@ class View:
         return Markup(svg[svg.index("<svg") :])
 
 
-def _sentence(text: str) -> str:
-    """Return a line as a sentence in HTML, with a capital letter unless it begins with a symbol."""
-    word = text.split(" ", 1)[0]
-    return html(text[:1].upper() + text[1:] if len(word) > 1 or word == "a" else text) + "."
-
-
 def formula(conclusion: Conclusion) -> Markup:
     """Return a conclusion as formulas, "" where it has none."""
     parts = lines(conclusion)
     if any(len(latex) > _LONGEST for latex in parts):
         return Markup("<code>{}</code>").format(conclusion.sentence)
-    return Markup("".join(map(mathml, parts)))
+    return Markup("").join(Markup('<span class="line">{}</span>').format(_math(x)) for x in parts)
+
+
+def _math(latex: str) -> Markup:
+    return Markup(mathml(latex))
 
 
 def sentences(text: str) -> list[str]:

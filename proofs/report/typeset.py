@@ -23,10 +23,11 @@ GREEK = MappingProxyType(
 _SIGNS = MappingProxyType(
     {"<=": "≤", ">=": "≥", "->": "→", "+-": "±", "...": "…", "=:": "=:", ":=": ":="}
 )
+_WORDS = MappingProxyType({"infinity": "∞", "sqrt": "√"})
 _TOKEN = re.compile(
     r"(?P<code>[a-z_]{2,}(?:\.[a-z_]{2,})+)"
     r"|(?P<name>[A-Za-z]+)(?P<index>[0-9]*)"
-    r"|(?P<number>[0-9]+(?:\.[0-9]+)?)"
+    r"|(?P<number>[0-9]+(?:\.[0-9]+)?(?:e-?[0-9]+)?)"
     r"|(?P<sign><=|>=|->|\+-|\.\.\.|=:|:=)"
     r"|(?P<prime>'+)"
     r"|(?P<mark>.)",
@@ -71,6 +72,13 @@ def plain(sentence: str) -> str:
         return scripts[piece.kind] + (inner if len(piece.inner) == 1 else f"({inner})")
 
     return "".join(map(flat, typeset(sentence)))
+
+
+def begun(sentence: str) -> str:
+    """Begin a sentence with a capital letter, unless it begins with a symbol, such as f."""
+    word = sentence.split(" ", 1)[0].rstrip(",:")
+    is_word = word.isalpha() and (len(word) > 1 or word == "a") and word not in GREEK
+    return sentence[:1].upper() + sentence[1:] if is_word else sentence
 
 
 def _unmarked(text: str) -> str:
@@ -167,8 +175,9 @@ class _Setter:
     def _name(self, name: str, index: str) -> Iterator[Piece]:
         if name in GREEK:
             yield Piece("variable", GREEK[name])
-        elif name == "infinity":
-            yield Piece("words", "∞")
+        elif name in _WORDS:
+            self._skip_space(name)
+            yield Piece("words", _WORDS[name])
         elif name[0] == "d" and name[1:] in GREEK:
             yield Piece("words", "d")
             yield Piece("variable", GREEK[name[1:]])
@@ -182,12 +191,17 @@ class _Setter:
         if index:
             yield Piece("sub", inner=(Piece("words", index),))
 
+    def _skip_space(self, name: str) -> None:
+        """Write the root of 5, "sqrt 5", without the space."""
+        if name == "sqrt" and self.sentence[self.place : self.place + 1] == " ":
+            self.place += 1
+
     def _is_word(self, letter: str, index: str) -> bool:
         """Whether a letter is an article, a possessive, or part of the name of a claim."""
         rest = self.sentence[self.place :]
         if index:
             return letter not in _INDEXED
-        if self.before.text in ("'", "’"):
+        if self.before.text == "’" or self._beside()[0].isdigit():  # paper's, 7a
             return True
         article = {"a": r" [A-Za-z0-9(|]", "A": r" [a-z]{2}"}.get(letter)
         return article is not None and re.match(article, rest) is not None
