@@ -76,7 +76,7 @@ def run(
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    figures = [figure for figure in FIGURES if figure.certificates == (file,)]
+    figures = [figure for figure in FIGURES if figure.certificate == file]
     if figures:
         names = ", ".join(f"{figure.name}.svg" for figure in figures)
         help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
