@@ -46,5 +46,5 @@ def pictures(documents: Mapping[str, Context], claims: Iterable[str]) -> list[Pi
             tuple(claim for claim in figure.claims if claim in present),
         )
         for figure in FIGURES
-        if present.intersection(figure.claims) and set(figure.certificates) <= set(documents)
+        if present.intersection(figure.claims) and figure.certificate in documents
     ]

@@ -137,7 +137,7 @@ def run(
 
 def _figures(file: str) -> list[Figure]:
     """Return the figures that are drawn from a certificate alone."""
-    return [figure for figure in FIGURES if figure.certificates == (file,)]
+    return [figure for figure in FIGURES if figure.certificate == file]
 
 
 def _run(

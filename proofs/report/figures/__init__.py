@@ -1,17 +1,37 @@
-"""The figures of the report: `FIGURES`, each drawn from certificates that are there.
+"""The figures of the report: `FIGURES`, each drawn from a certificate that is there.
 
 python -m proofs.report.figures --help
 """
 
-from proofs.report.figures import horseshoe, restitution, traces, transients, windows
+from proofs.report.figures import (
+    cantor,
+    circle,
+    impact_map,
+    model,
+    rectangles,
+    resonance,
+    restitution,
+    soft,
+    three_sets,
+    traces,
+    transients,
+    windows,
+)
 from proofs.report.figures.figure import Certificates, Documents, Figure
 
 FIGURES: tuple[Figure, ...] = (
-    horseshoe.FIGURE,
+    model.FIGURE,
+    impact_map.FIGURE,
+    cantor.FIGURE,
+    rectangles.FIGURE,
+    circle.FIGURE,
     transients.FIGURE,
+    three_sets.FIGURE,
     restitution.FIGURE,
     windows.FIGURE_A,
     windows.FIGURE_B,
+    soft.FIGURE,
+    resonance.FIGURE,
     traces.FIGURE,
 )
 

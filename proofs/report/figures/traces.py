@@ -22,8 +22,10 @@ from typing import TYPE_CHECKING
 
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.report.figures.figure import Documents, Figure
+from proofs.report.figures.figure import Figure
+from proofs.report.figures.style import BLUE, sheet
 from proofs.trusted.equations import arrival, clock, launch
+from proofs.trusted.kernel.context import Context
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -87,29 +89,31 @@ def spectrum(nu: Fraction) -> list[Row]:
     return rows
 
 
-def plot(documents: Documents) -> Drawing:
+def plot(proved: Context) -> Drawing:
     """Draw the displacement at the lowest and the highest amplitude, early and late: simulated."""
-    from matplotlib import pyplot as plt
-
-    del documents
-    drawing, all_axes = plt.subplots(2, 2, figsize=(6.4, 4.4))
+    del proved
+    drawing, all_axes = sheet(3.8, 2, 2, sharey="row", sharex="col")
     for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
         samples = displacement(nu, WINDOWS[-1] + _WINDOW)
         for axes, first in zip(row, WINDOWS, strict=True):
             part = samples[first * _SAMPLES : (first + _WINDOW) * _SAMPLES]
-            axes.plot([first + k / _SAMPLES for k in range(len(part))], part, lw=0.7)
-            axes.set(title=f"simulated, nu = {float(nu)}", xlabel="table periods")
+            axes.plot([first + k / _SAMPLES for k in range(len(part))], part, color=BLUE, lw=0.7)
+            axes.set_title(rf"$\nu$ = {float(nu)}, $\varepsilon$ = {EPSILON}, simulated")
         row[0].set_ylabel("x / |p|")
+    for axes in all_axes[1]:
+        axes.set_xlabel("turns of the table")
     return drawing
 
 
-def caption(documents: Documents) -> str:
-    """Return what was simulated: it proves nothing."""
-    del documents
-    return f"Simulated in floating point at resonance (eta = 1), epsilon = {EPSILON}."
-
-
-FIGURE = Figure("figure-10", "Figure 10: the mass at resonance", ("E1",), (), caption, plot)
+FIGURE = Figure(
+    "figure-10",
+    "Figure 10: the mass at resonance",
+    ("E1",),
+    "resonance",
+    f"A simulation in floating point at eta = 1, epsilon = {EPSILON}: the first turns of the table "
+    f"and those from {WINDOWS[-1]} on, at the lowest and the highest amplitude of those tried.",
+    plot,
+)
 
 
 def main() -> None:

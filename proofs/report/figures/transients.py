@@ -1,86 +1,57 @@
-"""Figure 6 of the paper as a theorem: how many impacts phases need at most to stick."""
+"""Figure 6: how many impacts phases need at most until the mass sticks."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
 
-from proofs.report.figures.figure import Documents, Figure
-from proofs.trusted.numbers import Range
+from proofs.report.figures.circle import on_circle
+from proofs.report.figures.figure import Figure, all_of, the
+from proofs.report.figures.style import BLUE, ORANGE, RED, proved_boxes, sheet
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.s34_circle.absorption import Absorption
-from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.verdicts import told
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
 
-Bars = list[tuple[float, float, int]]
+_UNDER = -0.6  # where what is not counted is marked
 
 
-def proved(documents: Documents) -> tuple[Bars, list[tuple[float, float]]]:
-    """Return the intervals that stick within n impacts, and those that
-    never impact again; phases in [0, 2 pi)."""
-    bars: Bars = []
-    never: list[tuple[float, float]] = []
-    for step in documents["circle"].known.values():
-        if isinstance(step, Absorption):
-            for phases, count in step.within:
-                bars += [(low, high, count) for low, high in _on_circle(phases)]
-        if isinstance(step, NeverImpacts):
-            never += _on_circle(step.phases)
-        if isinstance(step, Separation):
-            arc = _on_circle((step.start[1], step.phase[0]))
-            bars += [(low, high, 0) for low, high in arc]
-    return sorted(bars), never
-
-
-def _on_circle(phases: Range) -> list[tuple[float, float]]:
-    """Return the parts of an interval in [0, 2 pi)."""
-    low, high = map(float, phases)
-    if low >= 0:
-        return [(low, high)]
-    return (
-        [(low + math.tau, math.tau), (0.0, high)]
-        if high > 0
-        else [(low + math.tau, high + math.tau)]
-    )
-
-
-def plot(documents: Documents) -> Drawing:
+def plot(proved: Context) -> Drawing:
     """Draw what is proved: on the whole circle, and around [1.1, 1.76]."""
-    from matplotlib import pyplot as plt
-
-    bars, never = proved(documents)
-    drawing, both = plt.subplots(2, 1, figsize=(6.4, 5.2))
-    for axes, ends in zip(both, ((0.0, math.tau), (1.09, 1.77)), strict=True):
-        _draw(axes, bars, never)
-        axes.set(xlim=ends, xlabel=r"$\phi$ [rad]", ylabel="impacts, at most")
-    both[1].legend(fontsize=7, loc="upper left")
+    drawing, both = sheet(4.6, 2, 1)
+    for axes, ends in zip(both, ((0.0, math.tau), (1.06, 1.78)), strict=True):
+        _draw(axes, proved)
+        axes.set(xlim=ends, ylim=(_UNDER, 12.5), ylabel="impacts, at most", yticks=range(0, 13, 2))
+    both[1].set_xlabel(r"$\phi$ [rad]")
+    handles, labels = both[0].get_legend_handles_labels()
+    drawing.legend(handles, labels, loc="outside lower center", ncols=4)
     return drawing
 
 
-def caption(documents: Documents) -> str:
-    """Return what is proved of the circle."""
-    kinds = Absorption, NeverImpacts, Separation
-    return told(x for x in documents["circle"].known.values() if isinstance(x, kinds))
-
-
-def _draw(axes: Axes, bars: Bars, never: list[tuple[float, float]]) -> None:
-    """Draw a bar for each interval, and where there is no next impact."""
-    lows, widths = [low for low, _, _ in bars], [high - low for low, high, _ in bars]
-    heights = [count for _, _, count in bars]
-    axes.bar(lows, heights, widths, align="edge", color="C0", lw=0, label="proved for each phase")
-    for low, high in never:
-        axes.axvspan(low, high, color="C3", lw=1, label="no impact ever")
-    axes.set_ylim(0, max(heights, default=0) + 2)
+def _draw(axes: Axes, proved: Context) -> None:
+    """Draw a bar for each interval; below grey nothing is decided."""
+    absorption = the(proved, Absorption)
+    axes.axhspan(_UNDER, 0, color="0.8", lw=0, zorder=0, label="not proved")
+    arc, under = absorption.arc, (_UNDER, 0)
+    sticks = (arc.start[1], arc.phase[0])
+    proved_boxes(axes, [(sticks, under)], ORANGE, "sticks at once, proved", lw=0)
+    bars = [
+        (part, (_UNDER, count)) for phases, count in absorption.within for part in on_circle(phases)
+    ]
+    proved_boxes(axes, bars, BLUE, "within n impacts, proved", lw=0)
+    never = [(step.phases, (_UNDER, 12)) for step in all_of(proved, NeverImpacts)]
+    proved_boxes(axes, never, RED, "no impact ever, proved", lw=0.6)
 
 
 FIGURE = Figure(
     "figure-6",
     "Figure 6: impacts before the mass sticks",
     ("G4", "G6"),
-    ("circle",),
-    caption,
+    "circle",
+    "A bar is as high as the number of impacts within which every phase under it is proved to "
+    "stick; nothing is sampled.",
     plot,
 )

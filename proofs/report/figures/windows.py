@@ -1,129 +1,140 @@
-"""Figures 7a and 7b of the paper, certified: solutions of (16), and the stable orbits among them.
-
-What a certificate proves is drawn: thick curves are stable orbits, in the proved windows; thin ones
-solutions of (16) with |slope| < 1 that are none. Curves are (17).
-"""
+"""Figures 7a and 7b: the stable orbits with one impact a period, and solutions of (16) beside."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from intervals import Undecided
-from proofs.report.figures.figure import Documents, Figure
+from proofs.report.figures.figure import Figure, the
+from proofs.report.figures.style import BLUE, GREY, PROVED, sheet
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range, show
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
-from proofs.trusted.verdicts import told
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
 
-Floats = NDArray[np.float64]
-_POINTS = 2000
-_LABELLED = 8  # n up to which windows in eta are labelled
+_POINTS = 4000
+_WIDEST = 14.0  # the paper's eta
+_NAMED = 8  # n up to which windows in eta are named
+_DASHES = ("-", (0, (4, 1)), (0, (1, 1)))  # of n = 1, 2, 3
+_STABLE = "stable orbits, leaving the table at once, over proved windows"
+_OTHER = "solutions of (16) with |(18)| < 1, no such orbits"
 
 
-def proved(documents: Documents) -> tuple[EtaWindows, NuWindows]:
-    """Return the windows that are proved."""
-    known = documents["single"].known.values()
-    eta = next((each for each in known if isinstance(each, EtaWindows)), None)
-    nu = next((each for each in known if isinstance(each, NuWindows)), None)
-    if eta is None or nu is None:
-        raise Undecided("no windows of section 4 are proved")
-    return eta, nu
+def solution(eta: float, nu: float, n: int) -> tuple[float, float]:
+    """Return the phase of (17) in (-pi, pi) that can be stable, and the slope (18) there; nan
+    where there is none."""
+    x = math.pi * n * eta
+    try:
+        theta = math.atan(1 / (math.tan(x) * eta))
+        phase = theta - math.asin(math.cos(theta) / nu)
+    except (ValueError, ZeroDivisionError):
+        return math.nan, math.nan
+    lift = nu * math.sin(phase)
+    return phase, math.cos(x) ** 2 * (1 - lift / (eta**2 * (1 + lift)))
 
 
-def curve(eta: Floats | float, nu: Floats | float, n: int) -> tuple[Floats, Floats]:
-    """Return phases of (17) in (-pi, pi), of the solution that can be stable, and slopes there."""
-    with np.errstate(all="ignore"):
-        x = math.pi * n * np.asarray(eta)
-        theta = np.arctan(1 / (np.tan(x) * eta))
-        phase = theta - np.arcsin(np.cos(theta) / nu)
-        lift = nu * np.sin(phase)
-        slope = np.cos(x) ** 2 * (1 - lift / (eta**2 * (1 + lift)))
-    return phase, np.asarray(slope)
-
-
-def _candidates(eta: Floats | float, nu: Floats | float, n: int) -> Floats:
-    """Return the phases with |slope| < 1, nan elsewhere and where the curve jumps."""
-    phase, slope = curve(eta, nu, n)
-    kept = np.where(np.abs(slope) < 1, phase, np.nan)
-    kept[1:][np.abs(np.diff(kept)) > 1] = np.nan
+def _candidates(points: Sequence[tuple[float, float]], n: int) -> list[float]:
+    """Return the phases with |slope| < 1; nan elsewhere, and where the curve jumps."""
+    kept, before = [], math.nan
+    for eta, nu in points:
+        phase, slope = solution(eta, nu, n)
+        jumps = abs(phase - before) > 1
+        kept.append(phase if abs(slope) < 1 and not jumps else math.nan)
+        before = phase
     return kept
 
 
-def _figure_a(axes: Axes, windows: EtaWindows) -> None:
-    nu, label = float(windows.nu), f"solutions with |slope| < 1, n up to {_LABELLED}"
+def _between(first: Range, last: Range) -> list[float]:
+    """Return 40 numbers from one enclosed end of a window to the other, all inside it."""
+    low, high = float(first[1]), float(last[0])
+    return [low + (high - low) * k / 39 for k in range(40)]
+
+
+def _window(axes: Axes, x: list[float], y: list[float], label: str) -> None:
+    axes.plot(x, y, color=BLUE, lw=2.4, gid=PROVED, label=label, solid_capstyle="butt")
+
+
+def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = "0.4") -> None:
+    """Write a name above the highest point of a curve."""
+    top = max((k for k in range(len(y)) if not math.isnan(y[k])), key=lambda k: y[k])
+    above: dict[str, Any] = {"xytext": (0, 2), "textcoords": "offset points", "ha": "center"}
+    axes.annotate(name, (x[top], y[top]), **above, fontsize=6.5, color=colour)
+
+
+def plot_a(proved: Context) -> Drawing:
+    """Draw figure 7a: eta on a logarithmic axis."""
+    windows = the(proved, EtaWindows)
+    drawing, axes = sheet(3.6)
+    nu, low = float(windows.nu), float(windows.low)
+    etas = [low * (_WIDEST / low) ** (k / _POINTS) for k in range(_POINTS + 1)]
+    for n, dashes in enumerate(_DASHES, start=1):
+        phases = _candidates([(eta, nu) for eta in etas], n)
+        axes.plot(etas, phases, color=GREY, ls=dashes, lw=0.6, label=f"{_OTHER}: n = {n}")
     for n, (flip, stick) in enumerate(windows.ends, start=1):
-        if n <= _LABELLED:
-            etas = np.linspace(float(windows.low), 0.4, _POINTS)
-            axes.plot(etas, _candidates(etas, nu, n), "C7", lw=0.7, label=label)
-            label = "_"
-        stable = np.linspace(float(flip[1]), float(stick[0]), 50)
-        axes.plot(stable, curve(stable, nu, n)[0], "C0", lw=2.5)
-        if n <= _LABELLED:
-            place = float(flip[1] + stick[0]) / 2
-            axes.annotate(
-                str(n), (place, curve(place, nu, n)[0]), xytext=(0, 5), textcoords="offset points"
-            )
-    axes.set(xlabel=r"$\eta$", ylabel=r"$\phi$", xscale="log")
-    axes.legend(fontsize=7)
-
-
-def _figure_b(axes: Axes, windows: NuWindows) -> None:
-    eta = float(windows.eta)
-    for n in range(1, 22):
-        amplitudes = np.concatenate(
-            (np.linspace(-0.9, -1e-3, _POINTS), np.linspace(1e-3, 0.9, _POINTS))
-        )
-        axes.plot(amplitudes, _candidates(eta, amplitudes, n), "C7", lw=0.7)
-    for sign, side in ((1, windows.above), (-1, windows.below)):
-        for n, first, last in side:
-            stable = sign * np.linspace(float(first[1]), float(last[0]), 50)
-            axes.plot(stable, curve(eta, stable, n)[0], "C0", lw=2.5)
-            axes.annotate(
-                str(n),
-                (stable[25], curve(eta, stable, n)[0][25]),
-                xytext=(6, 3),
-                textcoords="offset points",
-            )
-    axes.set(xlabel=r"$\nu$", ylabel=r"$\phi$")
-
-
-def plot_a(documents: Documents) -> Drawing:
-    """Draw figure 7a."""
-    from matplotlib import pyplot as plt
-
-    drawing, axes = plt.subplots(figsize=(6.4, 3.2))
-    _figure_a(axes, proved(documents)[0])
+        inside = _between(flip, stick)
+        phases = [solution(eta, nu, n)[0] for eta in inside]
+        _window(axes, inside, phases, _STABLE if n == 1 else "_")
+        if n <= _NAMED:
+            _named(axes, inside, phases, str(n), BLUE)
+    axes.set(xlabel=r"$\eta$", ylabel=r"$\phi$ [rad]", xscale="log", xlim=(0.008, _WIDEST))
+    axes.set_title(rf"$\nu$ = {show(windows.nu)}; the numbers are n = 1, ..., {len(windows.ends)}")
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawing
 
 
-def plot_b(documents: Documents) -> Drawing:
+def plot_b(proved: Context) -> Drawing:
     """Draw figure 7b."""
-    from matplotlib import pyplot as plt
-
-    drawing, axes = plt.subplots(figsize=(6.4, 3.2))
-    _figure_b(axes, proved(documents)[1])
+    windows = the(proved, NuWindows)
+    drawing, axes = sheet(3.6)
+    eta, label = float(windows.eta), _OTHER
+    sides = {1: windows.above, -1: windows.below}
+    stable = {sign: {n for n, _, _ in side} for sign, side in sides.items()}
+    for n in range(1, 22):
+        for sign in (-1, 1):
+            amplitudes = [sign * (0.9 * (k + 1) / _POINTS) for k in range(_POINTS)]
+            phases = _candidates([(eta, nu) for nu in amplitudes], n)
+            if not all(map(math.isnan, phases)):
+                axes.plot(amplitudes, phases, color=GREY, lw=0.6, label=label)
+                if n not in stable[sign]:
+                    _named(axes, amplitudes, phases, str(n))
+                label = "_"
+    label = _STABLE
+    for sign, side in sides.items():
+        for n, first, last in side:
+            inside = [sign * size for size in _between(first, last)]
+            phases = [solution(eta, nu, n)[0] for nu in inside]
+            _window(axes, inside, phases, label)
+            beside = {"xytext": (-4, 0), "textcoords": "offset points", "ha": "right"}
+            axes.annotate(str(n), (inside[20], phases[20]), **beside, color=BLUE)
+            label = "_"
+    axes.set(xlabel=r"$\nu$", ylabel=r"$\phi$ [rad]", xlim=(-0.9, 0.9))
+    axes.set_title(rf"$\eta$ = {show(windows.eta)}; the numbers are n")
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawing
 
 
+_SHOWS = (
+    "Thick: the stable orbits with one impact in n periods of the table, over the windows that are "
+    "proved. Thin: solutions of (16) at which (18) is below 1 in absolute value, but which are no "
+    "such orbits. The phases are (17) in floating point."
+)
 FIGURE_A = Figure(
     "figure-7a",
     "Figure 7a: stable orbits with one impact a period, against eta",
     ("P5",),
-    ("single",),
-    lambda documents: told([proved(documents)[0]]),
+    "single",
+    _SHOWS,
     plot_a,
 )
 FIGURE_B = Figure(
     "figure-7b",
     "Figure 7b: stable orbits with one impact a period, against nu",
     ("P6",),
-    ("single",),
-    lambda documents: told([proved(documents)[1]]),
+    "single",
+    _SHOWS,
     plot_b,
 )
