@@ -17,6 +17,7 @@ from proofs.report.dependencies import RESTS
 from proofs.report.differences import marked
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
+from proofs.report.inline import inlined
 from proofs.report.names import (
     DEFINITIONS,
     MEANINGS,
@@ -59,7 +60,7 @@ def page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    view = View(findings, figures, drawn)
+    view = View(findings, figures, inlined(drawn))
     environment.globals.update(view=view, RESTS=RESTS)
     environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
     return environment.get_template("page.html").render(
@@ -131,7 +132,11 @@ class View:
     def lead(self) -> Markup:
         """The headline theorem in a line."""
         statement = self.headline
-        return Markup("") if statement is None else Markup(html(begun(statement.conclusion.brief)) + ".")
+        return (
+            Markup("")
+            if statement is None
+            else Markup(html(begun(statement.conclusion.brief)) + ".")
+        )
 
     def words(self, claim: Finding) -> Markup:
         """Return the paper's own words, a formula between dollars as one."""
@@ -223,19 +228,25 @@ class View:
         )
         return [(rule, rule_theorem(rule)) for rule in dict.fromkeys(step.rule for step in steps)]
 
-    def caption(self, figure: Picture) -> Markup:
-        """Return the caption of a figure; a theorem that stands on this page is linked."""
-        text = html(figure.caption)
-        for each in self.findings.statements.values():
-            link = f'<a href="#{each.label}">{each.kind} {each.label}</a>.'
-            for whole in (each.text, begun(each.conclusion.sentence)):
-                text = text.replace(html(whole), link)
-        return Markup(text)
+    @property
+    def main(self) -> Picture | None:
+        """The figure for the first screen: of the headline theorem."""
+        for figure in self.figures:
+            if self.headline is not None and self.headline.claim in figure.claims:
+                return figure
+        return None
+
+    def figures_in(self, section: str) -> list[Picture]:
+        """Return the figures of a section, but for the one on the first screen."""
+        return [x for x in self.figures if x.section == section and x != self.main]
+
+    def chips(self, figure: Picture) -> list[Finding]:
+        """Return the claims of a figure."""
+        return [claim for claim in self.findings.claims if claim.id in figure.claims]
 
     def picture(self, figure: Picture) -> Markup:
-        """Return an SVG for use inside a page: without the XML declaration."""
-        svg = self.drawn[figure.name]
-        return Markup(svg[svg.index("<svg") :])
+        """Return a figure as SVG."""
+        return Markup(self.drawn[figure.name])
 
 
 def formula(conclusion: Conclusion) -> Markup:

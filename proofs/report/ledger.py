@@ -104,11 +104,14 @@ def _falls(findings: Findings) -> list[str]:
 
 
 def _caption(findings: Findings, picture: Picture) -> str:
-    """Return a title and a caption; a theorem that stands on this page is linked."""
-    caption = markdown(picture.caption)
-    for each in findings.statements.values():
-        caption = caption.replace(markdown(each.text), f"[{each.kind} {each.label}](#{each.label})")
-    return f"**{markdown(picture.title)}.** {caption}"
+    """Return a title, how to read the figure, and the claims that it belongs to."""
+    verdicts = [
+        f"{_link(claim)} {_verdict(claim.verdict)}"
+        for claim in findings.claims
+        if claim.id in picture.claims
+    ]
+    shows = markdown(picture.figure.shows)
+    return f"**{markdown(picture.title)}.** {shows} Claims: {', '.join(verdicts)}."
 
 
 def _words(claim: Finding) -> str:

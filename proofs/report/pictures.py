@@ -13,10 +13,9 @@ from proofs.trusted.paper import find
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure with its caption. claims: those of the report that it belongs to."""
+    """A figure of the report. claims: those that it belongs to and that are decided."""
 
     figure: Figure
-    caption: str
     claims: tuple[str, ...]
 
     @property
@@ -40,11 +39,7 @@ def pictures(documents: Mapping[str, Context], claims: Iterable[str]) -> list[Pi
     """Return the figures for which there are certificates and claims."""
     present = set(claims)
     return [
-        Picture(
-            figure,
-            figure.caption(documents),
-            tuple(claim for claim in figure.claims if claim in present),
-        )
+        Picture(figure, tuple(claim for claim in figure.claims if claim in present))
         for figure in FIGURES
         if present.intersection(figure.claims) and figure.certificate in documents
     ]

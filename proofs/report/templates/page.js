@@ -27,6 +27,7 @@
       claim.hidden = !fits;
       shown += fits;
     }
+    for (const figures of document.querySelectorAll(".figures")) figures.hidden = shown < claims.length;
     for (const chapter of chapters) chapter.hidden = !chapter.querySelector(".claim:not([hidden])");
     nothing.hidden = shown > 0;
     form.shown.value = shown === claims.length ? `${shown} claims` : `${shown} of ${claims.length} claims`;

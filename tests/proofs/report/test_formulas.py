@@ -69,8 +69,10 @@ def test_conclusions_say_all_that_they_hold():
     assert text == r"x y \in [-0.5, 0.5] \text{for } x = 0.5,\ y \in [0.25, 0.5]"
     series = Series("sin(x)", "x", ("0", "1 + a", "0", "-1"), ("a",))
     text = " ".join(lines(series))
-    assert text == r"\sin(x) = (1 + a) x + (-1) x^3 + O(x^4) \text{as } x \to 0,\ " \
+    assert (
+        text == r"\sin(x) = (1 + a) x + (-1) x^3 + O(x^4) \text{as } x \to 0,\ "
         r"\text{where } a \ne 0"
+    )
     assert lines(Equal("a", "b")) == ["a", "= b"]
 
 
