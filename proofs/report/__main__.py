@@ -42,9 +42,9 @@ def main(arguments: list[str] | None = None) -> int:
         with progress() as tell:
             files = built(options.out, tell, only_text=bool(packages))
     except Malformed as error:
-        parser.error(f"{options.out}/ledger.json: {error}")
-    except KeyError as error:
-        parser.error(f"no certificate {options.out}/{error.args[0]}.json")
+        parser.error(f"the ledger in {options.out} or a certificate of it is malformed: {error}")
+    except OSError as error:
+        parser.error(f"cannot read {error.filename}: {error.strerror}")
     except Rejected as error:
         say(f"{parser.prog}: the ledger is not what its certificates prove: {error}")
         return 3

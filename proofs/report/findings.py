@@ -37,6 +37,9 @@ SECTIONS: Mapping[str, str] = MappingProxyType(
 )  # the paper's
 
 
+_ENTRY = ("id", "verdict", "file", "statement", "why", "witness", "corrected", "quantities")
+
+
 @dataclass(frozen=True)
 class Step:
     """A step of a proof: the rule that infers it, what is inferred, and from which steps."""
@@ -141,29 +144,30 @@ def findings(folder: Path, documents: Mapping[str, Context]) -> Findings:
     if schema.string() != LEDGER:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {LEDGER!r}")
     order = {key: place for place, key in enumerate(SECTIONS)}
-    files = {dict(entry.entries())["file"].string() for entry in entries_of.items(least=1)}
-    texts = {file: json.loads(read(folder / file)) for file in sorted(files)}
-    claims = [_finding(entry, texts, documents) for entry in entries_of.items()]
+    claims, texts = [], dict[str, dict[str, Any]]()
+    for entry in entries_of.items(least=1):
+        id_of, verdict_of, file_of = entry.fields(*_ENTRY)[:3]
+        file = file_of.string()
+        if file not in texts:
+            texts[file] = json.loads(read(folder / file))
+        finding = _finding(id_of, file, texts[file], documents)
+        if finding.verdict.value != verdict_of.string():
+            raise Rejected(f"{verdict_of.path}: {file} gives {finding.verdict.value}")
+        claims.append(finding)
     claims.sort(key=lambda claim: order[claim.section])  # stable: within a section as listed
     return Findings(tuple(claims), _statements(claims))
 
 
 def _finding(
-    entry: Reader, texts: Mapping[str, dict[str, Any]], documents: Mapping[str, Context]
+    id_of: Reader, file: str, document: dict[str, Any], documents: Mapping[str, Context]
 ) -> Finding:
-    members = dict(entry.entries())
-    claim, file = members["id"].string(), members["file"].string()
+    claim = id_of.string()
     row = find(claim)
-    if row is None:
-        raise members["id"].fail("unknown claim")
-    context = documents[file.removesuffix(".json")]
-    document = texts[file]
     own = next((each for each in document["claims"] if each["id"] == claim), None)
-    if own is None:
-        raise members["file"].fail(f"the file says nothing about {claim}")
+    if row is None or own is None:
+        raise id_of.fail(f"{file} says nothing about {claim[:20]}")
+    context = documents[file.removesuffix(".json")]
     decision = row.decide(context.of, [context.known[name] for name in own["proof"]])
-    if decision.verdict.value != members["verdict"].string():
-        raise Rejected(f"{entry.path}: {file} gives {decision.verdict.value}")
     steps = _steps(document, context, set(own["proof"]))
     return Finding(
         row,

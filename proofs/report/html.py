@@ -187,7 +187,11 @@ class View:
         return f"{claim.file.removesuffix('.json')}-{step.name}"
 
     def step_text(self, step: Step) -> Markup:
-        """Return what a step concludes: a formula, or a sentence."""
+        """Return what a step concludes: a link to where that stands, a formula, or a sentence."""
+        stands = self.findings.statements.get(step.conclusion)
+        if stands is not None:
+            link = Markup('<a href="#{0}">{1} {0}</a>: ').format(stands.label, stands.kind)
+            return link + Markup(html(stands.conclusion.brief))
         return formula(step.conclusion) or Markup(html(step.conclusion.sentence))
 
     def rests(self, claim: Finding) -> list[str]:

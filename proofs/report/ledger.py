@@ -29,14 +29,14 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         "## Contents",
         "\n".join(
             [
-                *(f"- [{key} {title}](#section-{key})" for key, title, _ in sections),
+                *(f"- [{key} {title}](#sec-{key})" for key, title, _ in sections),
                 "- [What falls, what stands](#dependencies)",
                 "- [Check it yourself](#check)",
             ]
         ),
     ]
     for key, title, claims in sections:
-        parts.append(f'## <a id="section-{key}"></a>{key} {title}')
+        parts.append(f'## <a id="sec-{key}"></a>{key} {title}')
         parts.append(
             _table(
                 ("claim", "verdict", "the paper's words"),

@@ -23,13 +23,10 @@ def formulas(draw, depth=4):
     if depth == 0 or draw(st.integers(0, 5)) == 0:
         return draw(st.sampled_from([*NAMES, "2", "10", "pi"]))
     one, two = draw(formulas(depth=depth - 1)), draw(formulas(depth=depth - 1))
-    return draw(
-        st.sampled_from(
-            [f"({one}) + {two}", f"{one} - ({two})", f"({one})*({two})", f"({one})/({two})"]
-            + [f"-({one})", f"({one})**2", f"sin({one})**2", f"cos({one})", f"exp({one})"]
-            + [f"sqrt(({one})**2)", f"{one}*-({two})", f"{one}/({two})/3", f"-({one})*({two})"]
-        )
-    )
+    forms = [f"({one}) + {two}", f"{one} - ({two})", f"({one})*({two})", f"({one})/({two})"]
+    forms += [f"-({one})", f"({one})**2", f"sin({one})**2", f"cos({one})", f"exp({one})"]
+    forms += [f"sqrt(({one})**2)", f"{one}*-({two})", f"{one}/({two})/3", f"-({one})*({two})"]
+    return draw(st.sampled_from(forms))
 
 
 @given(formulas())

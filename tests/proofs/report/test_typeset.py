@@ -25,7 +25,8 @@ CASES = [
     ("a 2-periodic orbit of A", "a 2-periodic orbit of <var>A</var>"),
     ("A mass, a = b, S5 and I1", "A mass, <var>a</var> = <var>b</var>, S5 and "
      "<var>I</var><sub>1</sub>"),
-    ("the paper's f' and x'_o", "the paper’s <var>f</var>′ and <var>x</var>′<sub><var>o</var></sub>"),
+    ("the paper's f' and x'_o",
+     "the paper’s <var>f</var>′ and <var>x</var>′<sub><var>o</var></sub>"),
     ("[1, 2] x [-0.45, 0]", "[1, 2] × [−0.45, 0]"),
     ("2 - 3, n-1, (8)-(9), -p", "2 − 3, <var>n</var>−1, (8)–(9), −<var>p</var>"),
     ("sqrt 5, Figure 7a, 2e-8", "√5, Figure 7a, 2e-8"),
