@@ -40,6 +40,9 @@ SECTIONS: Mapping[str, str] = MappingProxyType(
 _ENTRY = ("id", "verdict", "file", "statement", "why", "witness", "corrected", "quantities")
 
 
+_WORTH = 200  # characters of a statement that is not repeated in another
+
+
 @dataclass(frozen=True)
 class Step:
     """A step of a proof: the rule that infers it, what is inferred, and from which steps."""
@@ -121,6 +124,15 @@ class Findings:
             members = [claim for claim in self.claims if claim.section == key]
             if members:
                 yield key, title, members
+
+    def parts(self, statement: Statement) -> list[Statement | str]:
+        """Return the text of a statement, in it those that stand elsewhere as themselves."""
+        for other in self.statements.values():
+            if other != statement and len(other.text) > _WORTH and other.text in statement.text:
+                before, _, after = statement.text.partition(other.text)
+                parts: list[Statement | str] = [before, other, after.lstrip()]
+                return [part for part in parts if part]
+        return [statement.text]
 
     def at(self, claim: str) -> list[Statement]:
         """Return the statements that stand at a claim."""

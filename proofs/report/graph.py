@@ -81,7 +81,7 @@ def svg(findings: Findings) -> str:
     refuted = {claim.id for claim in findings.claims if claim.verdict is Verdict.REFUTED}
     parts = [
         f'<svg class="graph" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
-        f'width="{width}" height="{height}" role="img" aria-labelledby="graph-title">',
+        f'width="{width}" height="{height}" role="group" aria-labelledby="graph-title">',
         '<title id="graph-title">Which claims of the paper rest on which</title>',
         f"<style>{_STYLE}</style>",
     ]

@@ -159,7 +159,17 @@ class View:
 
     def blocks(self, statement: Statement, printed: str = "") -> list[Block]:
         """Return a statement sentence by sentence, values marked that are printed otherwise."""
-        return [_block(sentence, printed) for sentence in sentences(statement.text)]
+        blocks = []
+        for part in self.findings.parts(statement):
+            if isinstance(part, Statement):
+                blocks.append(Block(self.link(part) + "; moreover:"))
+            else:
+                blocks += [_block(sentence, printed) for sentence in sentences(part)]
+        return blocks
+
+    def link(self, statement: Statement) -> Markup:
+        """Return a link to where a statement stands."""
+        return Markup('<a href="#{0}">{1} {0}</a>').format(statement.label, statement.kind)
 
     def printed(self, claim: Finding) -> Markup:
         """Return the claim as printed, the values marked that the correction changes."""
@@ -190,8 +200,7 @@ class View:
         """Return what a step concludes: a link to where that stands, a formula, or a sentence."""
         stands = self.findings.statements.get(step.conclusion)
         if stands is not None:
-            link = Markup('<a href="#{0}">{1} {0}</a>: ').format(stands.label, stands.kind)
-            return link + Markup(html(stands.conclusion.brief))
+            return self.link(stands) + ": " + Markup(html(stands.conclusion.brief))
         return formula(step.conclusion) or Markup(html(step.conclusion.sentence))
 
     def rests(self, claim: Finding) -> list[str]:

@@ -74,13 +74,23 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
     for each in _statements(findings, (*decision.because, *decision.corrected)):
         label = f"{each.kind} {each.label}"
         if each.label in here:
-            parts.append(f'<a id="{each.label}"></a>**{label}.** {markdown(each.text)}')
+            parts.append(f'<a id="{each.label}"></a>**{label}.** {_text(findings, each)}')
         else:
             parts.append(f"See [{label}](#{each.label}): {markdown(each.conclusion.brief)}.")
     rest = RESTS.get(claim.id)
     argument = f"In the paper it rests on {_links(rest.on)}. " if rest else ""
     parts.append(f"{argument}Certificate: [{claim.file}]({claim.file}), made by `{claim.made}`.")
     return parts
+
+
+def _text(findings: Findings, statement: Statement) -> str:
+    """Return a statement in full, what of it stands elsewhere as a link."""
+    return " ".join(
+        markdown(part)
+        if isinstance(part, str)
+        else f"[{part.kind} {part.label}](#{part.label}); moreover:"
+        for part in findings.parts(statement)
+    )
 
 
 def _statements(findings: Findings, conclusions: Iterable[Conclusion]) -> list[Statement]:

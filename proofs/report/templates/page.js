@@ -9,8 +9,13 @@
     ω: "omega", Λ: "lambda", Δ: "delta", "≤": "<=", "≥": ">=", "−": "-", "′": "'"};
   const spelt = (text) => text.toLowerCase().replace(/[^\x00-\x7f]/g, (c) => names[c] ?? c);
   const index = new Map();
+  const ids = new Set(claims.map((claim) => claim.id.toLowerCase()));
   const textOf = (claim) => {
-    if (!index.has(claim)) index.set(claim, spelt(claim.textContent));
+    if (!index.has(claim)) {
+      const marked = claim.innerHTML.replaceAll("<sub>", "_").replaceAll("<sup>", "^");
+      const text = spelt(marked.replace(/<[^>]*>/g, "").replaceAll("&lt;", "<").replaceAll("&gt;", ">"));
+      index.set(claim, `${text} ${text.replaceAll("_", "")}`);
+    }
     return index.get(claim);
   };
 
@@ -23,7 +28,7 @@
       const {verdict, section} = claim.dataset;
       const fits = (!verdicts.has(verdict) && form.querySelector(`[value=${verdict}]`)) ? false
         : (!form.section.value || section === form.section.value)
-        && words.every((word) => /^[a-z]\d+$/.test(word) ? id === word : textOf(claim).includes(word));
+        && words.every((word) => ids.has(word) ? id === word : textOf(claim).includes(word));
       claim.hidden = !fits;
       shown += fits;
     }
