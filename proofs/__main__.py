@@ -19,7 +19,7 @@ from pathlib import Path
 
 from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR, launch
-from proofs.shell.screen import say
+from proofs.shell.screen import flowing, say
 
 _ROOT = Path(__file__).parent
 _USAGE = """\
@@ -45,7 +45,7 @@ def main(arguments: list[str] | None = None) -> int:
     """List the commands, or run the one that is named; return the exit status."""
     first, *rest = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
     if first in ("-h", "--help"):
-        say(_USAGE)
+        print(flowing(_USAGE))
         for name, line in commands().items():
             say(f"  {name:16} {line}", hanging=17)
         return 0

@@ -12,8 +12,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-from proofs import __version__
-from proofs.shell.screen import Help, fitted, say
+from proofs.shell.screen import Arguments, fitted, say
 from proofs.trusted.certificate import (
     LEDGER,
     MANIFEST,
@@ -45,18 +44,12 @@ examples:
 
 def main(arguments: list[str] | None = None) -> int:
     """Check the files named on the command line; return the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="python -m proofs.check",
-        description=__doc__,
-        epilog=EPILOG,
-        formatter_class=Help,
-    )
+    parser = Arguments("proofs.check", __doc__, EPILOG)
     files = "a certificate, or MANIFEST.json or ledger.json beside those; - for one piped in"
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
     parser.add_argument("--stats", action="store_true", help="count what is evaluated")
-    parser.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
     help_text = f"how much work a file may take (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     options = parser.parse_args(arguments)

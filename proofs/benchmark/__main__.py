@@ -17,9 +17,11 @@ from time import perf_counter
 
 import proofs.benchmark
 from proofs.benchmark import page
-from proofs.benchmark.page import Run, Section, Tell
+from proofs.benchmark.measure import Tell
+from proofs.benchmark.page import Run, Section
 from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
@@ -69,7 +71,9 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
 def _parser() -> Parser:
     parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
     add = parser.add_argument
-    add("subject", nargs="?", choices=SUBJECTS, default="all", help="default: all")
+    parser.usage = "%(prog)s [SUBJECT] [OPTION ...]"
+    what = f"one of {', '.join(SUBJECTS)} (default: all)"
+    add("subject", nargs="?", choices=SUBJECTS, default="all", metavar="SUBJECT", help=what)
     modes = parser.add_mutually_exclusive_group()
     for mode, text in {"quick": "default", "full": "more runs", "smallest": "each once"}.items():
         modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode, help=text)
@@ -88,7 +92,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     check_targets(parser, options.json)
     if shutil.which(options.codac_python) is None:
-        parser.error(f"no such interpreter: {options.codac_python}")
+        say(f"{parser.prog}: no such interpreter: {options.codac_python}", sys.stderr)
+        return USAGE_ERROR
     if options.subject == "intervals":
         return _intervals(options.mode, options.codac_python)
     if options.out is not None:

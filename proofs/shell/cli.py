@@ -24,47 +24,33 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
 from shutil import get_terminal_size
 from textwrap import shorten
 from threading import Event, Lock, Thread
 from time import monotonic
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from intervals import fraction
-from proofs import __version__
-from proofs.shell.entry import USAGE_ERROR
-from proofs.shell.screen import Help
+from proofs.shell.screen import Arguments
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
 
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
 _LARGEST = 10**_DIGITS
+_TELLING: ContextVar[Callable[[str], None] | None] = ContextVar("telling", default=None)
 _LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
-class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line, and that takes -1/5 and -2e-3 for numbers."""
+class Parser(Arguments):
+    """A parser of arguments that takes -1/5 and -2e-3 for numbers."""
 
     def __init__(self, prog: str, description: str | None, epilog: str) -> None:
-        super().__init__(
-            prog=f"python -m {prog}",
-            description=description,
-            epilog=epilog,
-            formatter_class=Help,
-        )
-        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+        super().__init__(prog, description, epilog)
         self._negative_number_matcher = re.compile(r"^-[0-9.]")
-
-    def _print_message(self, message: str, file: Any = None) -> None:
-        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
-        (file or sys.stderr).write(message)
-
-    def error(self, message: str) -> NoReturn:
-        """Print one line and leave with status 2."""
-        self.exit(USAGE_ERROR, f"{self.prog}: {message}\n")
 
 
 def number(text: str) -> Fraction:
@@ -143,21 +129,26 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
     """Yield a function that tells the stage of the work inside the `with`; "" wipes the line.
 
     On a terminal the last stage is shown on standard error, with the seconds, once the work takes
-    longer than `after`, and then every second; the line is wiped at the end.
+    longer than `after`, and then every second; the line is wiped at the end. Inside another one
+    the line is the other's.
     """
-    if not sys.stderr.isatty():
-        yield lambda stage: None
+    outer = _TELLING.get()
+    if outer is not None or not sys.stderr.isatty():
+        yield outer or (lambda stage: None)
         return
-    began, stage, over, drawing = monotonic(), "at work", Event(), Lock()
+    began, stage, drawn, over, drawing = monotonic(), "at work", "", Event(), Lock()
 
-    def draw(text: str) -> None:
-        print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+    def draw(line: str) -> None:
+        nonlocal drawn
+        if line != drawn:
+            print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
+            drawn = line
 
     def tell(what: str) -> None:
         nonlocal stage
         with drawing:
             stage = what
-            if not what and monotonic() - began > after:
+            if not stage:
                 draw("")
 
     def show() -> None:
@@ -168,9 +159,11 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
 
     thread = Thread(target=show, daemon=True)
     thread.start()
+    token = _TELLING.set(tell)
     try:
         yield tell
     finally:
+        _TELLING.reset(token)
         over.set()
         thread.join()
         tell("")

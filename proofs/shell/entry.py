@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 USAGE_ERROR, PIPE_CLOSED = 2, 128 + 13
 _SIGNALS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
+_HAS_ALARM = hasattr(signal, "setitimer")  # not on Windows
 _MAIN = os.getpid()  # a forked process has this module, and another number
 
 
@@ -84,25 +85,33 @@ def _ended(status: int, line: str = "") -> int:
 def _listening() -> Iterator[None]:
     """Have signals raise Stopped; after the first, and afterwards, they end the process at once.
 
-    SIGALRM repeats it each second: what is raised while an object is finalised is lost. A signal
-    that is ignored, as in a background job, stays ignored.
+    SIGALRM repeats it: what is raised while an object is finalised is lost, and is not reported
+    here. A signal that is ignored, as in a background job, stays ignored.
     """
+    report = sys.unraisablehook
+
+    def lose(lost: sys.UnraisableHookArgs) -> None:
+        if not isinstance(lost.exc_value, Stopped):
+            report(lost)
 
     def stop(number: int, frame: FrameType | None) -> None:
         if os.getpid() != _MAIN:  # a forked process ends with its parent, and says nothing
             os._exit(128 + number)
         leave_to_system()
-        signal.signal(signal.SIGALRM, lambda again, frame: stop(number, frame))
-        signal.alarm(1)
+        if _HAS_ALARM:
+            signal.signal(signal.SIGALRM, lambda again, frame: stop(number, frame))
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
         raise Stopped(number)
 
+    sys.unraisablehook = lose
     for number in _SIGNALS:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, stop)
     try:
         yield
     finally:
-        signal.alarm(0)
+        if _HAS_ALARM:
+            signal.signal(signal.SIGALRM, signal.SIG_IGN)
         leave_to_system()
 
 

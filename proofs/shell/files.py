@@ -1,8 +1,9 @@
-"""Files of results: each whole or not at all, one writer at a time in a folder.
+"""Files of results: whole or not at all, one writer at a time in a folder.
 
-A file is written beside its place, under the name `.<file>.<process>.part`, and renamed; what a
-process left that was killed is cleared by the next that writes there. The folder itself is locked
-meanwhile (flock), so that nobody else writes between what one run reads there and writes there.
+Files are written beside their places, under the names `.<file>.<process>.part`, and renamed when
+all are written; what a process left that was killed is cleared by the next that writes there. The
+folder itself is locked meanwhile (flock), so that nobody else writes between what one run reads
+there and writes there.
 """
 
 from __future__ import annotations
@@ -21,29 +22,31 @@ Put = Callable[[str, str], None]  # a name in the folder, and what the file is t
 
 @contextmanager
 def writing(folder: Path) -> Iterator[Put]:
-    """Yield what writes files to the folder, nobody else writing there meanwhile.
+    """Yield what writes files to the folder, all or none, nobody else writing there meanwhile.
 
     Raises OSError where that fails, or would replace what is no regular file, such as a device.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    parts: dict[Path, Path] = {}
 
     def put(name: str, content: str) -> None:
         _check_place(folder / name)
-        beside = folder / f".{name}.{os.getpid()}.part"
-        try:
-            with beside.open("w", encoding="utf-8") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            beside.replace(folder / name)
-        except BaseException:  # an interrupt, too
-            beside.unlink(missing_ok=True)
-            raise
+        parts[folder / name] = part = folder / f".{name}.{os.getpid()}.part"
+        with part.open("w", encoding="utf-8") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
 
     with _locked(folder):
         for left in folder.glob(".*.[0-9]*.part"):
             left.unlink(missing_ok=True)
-        yield put
+        try:
+            yield put
+            for path, part in parts.items():
+                part.replace(path)
+        finally:
+            for part in parts.values():
+                part.unlink(missing_ok=True)
 
 
 def write_files(folder: Path, files: Mapping[str, str]) -> None:

@@ -14,11 +14,11 @@ from time import perf_counter
 from typing import Any
 
 from proofs.report import build as report
-from proofs.shell import runner
+from proofs.shell import manifest, runner
 from proofs.shell.cli import Parser, counting, heard, progress
 from proofs.shell.counting import Counts, show
 from proofs.shell.entry import workers
-from proofs.shell.files import refusing, write_files, write_target
+from proofs.shell.files import refusing, write_files, write_target, writing
 from proofs.shell.groups import FILES, Made, produce, wanted
 from proofs.shell.screen import Decided, say, show_verdicts
 from proofs.trusted.certificate import LEDGER, Malformed, read, render
@@ -36,10 +36,10 @@ CLAIMS = tuple(
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
 group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
-DIR/ledger.md. A certificate that is in DIR or in `reports` already, accepted and complete, is
-checked and not proved again, unless --fresh or --digits ask for it: which prover wrote it does not
-matter, as the checker re-derives all of it from today's equations and statements. DIR is `reports`
-where all claims are asked for, else `runs`.
+DIR/ledger.md. A certificate that is there already, accepted and complete, is checked and not proved
+again, unless --fresh or --digits ask for it; which prover wrote it does not matter. DIR is
+`reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
+copied.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -113,21 +113,21 @@ def jobs(
 
 
 def settle(job: Job) -> Settled:
-    """Have a file of claims proved, if need be, and checked.
-
-    Where one of the paper's is there that has more claims, all of them are proved.
+    """Have a file of claims proved, if need be, and checked; all its claims, if all were there.
 
     Raises Rejected or Malformed where the checker does not accept what was just proved: a bug.
     """
     began = perf_counter()
-    for folder in () if job.fresh else dict.fromkeys((job.folder, runner.REPORTS)):
+    places = [job.folder, *([runner.REPORTS] if job.folder == runner.RUNS else [])]
+    for folder in () if job.fresh else places:
         there = _there(job, folder)
         if there is not None:
             page = folder / f"{job.name}.md"
             text = page.read_text(encoding="utf-8") if page.is_file() else ""
             made = Made([], there[0], text)
             return Settled(job, made, there[1], folder, perf_counter() - began)
-    claims = {*job.claims, *runner.paper_claims(job.folder / f"{job.name}.json")}
+    whole = runner.is_whole(job.folder, job.name)
+    claims = runner.claims_of(job.name) if whole else job.claims
     made = produce(wanted(job.name, PAPER, claims), PAPER, digits=job.digits)
     report = check(made.certificate)
     return Settled(job, made, report, None, perf_counter() - began)
@@ -168,8 +168,11 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     rows = _in_order([row for one in settled for row in one.rows()])
     text = render({"schema": LEDGER, "claims": rows})
+    certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
     with refusing(parser, options.out):
-        write_files(options.out, {"ledger.json": text})
+        with writing(options.out) as put:
+            put("ledger.json", text)
+            put(manifest.NAME, manifest.entered(options.out, certificates))
         with progress() as tell:
             pages = report.built(options.out, tell, only_text=bool(report.missing()))
         write_files(options.out, pages)
@@ -201,6 +204,7 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     with workers(min(len(todo), os.cpu_count() or 1)) as pool:
         futures = {pool.submit(settle_counting, job): job for job in todo}
         with progress() as tell:
+            tell(f"0 of {len(todo)} groups of claims")
             for future in as_completed(futures):
                 job, found = futures[future], future.result()
                 if found.found != job.folder:

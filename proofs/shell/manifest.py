@@ -7,6 +7,7 @@ always are the same bytes here: nothing tells when or where they were made.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,28 +18,33 @@ from proofs.trusted.manifest import checking, command
 NAME = "MANIFEST.json"
 
 
-def entered(folder: Path, name: str, content: str) -> str:
-    """Return the folder's manifest with the claims of the certificate `folder / name`.
+def entered(folder: Path, certificates: Mapping[str, str]) -> str:
+    """Return the folder's manifest with certificates, by the names of their files, entered.
 
     Entries about other files stay; a manifest that cannot be read is replaced.
     """
+    files = _existing(folder)
+    files |= {name: _entry(name, content) for name, content in certificates.items()}
+    order = {f"{file}.json": place for place, file in enumerate(FILES)}
+    names = sorted(files, key=lambda file: (order.get(file, len(order)), file))
+    return render({"schema": MANIFEST, "files": {file: files[file] for file in names}})
+
+
+def _entry(name: str, content: str) -> dict[str, Any]:
+    """Return what is said of a certificate."""
     document = json.loads(content)
     claims = {
         entry["id"]: {"verdict": entry["verdict"], "statement": entry["statement"]}
         for entry in document["claims"]
     }
     of = parameters_from_json(Reader(document["parameters"]))
-    files = _existing(folder)
-    files[name] = {
+    return {
         "digest": digest(content),
         "parameters": document["parameters"],
         "made": command(name, of, tuple(claims)),
         "checked": checking(name),
         "claims": claims,
     }
-    order = {f"{file}.json": place for place, file in enumerate(FILES)}
-    names = sorted(files, key=lambda file: (order.get(file, len(order)), file))
-    return render({"schema": MANIFEST, "files": {file: files[file] for file in names}})
 
 
 def _existing(folder: Path) -> dict[str, Any]:

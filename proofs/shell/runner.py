@@ -35,6 +35,7 @@ from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
 from proofs.trusted.numbers import show
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check, premises
@@ -59,6 +60,7 @@ HEEDED = MappingProxyType(  # by which parameters what a certificate says change
         "single": _OSCILLATOR,
         "soft": (),
         "resonance": (),
+        "explore": _OSCILLATOR,
     }
 )
 _MEANING = {
@@ -126,12 +128,11 @@ def run(
     asked = wanted(file, of, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
-    chosen = {claim for ids in asked.values() for claim in ids}
-    is_other = of != PAPER or options.figure or options.horizon is not None
-    choose_folder(parser, options, is_other or not chosen.issuperset(claims))
-    kept = paper_claims(options.out / f"{file}.json")
-    if kept and (of != PAPER or kept - chosen):
-        parser.error(f"{options.out}/{file}.json has the paper's claims: choose another --out")
+    is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
+    is_other = is_less or file in BEYOND or options.figure or options.horizon is not None
+    choose_folder(parser, options, is_other)
+    if is_less and is_whole(options.out, file):
+        parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
     return _run(parser, file, asked, of, options)
 
 
@@ -198,14 +199,21 @@ def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
     check_folder(parser, options.out)
 
 
-def paper_claims(path: Path) -> set[str]:
-    """Return the claims that a certificate decides at the paper's parameters, if it is one."""
+def is_whole(folder: Path, file: str) -> bool:
+    """Whether the folder has the paper's certificate with all claims, and is not that of runs."""
+    if folder == RUNS:
+        return False
     try:
-        there = json.loads(path.read_text(encoding="utf-8"))
-        is_paper = there["parameters"] == parameters_to_json(PAPER)
-        return {entry["id"] for entry in there["claims"]} if is_paper else set()
+        there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))
+        claims = {entry["id"] for entry in there["claims"]}
+        return there["parameters"] == parameters_to_json(PAPER) and claims >= claims_of(file)
     except (OSError, ValueError, KeyError, TypeError):
-        return set()
+        return False
+
+
+def claims_of(file: str) -> set[str]:
+    """Return all claims of a certificate."""
+    return {claim for ids in FILES[file].values() for claim in ids}
 
 
 def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
@@ -243,7 +251,7 @@ def write(folder: Path, name: str, made: Made) -> None:
         for kind, content in (("json", made.certificate), ("md", made.page)):
             if content:
                 put(f"{name}.{kind}", content)
-        put(manifest.NAME, manifest.entered(folder, f"{name}.json", made.certificate))
+        put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
 
 
 def finish(
@@ -278,9 +286,10 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
     for name, ends in numbers.items():
         lower, upper = printed(ends, digits).values()
         say(f"{name} in [{lower}, {upper}]")
-    for text in dict.fromkeys(line.corrected for line in lines if line.corrected is not None):
-        beside = ", ".join(line.id for line in lines if line.corrected == text)
-        say(f"\nTheorem beside {beside}, VERIFIED: {gist(text)}")
+    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
+    for text in dict.fromkeys(gists.values()):
+        beside = ", ".join(claim for claim, same in gists.items() if same == text)
+        say(f"\nTheorem beside {beside}, VERIFIED: {text}")
     say(f"\nall of it: {page}")
 
 

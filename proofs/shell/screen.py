@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import re
 import sys
-from argparse import RawDescriptionHelpFormatter
-from collections.abc import Sequence
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from collections.abc import Iterator, Sequence
 from shutil import get_terminal_size
 from textwrap import wrap
-from typing import IO, NamedTuple
+from typing import IO, Any, NamedTuple, NoReturn
 
+from proofs import __version__
+from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
 
-_SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
+_SENTENCE = re.compile(r"(?<=[^.]\.) ")
 _COLOURS = {
     Verdict.VERIFIED: "green",
     Verdict.REFUTED: "red",
@@ -25,11 +27,29 @@ _COLOURS = {
 }
 
 
-class Help(RawDescriptionHelpFormatter):
+class Arguments(ArgumentParser):
+    """A parser of a command's arguments whose errors are one line."""
+
+    def __init__(self, prog: str, description: str | None, epilog: str) -> None:
+        super().__init__(
+            f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
+        )
+        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
+        (file or sys.stderr).write(message)
+
+    def error(self, message: str) -> NoReturn:
+        """Print one line and leave with status 2."""
+        self.exit(USAGE_ERROR, fitted(f"{self.prog}: {message}", sys.stderr) + "\n")
+
+
+class _Help(RawDescriptionHelpFormatter):
     """Keeps the lines of descriptions and examples, unless the terminal is narrower."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
-        return fitted(super()._fill_text(text, width, indent), sys.stdout)
+        return flowing(text)
 
 
 class Decided(NamedTuple):
@@ -49,7 +69,7 @@ def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
     if not stream.isatty():
         return text
     width, lines = get_terminal_size().columns, []
-    for line in text.splitlines():
+    for line in _unfolded(text.split("\n"), width):
         indent = " " * (len(line) - len(line.lstrip()) + hanging)
         lines += wrap(
             line,
@@ -59,6 +79,31 @@ def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
             break_on_hyphens=False,
         ) or [""]
     return "\n".join(lines)
+
+
+def flowing(text: str) -> str:
+    """Return prose fitted to standard output, its lines joined to paragraphs if they are too long.
+
+    Indented lines stay lines.
+    """
+    if sys.stdout.isatty() and max(map(len, text.split("\n"))) > get_terminal_size().columns:
+        text = re.sub(r"(?<=[^\n])\n(?=[^\s])", " ", text)
+    return fitted(text, sys.stdout)
+
+
+def _unfolded(lines: Sequence[str], width: int) -> Iterator[str]:
+    """Yield lines; the rows of a table that is too wide with the names of their columns."""
+    names: list[str] = []
+    for line in lines:
+        cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
+        if not line.startswith("|") or len(line) <= width:
+            names = []
+            yield line
+        elif not names:
+            names = cells
+        elif not set(line) <= set("|-"):
+            values = zip(names[1:], cells[1:], strict=False)
+            yield f"{cells[0]}: " + ", ".join(f"{name} {value}" for name, value in values)
 
 
 def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:

@@ -40,7 +40,7 @@ def test_against_arb(capsys, m, epsilon, digits):
         assert arb(low.numerator) / low.denominator < true
         assert true < arb(high.numerator) / high.denominator
         assert 0 < (high - low) * 10**digits <= 10 * abs(low)
-    assert set(found) == {"m", "epsilon", *expected(m, Fraction(epsilon))}
+    assert set(found) == {"schema", "m", "epsilon", *expected(m, Fraction(epsilon))}
 
 
 def test_by_default_the_plastic_orbit_of_one_period(capsys):
