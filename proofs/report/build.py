@@ -8,10 +8,11 @@ from pathlib import Path
 
 from intervals import Undecided
 from proofs.report import graph
+from proofs.report.checker import checker
 from proofs.report.figures import Certificates
-from proofs.report.findings import Findings, findings
+from proofs.report.findings import findings
 from proofs.report.ledger import ledger
-from proofs.report.pictures import Picture, pictures
+from proofs.report.pictures import pictures
 
 NEEDED = ("jinja2", "latex2mathml", "matplotlib")  # for the page, by the extra `report`
 INSTALL = "pip install 'impact-proofs[report]'"
@@ -23,10 +24,16 @@ def missing() -> list[str]:
     return [name for name in NEEDED if find_spec(name) is None]
 
 
-def built(folder: Path, tell: Tell = lambda stage: None, only_text: bool = False) -> dict[str, str]:
+def built(
+    folder: Path,
+    tell: Tell = lambda stage: None,
+    only_text: bool = False,
+    pyodide: Path | None = None,
+) -> dict[str, str]:
     """Return the files of the report, by their names in the folder; nothing is proved again.
 
     only_text: without the page and the figures of matplotlib, for which packages may be missing.
+    pyodide: where it is, for a page with a checker in it, too.
     Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
     certificates do not prove.
     """
@@ -46,11 +53,11 @@ def built(folder: Path, tell: Tell = lambda stage: None, only_text: bool = False
             continue
     files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
     tell("index.html")
-    files["index.html"] = _page(found, shown, drawn)
+    from proofs.report.html import page  # needs what may be missing
+
+    shown = [picture for picture in shown if picture.name in drawn]
+    files["index.html"] = page(found, shown, drawn)
+    if pyodide is not None:
+        certificates = dict.fromkeys(claim.file for claim in found.claims)
+        files["checker.html"] = page(found, shown, drawn, checker(pyodide, folder, certificates))
     return files
-
-
-def _page(found: Findings, shown: list[Picture], drawn: dict[str, str]) -> str:
-    from proofs.report.html import page
-
-    return page(found, [picture for picture in shown if picture.name in drawn], drawn)

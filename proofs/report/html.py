@@ -13,6 +13,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from proofs.report import graph
+from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
 from proofs.report.differences import marked
 from proofs.report.findings import Finding, Findings, Statement, Step
@@ -34,7 +35,8 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import ceil_text, floor_text
 from proofs.trusted.verdicts import Verdict
 
-POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:"
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
+_POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
 _TEMPLATES = Path(__file__).parent / "templates"
 _LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
 _MANY = 6  # steps of one rule that are shown behind a line of their own
@@ -50,9 +52,12 @@ class Block:
 
 
 def page(
-    findings: Findings, figures: Sequence[Picture], drawn: Mapping[str, str], extra: str = ""
+    findings: Findings,
+    figures: Sequence[Picture],
+    drawn: Mapping[str, str],
+    checker: Checker | None = None,
 ) -> str:
-    """Return the page. drawn: the figures as SVG, by name. extra: HTML at its end, trusted."""
+    """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
         autoescape=True,
@@ -65,7 +70,7 @@ def page(
     environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
     return environment.get_template("page.html").render(
         title=PAPER_TITLE,
-        policy=POLICY,
+        policy=_POLICY_OF_CHECKER if checker else POLICY,
         summary=summary(findings),
         sections=list(findings.sections()),
         style=Markup((_TEMPLATES / "style.css").read_text(encoding="utf-8")),
@@ -73,7 +78,8 @@ def page(
         graph=Markup(graph.svg(findings)),
         falling=graph.falling(findings),
         figures=figures,
-        extra=Markup(extra),
+        checker=checker,
+        checker_script=Markup((_TEMPLATES / "checker.js").read_text(encoding="utf-8")),
     )
 
 
