@@ -20,17 +20,19 @@
   const compare = ({claims = {}, rejected, name, seconds}) => {
     const item = document.createElement("li");
     let same = 0;
+    let all = 0;
     for (const [id, verdict] of Object.entries(claims)) {
       const claim = document.getElementById(id);
       if (!claim || claim.dataset.file !== `${name}.json`) continue;
       const agrees = claim.dataset.verdict === verdict;
       claim.dataset.derived = agrees ? "same" : "other";
       same += agrees;
+      all += 1;
       if (!agrees) item.className = "bad";
     }
     if (rejected) item.className = "bad";
     item.textContent = rejected ? `${name}: rejected, ${rejected}`
-      : `${name}: ${same} verdicts as printed, ${seconds.toFixed(1)} s`;
+      : `${name}: ${same} of ${all}, in ${seconds.toFixed(1)} s`;
     list.append(item);
     return same;
   };

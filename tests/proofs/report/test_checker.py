@@ -83,7 +83,7 @@ def derive(small, pyodide, tmp_path):
 def test_the_browser_derives_every_verdict(small, derive):
     told, lines = derive(small)
     assert told.startswith("3 of 3 verdicts derived here")
-    assert "3 verdicts as printed" in lines
+    assert "horseshoe: 3 of 3" in lines
 
 
 @pytest.mark.slow

@@ -74,6 +74,11 @@ def test_cases(sentence, markup):
     assert html(sentence) == markup
 
 
+@pytest.mark.parametrize("symbol", "αβγδεηθλμνπρστφψωΛΔΣ≤≥→±…∞")
+def test_symbols(symbol):
+    assert plain(f"c {ASCII[symbol]} c, {ASCII[symbol]}") == f"c {symbol} c, {symbol}"
+
+
 @given(st.text(alphabet="abefxIAV01239 .,;:-+*/^_()[]{}|<>='&\"é", max_size=40))
 def test_nothing_is_lost_or_added_whatever_the_text(text):
     assert bare(text_of(html(text))) == bare(text)
