@@ -8,7 +8,6 @@ if __name__ == "__main__":
     launch("proofs.benchmark.__main__")
 
 import shutil
-import subprocess
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -21,7 +20,7 @@ from proofs.benchmark.measure import Tell
 from proofs.benchmark.page import Run, Section
 from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import Parser, heard, progress, share
-from proofs.shell.entry import USAGE_ERROR
+from proofs.shell.entry import USAGE_ERROR, run_process
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
@@ -122,4 +121,4 @@ def _intervals(mode: str, python: str) -> int:
     few = ["--processes=2", "--min-time=0.01"]
     wide = [python, "-m", "proofs.benchmark.operations", "--quiet", *effort.get(mode, few)]
     long = [*wide, "--bits=333", "--length=100", "--libraries", OURS, FLINT, IV]
-    return int(any(subprocess.run(command, check=False).returncode for command in (wide, long)))
+    return int(any(run_process(command).returncode for command in (wide, long)))

@@ -27,14 +27,13 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
-from shutil import get_terminal_size
 from textwrap import shorten
 from threading import Event, Lock, Thread
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from intervals import fraction
-from proofs.shell.screen import Arguments
+from proofs.shell.screen import Arguments, columns
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -155,7 +154,7 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
         while not over.wait(after):
             with drawing:
                 line = f"{monotonic() - began:.0f} s: {stage}" if stage else ""
-                draw(shorten(line, get_terminal_size().columns - 1, placeholder=" ..."))
+                draw(shorten(line, columns() - 1, placeholder=" ..."))
 
     thread = Thread(target=show, daemon=True)
     thread.start()

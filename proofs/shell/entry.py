@@ -9,27 +9,25 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
+    import subprocess
     from concurrent.futures import ProcessPoolExecutor
     from types import FrameType
 
 USAGE_ERROR, PIPE_CLOSED = 2, 128 + 13
-_SIGNALS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
+_SIGNALS: dict[int, str] = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
 _HAS_ALARM = hasattr(signal, "setitimer")  # not on Windows
 _MAIN = os.getpid()  # a forked process has this module, and another number
 
 
 class Stopped(KeyboardInterrupt):
-    """The process is asked to end, by the signal of this number."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__()
-        self.number = number
+    """The process is asked to end, by a signal."""
 
 
 def launch(module: str) -> NoReturn:
@@ -47,17 +45,20 @@ def guarded(prog: str, work: Callable[[], int]) -> int:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started this
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
+    received: list[int] = []  # C code turns what a signal raises into errors of its own
     try:
-        with _listening():
+        with _listening(received):
             return _flushed(work)
-    except BrokenPipeError:
-        return _ended(PIPE_CLOSED)
-    except KeyboardInterrupt as stop:
-        number = getattr(stop, "number", signal.SIGINT)
-        return _ended(128 + number, f"{prog}: {_SIGNALS[number]}")
-    except OSError as error:
-        where = "" if error.filename is None else f"{error.filename}: "
-        return _ended(USAGE_ERROR, f"{prog}: {where}{error.strerror or error}")
+    except BaseException as error:
+        if received or isinstance(error, KeyboardInterrupt):
+            number = next(iter(received), int(signal.SIGINT))
+            return _ended(128 + number, f"{prog}: {_SIGNALS[number]}")
+        if isinstance(error, BrokenPipeError):
+            return _ended(PIPE_CLOSED)
+        if isinstance(error, OSError):
+            where = "" if error.filename is None else f"{error.filename}: "
+            return _ended(USAGE_ERROR, f"{prog}: {where}{error.strerror or error}")
+        raise
 
 
 def _flushed(work: Callable[[], int]) -> int:
@@ -82,11 +83,12 @@ def _ended(status: int, line: str = "") -> int:
 
 
 @contextmanager
-def _listening() -> Iterator[None]:
-    """Have signals raise Stopped; after the first, and afterwards, they end the process at once.
+def _listening(received: list[int]) -> Iterator[None]:
+    """Have a signal raise Stopped, and note its number; a second one ends the process at once.
 
     SIGALRM repeats it: what is raised while an object is finalised is lost, and is not reported
-    here. A signal that is ignored, as in a background job, stays ignored.
+    here. A signal that is ignored, as in a background job, stays ignored; all are when the work is
+    done, so that its status is that of the process.
     """
     report = sys.unraisablehook
 
@@ -97,11 +99,12 @@ def _listening() -> Iterator[None]:
     def stop(number: int, frame: FrameType | None) -> None:
         if os.getpid() != _MAIN:  # a forked process ends with its parent, and says nothing
             os._exit(128 + number)
+        received.append(number)
         leave_to_system()
         if _HAS_ALARM:
             signal.signal(signal.SIGALRM, lambda again, frame: stop(number, frame))
             signal.setitimer(signal.ITIMER_REAL, 0.2)
-        raise Stopped(number)
+        raise Stopped
 
     sys.unraisablehook = lose
     for number in _SIGNALS:
@@ -112,7 +115,9 @@ def _listening() -> Iterator[None]:
     finally:
         if _HAS_ALARM:
             signal.signal(signal.SIGALRM, signal.SIG_IGN)
-        leave_to_system()
+        for number in _SIGNALS:
+            if signal.getsignal(number) is stop:
+                signal.signal(number, signal.SIG_IGN)
 
 
 def leave_to_system() -> None:
@@ -133,8 +138,24 @@ def workers(count: int) -> Iterator[ProcessPoolExecutor]:
         try:
             yield pool
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
+            threading.excepthook = lambda lost: None  # the pool's own, at pipes that are closed
             for process in active_children():
                 if process not in others:
                     process.terminate()
             raise
+
+
+def run_process(command: Sequence[str], **streams: Any) -> subprocess.CompletedProcess[bytes]:
+    """Do as `subprocess.run`; where that is given up, the process ends at once with all of its own.
+
+    It is in a session of its own, so that an interrupt from the keyboard does not reach it.
+    """
+    import subprocess
+
+    with subprocess.Popen(command, start_new_session=True, **streams) as process:
+        try:
+            out, err = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    return subprocess.CompletedProcess(command, process.returncode, out, err)

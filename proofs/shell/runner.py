@@ -118,7 +118,9 @@ def run(
         names = ", ".join(f"{figure.name}.svg" for figure in figures)
         help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
-    options = parser.parse_args(arguments)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        parser.error(_refusal(unknown, heeded))
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     try:
@@ -139,6 +141,15 @@ def run(
 def _figures(file: str) -> list[Figure]:
     """Return the figures that are drawn from a certificate alone."""
     return [figure for figure in FIGURES if figure.certificate == file]
+
+
+def _refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
+    """Say why options are not taken: at times as nothing here depends on them."""
+    names = [option.partition("=")[0] for option in unknown]
+    if not any(name.removeprefix("--") in _MEANING for name in names):
+        return f"unrecognized arguments: {' '.join(unknown)}"
+    taken = ", ".join(f"--{name}" for name in heeded) or "no numbers"
+    return f"{names[0]} would change nothing here: what is proved depends on {taken}"
 
 
 def _run(
@@ -200,8 +211,8 @@ def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
 
 
 def is_whole(folder: Path, file: str) -> bool:
-    """Whether the folder has the paper's certificate with all claims, and is not that of runs."""
-    if folder == RUNS:
+    """Whether the folder is that of the paper's results, and has this one, with all claims."""
+    if folder.resolve() != REPORTS.resolve():
         return False
     try:
         there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))

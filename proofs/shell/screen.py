@@ -9,7 +9,6 @@ import re
 import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterator, Sequence
-from shutil import get_terminal_size
 from textwrap import wrap
 from typing import IO, Any, NamedTuple, NoReturn
 
@@ -61,6 +60,13 @@ class Decided(NamedTuple):
     why: str
 
 
+def columns() -> int:
+    """Return the width of the terminal."""
+    from shutil import get_terminal_size  # takes longer to import than all the rest here
+
+    return get_terminal_size().columns
+
+
 def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
     """Return a text whose lines fit a terminal, broken between words; elsewhere it stays.
 
@@ -68,7 +74,7 @@ def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
     """
     if not stream.isatty():
         return text
-    width, lines = get_terminal_size().columns, []
+    width, lines = columns(), []
     for line in _unfolded(text.split("\n"), width):
         indent = " " * (len(line) - len(line.lstrip()) + hanging)
         lines += wrap(
@@ -86,7 +92,7 @@ def flowing(text: str) -> str:
 
     Indented lines stay lines.
     """
-    if sys.stdout.isatty() and max(map(len, text.split("\n"))) > get_terminal_size().columns:
+    if sys.stdout.isatty() and max(map(len, text.split("\n"))) > columns():
         text = re.sub(r"(?<=[^\n])\n(?=[^\s])", " ", text)
     return fitted(text, sys.stdout)
 
@@ -115,7 +121,7 @@ def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:
 def show_verdicts(rows: Sequence[Decided]) -> None:
     """Print a table on a terminal that has room for its words, else two lines a claim."""
     longest = max(len(word) for row in rows for word in f"{row.statement} {row.why}".split())
-    if sys.stdout.isatty() and longest <= get_terminal_size().columns - len("claim  CONDITIONAL  "):
+    if sys.stdout.isatty() and longest <= columns() - len("claim  CONDITIONAL  "):
         _show_table(rows)
         return
     for row in rows:

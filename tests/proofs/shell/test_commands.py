@@ -129,7 +129,10 @@ def test_what_it_does_not_heed_it_refuses(name, capsys):
             main_of(name)([f"--{option}", "0.3", "0.4", "0.5"])
         said = capsys.readouterr()
         assert leave.value.code == 2 and said.out == "" and said.err.count("\n") == 1
-        assert f"--{option}" in said.err
+        assert f"--{option} would change nothing here" in said.err
+    with pytest.raises(SystemExit):
+        main_of(name)(["--bogus"])
+    assert "unrecognized arguments: --bogus\n" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name, claim", [("horseshoe", "H16"), ("sets", "H12"), ("soft", "S2")])
@@ -167,14 +170,18 @@ def numbers(value):
     return [] if isinstance(value, (str, bool, type(None))) else [value]
 
 
-@pytest.mark.parametrize("name", [x for x in QUICK if x not in ("__main__", "check")])
+MACHINES = {name: QUICK[name] for name in QUESTIONS} | {
+    "horseshoe": ["--only", "H1"],
+    "ledger": ["--only", "H16"],
+    "soft": ["--only", "S2"],  # all groups are alike
+    "stress": ["--cases", "2", "--family", "operations"],
+}
+
+
+@pytest.mark.parametrize("name", MACHINES)
 def test_every_machine_form_has_a_schema_and_one_form_of_numbers(name, tmp_path, capsys):
     """Exact numbers and bounds are strings, counts integers; only measured times are floats."""
-    arguments = arguments_of(name, tmp_path)
-    if name in ("chaos", "foundations", "soft", "stress"):
-        arguments = {"stress": ["--cases", "2"], "chaos": None}.get(name, arguments)
-    if arguments is None:
-        pytest.skip("takes long, and is as other groups")
+    arguments = arguments_of(name, tmp_path, MACHINES)
     assert main_of(name)([*arguments, "--json", "-"]) == 0
     said = capsys.readouterr().out
     found = json.loads(said)

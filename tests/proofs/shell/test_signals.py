@@ -9,6 +9,7 @@ from time import monotonic, sleep
 
 import pytest
 
+from proofs.shell.groups import FILES
 from tests.proofs.shell.processes import (
     COMMANDS,
     LENGTHY,
@@ -179,8 +180,9 @@ def test_a_disk_that_is_full_in_the_end_keeps_what_was_there(small_disk):
 @pytest.mark.long
 @pytest.mark.parametrize("name", sorted(WRITES))
 def test_every_command_keeps_what_was_there(name, small_disk):
-    (small_disk / "filler").write_text("x" * 8000)
-    with started(name, arguments_of(name, small_disk)) as process:
-        _, err = process.communicate(timeout=60)
+    (small_disk / "filler").write_text("x" * 12_000)
+    claim = FILES[name][name][0] if name in FILES else "H1"
+    with started(name, ["--only", claim, "--out", str(small_disk)]) as process:
+        _, err = process.communicate(timeout=300)
     assert process.returncode == 2 and err.count(b"\n") == 1, err
     assert {path.name for path in small_disk.iterdir()} <= {"horseshoe.json", "filler"}
