@@ -179,4 +179,5 @@ def mathml(formula: str, display: str = "inline") -> str:
     for spare in (' xmlns="http://www.w3.org/1998/Math/MathML"', ' display="inline"'):
         text = text.replace(spare, "")
     text = text.replace(' fence="true"', "").replace(' stretchy="true"', "")
+    text = re.sub(r'<mo stretchy="false">([()\[\]])</mo>', r"<mtext>\1</mtext>", text)
     return _SIGNED_NUMBER.sub(r'\1<mo form="prefix">−</mo>', text)

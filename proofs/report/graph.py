@@ -218,7 +218,7 @@ def _decisions(findings: Findings, places: Places) -> list[str]:
 
 
 def _diamond(statement: Statement, x: int, y: int) -> str:
-    name = escape(f"{statement.kind} {statement.label}: {plain(statement.conclusion.brief)}")
+    name = escape(f"{statement.kind} {statement.label}")
     shape = f'<path class="{statement.kind}" d="M{x} {y - 5}l5 5l-5 5l-5-5z"/>'
     return f'<a href="#{statement.label}"><title>{name}</title>{shape}</a>'
 
@@ -232,7 +232,7 @@ def _claim(claim: Finding, place: tuple[int, int], falls: bool) -> str:
         if falls
         else ""
     )
-    name = escape(f"{claim.id}, {verdict.value}: {plain(claim.reading)}")
+    name = escape(f"{claim.id}, {verdict.value}: {plain(claim.row.words)}")
     return (
         f'<a href="#{claim.id}"><title>{name}</title>{ring}'
         f'<rect class="{verdict.value}" x="{x}" y="{y}" width="{_WIDTH}" height="{_BOX}" rx="6"/>'

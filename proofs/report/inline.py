@@ -27,4 +27,13 @@ def _inlined(text: str, shared: dict[str, str]) -> str:
 
     text = _LETTER.sub(once, text)
     text = re.sub(r'href="#([^"]*)"', lambda use: f'href="#{names.get(use[1], use[1])}"', text)
+    text = re.sub(r' d="([^"]*)"', lambda path: f' d="{shortened(path[1])}"', text)
     return re.sub(r"\s*\n\s*", "\n", text)
+
+
+def shortened(path: str) -> str:
+    """Return a path with the same numbers: after a point, more points are joined by lines."""
+    path = " ".join(path.split())
+    if not re.search("[^MLz0-9. -]", path):
+        path = path.replace(" L ", " ")
+    return re.sub(r" ?([A-Za-z]) ?", r"\1", path)

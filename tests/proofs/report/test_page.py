@@ -9,6 +9,7 @@ import pytest
 from proofs.report import __main__ as command
 from proofs.report.differences import facts, marked
 from proofs.report.html import enclosure, sentences
+from proofs.report.inline import inlined, shortened
 from proofs.report.ledger import ledger
 from proofs.report.typeset import html, markdown
 from tests.proofs.report.conftest import REPORTS
@@ -159,6 +160,36 @@ def test_without_the_packages_the_markdown_is_written_and_the_rest_said(small, m
     assert command.main(["--out", str(small)]) == 1
     assert "jinja2 missing" in capsys.readouterr().out
     assert (small / "ledger.md").is_file() and not (small / "index.html").exists()
+
+
+@pytest.mark.parametrize(
+    "path, short",
+    [
+        ("M 1 2\nL 3.5 -4\nL 5 6\nz\nM 0 0\nL 1 1", "M1 2 3.5 -4 5 6zM0 0 1 1"),
+        ("M 1 2\nL 3 4\nC 1 1 2 2 3 3\nL 9 9", "M1 2L3 4C1 1 2 2 3 3L9 9"),
+    ],
+)
+def test_shorter_paths_are_the_same(path, short):
+    assert shortened(path) == short
+
+
+@pytest.mark.slow
+def test_drawings_in_the_page_keep_their_numbers_and_find_their_letters(shown):
+    files = {x.name: (REPORTS / "figures" / f"{x.name}.svg").read_text() for x in shown}
+    inside = inlined(files)
+    whole = "".join(inside.values())
+    ids = re.findall(r' id="([^"]*)"', whole)
+    assert len(set(ids)) == len(ids)
+    assert set(re.findall(r'href="#([^"]*)"|url\(#([^)]*)\)', whole)) <= {
+        pair for each in ids for pair in ((each, ""), ("", each))
+    }
+    for name, text in files.items():
+        for old, new in zip(
+            re.findall(r'<path d="([^"]*)" (?:clip|style)', text),
+            re.findall(r'<path d="([^"]*)" (?:clip|style)', inside[name]),
+            strict=True,
+        ):
+            assert re.findall(r"-?[\d.]+", old) == re.findall(r"-?[\d.]+", new)
 
 
 @pytest.mark.parametrize(
