@@ -89,29 +89,6 @@ def quoted(words: str) -> str:
     return f"'{words}'" if words else "(our own question)"
 
 
-def ledger(rows: Sequence[dict[str, Any]], words: Mapping[str, str]) -> str:
-    """Return the page on all claims, given their entries with the file that each is in."""
-    head = ("claim", "verdict", "the paper's words", "statement", "because", "certificate")
-    cells = [
-        [
-            row["id"],
-            row["verdict"],
-            quoted(words[row["id"]]),
-            row["statement"],
-            row["why"],
-            row["file"] if _is_proved(row) else "none",
-        ]
-        for row in rows
-    ]
-    sections = ["# The claims of the paper, decided", _HOW, _table(head, cells), *_theorems(rows)]
-    return "\n\n".join(sections) + "\n"
-
-
-def _is_proved(row: Mapping[str, Any]) -> bool:
-    """Whether the certificate proves a verdict, or a theorem beside a simulation."""
-    return row["verdict"] != Verdict.SIMULATED.value or row["corrected"] is not None
-
-
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     cells = [[cell.replace("|", "\\|") for cell in row] for row in (head, *rows)]
     first, *others = (f"| {' | '.join(row)} |" for row in cells)

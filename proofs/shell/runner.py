@@ -11,7 +11,6 @@ from argparse import Namespace
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
@@ -19,10 +18,18 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from intervals import Undecided
+from proofs.report.figures import FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import Parser, counting, heard, horizon, number, progress, share
-from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.files import (
+    check_folder,
+    check_targets,
+    refusing,
+    write_files,
+    write_target,
+    writing,
+)
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
@@ -30,7 +37,7 @@ from proofs.trusted.numbers import show
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict, tally
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -93,7 +100,7 @@ def run(
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
-    `proofs.report.<file>_figure.svg`, if there is one, draws it.
+    With --figure the figures that are drawn from this certificate alone are written, too.
     """
     claims = [claim for ids in FILES[file].values() for claim in ids]
     heeded = HEEDED[file]
@@ -106,8 +113,9 @@ def run(
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    if find_spec(f"proofs.report.{file}_figure") is not None:
-        help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
+    if figures := _figures(file):
+        names = ", ".join(f"{figure.name}.svg" for figure in figures)
+        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
@@ -127,6 +135,11 @@ def run(
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
     return _run(parser, file, asked, of, options)
+
+
+def _figures(file: str) -> list[Figure]:
+    """Return the figures that are drawn from a certificate alone."""
+    return [figure for figure in FIGURES if figure.certificate == file]
 
 
 def _refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
@@ -151,14 +164,16 @@ def _run(
     with counting(options.stats) as counts, progress() as tell:
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **more)
     seconds = perf_counter() - began
-    figure = ""
+    drawn: dict[str, str] = {}
     try:
         if options.figure:
-            figure = import_module(f"proofs.report.{file}_figure").svg(made.certificate)
+            documents = {file: premises(made.certificate)}
+            drawn = {f"{each.name}.svg": each.svg(documents) for each in _figures(file)}
     except (Undecided, OverflowError) as failure:
         say(f"{parser.prog}: no figure: {failure}", sys.stderr)
     with refusing(parser, options.out):
-        write(options.out, file, made, figure)
+        write(options.out, file, made)
+        write_files(options.out / "figures", drawn)
     return finish(parser, options, made, file, seconds=seconds, counts=counts)
 
 
@@ -240,10 +255,10 @@ def _reach(of: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
     return given
 
 
-def write(folder: Path, name: str, made: Made, figure: str = "") -> None:
-    """Write a certificate, its page and figure, and enter it in the manifest."""
+def write(folder: Path, name: str, made: Made) -> None:
+    """Write a certificate and its page, and enter it in the manifest."""
     with writing(folder) as put:
-        for kind, content in (("json", made.certificate), ("md", made.page), ("svg", figure)):
+        for kind, content in (("json", made.certificate), ("md", made.page)):
             if content:
                 put(f"{name}.{kind}", content)
         put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))

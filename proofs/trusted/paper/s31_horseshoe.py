@@ -75,6 +75,12 @@ class Horseshoe(Conclusion):
     def brief(self) -> str:
         return f"a horseshoe on {self.sets}, f' >= {show(self.slopes[0])}"
 
+    @property
+    def latex(self) -> str:
+        low, high = map(show, self.slopes)
+        bounds = rf"{low} \le f' \le {high} \text{{ on }} I_0 \cup I_1"
+        return rf"f(I_0) \supseteq I,\quad f(I_1) \supseteq I,\quad {bounds}"
+
 
 def horseshoe(left: SlopeRange, right: SlopeRange, gap: Avoids, slopes: Range) -> Horseshoe:
     """Theorem. Let f' lie in `slopes`, from above 1, on I0 and on I1, I0 before I1, let f(I0) and

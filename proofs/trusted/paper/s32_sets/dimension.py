@@ -77,6 +77,11 @@ class StayingDimension(Conclusion):
         low, high = self.bounds
         return f"{low} <= dim <= {high} for I = {show_range(self.interval)}"
 
+    @property
+    def latex(self) -> str:
+        low, high = self.bounds
+        return rf"{low} \le \dim \Lambda \le {high}"
+
 
 def _dimension(of: Parameters, found: Found) -> Decision:
     """H13: by the set of I itself, or by a larger one, whose dimension is not smaller.

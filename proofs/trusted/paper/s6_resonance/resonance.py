@@ -280,7 +280,7 @@ ROWS = (
         corrected=(closed_form, rebound),
     ),
     derived_row(
-        Passage("R13", "Fig. 8", "are the unstable double impact periodic orbits"),
+        Passage("R13", "6.2, Figure 8", "are the unstable double impact periodic orbits"),
         "Figure 8: unstable double-impact periodic orbits exist.",
         Verdict.REFUTED,
         no_double,

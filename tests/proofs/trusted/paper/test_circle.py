@@ -18,7 +18,7 @@ from intervals import Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.landing import prove_never
 from proofs.motion.system import System
-from proofs.report.circle_figure import proved
+from proofs.report.figures.transients import proved
 from proofs.search import s34_circle as circle
 from proofs.search.evidence import Evidence
 from proofs.search.s34_absorbing import Partition
@@ -34,7 +34,7 @@ from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check
+from proofs.trusted.verify import check, premises
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited, texts
 
@@ -414,7 +414,7 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
 
 
 def test_the_figure_draws_what_is_proved(coarse):
-    bars, free = proved(json.dumps(coarse[0]))
+    bars, free = proved({"circle": premises(json.dumps(coarse[0]))})
     covered = sum(high - low for low, high, _ in bars)
     left = float(coarse[1].rest[-1])
     assert 2 * np.pi - 2 * left < covered < 2 * np.pi

@@ -15,7 +15,7 @@ from mpmath import mp, mpf
 from proofs.motion.chatter import Pushing
 from proofs.motion.simulate import Summary, transients
 from proofs.motion.system import System
-from proofs.report import persistence_figure
+from proofs.report.figures import restitution
 from proofs.search.evidence import Evidence
 from proofs.search.s34_persistence import prove
 from proofs.shell.groups import certificate, decide
@@ -33,7 +33,7 @@ from proofs.trusted.paper.s34_circle.persistence import (
 )
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected, check, premises
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, derive, edited, exact
 
@@ -472,9 +472,10 @@ def test_the_figure_is_about_the_oscillator_of_its_certificate(monkeypatch, eta,
         asked.append((system.eta, system.nu))
         return [Summary("0.1", 1.0, 2.0, 3.0)]
 
-    monkeypatch.setattr(persistence_figure, "transients", transients)
+    monkeypatch.setattr(restitution, "transients", transients)
     steps = short() if of == PAPER else {}
     source = {"schema": SCHEMA, "parameters": parameters_to_json(of), "functions": {}}
-    drawn = persistence_figure.svg(render({**source, "steps": steps, "claims": []}))
+    known = premises(render({**source, "steps": steps, "claims": []}))
+    drawn = restitution.FIGURE.svg({"persistence": known})
     assert asked == [(Fraction(eta), Fraction(nu))]
     assert drawn.startswith("<?xml") and ("#2ca02c" in drawn) == bool(steps)

@@ -12,7 +12,7 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.report.single_figure import svg
+from proofs.report.figures.windows import FIGURE_A
 from proofs.search import s4_single
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader
@@ -26,7 +26,7 @@ from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected, check, premises
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.test_single import slope_18
 
@@ -413,5 +413,5 @@ def test_a_claim_alone_has_its_own_certificate():
 @pytest.mark.slow
 def test_the_figure_is_drawn_from_the_certificate(document):
     pytest.importorskip("matplotlib")
-    drawn = svg(json.dumps(document))
+    drawn = FIGURE_A.svg({"single": premises(json.dumps(document))})
     assert drawn.startswith("<?xml") and drawn.count("<path") > 50

@@ -4,8 +4,7 @@ The paper's experiment drives the table at the natural frequency, raises the amp
 eighth subharmonic. Here is what the model does. Impacts are found by `motion.simulate`, which knows
 nothing of the closed form.
 
-  python -m proofs.report.resonance_figure > figure-10.csv
-  python -m proofs.resonance --figure
+  python -m proofs.report.figures.traces > figure-10.csv
 
 Rows: the amplitude of the table, the window of table periods, the amplitude of the displacement
 at the frequency of the table, and the largest one at a multiple of an eighth of it, but below it.
@@ -17,18 +16,19 @@ import cmath
 import csv
 import math
 import sys
-from collections.abc import Sequence
 from dataclasses import astuple, dataclass, fields
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.report.markup import drawn
+from proofs.report.figures.figure import Figure
+from proofs.report.figures.style import BLUE, sheet
 from proofs.trusted.equations import arrival, clock, launch
+from proofs.trusted.kernel.context import Context
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
 
 NUS = tuple(Fraction(text) for text in ("-1/20", "-1/10", "-1/5", "-1/2", "-1", "-2"))
 EPSILON = 0.9
@@ -89,23 +89,31 @@ def spectrum(nu: Fraction) -> list[Row]:
     return rows
 
 
-def svg(source: str) -> str:
-    """Return an SVG of the displacement at the lowest and the highest amplitude, early and late.
+def plot(proved: Context) -> Drawing:
+    """Draw the displacement at the lowest and the highest amplitude, early and late: simulated."""
+    del proved
+    drawing, all_axes = sheet(3.8, 2, 2, sharey="row", sharex="col")
+    for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
+        samples = displacement(nu, WINDOWS[-1] + _WINDOW)
+        for axes, first in zip(row, WINDOWS, strict=True):
+            part = samples[first * _SAMPLES : (first + _WINDOW) * _SAMPLES]
+            axes.plot([first + k / _SAMPLES for k in range(len(part))], part, color=BLUE, lw=0.7)
+            axes.set_title(rf"$\nu$ = {float(nu)}, $\varepsilon$ = {EPSILON}, simulated")
+        row[0].set_ylabel("x / |p|")
+    for axes in all_axes[1]:
+        axes.set_xlabel("turns of the table")
+    return drawing
 
-    It is a simulation, whatever a certificate proves.
-    """
-    del source
 
-    def draw(all_axes: Sequence[Sequence[Axes]]) -> None:
-        for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
-            samples = displacement(nu, WINDOWS[-1] + _WINDOW)
-            for axes, first in zip(row, WINDOWS, strict=True):
-                part = samples[first * _SAMPLES : (first + _WINDOW) * _SAMPLES]
-                axes.plot([first + k / _SAMPLES for k in range(len(part))], part, lw=0.7)
-                axes.set(title=f"simulated, nu = {float(nu)}", xlabel="table periods")
-            row[0].set_ylabel("x / |p|")
-
-    return drawn("figure-10", (6.4, 4.4), draw, rows=2, columns=2)
+FIGURE = Figure(
+    "figure-10",
+    "Figure 10: the mass at resonance",
+    ("E1",),
+    "resonance",
+    f"A simulation in floating point at eta = 1, epsilon = {EPSILON}: the first turns of the table "
+    f"and those from {WINDOWS[-1]} on, at the lowest and the highest amplitude of those tried.",
+    plot,
+)
 
 
 def main() -> None:

@@ -1,0 +1,120 @@
+"""Section 5: stability of the fixed points of the limit map, by epsilon and rho."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from intervals import Undecided
+from proofs.report.figures.figure import Figure, all_of
+from proofs.report.figures.style import BLACK, BLUE, ORANGE, PROVED, RED, sheet
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.values import Value
+from proofs.trusted.paper import find
+from proofs.trusted.paper.formulas import Asked, DerivedRow
+from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.verdicts import Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+_PERIODS = 1  # m
+_HIGHEST = 9.0  # rho
+_POINTS = 100
+_BITS = 64
+_FOCUS = ("2*(1 - epsilon)**2/(1 + epsilon)", "2*(1 + epsilon)")  # alpha where the kind changes
+
+
+def curve(formula: str) -> list[float]:
+    """Return the values of a formula in epsilon and m at `_POINTS` epsilons; nan where it has none.
+
+    It is evaluated by the checker's arithmetic; what is returned is inside its bounds.
+    """
+    read = read_formulas(Reader(formula))
+    values = []
+    for epsilon in _epsilons():
+        inputs = {"epsilon": epsilon, "m": Fraction(_PERIODS)}
+        point = [rational(inputs[name], _BITS) for name in read.variables]
+        try:
+            low, high = read.values(point)[0].range
+            values.append(float(low + high) / 2)
+        except Unproved:
+            values.append(math.nan)
+    return values
+
+
+def _epsilons() -> list[Fraction]:
+    return [Fraction(k, _POINTS) for k in range(_POINTS)]
+
+
+def witnesses(proved: Context) -> list[tuple[float, float]]:
+    """Return the oscillators, (epsilon, rho), at which the certificate refutes printed claims."""
+    known, found = all_of(proved, Value), set()
+    for claim in ("S14", "S16", "S17"):
+        row = find(claim)
+        for need in row.needs if isinstance(row, DerivedRow) else ():
+            if isinstance(need, Asked) and any(need.met_by(value) for value in known):
+                point = dict(need.box)
+                if {"epsilon", "rho"} <= point.keys():
+                    found.add((float(point["epsilon"][0]), float(point["rho"][0])))
+    return sorted(found)
+
+
+def plot(proved: Context) -> Drawing:
+    """Draw the regions that are proved, and the printed bifurcation values."""
+    row = find("S15")
+    decision = None if row is None else row.decide(proved.of, list(proved.known.values()))
+    if decision is None or decision.verdict is Verdict.UNDECIDED:
+        raise Undecided("the stability of the fixed points is not proved")
+    drawing, axes = sheet(4.2)
+    _regions(axes)
+    epsilons = [float(each) for each in _epsilons()]
+    axes.plot(epsilons, curve(eq.RHO_M), "--", color=RED, label=r"printed $\rho_m$, refuted")
+    printed = [rho if rho < 3 * _HIGHEST else math.nan for rho in curve(eq.RHO_MF)]
+    axes.plot(epsilons, printed, ":", color=RED, lw=1.2, label=r"printed $\rho_m^f$, refuted")
+    label = "where printed claims are refuted"
+    axes.plot(*zip(*witnesses(proved), strict=True), "o", color=BLACK, markersize=4, label=label)
+    axes.set(xlabel=r"$\varepsilon$", ylabel=r"$\rho = 2\omega^2\beta/g$")
+    axes.set(xlim=(0, 0.99), ylim=(0, _HIGHEST))
+    axes.set_title(f"m = {_PERIODS}: flights over one period of the table, $\\omega_n \\to 0$")
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return drawing
+
+
+def _regions(axes: Axes) -> None:
+    """Fill what the fixed point psi = arccos(rho_SN/rho) is; the other one is a saddle."""
+    epsilons = [float(each) for each in _epsilons()]
+    born, flip = curve(eq.RHO_SN), curve(eq.RHO_FLIP)
+    first, last = (curve(eq.flip(alpha)) for alpha in _FOCUS)
+    top = [_HIGHEST] * len(epsilons)
+    regions = (
+        ([0.0] * len(epsilons), born, "0.9", "no fixed points"),
+        (born, first, "#B9DDF1", "a sink with real eigenvalues (a node)"),
+        (first, last, "#7FBCE0", "a sink with complex eigenvalues (a focus)"),
+        (last, flip, "#B9DDF1", "_"),
+        (flip, top, "#F7E3B5", "a saddle of the second kind"),
+    )
+    for low, high, colour, name in regions:
+        label = name if name == "_" else f"{name}, proved"
+        axes.fill_between(epsilons, low, high, color=colour, lw=0, label=label, gid=PROVED)
+    label = r"saddle-node at $\rho_{SN}$, proved"
+    axes.plot(epsilons, born, color=BLUE, lw=1.2, gid=PROVED, label=label)
+    label = r"flip at $\rho_F$, proved"
+    axes.plot(epsilons, flip, color=ORANGE, lw=1.2, gid=PROVED, label=label)
+
+
+FIGURE = Figure(
+    "section-5",
+    "Section 5: stability of the fixed points as the spring becomes soft",
+    ("S15", "S16", "S17", "S18"),
+    "soft",
+    "The colours say what the fixed point psi = arccos(rho_SN/rho) of the limit map is; the other "
+    "one, -psi, is a saddle of the first kind wherever there is one. Curves are the formulas of "
+    "the theorem and of the paper.",
+    plot,
+)
