@@ -170,8 +170,7 @@ def test_samples_are_the_flight_after_the_first_impact():
 
 
 @pytest.mark.slow
-def test_the_drawing_and_the_table(capsys):
-    assert traces.FIGURE.svg({}).startswith("<?xml")
+def test_the_table(capsys):
     traces.main()
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "nu,first_period,drive,subharmonic" and len(lines) == 13
