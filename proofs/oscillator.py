@@ -67,7 +67,7 @@ class Bounds:
         return f"[{', '.join(decimal_bounds(self.lower, self.upper, self.digits))}]"
 
     def _repr_latex_(self) -> str:
-        return f"${str(self).replace(', ', r',\ ')}$"
+        return "$" + str(self).replace(", ", r",\ ") + "$"
 
 
 @dataclass(frozen=True)
