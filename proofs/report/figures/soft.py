@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _PERIODS = 1  # m
 _HIGHEST = 9.0  # rho
-_POINTS = 100
+_POINTS = 60
 _BITS = 64
 _FOCUS = ("2*(1 - epsilon)**2/(1 + epsilon)", "2*(1 + epsilon)")  # alpha where the kind changes
 
