@@ -4,10 +4,10 @@ Numbers go in as text (or as int or Fraction), since 0.2121 is 2121/10000 and th
 What comes out encloses the true values, prints decimals that are rounded outward, and shows itself
 in notebooks. What cannot be proved raises `intervals.Undecided`.
 
->>> from proofs import Oscillator
->>> oscillator = Oscillator("0.2121", "-0.2")
->>> print(oscillator.slope("1.13", digits=6))
-[5.29635330, 5.29635331]
+    >>> from proofs import Oscillator
+    >>> oscillator = Oscillator("0.2121", "-0.2")
+    >>> print(oscillator.slope("1.13", digits=6))
+    [5.29635330, 5.29635331]
 """
 
 from __future__ import annotations
