@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import os
 import re
 import subprocess
 import sys
@@ -59,3 +60,17 @@ def test_long_decimals_are_those_of_the_ledger():
     for name in ("index.md", "proof.md"):
         for number in re.findall(r"\d\.\d{5,}", TEXTS[name]):
             assert number in ledger, f"{name}: {number}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["horseshoe", "figures"])
+def test_notebooks_run(name):
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    notebook = ROOT / "docs" / "notebooks" / f"{name}.ipynb"
+    read = nbformat.read(notebook, as_version=4)
+    assert not any(cell.get("outputs") for cell in read.cells)
+    where = {"metadata": {"path": str(notebook.parent)}}
+    client = nbclient.NotebookClient(read, timeout=120, resources=where)
+    client.execute(env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert all(cell.outputs for cell in read.cells if cell.cell_type == "code")
