@@ -19,7 +19,7 @@ from tests.proofs.trusted.paper import reference
 
 pytest.importorskip("matplotlib")
 
-from proofs.report.figures import FIGURES, Certificates, transients
+from proofs.report.figures import FIGURES, Certificates
 from proofs.report.figures.__main__ import main
 from proofs.report.figures.style import PROVED, style, svg_of
 
@@ -90,6 +90,13 @@ def inside(polygon, x, y):
         (bx - ax) * (y - ay) - (by - ay) * (x - ax) for (ax, ay), (bx, by) in pairwise(polygon)
     ]
     return all(t <= 1e-12 for t in turns) or all(t >= -1e-12 for t in turns)
+
+
+def on_circle(low, high):
+    """The interval's parts in [0, 2 pi], for ends above -2 pi."""
+    whole = [(low + turn, high + turn) for turn in (math.tau, 0.0)]
+    parts = [(max(a, 0.0), min(b, math.tau)) for a, b in whole]
+    return [(a, b) for a, b in parts if a < b]
 
 
 def image(phase):
@@ -190,6 +197,8 @@ def test_5_arc_landing_and_silence(drawings, ledger):
     assert all(y == pytest.approx(arc, abs=1e-12) for _, y in landing)
     for (low, high), (first, last) in landing:
         assert first < image(0.3 * low + 0.7 * high) < last
+    cuts = [numbers(step("circle", name)["cuts"]) for name in ("lands-1", "lands-2")]
+    assert [x for x, _ in landing] == [part for x in cuts for part in on_circle(x[0], x[-1])]
     (silent,) = (box(x) for label, each in found.items() if "ever" in label for x in each)
     assert silent[0] == tuple(numbers(step("circle", "never-impacts-1")["phases"]))
     sticks = [box(x) for label, each in found.items() if "sticks" in label for x in each]
@@ -200,11 +209,7 @@ def test_6_bars_are_the_certificate_s(drawings):
     within = numbers(step("circle", "absorption-1")["within"])
     for found in shapes(drawings["figure-6"]):
         bars = [box(x) for x in found["within n impacts, proved"]]
-        wanted = [
-            (part, count)
-            for low, high, count in within
-            for part in transients.on_circle((low, high))
-        ]
+        wanted = [(part, n) for low, high, n in within for part in on_circle(low, high)]
         assert [(x, y[1]) for x, y in bars] == wanted
         assert sum(high - low for (low, high), _ in bars) < math.tau - 2.6
 
