@@ -22,7 +22,7 @@ from proofs.report import page
 from proofs.shell import runner
 from proofs.shell.cli import Parser, coloured, counting, progress, writable
 from proofs.shell.counting import Counts, show
-from proofs.shell.groups import FILES, Made, produce, wanted
+from proofs.shell.groups import FILES, Made, produce, row_of, wanted
 from proofs.trusted.certificate import LEDGER, Malformed, read, render, write_atomically
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
@@ -156,7 +156,7 @@ def main(arguments: list[str] | None = None) -> int:
             if one.is_new:
                 runner.write(options.out, one.job.name, one.made)
         write_atomically(options.out / "ledger.json", text)
-        write_atomically(options.out / "ledger.md", page.ledger(rows))
+        write_atomically(options.out / "ledger.md", _page(rows))
     except OSError as error:
         parser.error(f"cannot write to {options.out}: {error.strerror or error}")
     if options.json:
@@ -192,8 +192,21 @@ def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: 
     for one in settled:
         what = "proved and checked" if one.is_new else "checked again"
         print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
-    counts = Counter(row["verdict"] for row in rows)
-    print(", ".join(f"{count} {name}" for name, count in counts.items()), f"in {seconds:.1f} s")
+    print(f"{tally(rows)} in {seconds:.1f} s")
+
+
+def tally(rows: Sequence[dict[str, Any]]) -> str:
+    """Return how many claims have which verdict, the paper's and the project's own apart."""
+    parts = []
+    for whose, own in (("of the paper", False), ("of our own", True)):
+        counts = Counter(row["verdict"] for row in rows if row_of(row["id"]).own is own)
+        listed = ", ".join(f"{counts[x.value]} {x.value}" for x in Verdict if counts[x.value])
+        parts += [f"{counts.total()} {whose}: {listed}"] if counts else []
+    return "; ".join(parts)
+
+
+def _page(rows: Sequence[dict[str, Any]]) -> str:
+    return page.ledger(rows, {row["id"]: row_of(row["id"]).words for row in rows})
 
 
 if __name__ == "__main__":

@@ -8,13 +8,14 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from intervals import Undecided
 from proofs.report.figures import FIGURES
@@ -41,6 +42,16 @@ from proofs.trusted.verify import Rejected, check, premises
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
 
+_USED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "foundations": ("--eta", "--nu"),
+        "circle": ("--eta", "--nu"),
+        "persistence": ("--eta", "--nu", "--epsilon"),
+        "single": ("--eta", "--nu"),
+        "soft": (),
+        "resonance": (),
+    }
+)  # the numbers that a command's claims are about, where not all; see `proofs.report.page`
 EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json
 (the certificate, which is also the machine form) and DIR/{group}.md; DIR/MANIFEST.json says which
@@ -70,7 +81,7 @@ def run(
     claims = [claim for ids in FILES[file].values() for claim in ids]
     epilog = EPILOG.format(group=file, first=claims[0]) + examples
     parser = Parser(f"proofs.{file}", description, epilog)
-    add_parameters(parser)
+    add_parameters(parser, _USED.get(file))
     add_outputs(parser, claims)
     parser.set_defaults(figure=False, horizon=None)
     if file == "horseshoe":
@@ -105,21 +116,27 @@ def run(
     return finish(made, seconds, options, f"{file}.json", counts)
 
 
-def add_parameters(parser: Parser) -> None:
-    """Add the options for the numbers of a statement, the paper's by default."""
-    add = parser.add_argument
-    add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
-    add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
+def add_parameters(parser: Parser, used: Sequence[str] | None = None) -> None:
+    """Add the options for the numbers of a statement, the paper's by default: all, or some."""
+
+    def add(option: str, **more: Any) -> None:
+        if used is None or option in used:
+            parser.add_argument(option, type=number, **more)
+        else:
+            parser.set_defaults(**{option.removeprefix("--"): more.get("default")})
+
+    add("--eta", default=PAPER.eta, help="frequency ratio (default 0.2121)")
+    add("--nu", default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
     for name, default in (("left", PAPER.left), ("right", PAPER.right), ("slopes", PAPER.slopes)):
         help_text = f"default {show(default[0])} {show(default[1])}"
-        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
+        add(f"--{name}", nargs=2, default=default, metavar=("A", "B"), help=help_text)
     interval = "I (default: from the left end of I0 to the right end of I1)"
-    add("--interval", type=number, nargs=2, metavar=("A", "B"), help=interval)
-    add("--epsilon", type=number, default=PAPER.epsilon, help="of restitution (default 0.01)")
+    add("--interval", nargs=2, metavar=("A", "B"), help=interval)
+    add("--epsilon", default=PAPER.epsilon, help="of restitution (default 0.01)")
     gamma, ends = "range of velocities gamma (default -0.45 0)", ("A", "B")
-    add("--velocities", type=number, nargs=2, default=PAPER.velocities, metavar=ends, help=gamma)
+    add("--velocities", nargs=2, default=PAPER.velocities, metavar=ends, help=gamma)
     box = "box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)"
-    add("--reach", type=number, nargs=3, metavar=("DETA", "DNU", "DEPSILON"), help=box)
+    add("--reach", nargs=3, metavar=("DETA", "DNU", "DEPSILON"), help=box)
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:

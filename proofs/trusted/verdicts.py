@@ -37,7 +37,7 @@ def told(conclusions: Iterable[Conclusion]) -> str:
     parts: list[str] = []
     for at, group in groupby(dict.fromkeys(conclusions), key=lambda each: each.place):
         first, *more = (each.sentence for each in group)
-        start = f"At {at}: {first}" if at is not None else _begun(first) if parts else first
+        start = f"At {at}: {first}" if at is not None else _begun(first)
         parts += [start, *map(_begun, more)]
     return " ".join(parts)
 

@@ -112,7 +112,7 @@ def shown(capsys, command, *arguments, status=0):
 
 @pytest.mark.parametrize(
     "group, claim",
-    [("horseshoe", "H16"), ("horseshoe", "H11"), ("persistence", "G8"), ("foundations", "A2")]
+    [("horseshoe", "H16"), ("horseshoe", "H11"), ("foundations", "A2")]
     + [("sets", claim) for claim in ("H12", "H14", "H15", "H17")],
 )
 def test_no_flight_where_the_claim_is_about_none(group, claim):
