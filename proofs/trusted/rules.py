@@ -24,6 +24,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "avoids": "slopes.avoids",
         "formula-equal": "kernel.values.equal",
         "formula-series": "kernel.values.series",
+        "formula-solution": "kernel.solutions.solution",
         "formula-value": "kernel.values.value",
         "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",

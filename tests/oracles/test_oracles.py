@@ -249,6 +249,10 @@ FALSE = {
         put("left", lambda old: f"2*({old}) + 1"),
     ],
     "Series": [put("coefficients", lambda old: (*old[:-1], f"({old[-1]}) + 1/1000"))],
+    "Expressions": [
+        put("expressions", lambda old: ((old[0][0], f"({old[0][1]}) + 1/1000"), *old[1:])),
+        put("expressions", lambda old: (*old[:-1], (old[-1][0], f"2*({old[-1][1]}) + 1"))),
+    ],
     "Value": [offs("bounds")],
     "Zero": [
         offs("bracket"),

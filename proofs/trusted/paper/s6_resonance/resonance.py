@@ -45,14 +45,8 @@ iterates = corollary(
 )
 
 
-@theorem(
-    closed_form,
-    *eq.ENTRIES,
-    *eq.AT_REST,
-    tex=r"\begin{pmatrix} 1 - 2 \varepsilon s & 2 \varepsilon \\ s (1 - \varepsilon - 2 \varepsilon"
-    r" s) & \varepsilon (1 + 2 s) \end{pmatrix}, \quad s = \nu \sin\phi",
-)
-def jacobian() -> str:
+@theorem(closed_form, *eq.ENTRIES, eq.AT_REST)
+def jacobian(**f: str) -> str:
     """Proof. 1. Implicit differentiation of (14), (15): eq.ENTRIES. 2. By `closed_form` F is, in
     phi and c, (phi + 2 arctan(epsilon c), epsilon c), with the determinant epsilon, and the change
     from gamma to c has determinant 1. 3. At K = 0, as arctan K = K + O(K^3): eq.AT_REST.
@@ -62,9 +56,8 @@ def jacobian() -> str:
         "cos(phi_1 - phi_o) as its last term, are DF where phi_1 = phi_o + 2 arctan K, K = epsilon "
         "(gamma_o + nu cos phi_o) not 0. F(phi, gamma) = (phi + 2 arctan K, K - nu cos(phi + 2 "
         "arctan K)) is analytic, also up to the states with K = 0 for nu < 0, which graze; det DF "
-        "= epsilon. At gamma = -nu cos(phi), s = nu sin(phi), DF has the rows (1 - 2 epsilon s, 2 "
-        "epsilon) and (s (1 - epsilon - 2 epsilon s), epsilon (1 + 2 s)), and the eigenvalues 1 "
-        "and epsilon."
+        f"= epsilon. At gamma = -nu cos(phi) DF has the rows ({f['f11']}, {f['f12']}) and "
+        f"({f['f21']}, {f['f22']}), and the eigenvalues 1 and epsilon."
     )
 
 
@@ -151,12 +144,12 @@ ROWS = (
         Verdict.REFUTED,
         corollary(
             "At eta = 1, for nu < 0 and every phi_o, its (1,2) entry d phi_(k+1)/d gamma_k is 2 "
-            "epsilon, not -epsilon, and its determinant epsilon, not 0. With gamma_o and a phi_1 "
-            "that is not the next phase a11, a12, a21 (corrected), a22 are 1 - epsilon s, epsilon, "
-            "(1 - epsilon s) nu sin(phi_1), epsilon nu sin(phi_1), s = nu sin(phi_o): their limit "
-            "as phi_1 -> phi_o, with the signs of a12 and a22 changed, is the printed matrix.",
+            "epsilon, not -epsilon, and its determinant epsilon, not 0. With gamma_o and a phi1 "
+            "that is not the next phase a11, a12, a21 (corrected), a22 are {o11}, {o12}, {o21}, "
+            "{o22}, phi = phi_o: their limit as phi1 -> phi_o, with the signs of a12 and a22 "
+            "changed, is the printed matrix.",
             jacobian,
-            *eq.OFF_THE_MAP,
+            eq.OFF_THE_MAP,
         ),
         corrected=(jacobian,),
     ),

@@ -91,7 +91,7 @@ def test_jacobian_against_differences(m, eps, rho):
 
 @pytest.mark.parametrize(("m", "eps"), [(1, "1/2"), (2, "1/5"), (1, "9/10"), (3, "0")])
 def test_the_flip_is_where_an_eigenvalue_is_minus_one(m, eps):
-    low, high = enclose(eq.RHO_FLIP, 40, m=Fraction(m), epsilon=Fraction(eps))
+    low, high = enclose(eq.flip(eq.ALPHA_FLIP), 40, m=Fraction(m), epsilon=Fraction(eps))
     with mp.workdps(50):
         rho = mp.mpf(low.numerator) / low.denominator + mp.mpf(high.numerator) / high.denominator
         (a, b), (c, d) = jacobian(
@@ -226,7 +226,7 @@ def test_stiff_plastic_flips_are_supercritical(m, k, q):
         assert abs(third / (-12 * cubic) - 1) < 1e-12
         if (m, q) == (1, 0):
             low, high = enclose(
-                eq.STIFF_FLIP_RHO, 30, m=Fraction(1), k=Fraction(1, 10), q=Fraction(0)
+                near.STIFF_FLIP_RHO, 30, m=Fraction(1), k=Fraction(1, 10), q=Fraction(0)
             )
             assert mp.mpf(low.numerator) / low.denominator <= rho
             assert rho <= mp.mpf(high.numerator) / high.denominator
