@@ -258,6 +258,32 @@ def test_section_5_colours_are_the_eigenvalues(drawings):
     assert len(seen) == 4
 
 
+def test_section_5_orbits_are_those_whose_flights_stay_above_the_table(drawings):
+    import numpy as np
+
+    lines = {line.get_label(): line for line in drawings["section-5"].axes[0].get_lines()}
+    (green,) = (line for label, line in lines.items() if label.startswith("above it"))
+    (purple,) = (line for label, line in lines.items() if label.startswith("below it"))
+    times = np.linspace(1e-4, 2 * np.pi - 1e-4, 4000)
+    rng, seen = random.Random(6), set()
+    for k in range(400):
+        epsilon = rng.uniform(0.0005, 0.019) if k % 2 else rng.uniform(0.03, 0.97)
+        r = (1 - epsilon) / (1 + epsilon)
+        rho = rng.uniform(r * 2 * np.pi, 6.7 if k % 2 else 8.9)
+        height = math.sqrt(rho**2 - (r * 2 * np.pi) ** 2)
+        stays = []
+        for sine in (height, -height):  # rho sin psi
+            gap = times * (2 * np.pi - times) + sine * (1 - np.cos(times))
+            stays.append(bool((gap - r * 2 * np.pi * np.sin(times)).min() > 0))
+        bounds = [np.interp(epsilon, *line.get_data()) for line in (green, purple)]
+        if min(abs(rho - bound) for bound in bounds) < 0.03:
+            continue
+        low = epsilon < green.get_xdata().max()
+        assert stays == [not low or rho > bounds[0], not low and rho < bounds[1]]
+        seen.add(tuple(stays))
+    assert seen == {(True, False), (False, False), (True, True)}
+
+
 def test_three_sets_and_restitution(drawings):
     (found,) = shapes(drawings["three-sets"])
     polygons = found["graph of f, proved"]
