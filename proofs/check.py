@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections import Counter
 from pathlib import Path
 
 from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, digest, read, schema_of
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 FOLDERS = {MANIFEST: check_manifest, LEDGER: check_ledger}
 EPILOG = """\
-exit status: 0 every claim in every file is proved as stated (verified or refuted)
+exit status: 0 every claim in every file is decided as stated (SIMULATED is no proof)
              1 a claim is undecided, or a file does not prove what it says
              2 a file cannot be read or is no certificate
 
@@ -101,8 +100,7 @@ def check_file(path: Path, work: int = DEFAULT) -> int:
 
 
 def _counted(listed: list[Listed]) -> str:
-    counts = Counter(each.verdict.value for each in listed)
-    named = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    named = tally((each.verdict, each.is_own) for each in listed)
     other = sum(not each.is_paper for each in listed)
     where = f", {other} of them at other parameters" if other else " at the paper's parameters"
     return f"{len(listed)} claims{where}: {named}"

@@ -7,7 +7,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from proofs.shell.groups import row_of
-from proofs.shell.ledger import CLAIMS, tally
+from proofs.shell.ledger import CLAIMS
+from proofs.trusted.verdicts import Verdict, tally
 
 ROOT = Path(__file__).parents[1]
 README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
@@ -40,10 +41,10 @@ def test_claims_are_counted_by_the_ledger_and_ours_apart():
     )
 
 
-def test_the_screen_counts_alike():
-    rows = [{"id": "H1", "verdict": "VERIFIED"}, {"id": "N4", "verdict": "REFUTED"}]
-    assert tally(rows) == "1 of the paper: 1 VERIFIED; 1 of our own: 1 REFUTED"
-    assert tally(rows[:1]) == "1 of the paper: 1 VERIFIED"
+def test_screen_and_checker_count_alike():
+    paper, own = (Verdict.REFUTED, False), (Verdict.VERIFIED, True)
+    assert tally([paper, own, paper]) == "2 REFUTED; of our own 1 VERIFIED"
+    assert tally([paper]) == "1 REFUTED" and tally([own]) == "of our own 1 VERIFIED"
 
 
 def test_section_5_is_counted_by_the_ledger():

@@ -26,7 +26,7 @@ from proofs.shell.groups import FILES, Made, produce, row_of, wanted
 from proofs.trusted.certificate import LEDGER, Malformed, read, render, write_atomically
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 CLAIMS = tuple(
@@ -192,17 +192,8 @@ def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: 
     for one in settled:
         what = "proved and checked" if one.is_new else "checked again"
         print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
-    print(f"{tally(rows)} in {seconds:.1f} s")
-
-
-def tally(rows: Sequence[dict[str, Any]]) -> str:
-    """Return how many claims have which verdict, the paper's and the project's own apart."""
-    parts = []
-    for whose, own in (("of the paper", False), ("of our own", True)):
-        counts = Counter(row["verdict"] for row in rows if row_of(row["id"]).own is own)
-        listed = ", ".join(f"{counts[x.value]} {x.value}" for x in Verdict if counts[x.value])
-        parts += [f"{counts.total()} {whose}: {listed}"] if counts else []
-    return "; ".join(parts)
+    counted = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
+    print(f"{counted} in {seconds:.1f} s")
 
 
 def _page(rows: Sequence[dict[str, Any]]) -> str:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -36,7 +35,7 @@ from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.trusted.certificate import Malformed, read, write_atomically
 from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
@@ -232,8 +231,7 @@ def print_lines(lines: Sequence[Line], seconds: float) -> None:
     for text in dict.fromkeys(line.corrected for line in lines if line.corrected is not None):
         beside = ", ".join(line.id for line in lines if line.corrected == text)
         print(f"\nTheorem beside {beside}, VERIFIED: {text}")
-    counts = Counter(line.verdict.value for line in lines)
-    summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    summary = tally((line.verdict, not line.words) for line in lines)
     print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
 
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
 from proofs.trusted.numbers import show
+from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -19,6 +20,7 @@ class Listed(NamedTuple):
 
     verdict: Verdict
     is_paper: bool  # whether at the paper's own parameters
+    is_own: bool  # whether the claim is the project's, not the paper's
 
 
 _FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
@@ -65,7 +67,7 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
             raise Rejected(f"{file.path}: no listed file of this name is about {claim}")
         _same(verdict, found.verdict.value)
         _same(statement, found.statement)
-        listed.append(Listed(found.verdict, is_paper))
+        listed.append(Listed(found.verdict, is_paper, _is_own(claim)))
     return _some(listed, claims_of)
 
 
@@ -90,8 +92,13 @@ def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
         own = dict(proved[name].get(members["id"].string(), {}))
         own.pop("proof", None)
         _same(entry, {**own, "file": name})
-        listed.append(Listed(Verdict(own["verdict"]), is_paper=True))
+        listed.append(Listed(Verdict(own["verdict"]), True, _is_own(own["id"])))
     return _some(listed, claims_of)
+
+
+def _is_own(claim: str) -> bool:
+    row = find(claim)
+    return row is not None and row.own
 
 
 def _beside(folder: Path, name: str, reader: Reader) -> str:

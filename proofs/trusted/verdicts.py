@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -30,6 +31,16 @@ class Verdict(Enum):
     CONDITIONAL = "CONDITIONAL"
     UNDECIDED = "UNDECIDED"
     SIMULATED = "SIMULATED"
+
+
+def tally(verdicts: Iterable[tuple[Verdict, bool]]) -> str:
+    """Count verdicts, in words: those on the paper's claims, and on the project's own (True)."""
+    counts = Counter(verdicts)
+    paper, own = (
+        ", ".join(f"{counts[each, own]} {each.value}" for each in Verdict if counts[each, own])
+        for own in (False, True)
+    )
+    return "; ".join(filter(None, (paper, own and f"of our own {own}")))
 
 
 def told(conclusions: Iterable[Conclusion]) -> str:

@@ -222,21 +222,21 @@ ROWS = (
         PAPER.place,
     ),
     Row(
-        "G10",
-        "3.4",
-        "",
-        _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
-        "every phase.",
-        _basin(_almost_every),
-        PAPER.place,
-    ),
-    Row(
         "G6",
         "3.4, Figure 6",
         "very high near the invariant sets (in [1.1, 1.5])",
         _AT + "the number of impacts before the periodic orbit that sticks is reached is high, "
         "without bound, near the invariant sets, in [1.1, 1.5].",
         _transient,
+        PAPER.place,
+    ),
+    Row(
+        "G10",
+        "3.4",
+        "",
+        _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
+        "every phase.",
+        _basin(_almost_every),
         PAPER.place,
     ),
 )
