@@ -13,10 +13,10 @@ from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import coefficients, solve
 from proofs.search.derivations import prove_rows
 from proofs.trusted.paper.formulas import Unknowns
-from proofs.trusted.paper.s5_soft import near, soft, stability
+from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 
 _LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
-_STIFF = NormalForm(Map(("x",), (f"at({near.STIFF_LOCAL}, {near.STIFF_HERE})",)), "flip")
+_STIFF = Map(("x", "lam"), tuple(f"at({each}, {near.STIFF_HERE})" for each in near.STIFF))
 
 
 def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
@@ -29,12 +29,11 @@ def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
     return {name: derive.write(found[name]) for name in wanted.names}
 
 
-def _point(wanted: Unknowns) -> dict[str, str]:
-    """Solve for the fixed point of the limit map and its Jacobian."""
-    found = _at_origin(*_LIMIT.map.fixed, names=("lam", "b"))
-    matrix = _LIMIT.map.jacobian_at(found)
-    entries = {f"j{i + 1}{j + 1}": matrix[i, j] for i in (0, 1) for j in (0, 1)}
-    return _written(wanted, found | entries)
+def _point(wanted: Unknowns, *, of: Map) -> dict[str, str]:
+    """Solve for the fixed point of a map and its Jacobian, the last four names."""
+    found = _at_origin(*of.fixed, names=("lam", "b"))
+    entries = zip(wanted.names[-4:], of.jacobian_at(found), strict=True)
+    return _written(wanted, found | dict(entries))
 
 
 def _flip(wanted: Unknowns) -> dict[str, str]:
@@ -44,10 +43,17 @@ def _flip(wanted: Unknowns) -> dict[str, str]:
     return _written(wanted, coefficients(_LIMIT, point, "a"))
 
 
-def _stiff_flip(wanted: Unknowns) -> dict[str, str]:
-    """Solve for the normal form of the flip of springs of any stiffness."""
-    point = _at_origin(_STIFF.condition(), names=("a",))
-    return _written(wanted, coefficients(_STIFF, point, "a"))
+def _cycle(wanted: Unknowns) -> dict[str, str]:
+    """Solve for orbits of period 2 near the flip, order by order."""
+    import sympy
+
+    h, sides = sympy.Symbol("h"), [derive.read(each) for each in doubling.SIDES]
+    known: dict[Any, Any] = {}
+    for order, names in enumerate(("b", "a l_1", "b_2 l_2", "a_2 l_3")):
+        rates = [side.diff(h, order).subs(h, 0).subs(known) for side in sides]
+        solved = sympy.solve(rates, sympy.symbols(names), dict=True)[0]
+        known = {x: value.subs(solved) for x, value in known.items()} | solved
+    return {name: derive.write(derive.simplest(known[sympy.Symbol(name)])) for name in wanted.names}
 
 
 def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
@@ -80,9 +86,10 @@ prove = partial(
     (*soft.ROWS, *stability.ROWS),
     solvers=MappingProxyType(
         {
-            near.POINT: _point,
+            near.POINT: partial(_point, of=_LIMIT.map),
+            near.STIFF_POINT: partial(_point, of=_STIFF),
             near.FLIP: _flip,
-            near.STIFF_FLIP: _stiff_flip,
+            doubling.CYCLE: _cycle,
             near.JET: partial(_jet, height=4, slope=-1),
             near.PRINTED_JET: partial(_jet, height=2, slope=0),
         }

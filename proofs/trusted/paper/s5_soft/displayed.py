@@ -173,14 +173,3 @@ STIFF_FIXED = (
     f"psi1=psi, lam={STIFF_LAMBDA}, rho={_STIFF_RHO}, m=s/(pi*k),"
     f" q={_STIFF_RHO}*sin(psi) - (big - 2)/k**2"
 )
-_STIFF_TURN = tuple(f"(-D({STIFF_MAP}, {x})/D({STIFF_MAP}, psi1))" for x in ("psi", "lam"))
-_STIFF_ROW = tuple(
-    f"(D({STIFF_VELOCITY}, {x}) + D({STIFF_VELOCITY}, psi1)*{turn})"
-    for x, turn in zip(("psi", "lam"), _STIFF_TURN, strict=True)
-)
-STIFF_TRACE = f"{_STIFF_TURN[0]} + {_STIFF_ROW[1]}"
-STIFF_DETERMINANT = f"{_STIFF_TURN[0]}*{_STIFF_ROW[1]} - {_STIFF_TURN[1]}*{_STIFF_ROW[0]}"
-FOUND_TRACE = (
-    "((1 + epsilon)**2 + (1 - epsilon)**2*cos(2*s)"
-    f" - (1 + epsilon)**2*(1 + cos(2*s))*({_STIFF_RHO})*sin(psi)/big)/2"
-)

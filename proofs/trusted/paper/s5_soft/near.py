@@ -11,9 +11,10 @@ from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.paper.formulas import Unknowns, unknowns
 from proofs.trusted.paper.s5_soft import displayed as eq
 
+_LAUNCH = "(-epsilon*lam + (1 + epsilon)*(b*cos(x) - a*sin(x)))"
 _RETURN, _SPEED = eq.limit(
     "(a*cos(x) + b*sin(x))",
-    "(-epsilon*lam + (1 + epsilon)*(b*cos(x) - a*sin(x)))",
+    _LAUNCH,
     "(x1 - x + c)",
     "(a*cos(x1) + b*sin(x1))",
 )
@@ -103,39 +104,32 @@ JET = _jet(
 PRINTED_JET = _jet("2", "0", "p1 p2 p3 p4 p5", "e1 e2 e3 e4", ("c/2", "0", "0", "0"))
 
 # -- springs of any stiffness ----------------------------------------------------------------------
-# The plastic map, C = cos(2 s), S = sin(2 s), t =
-# tan s. Where its slope is -1 it is -h + b2 h^2 + b3 h^3, to order 3, and K = b2^2 + b3.
-_TURNED = ("(C*cos(k*(x1 - x)) - S*sin(k*(x1 - x)))", "(S*cos(k*(x1 - x)) + C*sin(k*(x1 - x)))")
-STIFF_LOCAL = (
-    f"(a*cos(x) + b*sin(x) - q)*{_TURNED[0]} + (b*cos(x) - a*sin(x))*{_TURNED[1]}/k"
-    f" - 2/k**2*(1 - {_TURNED[0]}) - (a*cos(x1) + b*sin(x1) - q)"
+# C = cos(2 s), S = sin(2 s), s = pi m k, t = tan s, big = 2 + k^2 (a - q).
+
+_COS, _SIN = "(C*cos(k*(x1 - x)) - S*sin(k*(x1 - x)))", "(S*cos(k*(x1 - x)) + C*sin(k*(x1 - x)))"
+_STRETCH = "(a*cos(x) + b*sin(x) - q + 2/k**2)"  # from where the spring and gravity balance
+STIFF = (
+    f"{_STRETCH}*{_COS} + {_LAUNCH}*{_SIN}/k - 2/k**2 - (a*cos(x1) + b*sin(x1) - q)",
+    f"lam1 - ({_LAUNCH}*{_COS} - k*{_STRETCH}*{_SIN})",
 )
-STIFF_HERE = "C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), b=t*big/k, q=a - (big - 2)/k**2"
-STIFF_CUBIC = (
-    "(k**4*(3*t**6 + 10*t**4 + 14*t**2 + 4) + 2*k**2*(t**4 - t**2 + 1) + 3*t**2)"
-    "/(12*k**2*(1 + t**2)**2)"
-)
-_STIFF_NONZERO = ("k", "t", "1 + t**2", "2 + t**2")
-STIFF_FLIP = unknowns(
-    "b2 b3",
-    "k t",
-    Series(
-        f"at(at({_flip(STIFF_LOCAL)}, {STIFF_HERE}), big=a/(2 + t**2))",
-        "h",
-        _ZERO4,
-        _STIFF_NONZERO,
+STIFF_HERE = "C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), q=a - (big - 2)/k**2"
+_STIFF_ENTRIES = ("k11", "k12", "k21", "k22")
+STIFF_POINT = unknowns(
+    "b lam k11 k12 k21 k22",
+    "a big k t epsilon",
+    *(
+        Equal(f"at(at({each}, {_AT_POINT}), {STIFF_HERE})", "0")
+        for each in (
+            *STIFF,
+            *implicit_derivative(STIFF, ("x", "lam"), ("x1", "lam1"), _STIFF_ENTRIES),
+        )
     ),
-    Equal("b2**2 + b3", STIFF_CUBIC),
-    nonzero=_STIFF_NONZERO,
+    Equal(f"at(at(D({STIFF[0]}, x1), {_AT_POINT}), {STIFF_HERE})", "-2*t*big/(k*(1 + epsilon))"),
+    Equal(
+        "k11 + k22",
+        "at(((1 + epsilon)**2 + (1 - epsilon)**2*C - (1 + epsilon)**2*(1 + C)*a/big)/2, "
+        "C=(1 - t**2)/(1 + t**2))",
+    ),
+    Equal("k11*k22 - k12*k21", "epsilon**2"),
+    nonzero=("1 + epsilon", "big", "k", "1 + t**2"),
 )
-STIFF_SQUARE = "a**2 + (t*(2 + k**2*(a - q))/k)**2"  # rho^2
-STIFF_HEIGHT = "(2 + t**2)*(2 - k**2*q)/(1 - k**2*(2 + t**2))"  # a at the flip
-STIFF_GAP = (
-    "(a - q)*cos(k*tau) + b*sin(k*tau)/k - 2/k**2*(1 - cos(k*tau)) - (a*cos(tau) + b*sin(tau) - q)"
-)
-_AT_FLIP = f"at(a/(2 + t**2), a={STIFF_HEIGHT})"
-STIFF_FLIP_GAP = (
-    f"at(at(at({STIFF_GAP}, b=t*big/k), big={_AT_FLIP}, a={STIFF_HEIGHT}), "
-    "t=sin(pi*m*k)/cos(pi*m*k))"
-)
-STIFF_FLIP_RHO = f"sqrt(at(at({STIFF_SQUARE}, a={STIFF_HEIGHT}), t=sin(pi*m*k)/cos(pi*m*k)))"

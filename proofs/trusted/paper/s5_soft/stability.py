@@ -255,6 +255,6 @@ ROWS = (
         Verdict.VERIFIED,
         given.flip,
         doubling,
-        corrected=(given.flip, doubling, given.stiff_flip),
+        corrected=(given.flip, doubling),
     ),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from proofs.trusted.kernel.values import Equal, Series
-from proofs.trusted.paper.formulas import Lemma, at, corollary, over
+from proofs.trusted.paper.formulas import Lemma, corollary
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft.orbits import admissible
@@ -46,10 +46,18 @@ THRESHOLDS: tuple[Lemma, ...] = (
     ),
 )
 STIFF: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, {eq.STIFF_FIXED})", "0"),
-    Equal(f"at({eq.STIFF_VELOCITY}, {eq.STIFF_FIXED})", eq.STIFF_LAMBDA),
-    Equal(f"at({eq.STIFF_TRACE}, {eq.STIFF_FIXED})", eq.FOUND_TRACE),
-    Equal(f"at({eq.STIFF_DETERMINANT}, {eq.STIFF_FIXED})", "epsilon**2"),
+    *(
+        Equal(
+            f"at({each}, psi=x + y, psi1=x1 + y, m=s/(pi*k))",
+            f"at({local}, a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s))",
+        )
+        for each, local in zip(
+            (eq.STIFF_MAP, f"lam1 - ({eq.STIFF_VELOCITY})"), near.STIFF, strict=True
+        )
+    ),
+    Equal("cos(2*s)*(1 + (sin(s)/cos(s))**2)", "1 - (sin(s)/cos(s))**2"),
+    Equal("sin(2*s)*(1 + (sin(s)/cos(s))**2)", "2*sin(s)/cos(s)"),
+    near.STIFF_POINT,
 )
 PLASTIC_LIMIT = Series(
     f"at({eq.S24}, epsilon=0, beta=rho*g/(2*omega**2))*2*omega**2/g",
@@ -75,40 +83,6 @@ HIGH_BOUNCE: tuple[Lemma, ...] = (
     Equal(eq.HIGH_DETERMINANT, "epsilon"),
     Equal(eq.HIGH_TRACE, "1 + epsilon + gamma*sin(x)"),
     Equal(f"{eq.ALPHA_FLIP} - 2*(1 + epsilon)", "2*(1 - epsilon)**2/(1 + epsilon)"),
-)
-
-_TANGENT = "(sin(s)/cos(s))"
-_STIFF_STEP = "psi=x + y, psi1=x1 + y, m=s/(pi*k)"
-_STIFF_HERE = "a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s)"
-_LOCAL = near.STIFF_LOCAL
-STIFF_PLASTIC: tuple[Lemma, ...] = (
-    Equal(
-        f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({near.STIFF_LOCAL}, {_STIFF_HERE})"
-    ),
-    Equal(f"cos(2*s)*(1 + {_TANGENT}**2)", f"1 - {_TANGENT}**2"),
-    Equal(f"sin(2*s)*(1 + {_TANGENT}**2)", f"2*{_TANGENT}"),
-    Equal(f"at(at({_LOCAL}, x=0, x1=0), {near.STIFF_HERE})", "0"),
-    Equal(f"at(at(D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})", "-2*t*big/k"),
-    Equal(
-        f"at(at(-D({_LOCAL}, x)/D({_LOCAL}, x1), x=0, x1=0), {near.STIFF_HERE})",
-        "(1 - a/big)/(1 + t**2)",
-    ),
-    near.STIFF_FLIP,
-    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={near.STIFF_HEIGHT})", "0"),
-    Equal(
-        f"at(D({near.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
-        "4*a*(1 + t**2)/(2 + t**2)",
-    ),
-    Equal(f"at({_LOCAL}, x=0, x1=tau, C=1, S=0)", near.STIFF_GAP),
-    Equal("D(a/(2 + k**2*(a - q)), a)", "(2 - k**2*q)/(2 + k**2*(a - q))**2"),
-)
-_STIFF_POINT = {"m": "1", "k": "1/10", "q": "0"}
-_STIFF_RATE = f"D({near.STIFF_FLIP_GAP}, tau)"
-STIFF_VALUES = (
-    at(near.STIFF_FLIP_RHO, **_STIFF_POINT),
-    over(f"D({_STIFF_RATE}, tau)", 1, "tau", ("0", "1/2"), **_STIFF_POINT),
-    over(near.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
-    over(_STIFF_RATE, -1, "tau", ("6", "63/10"), **_STIFF_POINT),
 )
 
 # -- theorems --------------------------------------------------------------------------------------
@@ -166,14 +140,15 @@ bifurcations = corollary(
     diagram,
 )
 stiff = corollary(
-    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < "
-    "1, q = 2 omega^2 p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of "
-    "(24), (25), an orbit or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a "
-    "flight over m periods, where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the "
-    "determinant is epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) "
-    "- (1 + epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 "
-    "+ epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 "
-    "+ epsilon^2) + (1 - epsilon)^2 cos(2 s).",
+    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < 1, q = 2 omega^2 "
+    "p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25), an orbit "
+    "or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a flight over m periods, "
+    "where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the Jacobian has the rows "
+    "({k11}, {k12}) and ({k21}, {k22}), a = rho sin psi, t = tan s, big = B. The determinant is "
+    "epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) - (1 + "
+    "epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 + "
+    "epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 + "
+    "epsilon^2) + (1 - epsilon)^2 cos(2 s).",
     *STIFF,
 )
 flip = corollary(
@@ -198,21 +173,4 @@ flip = corollary(
     admissible,
     tex=r"h - 2 K h^3 + O(h^4), \quad K = \frac{3 c^2 (1 - \varepsilon^2)^2 + 8 (1 - \varepsilon)^4"
     r" + 64 \varepsilon^2}{48 (1 - \varepsilon^4)}",
-)
-stiff_flip = corollary(
-    "For plastic impacts only, epsilon = 0, and springs of any stiffness every period doubling of "
-    "a fixed point, an orbit or not, is supercritical. Let k = omega_n/omega, q = 2 omega^2 p/g, t "
-    "= tan(pi m k) defined and not 0. At a solution of (24) with psi_(k+1) = psi_k = psi and a "
-    "flight over m periods, where rho cos psi = t B/k, a = rho sin psi, B = 2 + k^2 (a - q) not 0, "
-    "the slope of the solution is (1 - a/B)/(1 + t^2): it is -1 exactly if a = (2 + t^2) B, and "
-    "then its second iterate is h - 2 K h^3 + O(h^4) with K = (k^4 (3 t^6 + 10 t^4 + 14 t^2 + 4) + "
-    "2 k^2 (t^4 - t^2 + 1) + 3 t^2)/(12 k^2 (1 + t^2)^2) > 0. If k^2 (2 + t^2) is not 1, that is "
-    "at a = (2 + t^2) (2 - k^2 q)/(1 - k^2 (2 + t^2)), rho^2 = a^2 + (t B/k)^2, and the slope "
-    "passes -1 with a speed in rho that is not 0, as d(rho^2)/da = 4 a (1 + t^2)/(2 + t^2) and "
-    "d(a/B)/da = (2 - k^2 q)/B^2. For m = 1, k = 1/10, q = 0 it is at rho in {0}, and the flight "
-    "from its fixed point has gap'' > 0 up to time 1/2, gap > 0 from 1/2 to 6 and gap' < 0 from 6 "
-    "to 6.3, so its first impact is at 2 pi.",
-    *STIFF_PLASTIC,
-    values=STIFF_VALUES,
-    reports=("rho_flip_at_k_tenth",),
 )

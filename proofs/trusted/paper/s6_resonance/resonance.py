@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Passage, corollary, derived_row, theorem
+from proofs.trusted.paper.formulas import Passage, corollary, derived_row, spoken, theorem
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.verdicts import Verdict
 
@@ -246,6 +246,16 @@ ROWS = (
         "The entries a11, a12, a22 of the Jacobian of F, gamma being gamma_o.",
         Verdict.VERIFIED,
         jacobian,
+        corollary(
+            "At eta = 1 DF has four such entries, a21 corrected. At an impact at phi = phi_o, "
+            "gamma = gamma_o, the next one being at phi1: "
+            + "; ".join(
+                f"a{n} = {spoken(text)}"
+                for n, text in zip((11, 12, 21, 22), eq.JACOBIAN, strict=True)
+            )
+            + ".",
+            jacobian,
+        ),
     ),
     derived_row(
         Passage("R11", "6.2, a21", "studying the eigenvalues of the Jacobian"),
