@@ -478,4 +478,4 @@ def test_the_figure_is_about_the_oscillator_of_its_certificate(monkeypatch, eta,
     known = premises(render({**source, "steps": steps, "claims": []}))
     drawn = restitution.FIGURE.svg({"persistence": known})
     assert asked == [(Fraction(eta), Fraction(nu))]
-    assert drawn.startswith("<?xml") and ("#2ca02c" in drawn) == bool(steps)
+    assert drawn.startswith("<?xml") and ("#c6e5f7" in drawn) == bool(steps)

@@ -508,3 +508,9 @@ def test_a_saddle_node_is_undecided_and_does_not_hide_the_rest(capsys):
     assert answer["undecided"] == [1, 3] and answer["resonant"] == [4]
     assert single_impact.main(["--eta", "3/4", "--nu", "-3/5", "--n", "1"]) == 1
     assert "n = 1: undecided" in capsys.readouterr().out
+
+
+def test_progress_is_told_for_each_n():
+    told = []
+    single_impact.answer_for(system("0.3", "0.2"), range(2, 5), 5, told.append)
+    assert told == ["n = 2 of 4", "n = 3 of 4", "n = 4 of 4"]
