@@ -15,25 +15,33 @@ Notation cylinders := (cylinders N A b0 a1 B).
 Notation full_shift := (full_shift N A b0 a1 B).
 
 Variable f : R -> R.
+Variable s : bool -> R.  (* 1 where f increases, -1 where it decreases *)
 Variables m M : R.
 Hypothesis order : A < b0 < a1 /\ a1 < B.
-Hypothesis m_gt_1 : 1 < m.
+Hypothesis m_pos : 0 < m.
 Hypothesis M_pos : 0 < M.
+Hypothesis sign : forall i, s i = 1 \/ s i = -1.
 Hypothesis N_f : forall i x y, In_ i x -> (N x y <-> y = f x).
 Hypothesis expand : forall i x y, In_ i x -> In_ i y -> x <= y ->
-  m * (y - x) <= f y - f x <= M * (y - x).
+  m * (y - x) <= s i * (f y - f x) <= M * (y - x).
 Hypothesis cover : forall i y, A <= y <= B -> exists x, In_ i x /\ f x = y.
 Hypothesis escape : forall x y, b0 < x < a1 -> N x y -> ~ A <= y <= B.
 
 Lemma In_I i x : In_ i x -> A <= x <= B.
 Proof. destruct i; unfold Impact.In_; lra. Qed.
 
+Lemma sign_abs i z : Rabs (s i * z) = Rabs z.
+Proof.
+  destruct (sign i) as [-> | ->]; [f_equal; ring|]. rewrite <- (Rabs_Ropp z). f_equal; ring.
+Qed.
+
 Lemma expand_abs i x y : In_ i x -> In_ i y ->
   m * Rabs (x - y) <= Rabs (f x - f y) <= M * Rabs (x - y).
 Proof.
-  intros X Y. destruct (Rle_dec x y) as [L|L].
-  - pose proof (expand i x y X Y L).
-    rewrite (Rabs_minus_sym x), (Rabs_minus_sym (f x)), !Rabs_pos_eq by nra. lra.
+  intros X Y. rewrite <- (sign_abs i (f x - f y)). destruct (Rle_dec x y) as [L|L].
+  - pose proof (expand i x y X Y L) as H. rewrite (Rabs_minus_sym x).
+    replace (s i * (f x - f y)) with (- (s i * (f y - f x))) by ring.
+    rewrite Rabs_Ropp, !Rabs_pos_eq by nra. lra.
   - pose proof (expand i y x Y X ltac:(lra)). rewrite !Rabs_pos_eq by nra. lra.
 Qed.
 
@@ -59,13 +67,6 @@ Qed.
 Lemma g_in i y : A <= y <= B -> A <= g i y <= B.
 Proof. intros Y. apply (In_I i), g_spec; auto. Qed.
 
-Lemma g_mono i y z : A <= y <= B -> A <= z <= B -> y <= z -> g i y <= g i z.
-Proof.
-  intros Y Z L. destruct (g_spec i y Y) as [P E]. destruct (g_spec i z Z) as [Q F].
-  destruct (Rle_dec (g i y) (g i z)) as [|G]; auto.
-  pose proof (expand i _ _ Q P ltac:(lra)). nra.
-Qed.
-
 Lemma g_contract i y z : A <= y <= B -> A <= z <= B -> Rabs (g i y - g i z) <= Rabs (y - z) / m.
 Proof.
   intros Y Z. destruct (g_spec i y Y) as [P E]. destruct (g_spec i z Z) as [Q F].
@@ -74,27 +75,117 @@ Proof.
     by (field; lra). lra.
 Qed.
 
+Lemma f_mono i x y : In_ i x -> In_ i y -> (x <= y <-> s i * f x <= s i * f y).
+Proof.
+  intros P Q. split; intros L.
+  - pose proof (expand i x y P Q L). nra.
+  - destruct (Rle_dec x y) as [|G]; auto. pose proof (expand i y x Q P ltac:(lra)). nra.
+Qed.
+
+(* The preimage of an interval in I0, or in I1, is an interval. *)
+Lemma preimage i l r : A <= l <= B -> A <= r <= B -> l < r ->
+  exists p q, In_ i p /\ In_ i q /\ p < q /\ q - p <= (r - l) / m /\
+    forall x, In_ i x -> (l <= f x <= r <-> p <= x <= q).
+Proof.
+  intros L R LR.
+  destruct (g_spec i l L) as [P El]. destruct (g_spec i r R) as [Q Er].
+  pose proof (g_contract i l r L R) as W. rewrite (Rabs_minus_sym l), (Rabs_pos_eq (r - l)) in W by lra.
+  apply Rabs_le_between in W. set (p := g i l) in *. set (q := g i r) in *.
+  assert (F : forall x, In_ i x -> (p <= x <-> s i * f p <= s i * f x) /\
+    (x <= q <-> s i * f x <= s i * f q) /\ (q <= x <-> s i * f q <= s i * f x) /\
+    (x <= p <-> s i * f x <= s i * f p)) by (intros; repeat split; apply f_mono; auto).
+  destruct (F p P) as (_ & Fp & Fq & _). rewrite El, Er in *.
+  destruct (sign i) as [S1 | S1]; rewrite S1 in *; [exists p, q | exists q, p];
+    (split; [auto|]; split; [auto|]; split; [|split; [lra|]]).
+  1, 3: apply Rnot_le_lt; intros G; solve [apply Fq in G; lra | apply Fp in G; lra].
+  all: intros x X; destruct (F x X) as (F1 & F2 & F3 & F4).
+  - rewrite F1, F2. split; lra.
+  - rewrite F3, F4. split; lra.
+Qed.
+
+(* The paper's claim H5. *)
+Theorem preimages c d : A <= c -> c < d -> d <= B ->
+  exists l0 r0 l1 r1, A <= l0 < r0 /\ r0 <= b0 /\ a1 <= l1 < r1 /\ r1 <= B /\
+    forall x, A <= x <= B -> ((exists y, N x y /\ c <= y <= d) <-> l0 <= x <= r0 \/ l1 <= x <= r1).
+Proof.
+  intros C CD D.
+  destruct (preimage false c d) as (l0 & r0 & L0 & R0 & O0 & _ & E0); try lra.
+  destruct (preimage true c d) as (l1 & r1 & L1 & R1 & O1 & _ & E1); try lra.
+  exists l0, r0, l1, r1. pose proof (N_f false) as N0. pose proof (N_f true) as N1.
+  unfold Impact.In_ in *. do 4 (split; [lra|]). intros x X. split.
+  - intros (y & Nx & Y). destruct (Rle_dec x b0) as [G|G]; [|destruct (Rle_dec a1 x) as [H|H]].
+    + left. apply N0 in Nx; [|lra]. apply E0; [lra|]. subst y; auto.
+    + right. apply N1 in Nx; [|lra]. apply E1; [lra|]. subst y; auto.
+    + exfalso. apply (escape x y); auto; lra.
+  - intros [Y | Y]; exists (f x); (split; [|first [apply E0; lra | apply E1; lra]]).
+    + apply N0; [lra | auto].
+    + apply N1; [lra | auto].
+Qed.
+
+Hypothesis m_gt_1 : 1 < m.
+
+Lemma g_shrink i y z c : A <= y <= B -> A <= z <= B -> Rabs (y - z) <= c ->
+  Rabs (g i y - g i z) <= c / m.
+Proof.
+  intros Y Z C. eapply Rle_trans; [apply g_contract; auto|].
+  apply Rmult_le_compat_r; auto. apply Rlt_le, Rinv_0_lt_compat. lra.
+Qed.
+
+Lemma power n : 0 < m ^ n /\ forall c, c / m ^ S n = c / m ^ n / m.
+Proof.
+  assert (0 < m ^ n) by (apply pow_lt; lra). split; auto. intros c. simpl. field. lra.
+Qed.
+
+Lemma small c eps : 0 < eps -> exists n, c / m ^ n < eps.
+Proof.
+  intros E. destruct (Pow_x_infinity m ltac:(rewrite Rabs_pos_eq; lra) (c / eps + 1)) as [n H].
+  exists n. specialize (H n (le_n n)). destruct (power n) as [P _]. rewrite Rabs_pos_eq in H by lra.
+  apply Rmult_lt_reg_r with (m ^ n); auto. replace (c / m ^ n * m ^ n) with c by (field; lra).
+  replace c with (eps * (c / eps)) by (field; lra). apply Rmult_lt_compat_l; lra.
+Qed.
+
+Lemma vanish d c : (forall n, Rabs d <= c / m ^ n) -> d = 0.
+Proof.
+  intros H. destruct (Req_dec d 0) as [|D]; auto. apply Rabs_pos_lt in D.
+  destruct (small c _ D) as [n L]. specialize (H n). lra.
+Qed.
+
 Fixpoint approx (n : nat) (w : word) : R :=
   match n with O => A | S n => g (w O) (approx n (shift w)) end.
 
 Lemma approx_in n : forall w, A <= approx n w <= B.
 Proof. induction n; intros w; simpl; [lra|]. apply g_in; auto. Qed.
 
-Lemma approx_incr n : forall w, approx n w <= approx (S n) w.
+Lemma approx_near n : forall k w, Rabs (approx n w - approx (n + k) w) <= (B - A) / m ^ n.
 Proof.
-  induction n; intros w.
-  - simpl. apply (g_in (w O) A). lra.
-  - change (g (w O) (approx n (shift w)) <= g (w O) (approx (S n) (shift w))).
-    apply g_mono; auto using approx_in.
+  induction n; intros k w.
+  - replace ((B - A) / m ^ 0) with (B - A) by (simpl; field).
+    pose proof (approx_in 0 w). pose proof (approx_in (0 + k) w). apply Rabs_le. lra.
+  - rewrite (proj2 (power n)). apply g_shrink; auto using approx_in.
 Qed.
 
 Definition X (w : word) : R := real (Lim_seq (fun n => approx n w)).
 
 Lemma X_lim w : is_lim_seq (fun n => approx n w) (X w).
 Proof.
-  apply Lim_seq_correct'. apply (ex_finite_lim_seq_incr _ B).
-  - intros n; apply approx_incr.
-  - intros n; apply approx_in.
+  apply Lim_seq_correct', ex_lim_seq_cauchy_corr. intros eps.
+  destruct (small (B - A) (eps / 2)) as [n H]; [apply is_pos_div_2|].
+  exists n. intros j k J K.
+  pose proof (approx_near n (j - n) w) as Hj. pose proof (approx_near n (k - n) w) as Hk.
+  replace (n + (j - n))%nat with j in Hj by lia. replace (n + (k - n))%nat with k in Hk by lia.
+  apply Rabs_le_between in Hj. apply Rabs_le_between in Hk. apply Rabs_def1; lra.
+Qed.
+
+Lemma X_near n w : Rabs (approx n w - X w) <= (B - A) / m ^ n.
+Proof.
+  apply (is_lim_seq_le (fun k => Rabs (approx n w - approx (n + k) w)) (fun _ => (B - A) / m ^ n)
+    (Rabs (approx n w - X w)) ((B - A) / m ^ n)).
+  - intros k; apply approx_near.
+  - apply (is_lim_seq_abs _ (approx n w - X w)), (is_lim_seq_minus' _ _ (approx n w) (X w)).
+    + apply is_lim_seq_const.
+    + apply (is_lim_seq_ext (fun k => approx (k + n) w)); [intros k; f_equal; lia|].
+      apply (is_lim_seq_incr_n (fun k => approx k w)), X_lim.
+  - apply is_lim_seq_const.
 Qed.
 
 Lemma X_in w : A <= X w <= B.
@@ -108,20 +199,17 @@ Qed.
 
 Lemma X_g w : X w = g (w O) (X (shift w)).
 Proof.
-  assert (L : is_lim_seq (fun n => approx (S n) w) (g (w O) (X (shift w)))).
-  { apply is_lim_seq_spec. intros eps. pose proof (X_lim (shift w)) as H.
-    apply is_lim_seq_spec in H. destruct (H eps) as [n0 Hn]. exists n0. intros n Ln.
-    specialize (Hn n Ln). simpl.
-    eapply Rle_lt_trans; [apply g_contract; [apply approx_in|apply X_in]|].
-    eapply Rle_lt_trans; [|apply Hn].
-    pose proof (Rabs_pos (approx n (shift w) - X (shift w))).
-    apply Rmult_le_reg_l with m; [lra|].
-    replace (m * (Rabs (approx n (shift w) - X (shift w)) / m))
-      with (Rabs (approx n (shift w) - X (shift w))) by (field; lra). nra. }
-  pose proof (is_lim_seq_incr_1 (fun n => approx n w) (X w)) as [I _].
-  specialize (I (X_lim w)).
-  pose proof (is_lim_seq_unique _ _ I) as E1. pose proof (is_lim_seq_unique _ _ L) as E2.
-  rewrite E1 in E2. now inversion E2.
+  apply Rminus_diag_uniq, (vanish _ (2 * (B - A))). intros n.
+  pose proof (X_near (S n) w) as H. rewrite (proj2 (power n)) in H.
+  pose proof (g_shrink (w O) _ _ _ (approx_in n (shift w)) (X_in (shift w)) (X_near n (shift w))) as G.
+  change (g (w O) (approx n (shift w))) with (approx (S n) w) in G.
+  assert (L : (B - A) / m ^ n / m <= (B - A) / m ^ n).
+  { assert (0 <= (B - A) / m ^ n) by (apply Rdiv_le_0_compat; [lra | apply power]).
+    set (c := (B - A) / m ^ n) in *. apply Rmult_le_reg_r with m; [lra|].
+    replace (c / m * m) with c by (field; lra). nra. }
+  apply Rabs_le_between in H. apply Rabs_le_between in G.
+  replace (2 * (B - A) / m ^ n) with (2 * ((B - A) / m ^ n)) by (unfold Rdiv; ring).
+  apply Rabs_le. lra.
 Qed.
 
 Lemma X_In w : In_ (w O) (X w).
@@ -157,24 +245,7 @@ Proof.
     assert (I1 : A <= u 1%nat <= B) by apply (In_I _ _ (proj1 (H 1%nat))).
     specialize (IHn (shift w) (fun k => u (S k)) (fun k => H (S k))). simpl in IHn.
     rewrite X_g. rewrite <- (g_f (w O) (u O)), <- E by (rewrite <- ?E; auto).
-    eapply Rle_trans; [apply g_contract; [auto|apply X_in]|].
-    assert (0 < m ^ n) by (apply pow_lt; lra).
-    replace ((B - A) / m ^ S n) with ((B - A) / m ^ n / m) by (simpl; field; lra).
-    apply Rmult_le_compat_r; [|auto]. apply Rlt_le, Rinv_0_lt_compat. lra.
-Qed.
-
-Lemma vanish d c : (forall n, Rabs d <= c / m ^ n) -> d = 0.
-Proof.
-  intros H. destruct (Req_dec d 0) as [|D]; auto. apply Rabs_pos_lt in D. exfalso.
-  assert (c0 : 0 < c) by (specialize (H O); simpl in H; lra).
-  destruct (Pow_x_infinity m ltac:(rewrite Rabs_pos_eq; lra) (2 * c / Rabs d)) as [n Hn].
-  specialize (Hn n (le_n n)). specialize (H n).
-  assert (P : 0 < m ^ n) by (apply pow_lt; lra). rewrite Rabs_pos_eq in Hn by lra.
-  assert (Rabs d * m ^ n <= c).
-  { apply Rmult_le_compat_r with (r := m ^ n) in H; [|lra].
-    replace (c / m ^ n * m ^ n) with c in H by (field; lra). lra. }
-  apply Rge_le in Hn. apply Rmult_le_compat_l with (r := Rabs d) in Hn; [|lra].
-  replace (Rabs d * (2 * c / Rabs d)) with (2 * c) in Hn by (field; lra). lra.
+    rewrite (proj2 (power n)). apply g_shrink; auto using X_in.
 Qed.
 
 Lemma itinerary_X x w : itinerary x w -> x = X w.
@@ -199,10 +270,7 @@ Proof.
   - simpl. pose proof (X_in w). pose proof (X_in w').
     replace ((B - A) / 1) with (B - A) by field. apply Rabs_le. lra.
   - rewrite (X_g w), (X_g w'), <- (H O) by lia.
-    eapply Rle_trans; [apply g_contract; apply X_in|].
-    assert (0 < m ^ n) by (apply pow_lt; lra).
-    replace ((B - A) / m ^ S n) with ((B - A) / m ^ n / m) by (simpl; field; lra).
-    apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra|].
+    rewrite (proj2 (power n)). apply g_shrink; try apply X_in.
     apply IHn. intros k K. apply (H (S k)). lia.
 Qed.
 
@@ -251,13 +319,6 @@ Proof.
   - apply X_apart.
 Qed.
 
-Lemma f_mono i x y : In_ i x -> In_ i y -> (x <= y <-> f x <= f y).
-Proof.
-  intros P Q. split; intros L.
-  - pose proof (expand i x y P Q L). nra.
-  - destruct (Rle_dec x y) as [|G]; auto. pose proof (expand i y x Q P ltac:(lra)). nra.
-Qed.
-
 Lemma visits_S n x w : visits (S (S n)) x w <-> In_ (w O) x /\ visits (S n) (f x) (shift w).
 Proof.
   split.
@@ -299,25 +360,15 @@ Proof.
     assert (HI : forall z, l <= z <= r -> A <= z <= B).
     { intros z Z. apply V in Z. destruct Z as (u & <- & P & _).
       apply (In_I _ _ (P O ltac:(lia))). }
-    destruct (g_spec (w O) l (HI l ltac:(lra))) as [Gl El].
-    destruct (g_spec (w O) r (HI r ltac:(lra))) as [Gr Er].
-    exists (g (w O) l), (g (w O) r).
-    assert (Lt : g (w O) l < g (w O) r).
-    { destruct (Rlt_dec (g (w O) l) (g (w O) r)); auto.
-      assert (f (g (w O) r) <= f (g (w O) l)) by (apply (proj1 (f_mono (w O) _ _ Gr Gl)); lra). lra. }
-    split; [auto|split].
-    + pose proof (expand (w O) _ _ Gl Gr ltac:(lra)) as [H _]. rewrite El, Er in H.
-      assert (0 < m ^ n) by (apply pow_lt; lra).
-      replace ((B - A) / m ^ S n) with ((B - A) / m ^ n / m) by (simpl; field; lra).
-      apply Rmult_le_reg_l with m; [lra|].
-      replace (m * ((B - A) / m ^ n / m)) with ((B - A) / m ^ n) by (field; lra). lra.
-    + intros x. rewrite visits_S, V. split.
-      * intros [P [Q Q']]. rewrite <- El in Q. rewrite <- Er in Q'.
-        split; [apply (proj2 (f_mono (w O) _ _ Gl P)) | apply (proj2 (f_mono (w O) _ _ P Gr))]; auto.
-      * intros [Q Q']. assert (P : In_ (w O) x).
-        { unfold Impact.In_ in *. destruct (w O); lra. }
-        split; auto. rewrite <- El at 1. rewrite <- Er at 1.
-        split; [apply (proj1 (f_mono (w O) _ _ Gl P)) | apply (proj1 (f_mono (w O) _ _ P Gr))]; auto.
+    destruct (preimage (w O) l r) as (p & q & P & Q & L & W & E);
+      [apply HI; lra | apply HI; lra | auto |].
+    exists p, q. split; [auto|split].
+    { rewrite (proj2 (power n)). eapply Rle_trans; [apply W|].
+      apply Rmult_le_compat_r; auto. apply Rlt_le, Rinv_0_lt_compat. lra. }
+    intros x. rewrite visits_S, V. split.
+    + intros [X Y]. apply E; auto.
+    + intros Y. assert (X : In_ (w O) x) by (unfold Impact.In_ in *; destruct (w O); lra).
+      split; auto. apply E; auto.
 Qed.
 
 End Shift.
