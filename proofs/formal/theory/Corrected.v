@@ -124,12 +124,12 @@ Proof.
 Qed.
 
 Section Monotone.
-(* s = 1: f increases on [a, b], s = -1: it decreases; bounds on |f'| for [x, y]. *)
+(* s = 1: f increases on [x, y], s = -1: it decreases; there m <= |f'| <= M. *)
 Variables x y s m M : R.
 Record monotone : Prop := {
   mo_order : a < x /\ x < y /\ y < b;
   mo_sign : s = 1 \/ s = -1;
-  mo_strict : forall phi, a <= phi <= b -> 0 < s * rate phi;
+  mo_pos : 0 < m;
   mo_bounds : forall phi, x <= phi <= y -> m <= s * rate phi <= M
 }.
 Hypothesis Mo : monotone.
@@ -142,31 +142,26 @@ Proof.
   rewrite E. specialize (Bo c ltac:(lra)). nra.
 Qed.
 
-Lemma increases p q : x <= p -> p < q -> q <= y -> 0 < s * (lift q - lift p).
-Proof.
-  destruct Mo as [O _ St _]. intros P PQ Q.
-  destruct (mvt lift rate p q) as [c [C E]]; [lra | intros c C; apply lift_derive; lra |].
-  rewrite E. specialize (St c ltac:(lra)). rewrite <- Rmult_assoc. apply Rmult_lt_0_compat; lra.
-Qed.
-
 (* The paper's claim H3. *)
 Lemma monotone_lift : exists F,
   (forall p, x <= p <= y -> continuous F p /\ first_impact p (F p - p)) /\
   forall p q, x <= p -> p < q -> q <= y -> 0 < s * (F q - F p).
 Proof.
-  exists lift. split; [|apply increases]. destruct Mo as [O _ _ _]. intros p P. split.
+  exists lift. split.
+  2: { intros p q P PQ Q. pose proof (growth p q P ltac:(lra) Q). destruct Mo as [_ _ m0 _]. nra. }
+  destruct Mo as [O _ _ _]. intros p P. split.
   - apply (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
     exists (rate p). apply lift_derive. lra.
   - apply lift_impact. lra.
 Qed.
 
 (* The paper's claim H6: of an interval in I, the preimage is shorter by the factor m. *)
-Lemma short_preimage A B : M * (y - x) + (B - A) < 2 * PI -> 0 < m ->
+Lemma short_preimage A B : M * (y - x) + (B - A) < 2 * PI ->
   forall c d p q i j, A <= c -> d <= B -> x <= p -> p <= q -> q <= y ->
   next p i -> next q j -> c <= i <= d -> c <= j <= d -> m * (q - p) <= d - c.
 Proof.
-  intros W m0 c d p q i j C D P PQ Q (t & k & Ft & Ei & _) (t' & k' & Ft' & Ej & _) I J.
-  pose proof (growth p q P PQ Q) as G. destruct Mo as [O Si _ _].
+  intros W c d p q i j C D P PQ Q (t & k & Ft & Ei & _) (t' & k' & Ft' & Ej & _) I J.
+  pose proof (growth p q P PQ Q) as G. destruct Mo as [O Si m0 _].
   assert (E : forall z w, x <= z <= y -> first_impact z w -> lift z = z + w).
   { intros z w Z F. unfold lift. f_equal. apply impact_time_spec; auto. }
   rewrite (E p t), (E q t') in G by (auto; lra).
@@ -178,6 +173,19 @@ Proof.
   assert (K : -1 < IZR (k' - k) < 1) by (destruct Si as [-> | ->]; nra).
   assert (Kz : (k' - k = 0)%Z) by (destruct K as [K K']; apply lt_IZR in K, K'; lia).
   rewrite Kz in G. destruct Si as [-> | ->]; lra.
+Qed.
+
+(* Off [x, y], rough bounds on the lift are enough. *)
+Lemma lap k l r : (forall p, a <= p <= x \/ y <= p <= b -> l <= lift p <= r) ->
+  0 <= l - 2 * PI * IZR k -> r - 2 * PI * IZR k < 2 * PI -> in_lap k.
+Proof.
+  intros H L R p P. destruct Mo as [O Si m0 _].
+  assert (l <= lift p <= r); [|lra].
+  destruct (Rle_dec p x); [apply H; lra|]. destruct (Rle_dec y p); [apply H; lra|].
+  pose proof (H x ltac:(lra)). pose proof (H y ltac:(lra)).
+  pose proof (growth x p ltac:(lra) ltac:(lra) ltac:(lra)).
+  pose proof (growth p y ltac:(lra) ltac:(lra) ltac:(lra)).
+  destruct Si as [S1 | S1]; rewrite S1 in *; nra.
 Qed.
 
 (* f maps [x, y] over [A, B], in lap k. *)
