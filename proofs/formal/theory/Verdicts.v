@@ -4,6 +4,12 @@ From Coquelicot Require Import Coquelicot.
 From Oscillator Require Import Impact Flight Shift Corrected.
 Open Scope R_scope.
 
+Lemma shorter m lo z w : 0 < lo < m -> 0 <= z -> 0 < w -> m * z <= w -> z < w / lo.
+Proof.
+  intros L Z W H. apply Rmult_lt_reg_r with lo; [lra|].
+  replace (w / lo * lo) with w by (field; lra). nra.
+Qed.
+
 Section Claims.
 Variables side eta nu : R.
 Hypothesis eta_pos : 0 < eta.
