@@ -15,8 +15,10 @@ from typing import NamedTuple
 from proofs.formal import templates
 from proofs.formal.hints import Branch, Hints, NoHint, binary
 from proofs.formal.plan import Headline, Plan, between
-from proofs.trusted.numbers import Range, hull, within
+from proofs.search.repair import rounded_slopes
+from proofs.trusted.numbers import Range, hull, show_range, within
 
+_PLACES = 6  # of a root of Moran's equation
 _BITS = 40  # of Coq's integers, where no margin is thin
 _ROOM = 2.0**-24
 _TINY = Fraction(1, 2**30)
@@ -91,6 +93,7 @@ class Writer:
         self.sets = list(self._sets())
         self.branches = [self._branch(index) for index in (0, 1)] if self.sets else []
         self.laps: dict[int, int] = {}
+        self.stated: dict[str, object] = {}  # the theorem on the horseshoe and its numbers
         self.avoid: dict[str, str] = {}  # for each of the sets, the lemma that the gap leaves I
 
     def add(self, template: str, **values: object) -> None:
@@ -229,9 +232,10 @@ class Writer:
         signs = {"s0": f"({headline.signs[0]})", "s1": f"({headline.signs[1]})"}
         says = templates.horseshoe_in_words(headline)
         self.state(name, says, templates.HORSESHOE, **values, **signs, avoid=self.avoid[sets.name])
-        for follows, words, needed in templates.FOLLOWS:
-            if needed is None or m > needed:
-                self.state(follows, words, templates.FOLLOWS_FROM[follows], of=name, **values)
+        self.stated = {"of": name, "s1": signs["s1"], **values}
+        for follows, words in templates.FOLLOWS_IN_WORDS.items():
+            if m > 2 or follows != "measure_zero":
+                self.state(follows, words, templates.FOLLOWS[follows], of=name, **values)
 
     def claims(self) -> None:
         """Write the theorems on H1 to H6, as far as they are decided."""
@@ -245,6 +249,8 @@ class Writer:
                 self._refuted(claim, name, says, ends)
             elif claim == "H5":
                 self._preimages(name, says, ends)
+            elif claim in ("H11", "H16"):
+                self._moran(claim, name, says)
             elif claim == "H4":
                 A, B = of.interval
                 avoid = self.avoid["printed"]
@@ -274,6 +280,18 @@ class Writer:
             m, M = binary(float(low) - spare / 4, bits), binary(float(high) + spare / 4, bits, True)
             self.state(name, says, templates.REFUTED[claim], **named, m=m, M=M)
 
+    def _moran(self, claim: str, name: str, says: str) -> None:
+        """Write H11, a bracket of each root of Moran's equation, or H16."""
+        if not self.plan.holds(claim):
+            return
+        if claim == "H16":
+            r0, r1 = self.plan.of.moran_ratios
+            self.state(name, says, templates.H16, r0=r0, r1=r1)
+        for number, root in enumerate(self.plan.roots if claim == "H11" else ()):
+            (r0, r1), (l, r) = root.ratios, rounded_slopes(root.root, _PLACES)
+            more = f"_{number}" if number else ""
+            self.state(name + more, says, templates.H11, r0=r0, r1=r1, l=l, r=r)
+
     def _preimages(self, name: str, says: str, ends: dict[str, Fraction]) -> None:
         """Write H5: I0 and I1 are mapped over I, or one of them misses an end of it."""
         printed = self.sets[-1]
@@ -291,9 +309,19 @@ class Writer:
                 for end, phase in ((0, x), (1, y)):
                     self._impact(index, (phase, phase), f"missed{index}_{end}")
                 named = {"i": index, "x": x, "y": y, "c": missed[0], "d": missed[1], **ends}
-                self.state(name, says, templates.H5_REFUTED, **named, k=lap, s=f"({sign})")
+                self.state(name, says, templates.H5_REFUTED, **named, k=lap)
+                if index == 0 and sign > 0 and missed[0] == x:
+                    self._no_word(ends, lap)
                 return
         raise NoHint("H5: no interval is seen to be missed")
+
+    def _no_word(self, ends: dict[str, Fraction], lap: int) -> None:
+        """Write that the word 000... has no point in the printed I0, if the horseshoe's contains it."""
+        headline = self.plan.headline
+        if headline is None or headline.signs[0] < 0 or not within(self.plan.of.left, headline.left):
+            return
+        says = f"H7 as printed fails: no orbit stays in I0 = {show_range(self.plan.of.left)}"
+        self.state("no_word_000", says, templates.NO_WORD, **ends, k=lap, **self.stated)
 
     def _missed(self, low: float, high: float) -> Range | None:
         """Return an interval in I0 or in I1 that an image from `low` to `high` misses."""

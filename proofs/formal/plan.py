@@ -10,12 +10,13 @@ from proofs.trusted.certificate import FIELDS, parse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, hull
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
 
-CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6")
+CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
 _MOST_DIGITS = 12
 
 
@@ -41,9 +42,9 @@ class Headline:
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be stated: a horseshoe, if there is one, and what is decided of H1 to H6.
+    """What is to be stated: a horseshoe, if there is one, and what is decided of the claims.
 
-    points: the phases by which claims are refuted.
+    points: the phases by which claims are refuted; roots: of Moran's equation.
     """
 
     of: Parameters
@@ -51,6 +52,7 @@ class Plan:
     verdicts: dict[str, Verdict]
     statements: dict[str, str]
     points: dict[str, Impact]
+    roots: tuple[MoranRoot, ...]
 
     def holds(self, *claims: str) -> bool:
         """Whether claims are verified."""
@@ -65,7 +67,7 @@ def plan(source: str) -> Plan:
     report = check(source)
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
-    if of is None or not claims:
+    if of is None or not {"H1", "H2", "H3", "H4", "H5", "H6"} & set(claims):
         raise NoTheorem("no certificate of the horseshoe: it has none of the claims H1 to H6")
     known = premises(source).known
     proofs = {
@@ -83,6 +85,7 @@ def plan(source: str) -> Plan:
         decided,
         {name: each.statement for name, each in claims.items()},
         points,
+        tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
     )
     if result.headline is None and not decided:
         raise NoTheorem("it decides none of the claims H1 to H6")

@@ -19,7 +19,7 @@ HEAD = """(* Written by python -m proofs.formal from {source}.
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
 {arithmetic}
-From Oscillator Require Import Impact Flight Shift Corrected Verdicts.
+From Oscillator Require Import Impact Chaos Flight Shift Corrected Verdicts Consequences Claims.
 Open Scope R_scope.
 
 Definition side := {side}.
@@ -157,7 +157,9 @@ Print Assumptions all.
 
 # -- theorems --------------------------------------------------------------------------------------
 
-SAYS = "\n(* {says} *)\n"
+SAYS = """
+(* {says} *)
+"""
 
 HORSESHOE = SAYS + """Theorem {name} : horseshoe next {A} {b0} {a1} {B} {s0} {s1} {m} {M}.
 Proof.
@@ -168,15 +170,15 @@ Proof.
 Qed.
 """
 
-H4_VERIFIED = SAYS + """Theorem {name} : forall phi, {y0} < phi < {x1} ->
-  (exists psi, next phi psi) /\\ forall psi, next phi psi -> ~ {A} <= psi <= {B}.
+H4_VERIFIED = SAYS + r"""Theorem {name} : forall phi, {y0} < phi < {x1} ->
+  (exists psi, next phi psi) /\ forall psi, next phi psi -> ~ {A} <= psi <= {B}.
 Proof.
   intros phi P. split; [apply {avoid}_meets; lra |].
   intros psi N H. apply ({avoid} phi psi); auto; lra.
 Qed.
 """
 
-H4_REFUTED = SAYS + """Theorem {name} : {y0} < {p} < {x1} /\\ exists psi, next {p} psi /\\ {A} <= psi <= {B}.
+H4_REFUTED = SAYS + r"""Theorem {name} : {y0} < {p} < {x1} /\ exists psi, next {p} psi /\ {A} <= psi <= {B}.
 Proof.
   split; [lra |].
   apply (image_of_point side eta nu eta_pos _ _ _ _ _ branch_{c} {p} {s} {t} {k});
@@ -186,18 +188,18 @@ Qed.
 
 _IN = "In_ {x0} {y0} {x1} {y1} i"
 
-H1_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + """ x ->
-  exists d, slope_at x d /\\ {lo} <= d.
+H1_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + r""" x ->
+  exists d, slope_at x d /\ {lo} <= d.
 Proof. slopes rate_printed0 rate_printed1 branch0 branch1. Qed.
 """
 
-H2_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + """ x ->
-  exists d, slope_at x d /\\ d <= {hi}.
+H2_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + r""" x ->
+  exists d, slope_at x d /\ d <= {hi}.
 Proof. slopes rate_printed0 rate_printed1 branch0 branch1. Qed.
 """
 
 H3_VERIFIED = SAYS + """Theorem {name} : forall i, exists F,
-  (forall x, """ + _IN + """ x -> continuous F x /\\ first_impact x (F x - x)) /\\
+  (forall x, """ + _IN + r""" x -> continuous F x /\ first_impact x (F x - x)) /\
   forall x y, """ + _IN + " x -> " + _IN + """ y -> x < y -> F x < F y.
 Proof.
   intros [|];
@@ -208,7 +210,7 @@ Proof.
 Qed.
 """
 
-H6_VERIFIED = SAYS + """Theorem {name} : forall c d, c < d -> {x0} <= c /\\ d <= {y0} \\/ {x1} <= c /\\ d <= {y1} ->
+H6_VERIFIED = SAYS + r"""Theorem {name} : forall c d, c < d -> {x0} <= c /\ d <= {y0} \/ {x1} <= c /\ d <= {y1} ->
   forall i x y u v, """ + _IN + " x -> " + _IN + """ y -> x <= y -> next x u -> next y v ->
   c <= u <= d -> c <= v <= d -> y - x < (d - c) / {lo}.
 Proof.
@@ -230,18 +232,18 @@ Proof.
     as (d & D & R); [lra | lra | at_once | at_once | split; one r | exists d; split; [exact D | lra]].
 Qed.
 """
-_INSIDE = SAYS + "Theorem {name} : ({x0} < {p} < {y0} \\/ {x1} < {p} < {y1}) /\\ "
+_INSIDE = SAYS + r"Theorem {name} : ({x0} < {p} < {y0} \/ {x1} < {p} < {y1}) /\ "
 
 REFUTED = {
-    "H1": _INSIDE + "exists d, slope_at {p} d /\\ d < {lo}." + _POINT,
-    "H2": _INSIDE + "exists d, slope_at {p} d /\\ {hi} < d." + _POINT,
-    "H3": _INSIDE + "exists d, slope_at {p} d /\\ d < 0." + _POINT,
+    "H1": _INSIDE + r"exists d, slope_at {p} d /\ d < {lo}." + _POINT,
+    "H2": _INSIDE + r"exists d, slope_at {p} d /\ {hi} < d." + _POINT,
+    "H3": _INSIDE + r"exists d, slope_at {p} d /\ d < 0." + _POINT,
 }
 
-H5_VERIFIED = SAYS + """Theorem {name} : forall c d, c < d -> {x0} <= c /\\ d <= {y0} \\/ {x1} <= c /\\ d <= {y1} ->
-  exists l0 r0 l1 r1, {x0} <= l0 < r0 /\\ r0 <= {y0} /\\ {x1} <= l1 < r1 /\\ r1 <= {y1} /\\
+H5_VERIFIED = SAYS + r"""Theorem {name} : forall c d, c < d -> {x0} <= c /\ d <= {y0} \/ {x1} <= c /\ d <= {y1} ->
+  exists l0 r0 l1 r1, {x0} <= l0 < r0 /\ r0 <= {y0} /\ {x1} <= l1 < r1 /\ r1 <= {y1} /\
     forall x, {x0} <= x <= {y1} ->
-    ((exists y, next x y /\\ c <= y <= d) <-> l0 <= x <= r0 \\/ l1 <= x <= r1).
+    ((exists y, next x y /\ c <= y <= d) <-> l0 <= x <= r0 \/ l1 <= x <= r1).
 Proof.
   intros c d L J.
   eapply two_preimages with (4 := branch0) (5 := branch1) (6 := monotone_printed0)
@@ -251,7 +253,7 @@ Proof.
 Qed.
 """
 
-H5_REFUTED = SAYS + """Theorem {name} : ({x0} <= {c} /\\ {c} < {d} /\\ {d} <= {y0} \\/ {x1} <= {c} /\\ {c} < {d} /\\ {d} <= {y1}) /\\
+H5_REFUTED = SAYS + r"""Theorem {name} : ({x0} <= {c} /\ {c} < {d} /\ {d} <= {y0} \/ {x1} <= {c} /\ {c} < {d} /\ {d} <= {y1}) /\
   forall x y, {x} <= x <= {y} -> next x y -> ~ {c} <= y <= {d}.
 Proof.
   split; [lra |].
@@ -262,8 +264,59 @@ Qed.
 """
 
 
-FOLLOWS: list[tuple[str, str, Fraction | None]] = []
-FOLLOWS_FROM: dict[str, str] = {}
+FOLLOWS = {
+    "theorem_3": SAYS + """Theorem {name} : chaos next (stays next {A} {B}).
+Proof.
+  apply (chaos_theorem next {A} {b0} {a1} {B} {m} {M});
+    [lra | lra | apply next_unique | exact (proj2 (proj2 {of}))].
+Qed.
+""",
+    "theorem_4": SAYS + """Theorem {name} : cantor_set (stays next {A} {B}).
+Proof.
+  apply (cantor_theorem next {A} {b0} {a1} {B} {m} {M});
+    [lra | lra | lra | exact (proj2 (proj2 {of}))].
+Qed.
+""",
+    "measure_zero": SAYS + """Theorem {name} : null (stays next {A} {B}).
+Proof.
+  apply (null_theorem next {A} {b0} {a1} {B} {m} {M});
+    [lra | lra | exact (proj2 (proj2 {of})) | lra].
+Qed.
+""",
+}
+FOLLOWS_IN_WORDS = {
+    "theorem_3": "among the phases that stay in I, 2^n are fixed by f^n for every n > 0, there are "
+    "orbits of every least period, uncountably many nonperiodic orbits, and a dense one",
+    "theorem_4": "the phases that stay in I are a Cantor set: compact, without isolated points, and "
+    "without an interval",
+    "measure_zero": "the phases that stay in I have Lebesgue measure zero",
+}
+
+NO_WORD = SAYS + """Theorem {name} :
+  ~ exists x, itinerary next {x0} {y0} {x1} {y1} x (fun _ => false).
+Proof.
+  destruct {of} as [[g G] _].
+  apply (no_point next {A} {b0} {a1} {B} 1 {s1} {m} {M} g); unfold In_; [exact G | lra | lra | lra | lra |].
+  exists (lift side eta nu {x0} - 2 * PI * {k}).
+  split; [|generalize (missed0_0 {x0} ltac:(lra)) PI_near; unfold lift; lra].
+  destruct (f_lift side eta nu eta_pos _ _ _ _ _ branch0 {k} lap0 {x0} ltac:(lra)) as [E U].
+  apply U. symmetry. exact E.
+Qed.
+"""
+
+H11 = SAYS + r"""Theorem {name} : exists s,
+  {l} < s < {r} /\ forall t, moran {r0} {r1} t = 1 <-> t = s.
+Proof.
+  apply moran_root; [lra | lra | lra |]. unfold moran, Rpower.
+  split; interval with (i_prec 53).
+Qed.
+"""
+
+H16 = SAYS + r"""Theorem {name} : forall s, moran {r0} {r1} s = 1 ->
+  let q x := Rpower ((1 - {r1}) / {r0} + x) s - 1 - Rpower x s in
+  (forall x y, 0 < x < y -> q y < q x) /\ q ({r1} / {r0}) = 0.
+Proof. intros s. apply gap_function; lra. Qed.
+"""
 
 
 def horseshoe_in_words(headline: Headline) -> str:
