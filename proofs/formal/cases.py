@@ -363,7 +363,7 @@ def case(plan: Plan, source: str, floats: bool) -> Case:
     """Return the Coq file of a plan, for Coq's integers or for machine floats."""
     writer = Writer(plan)
     body = writer.write()
-    bits = max(_BITS, 30 - math.floor(math.log2(writer.finest)))
+    bits = max(_BITS, 16 - math.floor(math.log2(writer.finest)))
     precision = "" if floats and bits <= 53 else f"i_prec {bits}"
     head = templates.HEAD.format(
         source=source,
