@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.formal import templates
-from proofs.formal.hints import Branch, Hints, NoHint, binary
+from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Headline, Plan, between
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import Range, hull, show_range, within
@@ -91,7 +91,7 @@ class Writer:
         self.theorems: list[Theorem] = []
         self.finest = 1.0
         self.sets = list(self._sets())
-        self.branches = [self._branch(index) for index in (0, 1)] if self.sets else []
+        self.branches = [self._branches(index) for index in (0, 1)] if self.sets else []
         self.laps: dict[int, int] = {}
         self.stated: dict[str, object] = {}  # the theorem on the horseshoe and its numbers
         self.avoid: dict[str, str] = {}  # for each of the sets, the lemma that the gap leaves I
@@ -136,37 +136,56 @@ class Writer:
             high = min(high, self.plan.of.slopes[1])
         return low, high
 
-    def _branch(self, index: int) -> Branch:
+    def _branches(self, index: int) -> list[Branch]:
         """Write that the launches near I0, or I1, have transversal first impacts."""
-        low, high = hull([sets.domains[index] for sets in self.sets])
-        branch = self.hints.branch(low, high)
-        self.add(templates.BRANCH, i=index, **branch._asdict())
-        self._rates(index, branch)
-        return branch
+        whole = hull([sets.domains[index] for sets in self.sets])
+        branches = self.hints.branches(*whole)
+        parts = []
+        for j, branch in enumerate(branches):
+            self.add(templates.BRANCH, i=f"{index}_{j}", **branch._asdict())
+            part = templates.LAST if branch is branches[-1] else templates.GLUED
+            next_a = branches[min(j + 1, len(branches) - 1)].a
+            parts.append(part.format(branch=f"{index}_{j}", b=rational(branch.b), c=rational(next_a)))
+        ends = {"a": branches[0].a, "b": branches[-1].b}
+        self.add(templates.REGULAR, i=index, parts="".join(parts), **ends)
+        self._rates(index, branches, whole)
+        return branches
 
-    def _rates(self, index: int, branch: Branch) -> None:
-        """Write the bounds on f', piece by piece, then for each of the sets."""
+    def _rates(self, index: int, branches: list[Branch], whole: Range) -> None:
+        """Write the bounds on f', piece by piece, then for each of the sets and on the whole."""
         parts = [(sets.domains[index], sets.bounds[index]) for sets in self.sets]
-        cuts = sorted({end for domain, _ in parts for end in domain})
-        pieces: list[Range] = []
-        for zone in pairwise(cuts):
+        cuts = {end for domain, _ in parts for end in domain}
+        cuts |= {branch.b - SLACK for branch in branches}
+        pieces: list[tuple[str, Range]] = []
+        used = [bounds for _, bounds in parts]
+        for zone in pairwise(sorted(cuts)):
+            j = next(j for j, branch in enumerate(branches) if within(zone, branch[:2]))
             inside = [bounds for domain, bounds in parts if within(zone, domain)]
-            if not inside:
-                continue
+            inside = inside or [self._bounds(zone)]
             bounds = max(low for low, _ in inside), min(high for _, high in inside)
-            for piece in self.hints.pieces(branch, zone, bounds):
+            used.append(bounds)
+            for piece in self.hints.pieces(branches[j], zone, bounds):
+                name = f"piece{index}_{len(pieces)}"
                 self.finest = min(self.finest, float(piece.d))
-                named = {"i": index, "j": len(pieces), "lo": bounds[0], "hi": bounds[1]}
+                named = {"name": name, "branch": f"{index}_{j}", "lo": bounds[0], "hi": bounds[1]}
                 self.add(templates.PIECE, **named, **piece._asdict())
-                pieces.append((piece.p, piece.q))
-        for sets in self.sets:
-            (x, y), (lo, hi) = sets.domains[index], sets.bounds[index]
-            mine = [(f"piece{index}_{j}", q) for j, (p, q) in enumerate(pieces) if x <= p and q <= y]
-            named = {"i": index, "set": sets.name, "x": x, "y": y, "lo": lo, "hi": hi}
-            self.add(templates.RATE, **named, cuts=by_cases(mine, "destruct ({} phi); lra"))
-            sign, (m, M) = sets.sign(index), sets.sizes(index)
-            if sign:
-                self.add(templates.MONOTONE, **named, s=f"({sign})", m=m, M=M, a=branch.a, b=branch.b)
+                pieces.append((name, (piece.p, piece.q)))
+        everywhere = Sets("whole", (whole, whole), (hull(used),) * 2)
+        for sets in (*self.sets, everywhere):
+            self._bounded(sets, index, branches, pieces)
+
+    def _bounded(
+        self, sets: Sets, index: int, branches: list[Branch], pieces: list[tuple[str, Range]]
+    ) -> None:
+        """Write the bounds on f' for I0 or I1, and that f is monotone there."""
+        (x, y), (lo, hi) = sets.domains[index], sets.bounds[index]
+        mine = [(name, part[1]) for name, part in pieces if within(part, (x, y))]
+        named = {"i": index, "set": sets.name, "x": x, "y": y, "lo": lo, "hi": hi}
+        self.add(templates.RATE, **named, cuts=by_cases(mine, "destruct ({} phi); lra"))
+        sign, (m, M) = sets.sign(index), sets.sizes(index)
+        if sign:
+            ends = {"a": branches[0].a, "b": branches[-1].b}
+            self.add(templates.MONOTONE, **named, **ends, s=f"({sign})", m=m, M=M)
 
     # -- images ----------------------------------------------------------------------------------
 
@@ -176,38 +195,44 @@ class Writer:
         bits = 2 - math.floor(math.log2(room))
         low, high = binary(min(times) - room, bits), binary(max(times) + room, bits, up=True)
         self.finest = min(self.finest, room)
-        self.add(templates.IMPACT, i=index, name=name, p=phases[0], q=phases[1], s=low, t=high)
+        j = next(j for j, x in enumerate(self.branches[index]) if within(phases, x[:2]))
+        named = {"name": name, "branch": f"{index}_{j}", "p": phases[0], "q": phases[1]}
+        self.add(templates.IMPACT, **named, s=low, t=high)
         return low, high
 
-    def lap(self, index: int, sets: Sets) -> int:
-        """Write in which lap all images of a branch are, and return it."""
-        if index in self.laps:
-            return self.laps[index]
-        branch, (x, y) = self.branches[index], sets.domains[index]
-        low = self._impact(index, (branch.a, x), f"before{index}", _ROOM * 2**8)
-        high = self._impact(index, (y, branch.b), f"after{index}", _ROOM * 2**8)
-        left, right = (branch.a + low[0], x + low[1]), (y + high[0], branch.b + high[1])
-        least, greatest = min(left[0], right[0]), max(left[1], right[1])
-        lap = math.floor(least / Fraction(math.tau))
-        if greatest > (lap + 1) * Fraction(math.tau):
-            raise NoHint("an image passes phase 0")
-        named = {"i": index, "set": sets.name, "x": x, "y": y, "k": lap, "l": least, "r": greatest}
-        self.add(templates.LAP, **named, a=branch.a, b=branch.b)
-        self.laps[index] = lap
-        return lap
+    def lap(self, index: int) -> dict[str, object]:
+        """Write in which lap all images of a branch are; return it with the branch's ends."""
+        a, b = self.branches[index][0].a, self.branches[index][-1].b
+        if index not in self.laps:
+            x, y = hull([sets.domains[index] for sets in self.sets])
+            if not all(sets.sign(index) == self.sets[0].sign(index) != 0 for sets in self.sets):
+                raise NoHint("f is not monotone")
+            low = self._impact(index, (a, x), f"before{index}", _ROOM * 2**8)
+            high = self._impact(index, (y, b), f"after{index}", _ROOM * 2**8)
+            least = min(a + low[0], y + high[0])
+            greatest = max(x + low[1], b + high[1])
+            lap = math.floor(least / Fraction(math.tau))
+            if greatest > (lap + 1) * Fraction(math.tau):
+                raise NoHint("an image passes phase 0")
+            self.add(templates.LAP, i=index, x=x, y=y, k=lap, l=least, r=greatest, a=a, b=b)
+            self.laps[index] = lap
+        return {"a": a, "b": b, "k": self.laps[index]}
 
     def covers(self, sets: Sets) -> None:
         """Write that f maps I0 and I1 over I."""
         (A, B) = sets.interval
         for index, (x, y) in enumerate(sets.domains):
-            lap, sign, branch = self.lap(index, sets), sets.sign(index), self.branches[index]
+            where, sign = self.lap(index), sets.sign(index)
             targets = (A, B) if sign > 0 else (B, A)
             for end, phase, target in ((0, x, targets[0]), (1, y, targets[1])):
-                image = float(phase) + self.hints.impact(float(phase)) - lap * math.tau
-                room = min(_ROOM, abs(image - float(target)) / 8)
+                room = min(_ROOM, abs(self._image(index, phase) - float(target)) / 8)
                 self._impact(index, (phase, phase), f"end_{sets.name}{index}_{end}", room)
-            named = {"i": index, "set": sets.name, "x": x, "y": y, "A": A, "B": B, "k": lap}
-            self.add(templates.COVERS, **named, s=f"({sign})", a=branch.a, b=branch.b)
+            named = {"i": index, "set": sets.name, "x": x, "y": y, "A": A, "B": B}
+            self.add(templates.COVERS, **named, **where, s=f"({sign})")
+
+    def _image(self, index: int, phase: Fraction) -> float:
+        """Return about f(phase), in the lap of the branch."""
+        return float(phase) + self.hints.impact(float(phase)) - self.laps[index] * math.tau
 
     def avoids(self, name: str, phases: Range, target: Range) -> None:
         """Write that no launch from an interval of phases has its impact in the target."""
@@ -265,19 +290,26 @@ class Writer:
         point, of = self.plan.points[claim], self.plan.of
         phase, (low, high) = point.phase, point.slope
         self.add(templates.BRANCH, i=f"_{claim}", **self.hints.branch(phase, phase, _TINY)._asdict())
-        limit = {"H1": of.slopes[0], "H2": of.slopes[1], "H3": Fraction(0)}.get(claim, low - 1)
-        spare = float(min(abs(low - limit), abs(high - limit), Fraction(1)))
+        lo, hi = of.slopes
+        limits = {"H1": [lo], "H2": [hi], "H3": [Fraction(0)], "H6": [Fraction(0), lo]}
+        nearest = min((abs(end - x) for x in limits.get(claim, []) for end in (low, high)), default=1)
+        spare = float(min(nearest, 1))
         room = min(_ROOM, spare / 2**12)
         bits, time = 2 - math.floor(math.log2(room)), self.hints.impact(float(phase))
         s, t = binary(time - room, bits), binary(time + room, bits, up=True)
         named = {"c": claim, "p": phase, "s": s, "t": t, **ends}
         self.finest = min(self.finest, room)
+        m, M = binary(float(low) - spare / 4, bits), binary(float(high) + spare / 4, bits, True)
+        lap, image = math.floor((phase + s) / Fraction(math.tau)), point.image
         if claim == "H4":
-            lap = math.floor((phase + s) / Fraction(math.tau))
             A, B = of.interval
             self.state(name, says, templates.H4_REFUTED, **named, k=lap, A=A, B=B)
+        elif claim == "H6":
+            A, B = next(x for x in (of.left, of.right) if x[0] < image[0] and image[1] < x[1])
+            y = next(x[1] for x in (of.left, of.right) if x[0] < phase < x[1])
+            more = {"m": m, "M": M, "A": A, "B": B, "y": y, "k": lap}
+            self.state(name, says, templates.H6_REFUTED, **named, **more)
         else:
-            m, M = binary(float(low) - spare / 4, bits), binary(float(high) + spare / 4, bits, True)
             self.state(name, says, templates.REFUTED[claim], **named, m=m, M=M)
 
     def _moran(self, claim: str, name: str, says: str) -> None:
@@ -302,16 +334,16 @@ class Writer:
             self.state(name, says, templates.H5_VERIFIED, **ends, **signs, **lows, avoid=self.avoid["printed"])
             return
         for index, (x, y) in enumerate(printed.domains):
-            lap, sign = self.lap(index, printed), printed.sign(index)
-            images = [float(z) + self.hints.impact(float(z)) - lap * math.tau for z in (x, y)]
+            where, sign = self.lap(index), printed.sign(index)
+            images = [self._image(index, end) for end in (x, y)]
             missed = self._missed(min(images), max(images))
             if missed is not None:
                 for end, phase in ((0, x), (1, y)):
                     self._impact(index, (phase, phase), f"missed{index}_{end}")
                 named = {"i": index, "x": x, "y": y, "c": missed[0], "d": missed[1], **ends}
-                self.state(name, says, templates.H5_REFUTED, **named, k=lap)
+                self.state(name, says, templates.H5_REFUTED, **named, k=where["k"])
                 if index == 0 and sign > 0 and missed[0] == x:
-                    self._no_word(ends, lap)
+                    self._no_word(ends, self.laps[0])
                 return
         raise NoHint("H5: no interval is seen to be missed")
 

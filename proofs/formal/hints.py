@@ -126,6 +126,16 @@ class Hints(System):
         u, v = binary(first - room, bits, True), binary(last + room / 8, bits)
         return Branch(a, b, lift, u, v)
 
+    def branches(self, low: Fraction, high: Fraction, depth: int = 0) -> list[Branch]:
+        """Return branches for the launches from [low, high], each beginning before one ends."""
+        try:
+            return [self.branch(low, high)]
+        except NoHint:
+            if depth == _DEEPEST // 2:
+                raise
+        middle = (low + high) / 2
+        return self.branches(low, middle, depth + 1) + self.branches(middle, high, depth + 1)
+
     def launch(self, phases: list[float], most: float) -> Fraction:
         """Return a time up to which gap'' > 0 for launches from these phases."""
         lift = Fraction(4)

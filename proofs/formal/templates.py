@@ -41,8 +41,8 @@ Lemma PI_near : 3141592653589793238462643383279 / 100000000000000000000000000000
 Proof. split; interval with (i_prec 120). Qed.
 Ltac over E x := generalize (E x ltac:(lra)) PI_near; unfold lift; lra.
 Ltac slopes r0 r1 b0 b1 := intros [|] x X; unfold In_ in X; exists (rate x);
-  [split; [apply (slope_at_rate side eta nu eta_pos _ _ _ _ _ b1); lra | generalize (r1 x X); lra] |
-   split; [apply (slope_at_rate side eta nu eta_pos _ _ _ _ _ b0); lra | generalize (r0 x X); lra]].
+  [split; [apply (slope_at_rate side eta nu _ _ b1); lra | generalize (r1 x X); lra] |
+   split; [apply (slope_at_rate side eta nu _ _ b0); lra | generalize (r0 x X); lra]].
 Ltac num := intros; unfold Impact.gap, Flight.gap_t, Flight.gap_tt, Flight.slope, side, eta, nu.
 Ltac at_once := num; interval{plain}.
 Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60{bits}).
@@ -65,10 +65,18 @@ Lemma branch{i} : branch side eta nu {a} {b} {T} {u} {v}.
 Proof. split; [lra | apply launch{i} | apply flight{i} | apply fall{i} | apply end{i}]. Qed.
 """
 
+REGULAR = """
+Lemma regular{i} : regular side eta nu {a} {b}.
+Proof.{parts}
+Qed.
+"""
+GLUED = "\n  apply (glue _ _ _ _ {b} {c}); [apply (branch_regular _ _ _ eta_pos _ _ _ _ _ branch{branch}) | | lra | lra | lra]."
+LAST = "\n  apply (branch_regular _ _ _ eta_pos _ _ _ _ _ branch{branch})."
+
 PIECE = """
-Lemma piece{i}_{j} : forall phi, {p} <= phi <= {q} -> {lo} <= rate phi <= {hi}.
+Lemma {name} : forall phi, {p} <= phi <= {q} -> {lo} <= rate phi <= {hi}.
 Proof.
-  apply (piece side eta nu eta_pos _ _ _ _ _ branch{i} _ _ {z} {r} {d}); [lra | intros; lra | lra | | | ].
+  apply (piece side eta nu eta_pos _ _ _ _ _ branch{branch} _ _ {z} {r} {d}); [lra | intros; lra | lra | | | ].
   - one phi.
   - one phi.
   - sloping phi e.
@@ -90,7 +98,7 @@ Proof. split; [lra | first [left; lra | right; lra] | lra | intros phi P; genera
 IMPACT = """
 Lemma {name} : forall phi, {p} <= phi <= {q} -> {s} < impact_time phi < {t}.
 Proof.
-  apply (bracket side eta nu eta_pos _ _ _ _ _ branch{i} _ _ (fun _ => {s}) (fun _ => {t}));
+  apply (bracket side eta nu eta_pos _ _ _ _ _ branch{branch} _ _ (fun _ => {s}) (fun _ => {t}));
     [lra | intros; lra | one phi | one phi].
 Qed.
 """
@@ -98,7 +106,7 @@ Qed.
 LAP = """
 Lemma lap{i} : in_lap side eta nu {a} {b} {k}.
 Proof.
-  apply (lap side eta nu eta_pos _ _ _ _ _ branch{i} _ _ _ _ _ monotone_{set}{i} _ {l} {r}).
+  apply (lap side eta nu _ _ regular{i} _ _ _ _ _ monotone_whole{i} _ {l} {r}).
   - intros p [P | P]; [generalize (before{i} p ltac:(lra)) | generalize (after{i} p ltac:(lra))];
       unfold lift; lra.
   - generalize PI_near; lra.
@@ -163,9 +171,9 @@ SAYS = """
 
 HORSESHOE = SAYS + """Theorem {name} : horseshoe next {A} {b0} {a1} {B} {s0} {s1} {m} {M}.
 Proof.
-  eapply corrected with (4 := branch0) (5 := branch1) (6 := monotone_horseshoe0)
-    (7 := monotone_horseshoe1) (8 := covers_horseshoe0) (9 := covers_horseshoe1);
-    [apply eta_pos | lra | lra | | lra].
+  eapply corrected with (3 := regular0) (4 := regular1) (5 := monotone_horseshoe0)
+    (6 := monotone_horseshoe1) (7 := covers_horseshoe0) (8 := covers_horseshoe1);
+    [lra | lra | | lra].
   intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
 Qed.
 """
@@ -190,12 +198,12 @@ _IN = "In_ {x0} {y0} {x1} {y1} i"
 
 H1_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + r""" x ->
   exists d, slope_at x d /\ {lo} <= d.
-Proof. slopes rate_printed0 rate_printed1 branch0 branch1. Qed.
+Proof. slopes rate_printed0 rate_printed1 regular0 regular1. Qed.
 """
 
 H2_VERIFIED = SAYS + """Theorem {name} : forall i x, """ + _IN + r""" x ->
   exists d, slope_at x d /\ d <= {hi}.
-Proof. slopes rate_printed0 rate_printed1 branch0 branch1. Qed.
+Proof. slopes rate_printed0 rate_printed1 regular0 regular1. Qed.
 """
 
 H3_VERIFIED = SAYS + """Theorem {name} : forall i, exists F,
@@ -203,8 +211,8 @@ H3_VERIFIED = SAYS + """Theorem {name} : forall i, exists F,
   forall x y, """ + _IN + " x -> " + _IN + """ y -> x < y -> F x < F y.
 Proof.
   intros [|];
-    [destruct (monotone_lift side eta nu eta_pos _ _ _ _ _ branch1 _ _ _ _ _ monotone_printed1) as (F & C & G) |
-     destruct (monotone_lift side eta nu eta_pos _ _ _ _ _ branch0 _ _ _ _ _ monotone_printed0) as (F & C & G)];
+    [destruct (monotone_lift side eta nu _ _ regular1 _ _ _ _ _ monotone_printed1) as (F & C & G) |
+     destruct (monotone_lift side eta nu _ _ regular0 _ _ _ _ _ monotone_printed0) as (F & C & G)];
     exists F; (split; [exact C |]); intros x y X Y L; unfold In_ in X, Y;
     generalize (G x y ltac:(lra) ltac:(lra) ltac:(lra)); lra.
 Qed.
@@ -216,10 +224,10 @@ H6_VERIFIED = SAYS + r"""Theorem {name} : forall c d, c < d -> {x0} <= c /\ d <=
 Proof.
   intros c d L J [|] x y u v X Y O N N' U V; unfold In_ in X, Y.
   - apply (shorter {m1}); [lra | lra | lra |].
-    apply (short_preimage side eta nu eta_pos _ _ _ _ _ branch1 _ _ _ _ _ monotone_printed1 {x0} {y1}) with u v;
+    apply (short_preimage side eta nu _ _ regular1 _ _ _ _ _ monotone_printed1 {x0} {y1}) with u v;
       auto; try lra. generalize PI_near; lra.
   - apply (shorter {m0}); [lra | lra | lra |].
-    apply (short_preimage side eta nu eta_pos _ _ _ _ _ branch0 _ _ _ _ _ monotone_printed0 {x0} {y1}) with u v;
+    apply (short_preimage side eta nu _ _ regular0 _ _ _ _ _ monotone_printed0 {x0} {y1}) with u v;
       auto; try lra. generalize PI_near; lra.
 Qed.
 """
@@ -240,15 +248,27 @@ REFUTED = {
     "H3": _INSIDE + r"exists d, slope_at {p} d /\ d < 0." + _POINT,
 }
 
+H6_REFUTED = SAYS + r"""Theorem {name} : exists c d q, ({x0} <= c /\ d <= {y0} \/ {x1} <= c /\ d <= {y1}) /\ c < d /\
+  ({x0} <= {p} /\ q <= {y0} \/ {x1} <= {p} /\ q <= {y1}) /\ {p} < q /\
+  next {p} c /\ next q d /\ (d - c) / {lo} <= q - {p}.
+Proof.
+  destruct (long_preimage side eta nu eta_pos _ _ _ _ _ branch_{c} {p} {s} {t} {k} {m} {M} {lo} {A} {B} {y})
+    as (c & d & q & J & Q & Np & Nq & L);
+    [lra | lra | at_once | at_once | split; one r | lra | lra | lra | lra |
+     generalize PI_near; lra | generalize PI_near; lra | generalize PI_near; lra |].
+  exists c, d, q. repeat split; auto; lra.
+Qed.
+"""
+
 H5_VERIFIED = SAYS + r"""Theorem {name} : forall c d, c < d -> {x0} <= c /\ d <= {y0} \/ {x1} <= c /\ d <= {y1} ->
   exists l0 r0 l1 r1, {x0} <= l0 < r0 /\ r0 <= {y0} /\ {x1} <= l1 < r1 /\ r1 <= {y1} /\
     forall x, {x0} <= x <= {y1} ->
     ((exists y, next x y /\ c <= y <= d) <-> l0 <= x <= r0 \/ l1 <= x <= r1).
 Proof.
   intros c d L J.
-  eapply two_preimages with (4 := branch0) (5 := branch1) (6 := monotone_printed0)
-    (7 := monotone_printed1) (8 := covers_printed0) (9 := covers_printed1);
-    [apply eta_pos | lra | lra | | lra | lra | lra].
+  eapply two_preimages with (3 := regular0) (4 := regular1) (5 := monotone_printed0)
+    (6 := monotone_printed1) (7 := covers_printed0) (8 := covers_printed1);
+    [lra | lra | | lra | lra | lra].
   intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
 Qed.
 """
@@ -257,7 +277,7 @@ H5_REFUTED = SAYS + r"""Theorem {name} : ({x0} <= {c} /\ {c} < {d} /\ {d} <= {y0
   forall x y, {x} <= x <= {y} -> next x y -> ~ {c} <= y <= {d}.
 Proof.
   split; [lra |].
-  apply (missed side eta nu eta_pos _ _ _ _ _ branch{i} _ _ _ _ _ {k} monotone_printed{i} lap{i}).
+  apply (missed side eta nu _ _ _ _ _ _ _ {k} regular{i} monotone_printed{i} lap{i}).
   intros z Z. generalize (missed{i}_0 {x} ltac:(lra)) (missed{i}_1 {y} ltac:(lra)) PI_near.
   unfold lift. lra.
 Qed.
@@ -299,7 +319,7 @@ Proof.
   apply (no_point next {A} {b0} {a1} {B} 1 {s1} {m} {M} g); unfold In_; [exact G | lra | lra | lra | lra |].
   exists (lift side eta nu {x0} - 2 * PI * {k}).
   split; [|generalize (missed0_0 {x0} ltac:(lra)) PI_near; unfold lift; lra].
-  destruct (f_lift side eta nu eta_pos _ _ _ _ _ branch0 {k} lap0 {x0} ltac:(lra)) as [E U].
+  destruct (f_lift side eta nu _ _ regular0 {k} lap0 {x0} ltac:(lra)) as [E U].
   apply U. symmetry. exact E.
 Qed.
 """
