@@ -1,7 +1,11 @@
 (* Claim H11 with the paper's numbers: s_0 = 0.449... if rounded, not if truncated. *)
 From Coq Require Import Reals Psatz.
-From Interval Require Import Tactic.
+From Interval Require Import Specific_stdz Specific_ops.
+From Interval Require Tactic.
 From Oscillator Require Import Claims.
+Module Integers := SpecificFloat StdZRadix2.  (* Coq's own integers: no axioms on machine numbers *)
+Module Exact := Tactic.IntervalTactic Integers.
+Import Tactic Exact.
 Open Scope R_scope.
 
 Lemma root_near r0 r1 : 0 < r0 < 1 -> 0 < r1 < 1 -> moran r0 r1 (449 / 1000) < 1 < moran r0 r1 (4485 / 10000) ->
