@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 from proofs.formal import templates
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
-from proofs.formal.plan import Headline, Plan, between
-from proofs.search.repair import rounded_slopes
+from proofs.formal.plan import Headline, Plan
+from proofs.search.repair import rounded_slopes, short_decimal
 from proofs.trusted.numbers import Range, hull, show_range, within
 
 _PLACES = 6  # of a root of Moran's equation
@@ -131,7 +131,7 @@ class Writer:
         if self.plan.holds("H1"):
             low = max(low, self.plan.of.slopes[0])
         if self.plan.holds("H6"):
-            low = between(self.plan.of.slopes[0], least)
+            low = short_decimal(self.plan.of.slopes[0], Fraction(least))
         if self.plan.holds("H2"):
             high = min(high, self.plan.of.slopes[1])
         return low, high
@@ -359,9 +359,9 @@ class Writer:
         """Return an interval in I0 or in I1 that an image from `low` to `high` misses."""
         left, right = self.plan.of.left, self.plan.of.right
         if low > left[0]:
-            return left[0], between(left[0], min(low, float(left[1])))
+            return left[0], short_decimal(left[0], min(Fraction(low), left[1]))
         if high < right[1]:
-            return between(right[0] if high < right[0] else Fraction(high), float(right[1])), right[1]
+            return short_decimal(max(Fraction(high), right[0]), right[1]), right[1]
         return None
 
     def write(self) -> Case:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.search.repair import rounded_slopes
-from proofs.trusted.certificate import FIELDS, parse
+from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, hull
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
@@ -62,13 +62,14 @@ class Plan:
 def plan(source: str) -> Plan:
     """Check a certificate, and return what it asks for.
 
-    Raises Malformed, Rejected or Exhausted as the checker does, NoTheorem where nothing is decided.
+    Raises Malformed, Rejected or Exhausted as the checker does, Malformed as well where the file
+    is about other claims, NoTheorem where nothing is decided.
     """
     report = check(source)
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
-    if of is None or not {"H1", "H2", "H3", "H4", "H5", "H6"} & set(claims):
-        raise NoTheorem("no certificate of the horseshoe: it has none of the claims H1 to H6")
+    if of is None or not claims:
+        raise Malformed("$.claims: no certificate of python -m proofs.horseshoe")
     known = premises(source).known
     proofs = {
         str(claim["id"]): [known[name] for name in claim["proof"]]
@@ -88,7 +89,7 @@ def plan(source: str) -> Plan:
         tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
     )
     if result.headline is None and not decided:
-        raise NoTheorem("it decides none of the claims H1 to H6")
+        raise NoTheorem(f"it decides none of the claims {', '.join(CLAIMS)}")
     return result
 
 
@@ -130,9 +131,3 @@ def _rounded(bounds: Range) -> Range:
     rounded = (rounded_slopes(bounds, digits) for digits in range(2, _MOST_DIGITS))
     return next((each for each in rounded if each[0] > 1), bounds)
 
-
-def between(low: Fraction, high: float) -> Fraction:
-    """Return a short number between an exact one and an approximate one."""
-    from proofs.search.repair import short_decimal
-
-    return short_decimal(low, Fraction(high))
