@@ -73,7 +73,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _made(parser: Parser, options: Namespace) -> Case | int:
-    """Return the case of a certificate, or the exit status after a line that says why there is none."""
+    """Return the case of a certificate, or the exit status after a line that says why not."""
     name = options.certificate
     try:
         return case(plan(read(name)), name.name, options.floats)
@@ -103,7 +103,12 @@ def _prove(
     answer: Answer = {
         "arithmetic": "floats" if options.floats else "integers",
         "theorems": [
-            {"name": name, "says": says, "statement": written(name), "seconds": f"{times[name]:.1f}"}
+            {
+                "name": name,
+                "says": says,
+                "statement": written(name),
+                "seconds": f"{times[name]:.1f}",
+            }
             for name, says in made.theorems
         ],
         "axioms": found,

@@ -102,7 +102,7 @@ class Hints(System):
 
     def rates(self, domain: Range) -> tuple[float, float]:
         """Return about the least and the greatest f' on an interval."""
-        values = [self.rate(phase) for phase in steps(*map(float, domain), 64)]
+        values = [self.rate(phase) for phase in steps(float(domain[0]), float(domain[1]), 64)]
         return min(values), max(values)
 
     def branch(self, low: Fraction, high: Fraction, slack: Fraction = SLACK) -> Branch:
@@ -196,7 +196,7 @@ class Hints(System):
         return [each for part in parts for each in self.escapes(part, target, depth + 1)]
 
     def _escape(self, phases: Range, target: Range) -> Escape | None:
-        launches = steps(*map(float, phases), 8)
+        launches = steps(float(phases[0]), float(phases[1]), 8)
         start = self.launch(launches, math.tau)
         if start < target[1] - phases[0]:
             raise NoHint("the target is too wide for the launches")
@@ -209,7 +209,7 @@ class Hints(System):
                 return Escape(*phases, start, lap, time)
             above = [
                 self.gap(phase, psi - phase + math.tau * lap)
-                for phase, psi in product(launches, steps(*map(float, target), 16))
+                for phase, psi in product(launches, steps(float(target[0]), float(target[1]), 16))
             ]
             if min(above) < 1e-5:
                 return None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
@@ -75,7 +74,7 @@ def plan(source: str) -> Plan:
         str(claim["id"]): [known[name] for name in claim["proof"]]
         for claim in parse(source).fields(*FIELDS)[4].value
     }
-    decided = {
+    decided: dict[str, Verdict] = {
         name: each.verdict for name, each in claims.items() if each.verdict is not Verdict.UNDECIDED
     }
     points = {name: x for name in decided for x in proofs[name] if isinstance(x, Impact)}
@@ -130,4 +129,3 @@ def _rounded(bounds: Range) -> Range:
     """Round bounds outward to few digits, the lower one to above 1."""
     rounded = (rounded_slopes(bounds, digits) for digits in range(2, _MOST_DIGITS))
     return next((each for each in rounded if each[0] > 1), bounds)
-

@@ -23,8 +23,16 @@ def only_in(name, *edits):
 FALSE = {
     "f' <= 6.18": (everywhere((HI, "(618 / 100)")), "piece0_", NUMERICAL),
     "f' >= 4.31": (everywhere((LO, "(431 / 100)")), "piece1_", NUMERICAL),
-    "f' <= 5.25 at 1.13": (only_in("H2_refuted", ("(21 / 4) < d", "(53 / 10) < d")), "H2_refuted", ""),
-    "f' >= 4.2 as f' >= 4.8": (only_in("H1_verified", ("(21 / 5) <= d", "(24 / 5) <= d")), "H1_", ""),
+    "f' <= 5.25 at 1.13": (
+        only_in("H2_refuted", ("(21 / 4) < d", "(53 / 10) < d")),
+        "H2_refuted",
+        "",
+    ),
+    "f' >= 4.2 as f' >= 4.8": (
+        only_in("H1_verified", ("(21 / 5) <= d", "(24 / 5) <= d")),
+        "H1_",
+        "",
+    ),
     "I0 from 1.11": (everywhere(("(11 / 10)", "(111 / 100)")), "covers_horseshoe0", ""),
     "I0 up to 1.14": (everywhere(("(23 / 20)", "(57 / 50)")), "", ""),
     "I1 from 1.28": (everywhere(("(127 / 100)", "(128 / 100)")), "", ""),
@@ -37,7 +45,10 @@ FALSE = {
     "branches swapped": (
         only_in(
             "corrected_theorem",
-            ("(11 / 10) (23 / 20) (127 / 100) (33 / 25)", "(127 / 100) (33 / 25) (11 / 10) (23 / 20)"),
+            (
+                "(11 / 10) (23 / 20) (127 / 100) (33 / 25)",
+                "(127 / 100) (33 / 25) (11 / 10) (23 / 20)",
+            ),
         ),
         "corrected_theorem",
         "",
@@ -88,7 +99,11 @@ FALSE = {
         "no_word_000",
         "",
     ),
-    "a flight without its end": (everywhere(("Lemma end0_0", "Lemma end0_1")), "branch0_0", "end0_0"),
+    "a flight without its end": (
+        everywhere(("Lemma end0_0", "Lemma end0_1")),
+        "branch0_0",
+        "end0_0",
+    ),
 }
 QUICK = ("the mass below the table", "nu = -0.21")
 
