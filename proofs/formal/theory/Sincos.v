@@ -131,3 +131,167 @@ Proof.
     + apply step; auto. rewrite Q2. apply B.
 Qed.
 End Series.
+
+Lemma clipped_holds bits guard v error h : (0 <= bits)%Z -> (0 <= guard)%Z -> Rabs h <= 1 ->
+  Rabs (IZR v - h * IZR (2 ^ (bits + guard))) <= IZR error -> holds bits (clipped bits guard v error) h.
+Proof.
+  intros B G H1 H. pose proof (unit_pos bits B) as Ub. pose proof (unit_pos guard G) as Ug.
+  apply Rabs_le_between in H1, H. rewrite Z.pow_add_r, mult_IZR in H by auto.
+  pose proof (down_bound (v - error) guard G) as D. pose proof (up_bound (v + error) guard G) as Up.
+  unfold up in Up. replace (- (v + error))%Z with (- v - error)%Z in Up by ring.
+  rewrite minus_IZR in D. rewrite plus_IZR in Up.
+  assert (L : (IZR v - IZR error) / IZR (2 ^ guard) <= h * IZR (2 ^ bits)) by (apply <- Rle_div_l; lra).
+  assert (M : h * IZR (2 ^ bits) <= (IZR v + IZR error) / IZR (2 ^ guard)) by (apply -> Rle_div_r; lra).
+  assert (N : - (1 * IZR (2 ^ bits)) <= h * IZR (2 ^ bits) <= 1 * IZR (2 ^ bits)) by (split; nra).
+  unfold holds, clipped; simpl lo; simpl hi. rewrite opp_IZR in Up.
+  rewrite max_IZR, min_IZR, !opp_IZR, !shiftl_unit by auto.
+  split; [apply Rmax_lub|apply Rmin_glb]; lra.
+Qed.
+
+Lemma pi_near : 3.141 < PI < 3.148.
+Proof.
+  pose proof (atan_error 1 (/ 18)) as A. pose proof (atan_error 1 (/ 57)) as B.
+  pose proof (atan_error 1 (/ 239)) as C. pose proof gauss.
+  rewrite (Rabs_pos_eq (/ 18)) in A by lra. rewrite (Rabs_pos_eq (/ 57)) in B by lra.
+  rewrite (Rabs_pos_eq (/ 239)) in C by lra. simpl in A, B, C.
+  apply Rabs_le_between in A, B, C. lra.
+Qed.
+
+Lemma sin_turns x k : sin (x + 2 * IZR k * PI) = sin x.
+Proof.
+  assert (P : forall x n, sin (x + 2 * IZR (Z.of_nat n) * PI) = sin x).
+  { intros y n. rewrite <- INR_IZR_INZ. apply sin_period. }
+  destruct (Z_le_gt_dec 0 k).
+  - rewrite <- (Z2Nat.id k) by auto. apply P.
+  - rewrite <- (P _ (Z.to_nat (- k))). f_equal. rewrite Z2Nat.id, opp_IZR by lia. ring.
+Qed.
+
+(* sin and cos of x + k pi / 2 *)
+Lemma turned x k :
+  sin (x + IZR k * (PI / 2)) = match (k mod 4)%Z with 0%Z => sin x | 1%Z => cos x | 2%Z => - sin x | _ => - cos x end /\
+  cos (x + IZR k * (PI / 2)) = match (k mod 4)%Z with 0%Z => cos x | 1%Z => - sin x | 2%Z => - cos x | _ => sin x end.
+Proof.
+  pose proof (Z.mod_pos_bound k 4 ltac:(lia)) as B. pose proof (Z.div_mod k 4 ltac:(lia)) as E.
+  assert (P : forall a, sin (a + IZR k * (PI / 2)) = sin (a + IZR (k mod 4) * (PI / 2))).
+  { intros a. rewrite <- (sin_turns (a + IZR (k mod 4) * (PI / 2)) (k / 4)). f_equal.
+    apply (f_equal IZR) in E. rewrite plus_IZR, mult_IZR in E. rewrite E. field. }
+  rewrite (cos_sin (x + _)), <- Rplus_assoc, !P.
+  assert (C : (k mod 4 = 0 \/ k mod 4 = 1 \/ k mod 4 = 2 \/ k mod 4 = 3)%Z) by lia.
+  destruct C as [-> | [-> | [-> | ->]]]; rewrite ?Rmult_0_l, ?Rplus_0_r, ?Rmult_1_l, ?sin_plus, ?cos_plus;
+    replace (2 * (PI / 2)) with PI by field; rewrite ?sin_PI2, ?cos_PI2, ?sin_PI, ?cos_PI, ?sin_3PI2, ?cos_3PI2; lra.
+Qed.
+
+Lemma lipschitz a b c : Rabs (sin (c + a) - sin (c + b)) <= Rabs (a - b).
+Proof.
+  replace (Rabs (a - b)) with (1 * Rabs (a - b) ^ 1 / INR 1) by (simpl; field).
+  replace (sin (c + a)) with (sin (c + b + (a - b))) by (f_equal; ring).
+  apply (compare (fun t => minus (sin (c + b + t)) (sin (c + b))) (fun t => minus (cos (c + b + t)) 0)).
+  - rewrite Rplus_0_r. apply Rminus_eq_0.
+  - intros t. apply (is_derive_minus (V := R_NormedModule)).
+    + auto_derive; auto. ring.
+    + apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
+  - intros t. change (Rabs (cos (c + b + t) - 0) <= 1 * Rabs t ^ 0). rewrite Rminus_0_r, pow_O, Rmult_1_r. apply Rabs_le, COS_bound.
+Qed.
+
+(* The reduced argument: what is left of x after k quarters is within [r, r_hi]. *)
+Lemma reduction bits x p q : (0 <= bits)%Z ->
+  let guard := guard_bits x bits in let U := IZR (2 ^ (bits + guard)) in
+  (bits + guard <= 2 ^ 17)%Z ->
+  IZR p <= PI * U <= IZR q -> IZR q - IZR p <= 2 + 200 * (IZR (bits + guard) + 18) / 65536 ->
+  let y := Z.shiftl x guard in let k := ((4 * y + p) / (2 * p))%Z in
+  let r := Z.shiftr (Z.min (2 * y - k * p) (2 * y - k * q)) 1 in
+  let r_hi := up (Z.max (2 * y - k * p) (2 * y - k * q)) 1 in
+  let R := IZR x / IZR (2 ^ bits) - IZR k * (PI / 2) in
+  0 < U /\ - U <= IZR r <= U /\ IZR r_hi <= U /\ IZR r <= R * U <= IZR r_hi.
+Proof.
+  intros B guard U W P D y k r r_hi R.
+  assert (G0 : (12 <= guard)%Z) by (unfold guard, guard_bits; lia).
+  set (G := IZR (2 ^ guard)). pose proof (unit_pos bits B) as Ub.
+  assert (EU : U = IZR (2 ^ bits) * G) by (unfold U, G; rewrite Z.pow_add_r, mult_IZR by lia; auto).
+  assert (G1 : 4096 <= G) by (apply (IZR_le (2 ^ 12)), Z.pow_le_mono_r; lia).
+  assert (U1 : G <= U). { assert (1 <= IZR (2 ^ bits)) by (apply (IZR_le 1), (Z.pow_le_mono_r 2 0); lia). nra. }
+  assert (Y : Rabs (IZR y) * 4096 <= U * G).
+  { assert (Lx : (Z.abs x < 2 ^ bit_length x)%Z).
+    { unfold bit_length. destruct (Z.eqb_spec x 0) as [->|N]; [simpl; lia|].
+      replace (Z.log2 (Z.abs x) + 1)%Z with (Z.succ (Z.log2 (Z.abs x))) by lia. apply Z.log2_spec. lia. }
+    assert (L : (Z.abs x * 2 ^ 12 <= 2 ^ bits * 2 ^ guard)%Z).
+    { rewrite <- Z.pow_add_r by lia. apply Z.le_trans with (2 ^ bit_length x * 2 ^ 12)%Z; [lia|].
+      rewrite <- Z.pow_add_r by (unfold bit_length; destruct (x =? 0)%Z; pose proof (Z.log2_nonneg (Z.abs x)); lia).
+      apply Z.pow_le_mono_r; unfold guard, guard_bits; lia. }
+    apply IZR_le in L. rewrite !mult_IZR, abs_IZR in L. fold G in L. unfold y.
+    rewrite shiftl_unit, Rabs_mult, (Rabs_pos_eq (IZR (2 ^ guard))) by (fold G; lra || lia). fold G. nra. }
+  assert (DD : IZR q - IZR p <= 403). { apply IZR_le in W. change (2 ^ 17)%Z with 131072%Z in W. lra. }
+  pose proof pi_near as [Pi1 Pi2].
+  assert (p1 : 3 * U <= IZR p) by nra. assert (p2 : IZR p <= 3.148 * U) by nra.
+  assert (p0 : (2 * p <> 0)%Z) by (intros E; assert (Ep : p = 0%Z) by lia; rewrite Ep in p1; lra).
+  pose proof (floor_bound (4 * y + p) (2 * p) p0) as F. fold k in F.
+  rewrite plus_IZR, !mult_IZR in F. set (X := IZR y) in *. set (K := IZR k) in *. set (Q := IZR q) in *.
+  assert (F1 : 2 * IZR p * K <= 4 * X + IZR p < 2 * IZR p * K + 2 * IZR p).
+  { destruct F as [Fa Fb]. apply <- Rle_div_r in Fa; [|lra]. apply -> Rlt_div_l in Fb; [|lra]. lra. }
+  assert (Yb : - (U * G) <= 4096 * X <= U * G) by (apply Rabs_le_between; rewrite Rabs_mult, (Rabs_pos_eq 4096) by lra; lra).
+  assert (K1 : Rabs K <= G / 6144 + 3 / 2).
+  { apply Rabs_le. split; apply Rmult_le_reg_l with (2 * IZR p); nra. }
+  assert (KD : Rabs (K * (Q - IZR p)) <= (G / 6144 + 3 / 2) * 403).
+  { rewrite Rabs_mult, (Rabs_pos_eq (Q - _)) by lra. pose proof (Rabs_pos K). nra. }
+  apply Rabs_le_between in KD.
+  assert (ER : R * U = (2 * X - K * (PI * U)) / 2).
+  { unfold R, X, y. rewrite shiftl_unit, EU by lia. fold G. fold K. field. lra. }
+  pose proof (down_bound (Z.min (2 * y - k * p) (2 * y - k * q)) 1 ltac:(lia)) as Dn. fold r in Dn.
+  pose proof (up_bound (Z.max (2 * y - k * p) (2 * y - k * q)) 1 ltac:(lia)) as Up. fold r_hi in Up.
+  change (2 ^ 1)%Z with 2%Z in *. rewrite min_IZR, !minus_IZR, !mult_IZR in Dn. rewrite max_IZR, !minus_IZR, !mult_IZR in Up.
+  fold X K Q in Dn, Up.
+  assert (KP : K * IZR p <= K * (PI * U) <= K * Q \/ K * Q <= K * (PI * U) <= K * IZR p).
+  { destruct (Rle_dec 0 K); [left|right]; split; nra. }
+  unfold Rmin in Dn. unfold Rmax in Up. rewrite ER.
+  destruct (Rle_dec (2 * X - K * IZR p) (2 * X - K * Q)); repeat split; lra.
+Qed.
+
+Theorem sincos_at_holds fuel x bits S C first last : (0 <= bits)%Z -> (bits + guard_bits x bits <= 2 ^ 17)%Z ->
+  sincos_at fuel x bits = Some (S, C, first, last) ->
+  let t := IZR x / IZR (2 ^ bits) in
+  holds bits S (sin t) /\ holds bits C (cos t) /\ IZR first * (PI / 2) <= t < (IZR last + 1) * (PI / 2).
+Proof.
+  intros B W E t. unfold sincos_at in E. cbv zeta in E.
+  set (guard := guard_bits x bits) in *. assert (G0 : (12 <= guard)%Z) by (unfold guard, guard_bits; lia).
+  destruct (pi fuel (bits + guard)) as [[p q]|] eqn:EP; [|discriminate].
+  apply pi_holds in EP; [|lia]. destruct EP as [Hp Wp]. unfold holds in Hp. simpl in Hp, Wp.
+  destruct (reduction bits x p q B W Hp Wp) as (U0 & r1 & rh & Rr). fold guard in U0, r1, rh, Rr.
+  set (y := Z.shiftl x guard) in *. set (k := ((4 * y + p) / (2 * p))%Z) in *.
+  set (r := Z.shiftr _ 1) in *. set (r_hi := up _ 1) in *. set (U := IZR (2 ^ (bits + guard))) in *.
+  set (R := IZR x / IZR (2 ^ bits) - IZR k * (PI / 2)) in *.
+  destruct (series _ _ _ _ _ _ _) as [[[s c] n]|] eqn:ES; [|discriminate].
+  assert (One : IZR (Z.shiftl 1 (bits + guard)) = U) by (rewrite shiftl_unit by lia; fold U; ring).
+  apply (series_holds r (bits + guard) ltac:(lia) ltac:(apply Rabs_le; fold U; split;
+    [apply -> Rle_div_r; lra|apply <- Rle_div_l; lra]) fuel O) in ES.
+  2: { unfold exact. simpl. rewrite One. fold U. apply Rabs_le. lra. }
+  2: { simpl. rewrite sin_0. apply Rabs_le. lra. }
+  2: { simpl. rewrite sin_PI2, One. fold U. apply Rabs_le. lra. }
+  fold U in ES. destruct ES as [Es Ec].
+  assert (rR : Rabs (IZR r / U - R) * U <= IZR r_hi - IZR r).
+  { rewrite <- (Rabs_pos_eq U) at 2 by lra. rewrite <- Rabs_mult.
+    replace ((IZR r / U - R) * U) with (IZR r - R * U) by (field; lra). apply Rabs_le. lra. }
+  set (error := (3 * n + 2 + (r_hi - r))%Z) in *.
+  assert (Val : forall a v, Rabs (IZR v - sin (a + IZR r / U) * U) <= 3 * IZR n + 2 ->
+    holds bits (clipped bits guard v error) (sin (a + R))).
+  { intros a v V. apply clipped_holds; try lia. { apply Rabs_le, SIN_bound. } fold U.
+    unfold error. rewrite !plus_IZR, minus_IZR, mult_IZR.
+    pose proof (lipschitz (IZR r / U) R a) as L. apply Rmult_le_compat_r with (r := U) in L; [|lra].
+    replace (IZR v - sin (a + R) * U) with ((IZR v - sin (a + IZR r / U) * U) +
+      (sin (a + IZR r / U) - sin (a + R)) * U) by ring.
+    eapply Rle_trans; [apply Rabs_triang|]. rewrite (Rabs_mult _ U), (Rabs_pos_eq U) by lra. lra. }
+  assert (HS : holds bits (clipped bits guard s error) (sin R)).
+  { rewrite <- (Rplus_0_l R). apply Val. rewrite Rplus_0_l. exact Es. }
+  assert (HC : holds bits (clipped bits guard c error) (cos R)).
+  { rewrite cos_sin. apply Val. rewrite <- cos_sin. exact Ec. }
+  assert (Et : t = R + IZR k * (PI / 2)) by (unfold t, R; ring).
+  destruct (turned R k) as [T1 T2]. rewrite <- Et in T1, T2. pose proof pi_near.
+  assert (Bound : IZR (k - (if (r <=? 0)%Z then 1 else 0)) * (PI / 2) <= t <
+    (IZR (k - (if (r_hi <? 0)%Z then 1 else 0)) + 1) * (PI / 2)).
+  { rewrite Et, !minus_IZR. assert (-1 <= R <= 1) by (split; nra).
+    split.
+    - destruct (Z.leb_spec r 0); [lra|]. assert (0 < IZR r) by (apply IZR_lt; auto). assert (0 < R) by nra. lra.
+    - destruct (Z.ltb_spec r_hi 0) as [L|L]; [|lra]. apply IZR_lt in L. assert (R < 0) by nra. lra. }
+  apply Some_injective in E. rewrite T1, T2.
+  destruct (k mod 4)%Z as [|[m|[m|m|]|]|m]; injection E as <- <- <- <-;
+    (split; [|split; [|exact Bound]]); auto using neg_holds.
+Qed.
