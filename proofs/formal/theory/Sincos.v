@@ -1,95 +1,297 @@
-(* Containment: the checker's pi, sine and cosine. *)
-From Coq Require Import Reals ZArith Psatz Lia List Machin.
+(* Containment: the checker's sine and cosine. *)
+From Coq Require Import Reals ZArith Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Arithmetic Operations Flight.
+From Oscillator Require Import Arithmetic Operations Flight Series.
 Open Scope R_scope.
 
-Ltac real := match goal with |- @eq _ ?a ?b => change (@eq R a b) end.
-
-Lemma power_derive n c x : is_derive (fun x => c * x ^ S n / INR (S n)) x (c * x ^ n).
+(* The quarters of the circle: sin(n pi/2) and cos(n pi/2) by the last two bits of n. *)
+Lemma quarters n :
+  sin (INR n * (PI / 2)) = (if Z.odd (Z.of_nat n) then if Z.testbit (Z.of_nat n) 1 then -1 else 1 else 0) /\
+  sin (PI / 2 + INR n * (PI / 2)) =
+    (if Z.odd (Z.of_nat n) then 0 else if Z.testbit (Z.of_nat n) 1 then -1 else 1).
 Proof.
-  assert (INR (S n) <> 0) by (apply not_0_INR; lia).
-  apply (is_derive_ext (fun x => c / INR (S n) * x ^ S n)). { intros; real; unfold Rdiv; ring. }
-  replace (c * x ^ n) with (c / INR (S n) * (INR (S n) * 1 * x ^ pred (S n))) by (real; simpl pred; field; auto).
-  apply is_derive_scal, is_derive_pow. apply (is_derive_id x).
+  induction n as [n IH] using lt_wf_ind.
+  destruct n as [|[|[|[|n]]]].
+  - simpl. rewrite Rmult_0_l, Rplus_0_r, sin_0, sin_PI2. auto.
+  - simpl. rewrite Rmult_1_l, sin_PI2. replace (PI / 2 + PI / 2) with PI by field. rewrite sin_PI. auto.
+  - simpl. replace ((1 + 1) * (PI / 2)) with PI by field. rewrite sin_PI, sin_plus, sin_PI, cos_PI, sin_PI2, cos_PI2.
+    lra.
+  - simpl. replace ((1 + 1 + 1) * (PI / 2)) with (3 * (PI / 2)) by ring. rewrite sin_3PI2.
+    replace (PI / 2 + 3 * (PI / 2)) with (2 * PI) by field. rewrite sin_2PI. auto.
+  - specialize (IH n ltac:(lia)). replace (Z.of_nat (S (S (S (S n))))) with (Z.of_nat n + 2 * 2)%Z by lia.
+    replace (Z.odd (Z.of_nat n + 2 * 2)) with (Z.odd (Z.of_nat n)) by (rewrite Z.odd_add_mul_2; auto).
+    replace (Z.testbit (Z.of_nat n + 2 * 2) 1) with (Z.testbit (Z.of_nat n) 1).
+    + replace (INR (S (S (S (S n)))) * (PI / 2)) with (INR n * (PI / 2) + 2 * INR 1 * PI)
+        by (rewrite !S_INR; simpl; field).
+      rewrite <- Rplus_assoc, !sin_period. exact IH.
+    + rewrite !Z.testbit_odd, !Z.shiftr_div_pow2 by lia. change (2 ^ 1)%Z with 2%Z.
+      rewrite Z.div_add by lia. change 2%Z with (2 * 1)%Z at 3. rewrite Z.odd_add_mul_2. auto.
 Qed.
 
-(* A function with E(0) = 0 and |E'(t)| <= c |t|^n is at most c |x|^(n + 1) / (n + 1). *)
-Lemma compare (E dE : R -> R) c n x : E 0 = 0 -> (forall t, is_derive E t (dE t)) ->
-  (forall t, Rabs (dE t) <= c * Rabs t ^ n) -> Rabs (E x) <= c * Rabs x ^ S n / INR (S n).
+Section Series.
+Variables r work : Z.
+Hypothesis work_pos : (0 <= work)%Z.
+Notation U := (IZR (2 ^ work)).
+Notation rho := (IZR r / U).
+Hypothesis small : Rabs rho <= 1.
+
+Definition exact (n : nat) : R := rho ^ n / INR (fact n) * U.
+Definition slack (n : nat) : R := match n with O => 0 | _ => 2 end.
+
+Lemma exact_S n : exact (S n) = exact n * rho / INR (S n).
 Proof.
-  intros E0 D B. destruct (Req_dec x 0) as [->|x0].
-  { rewrite E0, !Rabs_R0. simpl. unfold Rdiv. rewrite Rmult_0_l, Rmult_0_r, Rmult_0_l. lra. }
-  assert (Sign : forall z, exists u, Rabs u = 1 /\ Rabs z = u * z /\ z = u * Rabs z).
-  { intros z. destruct (Rle_dec 0 z); [exists 1|exists (-1)];
-      [rewrite Rabs_R1, Rabs_pos_eq by lra|rewrite Rabs_m1, Rabs_left by lra]; lra. }
-  destruct (Sign (E x)) as (u & U & -> & _), (Sign x) as (s & S1 & _ & X). apply Rabs_pos_lt in x0.
-  destruct (mvt (fun t => minus (c * t ^ S n / INR (S n)) (u * E (s * t)))
-    (fun t => minus (c * t ^ n) (u * (s * dE (s * t)))) 0 (Rabs x)) as [t [T H]]; auto.
-  - intros t _. apply (is_derive_minus (V := R_NormedModule)); [apply power_derive|].
-    apply is_derive_scal. apply (is_derive_comp (V := R_NormedModule) E); [apply D|].
-    auto_derive; auto. ring.
-  - change (c * Rabs x ^ S n / INR (S n) - u * E (s * Rabs x) - (c * 0 ^ S n / INR (S n) - u * E (s * 0))
-      = (c * t ^ n - u * (s * dE (s * t))) * (Rabs x - 0)) in H.
-    rewrite <- X, Rmult_0_r, E0, (pow_ne_zero (S n)) in H by discriminate.
-    specialize (B (s * t)). rewrite Rabs_mult, S1, Rmult_1_l, (Rabs_pos_eq t) in B by lra.
-    pose proof (Rle_abs (u * (s * dE (s * t)))) as A. rewrite !Rabs_mult, U, S1 in A.
-    unfold Rdiv in *. rewrite !Rmult_0_r, Rmult_0_l in H. nra.
+  unfold exact. pose proof (unit_pos work work_pos). rewrite fact_simpl, mult_INR.
+  pose proof (INR_fact_neq_0 n). assert (INR (S n) <> 0) by (apply not_0_INR; discriminate).
+  rewrite <- tech_pow_Rmult. generalize dependent (INR (S n)). intros. field. repeat split; lra.
 Qed.
 
-(* -- sine and cosine -- *)
-
-(* The Taylor polynomial of sin(a + x), of degree n. *)
-Fixpoint taylor (a : R) (n : nat) (x : R) : R :=
-  match n with
-  | O => sin a
-  | S m => taylor a m x + sin (a + INR n * (PI / 2)) * x ^ n / INR (fact n)
-  end.
-
-Lemma taylor_derive n : forall a x, is_derive (taylor a (S n)) x (taylor (a + PI / 2) n x).
+Lemma next_term n term : Rabs (IZR term - exact n) <= slack n ->
+  Rabs (IZR (Z.shiftr (term * r) work / Z.of_nat (S n)) - exact (S n)) <= 2.
 Proof.
-  assert (T : forall n a x, is_derive (fun x => sin (a + INR (S n) * (PI / 2)) * x ^ S n / INR (fact (S n))) x
-    (sin (a + PI / 2 + INR n * (PI / 2)) * x ^ n / INR (fact n))).
-  { intros k a x. pose proof (INR_fact_neq_0 k). assert (INR (S k) <> 0) by (apply not_0_INR; lia).
-    apply (is_derive_ext (fun x => sin (a + INR (S k) * (PI / 2)) / INR (fact k) * x ^ S k / INR (S k))).
-    { intros t. real. rewrite fact_simpl, mult_INR. field. auto. }
-    replace (a + PI / 2 + INR k * (PI / 2)) with (a + INR (S k) * (PI / 2)) by (rewrite S_INR; ring).
-    replace (sin (a + INR (S k) * (PI / 2)) * x ^ k / INR (fact k)) with
-      (sin (a + INR (S k) * (PI / 2)) / INR (fact k) * x ^ k) by (real; field; auto).
-    apply power_derive. }
-  induction n as [|n IH]; intros a x.
-  - apply (is_derive_ext (fun x => plus (sin a) (sin (a + INR 1 * (PI / 2)) * x ^ 1 / INR (fact 1)))).
-    { reflexivity. }
-    replace (taylor _ _ _) with (plus 0 (sin (a + PI / 2 + INR 0 * (PI / 2)) * x ^ 0 / INR (fact 0))).
-    + apply (is_derive_plus (V := R_NormedModule)); [|apply T].
-      apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
-    + unfold plus; simpl. rewrite Rmult_0_l, !Rplus_0_r, Rplus_0_l. field.
-  - apply (is_derive_plus (V := R_NormedModule) (taylor a (S n))); [apply IH|apply T].
+  intros H. pose proof (unit_pos work work_pos) as Up.
+  rewrite Z.shiftr_div_pow2, Zdiv.Zdiv_Zdiv by (try apply Z.pow_nonneg; lia).
+  set (q := (2 ^ work * Z.of_nat (S n))%Z). assert (q0 : q <> 0%Z).
+  { unfold q. pose proof (Z.pow_pos_nonneg 2 work). nia. }
+  pose proof (floor_bound (term * r) q q0) as F.
+  assert (N : 1 <= INR (S n)) by (apply (le_INR 1); lia).
+  replace (IZR (term * r) / IZR q) with (IZR term * rho / INR (S n)) in F.
+  - rewrite exact_S. remember (IZR term - exact n) as e eqn:He.
+    set (p := rho) in *. clearbody p. assert (G : Rabs (e * p / INR (S n)) <= 1).
+    { unfold Rdiv. rewrite !Rabs_mult, (Rabs_pos_eq (/ INR (S n))) by (apply Rlt_le, Rinv_0_lt_compat; lra).
+      apply Rmult_le_reg_r with (INR (S n)); [lra|]. rewrite Rmult_assoc, Rinv_l by lra.
+      assert (Rabs e <= INR (S n)).
+      { destruct n; simpl slack in H; [simpl; lra|]. assert (2 <= INR (S (S n))) by (apply (le_INR 2); lia). lra. }
+      pose proof (Rabs_pos e). pose proof (Rabs_pos p). nra. }
+    replace (IZR term * p / INR (S n)) with (e * p / INR (S n) + exact n * p / INR (S n)) in F
+      by (rewrite He; unfold Rdiv; ring).
+    apply Rabs_le_between in G. apply Rabs_le. lra.
+  - unfold q. rewrite !mult_IZR, <- INR_IZR_INZ. field. split; lra.
 Qed.
 
-Lemma taylor_error n : forall a x, Rabs (sin (a + x) - taylor a n x) <= Rabs x ^ S n / INR (fact (S n)).
+Lemma series_holds fuel : forall m sin_ cos_ term s c n,
+  Rabs (IZR term - exact m) <= slack m ->
+  Rabs (IZR sin_ - taylor 0 m rho * U) <= 2 * INR m ->
+  Rabs (IZR cos_ - taylor (PI / 2) m rho * U) <= 2 * INR m ->
+  series fuel r work sin_ cos_ term (Z.of_nat m) = Some (s, c, n) ->
+  Rabs (IZR s - sin rho * U) <= 3 * IZR n + 2 /\ Rabs (IZR c - cos rho * U) <= 3 * IZR n + 2.
 Proof.
-  assert (D : forall a x, is_derive (fun x => sin (a + x)) x (sin (a + PI / 2 + x))).
-  { intros a x. replace (a + PI / 2 + x) with (PI / 2 + (a + x)) by ring. rewrite <- cos_sin.
-    auto_derive; auto. ring. }
-  assert (E0 : forall n a, sin (a + 0) - taylor a n 0 = 0).
-  { intros k a. rewrite Rplus_0_r. induction k as [|k IH]; [simpl; ring|].
-    change (taylor a (S k) 0) with (taylor a k 0 + sin (a + INR (S k) * (PI / 2)) * 0 ^ S k / INR (fact (S k))).
-    rewrite (pow_ne_zero (S k)) by discriminate. unfold Rdiv. lra. }
-  induction n as [|n IH]; intros a x.
-  - replace (Rabs x ^ 1 / INR (fact 1)) with (1 * Rabs x ^ 1 / INR 1) by (simpl; field).
-    apply (compare (fun x => minus (sin (a + x)) (sin a)) (fun t => minus (sin (a + PI / 2 + t)) 0) 1 0 x).
-    + apply (E0 O).
-    + intros t. apply (is_derive_minus (V := R_NormedModule)); [apply D|].
-      apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
-    + intros t. unfold minus, plus, opp; simpl. rewrite Ropp_0, Rplus_0_r, Rmult_1_r.
-      apply Rabs_le, SIN_bound.
-  - pose proof (INR_fact_neq_0 (S n)). assert (INR (S (S n)) <> 0) by (apply not_0_INR; lia).
-    replace (Rabs x ^ S (S n) / INR (fact (S (S n)))) with (/ INR (fact (S n)) * Rabs x ^ S (S n) / INR (S (S n))).
-    + apply (compare (fun x => minus (sin (a + x)) (taylor a (S n) x))
-        (fun t => minus (sin (a + PI / 2 + t)) (taylor (a + PI / 2) n t)) _ (S n) x).
-      * apply E0.
-      * intros t. apply (is_derive_minus (V := R_NormedModule)); [apply D|apply taylor_derive].
-      * intros t. rewrite Rmult_comm. apply IH.
-    + rewrite (fact_simpl (S n)), mult_INR. field. auto.
+  pose proof (unit_pos work work_pos) as Up. assert (one : 1 <= U) by (apply (IZR_le 1), (Z.pow_le_mono_r 2 0); lia).
+  induction fuel as [|fuel IH]; intros m sin_ cos_ term s c n T S C E; [discriminate|].
+  cbn [series] in E. destruct ((term =? 0)%Z || (term =? -1)%Z)%bool eqn:Stop.
+  - assert (Z : -1 <= IZR term <= 0).
+    { apply Bool.orb_true_iff in Stop. rewrite !Z.eqb_eq in Stop. destruct Stop as [-> | ->]; lra. }
+    apply Some_injective in E. injection E as <- <- <-. rewrite <- INR_IZR_INZ.
+    destruct m as [|m].
+    { exfalso. unfold exact in T. simpl in T. rewrite Rabs_minus_sym, Rabs_pos_eq in T by lra. lra. }
+    assert (M : 1 <= INR (Datatypes.S m)) by (apply (le_INR 1); lia).
+    assert (G : Rabs rho ^ Datatypes.S (Datatypes.S m) / INR (fact (Datatypes.S (Datatypes.S m))) * U <= 3 / 2).
+    { rewrite RPow_abs. rewrite <- (Rabs_pos_eq (INR (fact _))) by apply pos_INR.
+      rewrite <- (Rabs_pos_eq U) at 2 by lra.
+      rewrite <- Rabs_div by apply INR_fact_neq_0. rewrite <- Rabs_mult. fold (exact (Datatypes.S (Datatypes.S m))).
+      rewrite exact_S. simpl slack in T. assert (A : Rabs (exact (Datatypes.S m)) <= 3).
+      { apply Rabs_le_between in T. apply Rabs_le. lra. }
+      assert (Q : 2 <= INR (Datatypes.S (Datatypes.S m))) by (apply (le_INR 2); lia).
+      set (p := rho) in *. clearbody p. unfold Rdiv.
+      rewrite !Rabs_mult, (Rabs_pos_eq (/ INR _)) by (apply Rlt_le, Rinv_0_lt_compat; lra). assert (I : / INR (Datatypes.S (Datatypes.S m)) <= / 2) by (apply Rinv_le_contravar; lra).
+      assert (J : 0 < / INR (Datatypes.S (Datatypes.S m))) by (apply Rinv_0_lt_compat; lra).
+      pose proof (Rabs_pos (exact (Datatypes.S m))). pose proof (Rabs_pos p).
+      assert (Rabs (exact (Datatypes.S m)) * Rabs p <= 3) by nra.
+      assert (0 <= Rabs (exact (Datatypes.S m)) * Rabs p) by nra. nra. }
+    assert (Fin : forall a v, Rabs (IZR v - taylor a (Datatypes.S m) rho * U) <= 2 * INR (Datatypes.S m) ->
+      Rabs (IZR v - sin (a + rho) * U) <= 3 * INR (Datatypes.S m) + 2).
+    { intros a v V. pose proof (taylor_error (Datatypes.S m) a rho) as D.
+      apply Rmult_le_compat_r with (r := U) in D; [|lra].
+      rewrite <- (Rabs_pos_eq U) in D at 3 by lra. rewrite <- Rabs_mult in D.
+      apply Rabs_le_between in V. apply Rabs_le.
+      assert (D' : Rabs ((sin (a + rho) - taylor a (Datatypes.S m) rho) * U) <= 3 / 2) by lra.
+      apply Rabs_le_between in D'. lra. }
+    split; [rewrite <- (Rplus_0_l rho); apply Fin, S|].
+    rewrite cos_sin. apply Fin, C.
+  - cbv zeta in E. replace (Z.of_nat m + 1)%Z with (Z.of_nat (Datatypes.S m)) in E by lia.
+    set (t := (Z.shiftr (term * r) work / Z.of_nat (Datatypes.S m))%Z) in *.
+    assert (Nt : Rabs (IZR t - exact (Datatypes.S m)) <= 2) by (apply next_term, T).
+    destruct (quarters (Datatypes.S m)) as [Q1 Q2].
+    assert (step : forall a v x, Rabs (IZR v - taylor a m rho * U) <= 2 * INR m ->
+      (exists z, Rabs z <= 1 /\ IZR x = z * IZR t /\ sin (a + INR (Datatypes.S m) * (PI / 2)) = z) ->
+      Rabs (IZR (v + x) - taylor a (Datatypes.S m) rho * U) <= 2 * INR (Datatypes.S m)).
+    { intros a v x V (z & Z1 & X & Zs). cbn [taylor]. rewrite Zs, plus_IZR, X, (S_INR m).
+      replace (_ - _) with ((IZR v - taylor a m rho * U) + z * (IZR t - exact (Datatypes.S m)))
+        by (unfold exact, Rdiv; ring).
+      eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_mult.
+      pose proof (Rabs_pos z). pose proof (Rabs_pos (IZR t - exact (Datatypes.S m))). nra. }
+    assert (B : forall b : bool, exists z, Rabs z <= 1 /\ IZR (if b then - t else t)%Z = z * IZR t /\
+      (if b then -1 else 1) = z).
+    { intros [|]; [exists (-1); rewrite opp_IZR, Rabs_m1|exists 1; rewrite Rabs_R1]; repeat split; ring || lra. }
+    assert (O : exists z, Rabs z <= 1 /\ IZR 0 = z * IZR t /\ 0 = z).
+    { exists 0. rewrite Rabs_R0. repeat split; ring || lra. }
+    destruct (Z.odd (Z.of_nat (Datatypes.S m))); (apply IH in E; [exact E|exact Nt| |]).
+    + apply step; auto. rewrite Rplus_0_l, Q1. apply B.
+    + rewrite <- (Z.add_0_r cos_). apply step; auto. rewrite Q2. apply O.
+    + rewrite <- (Z.add_0_r sin_). apply step; auto. rewrite Rplus_0_l, Q1. apply O.
+    + apply step; auto. rewrite Q2. apply B.
+Qed.
+End Series.
+
+Lemma clipped_holds bits guard v error h : (0 <= bits)%Z -> (0 <= guard)%Z -> Rabs h <= 1 ->
+  Rabs (IZR v - h * IZR (2 ^ (bits + guard))) <= IZR error -> holds bits (clipped bits guard v error) h.
+Proof.
+  intros B G H1 H. pose proof (unit_pos bits B) as Ub. pose proof (unit_pos guard G) as Ug.
+  apply Rabs_le_between in H1, H. rewrite Z.pow_add_r, mult_IZR in H by auto.
+  pose proof (down_bound (v - error) guard G) as D. pose proof (up_bound (v + error) guard G) as Up.
+  unfold up in Up. replace (- (v + error))%Z with (- v - error)%Z in Up by ring.
+  rewrite minus_IZR in D. rewrite plus_IZR in Up.
+  assert (L : (IZR v - IZR error) / IZR (2 ^ guard) <= h * IZR (2 ^ bits)) by (apply <- Rle_div_l; lra).
+  assert (M : h * IZR (2 ^ bits) <= (IZR v + IZR error) / IZR (2 ^ guard)) by (apply -> Rle_div_r; lra).
+  assert (N : - (1 * IZR (2 ^ bits)) <= h * IZR (2 ^ bits) <= 1 * IZR (2 ^ bits)) by (split; nra).
+  unfold holds, clipped; simpl lo; simpl hi. rewrite opp_IZR in Up.
+  rewrite max_IZR, min_IZR, !opp_IZR, !shiftl_unit by auto.
+  split; [apply Rmax_lub|apply Rmin_glb]; lra.
+Qed.
+
+Lemma pi_near : 3.141 < PI < 3.148.
+Proof.
+  pose proof (atan_error 1 (/ 18)) as A. pose proof (atan_error 1 (/ 57)) as B.
+  pose proof (atan_error 1 (/ 239)) as C. pose proof gauss.
+  rewrite (Rabs_pos_eq (/ 18)) in A by lra. rewrite (Rabs_pos_eq (/ 57)) in B by lra.
+  rewrite (Rabs_pos_eq (/ 239)) in C by lra. simpl in A, B, C.
+  apply Rabs_le_between in A, B, C. lra.
+Qed.
+
+Lemma sin_turns x k : sin (x + 2 * IZR k * PI) = sin x.
+Proof.
+  assert (P : forall x n, sin (x + 2 * IZR (Z.of_nat n) * PI) = sin x).
+  { intros y n. rewrite <- INR_IZR_INZ. apply sin_period. }
+  destruct (Z_le_gt_dec 0 k).
+  - rewrite <- (Z2Nat.id k) by auto. apply P.
+  - rewrite <- (P _ (Z.to_nat (- k))). f_equal. rewrite Z2Nat.id, opp_IZR by lia. ring.
+Qed.
+
+(* sin and cos of x + k pi / 2 *)
+Lemma turned x k :
+  sin (x + IZR k * (PI / 2)) = match (k mod 4)%Z with 0%Z => sin x | 1%Z => cos x | 2%Z => - sin x | _ => - cos x end /\
+  cos (x + IZR k * (PI / 2)) = match (k mod 4)%Z with 0%Z => cos x | 1%Z => - sin x | 2%Z => - cos x | _ => sin x end.
+Proof.
+  pose proof (Z.mod_pos_bound k 4 ltac:(lia)) as B. pose proof (Z.div_mod k 4 ltac:(lia)) as E.
+  assert (P : forall a, sin (a + IZR k * (PI / 2)) = sin (a + IZR (k mod 4) * (PI / 2))).
+  { intros a. rewrite <- (sin_turns (a + IZR (k mod 4) * (PI / 2)) (k / 4)). f_equal.
+    apply (f_equal IZR) in E. rewrite plus_IZR, mult_IZR in E. rewrite E. field. }
+  rewrite (cos_sin (x + _)), <- Rplus_assoc, !P.
+  assert (C : (k mod 4 = 0 \/ k mod 4 = 1 \/ k mod 4 = 2 \/ k mod 4 = 3)%Z) by lia.
+  destruct C as [-> | [-> | [-> | ->]]]; rewrite ?Rmult_0_l, ?Rplus_0_r, ?Rmult_1_l, ?sin_plus, ?cos_plus;
+    replace (2 * (PI / 2)) with PI by field; rewrite ?sin_PI2, ?cos_PI2, ?sin_PI, ?cos_PI, ?sin_3PI2, ?cos_3PI2; lra.
+Qed.
+
+Lemma lipschitz a b c : Rabs (sin (c + a) - sin (c + b)) <= Rabs (a - b).
+Proof.
+  replace (Rabs (a - b)) with (1 * Rabs (a - b) ^ 1 / INR 1) by (simpl; field).
+  replace (sin (c + a)) with (sin (c + b + (a - b))) by (f_equal; ring).
+  apply (compare (fun t => minus (sin (c + b + t)) (sin (c + b))) (fun t => minus (cos (c + b + t)) 0)).
+  - rewrite Rplus_0_r. apply Rminus_eq_0.
+  - intros t. apply (is_derive_minus (V := R_NormedModule)).
+    + auto_derive; auto. ring.
+    + apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
+  - intros t. change (Rabs (cos (c + b + t) - 0) <= 1 * Rabs t ^ 0). rewrite Rminus_0_r, pow_O, Rmult_1_r. apply Rabs_le, COS_bound.
+Qed.
+
+(* The reduced argument: what is left of x after k quarters is within [r, r_hi]. *)
+Lemma reduction bits x p q : (0 <= bits)%Z ->
+  let guard := guard_bits x bits in let U := IZR (2 ^ (bits + guard)) in
+  (bits + guard <= 2 ^ 17)%Z ->
+  IZR p <= PI * U <= IZR q -> IZR q - IZR p <= 2 + 200 * (IZR (bits + guard) + 18) / 65536 ->
+  let y := Z.shiftl x guard in let k := ((4 * y + p) / (2 * p))%Z in
+  let r := Z.shiftr (Z.min (2 * y - k * p) (2 * y - k * q)) 1 in
+  let r_hi := up (Z.max (2 * y - k * p) (2 * y - k * q)) 1 in
+  let R := IZR x / IZR (2 ^ bits) - IZR k * (PI / 2) in
+  0 < U /\ - U <= IZR r <= U /\ IZR r_hi <= U /\ IZR r <= R * U <= IZR r_hi.
+Proof.
+  intros B guard U W P D y k r r_hi R.
+  assert (G0 : (12 <= guard)%Z) by (unfold guard, guard_bits; lia).
+  set (G := IZR (2 ^ guard)). pose proof (unit_pos bits B) as Ub.
+  assert (EU : U = IZR (2 ^ bits) * G) by (unfold U, G; rewrite Z.pow_add_r, mult_IZR by lia; auto).
+  assert (G1 : 4096 <= G) by (apply (IZR_le (2 ^ 12)), Z.pow_le_mono_r; lia).
+  assert (U1 : G <= U). { assert (1 <= IZR (2 ^ bits)) by (apply (IZR_le 1), (Z.pow_le_mono_r 2 0); lia). nra. }
+  assert (Y : Rabs (IZR y) * 4096 <= U * G).
+  { assert (Lx : (Z.abs x < 2 ^ bit_length x)%Z).
+    { unfold bit_length. destruct (Z.eqb_spec x 0) as [->|N]; [simpl; lia|].
+      replace (Z.log2 (Z.abs x) + 1)%Z with (Z.succ (Z.log2 (Z.abs x))) by lia. apply Z.log2_spec. lia. }
+    assert (L : (Z.abs x * 2 ^ 12 <= 2 ^ bits * 2 ^ guard)%Z).
+    { rewrite <- Z.pow_add_r by lia. apply Z.le_trans with (2 ^ bit_length x * 2 ^ 12)%Z; [lia|].
+      rewrite <- Z.pow_add_r by (unfold bit_length; destruct (x =? 0)%Z; pose proof (Z.log2_nonneg (Z.abs x)); lia).
+      apply Z.pow_le_mono_r; unfold guard, guard_bits; lia. }
+    apply IZR_le in L. rewrite !mult_IZR, abs_IZR in L. fold G in L. unfold y.
+    rewrite shiftl_unit, Rabs_mult, (Rabs_pos_eq (IZR (2 ^ guard))) by (fold G; lra || lia). fold G. nra. }
+  assert (DD : IZR q - IZR p <= 403). { apply IZR_le in W. change (2 ^ 17)%Z with 131072%Z in W. lra. }
+  pose proof pi_near as [Pi1 Pi2].
+  assert (p1 : 3 * U <= IZR p) by nra. assert (p2 : IZR p <= 3.148 * U) by nra.
+  assert (p0 : (2 * p <> 0)%Z) by (intros E; assert (Ep : p = 0%Z) by lia; rewrite Ep in p1; lra).
+  pose proof (floor_bound (4 * y + p) (2 * p) p0) as F. fold k in F.
+  rewrite plus_IZR, !mult_IZR in F. set (X := IZR y) in *. set (K := IZR k) in *. set (Q := IZR q) in *.
+  assert (F1 : 2 * IZR p * K <= 4 * X + IZR p < 2 * IZR p * K + 2 * IZR p).
+  { destruct F as [Fa Fb]. apply <- Rle_div_r in Fa; [|lra]. apply -> Rlt_div_l in Fb; [|lra]. lra. }
+  assert (Yb : - (U * G) <= 4096 * X <= U * G) by (apply Rabs_le_between; rewrite Rabs_mult, (Rabs_pos_eq 4096) by lra; lra).
+  assert (K1 : Rabs K <= G / 6144 + 3 / 2).
+  { apply Rabs_le. split; apply Rmult_le_reg_l with (2 * IZR p); nra. }
+  assert (KD : Rabs (K * (Q - IZR p)) <= (G / 6144 + 3 / 2) * 403).
+  { rewrite Rabs_mult, (Rabs_pos_eq (Q - _)) by lra. pose proof (Rabs_pos K). nra. }
+  apply Rabs_le_between in KD.
+  assert (ER : R * U = (2 * X - K * (PI * U)) / 2).
+  { unfold R, X, y. rewrite shiftl_unit, EU by lia. fold G. fold K. field. lra. }
+  pose proof (down_bound (Z.min (2 * y - k * p) (2 * y - k * q)) 1 ltac:(lia)) as Dn. fold r in Dn.
+  pose proof (up_bound (Z.max (2 * y - k * p) (2 * y - k * q)) 1 ltac:(lia)) as Up. fold r_hi in Up.
+  change (2 ^ 1)%Z with 2%Z in *. rewrite min_IZR, !minus_IZR, !mult_IZR in Dn. rewrite max_IZR, !minus_IZR, !mult_IZR in Up.
+  fold X K Q in Dn, Up.
+  assert (KP : K * IZR p <= K * (PI * U) <= K * Q \/ K * Q <= K * (PI * U) <= K * IZR p).
+  { destruct (Rle_dec 0 K); [left|right]; split; nra. }
+  unfold Rmin in Dn. unfold Rmax in Up. rewrite ER.
+  destruct (Rle_dec (2 * X - K * IZR p) (2 * X - K * Q)); repeat split; lra.
+Qed.
+
+Theorem sincos_at_holds fuel x bits S C first last : (0 <= bits)%Z -> (bits + guard_bits x bits <= 2 ^ 17)%Z ->
+  sincos_at fuel x bits = Some (S, C, first, last) ->
+  let t := IZR x / IZR (2 ^ bits) in
+  holds bits S (sin t) /\ holds bits C (cos t) /\ IZR first * (PI / 2) <= t < (IZR last + 1) * (PI / 2).
+Proof.
+  intros B W E t. unfold sincos_at in E. cbv zeta in E.
+  set (guard := guard_bits x bits) in *. assert (G0 : (12 <= guard)%Z) by (unfold guard, guard_bits; lia).
+  destruct (pi fuel (bits + guard)) as [[p q]|] eqn:EP; [|discriminate].
+  apply pi_holds in EP; [|lia]. destruct EP as [Hp Wp]. unfold holds in Hp. simpl in Hp, Wp.
+  destruct (reduction bits x p q B W Hp Wp) as (U0 & r1 & rh & Rr). fold guard in U0, r1, rh, Rr.
+  set (y := Z.shiftl x guard) in *. set (k := ((4 * y + p) / (2 * p))%Z) in *.
+  set (r := Z.shiftr _ 1) in *. set (r_hi := up _ 1) in *. set (U := IZR (2 ^ (bits + guard))) in *.
+  set (R := IZR x / IZR (2 ^ bits) - IZR k * (PI / 2)) in *.
+  destruct (series _ _ _ _ _ _ _) as [[[s c] n]|] eqn:ES; [|discriminate].
+  assert (One : IZR (Z.shiftl 1 (bits + guard)) = U) by (rewrite shiftl_unit by lia; fold U; ring).
+  apply (series_holds r (bits + guard) ltac:(lia) ltac:(apply Rabs_le; fold U; split;
+    [apply -> Rle_div_r; lra|apply <- Rle_div_l; lra]) fuel O) in ES.
+  2: { unfold exact. simpl. rewrite One. fold U. apply Rabs_le. lra. }
+  2: { simpl. rewrite sin_0. apply Rabs_le. lra. }
+  2: { simpl. rewrite sin_PI2, One. fold U. apply Rabs_le. lra. }
+  fold U in ES. destruct ES as [Es Ec].
+  assert (rR : Rabs (IZR r / U - R) * U <= IZR r_hi - IZR r).
+  { rewrite <- (Rabs_pos_eq U) at 2 by lra. rewrite <- Rabs_mult.
+    replace ((IZR r / U - R) * U) with (IZR r - R * U) by (field; lra). apply Rabs_le. lra. }
+  set (error := (3 * n + 2 + (r_hi - r))%Z) in *.
+  assert (Val : forall a v, Rabs (IZR v - sin (a + IZR r / U) * U) <= 3 * IZR n + 2 ->
+    holds bits (clipped bits guard v error) (sin (a + R))).
+  { intros a v V. apply clipped_holds; try lia. { apply Rabs_le, SIN_bound. } fold U.
+    unfold error. rewrite !plus_IZR, minus_IZR, mult_IZR.
+    pose proof (lipschitz (IZR r / U) R a) as L. apply Rmult_le_compat_r with (r := U) in L; [|lra].
+    replace (IZR v - sin (a + R) * U) with ((IZR v - sin (a + IZR r / U) * U) +
+      (sin (a + IZR r / U) - sin (a + R)) * U) by ring.
+    eapply Rle_trans; [apply Rabs_triang|]. rewrite (Rabs_mult _ U), (Rabs_pos_eq U) by lra. lra. }
+  assert (HS : holds bits (clipped bits guard s error) (sin R)).
+  { rewrite <- (Rplus_0_l R). apply Val. rewrite Rplus_0_l. exact Es. }
+  assert (HC : holds bits (clipped bits guard c error) (cos R)).
+  { rewrite cos_sin. apply Val. rewrite <- cos_sin. exact Ec. }
+  assert (Et : t = R + IZR k * (PI / 2)) by (unfold t, R; ring).
+  destruct (turned R k) as [T1 T2]. rewrite <- Et in T1, T2. pose proof pi_near.
+  assert (Bound : IZR (k - (if (r <=? 0)%Z then 1 else 0)) * (PI / 2) <= t <
+    (IZR (k - (if (r_hi <? 0)%Z then 1 else 0)) + 1) * (PI / 2)).
+  { rewrite Et, !minus_IZR. assert (-1 <= R <= 1) by (split; nra).
+    split.
+    - destruct (Z.leb_spec r 0); [lra|]. assert (0 < IZR r) by (apply IZR_lt; auto). assert (0 < R) by nra. lra.
+    - destruct (Z.ltb_spec r_hi 0) as [L|L]; [|lra]. apply IZR_lt in L. assert (R < 0) by nra. lra. }
+  apply Some_injective in E. rewrite T1, T2.
+  destruct (k mod 4)%Z as [|[m|[m|m|]|]|m]; injection E as <- <- <- <-;
+    (split; [|split; [|exact Bound]]); auto using neg_holds.
 Qed.
