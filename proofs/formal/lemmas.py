@@ -15,7 +15,7 @@ from proofs.formal import lemma_text as text
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
 from proofs.search.repair import short_decimal
-from proofs.trusted.numbers import Range, hull, within
+from proofs.trusted.numbers import Range, hull, show_range, within
 
 ROOM = 2.0**-24  # of a bracket, where no margin is thin
 
@@ -70,6 +70,14 @@ def by_cases(parts: Sequence[tuple[str, Fraction]], tactic: str) -> str:
         for name, end in parts[:-1]
     ]
     return "".join(lines) + f"\n  {tactic.format(parts[-1][0])}."
+
+
+def _place(branches: Sequence[Branch], phases: Range) -> int:
+    """Return which of the branches has all these phases."""
+    for index, branch in enumerate(branches):
+        if within(phases, (branch.a, branch.b)):
+            return index
+    raise NoHint(f"no branch has all phases of {show_range(phases)}")
 
 
 class Lemmas:
@@ -143,7 +151,7 @@ class Lemmas:
         pieces: list[tuple[str, Range]] = []
         used = [bounds for _, bounds in parts]
         for zone in pairwise(sorted(cuts)):
-            j = next(j for j, branch in enumerate(branches) if within(zone, branch[:2]))
+            j = _place(branches, zone)
             inside = [bounds for domain, bounds in parts if within(zone, domain)]
             inside = inside or [self._bounds(zone)]
             bounds = max(low for low, _ in inside), min(high for _, high in inside)
@@ -177,7 +185,7 @@ class Lemmas:
         bits = 2 - math.floor(math.log2(room))
         low, high = binary(min(times) - room, bits), binary(max(times) + room, bits, up=True)
         self.finest = min(self.finest, room)
-        j = next(j for j, x in enumerate(self.branches[index]) if within(phases, x[:2]))
+        j = _place(self.branches[index], phases)
         named = {"name": name, "branch": f"{index}_{j}", "p": phases[0], "q": phases[1]}
         self.add(text.IMPACT, **named, s=low, t=high)
         return low, high
