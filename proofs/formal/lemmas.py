@@ -33,18 +33,13 @@ class Sets(NamedTuple):
         return 1 if low > 0 else -1 if high < 0 else 0
 
     def sizes(self, index: int) -> Range:
-        """Bounds on |f'|."""
+        """Bounds on |f'| for I0 or I1; for both, if f' has a sign on each."""
+        signs = self.sign(0), self.sign(1)
+        return hull([self._size(i) for i in ((0, 1) if all(signs) else (index,))])
+
+    def _size(self, index: int) -> Range:
         low, high = self.bounds[index]
         return (low, high) if self.sign(index) > 0 else (-high, -low)
-
-    def with_common_bounds(self) -> Sets:
-        """Return the sets with bounds on |f'| that hold on both, if f' has a sign on each."""
-        signs = self.sign(0), self.sign(1)
-        if not all(signs):
-            return self
-        low, high = hull([self.sizes(0), self.sizes(1)])
-        first, second = ((low, high) if sign > 0 else (-high, -low) for sign in signs)
-        return self._replace(bounds=(first, second))
 
     @property
     def interval(self) -> Range:
@@ -106,12 +101,8 @@ class Lemmas:
             yield Sets("horseshoe", (headline.left, headline.right), (bounds[0], bounds[1]))
         asked = {"H1", "H2", "H3", "H6"} & {name for name in plan.verdicts if plan.holds(name)}
         if asked or "H5" in plan.verdicts:
-            printed = Sets(
-                "printed",
-                (plan.of.left, plan.of.right),
-                (self._bounds(plan.of.left), self._bounds(plan.of.right)),
-            )
-            yield printed.with_common_bounds()
+            bounds = self._bounds(plan.of.left), self._bounds(plan.of.right)
+            yield Sets("printed", (plan.of.left, plan.of.right), bounds)
 
     def _bounds(self, domain: Range) -> Range:
         """Return what the claims say about f' on a printed set, roughly where they say nothing."""
