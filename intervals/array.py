@@ -99,6 +99,7 @@ class IntervalArray(Relations[Mask], Elementary):
     @property
     def inf(self) -> Rows:
         """The lower endpoints."""
+        require_subnormals()
         return np.asarray(0.0 - self._rows[0])
 
     @property
@@ -127,11 +128,13 @@ class IntervalArray(Relations[Mask], Elementary):
     @property
     def mag(self) -> Rows:
         """The largest absolute values."""
+        require_subnormals()
         return np.asarray(magnitude(self._rows)[1])
 
     @property
     def mig(self) -> Rows:
         """The smallest absolute values."""
+        require_subnormals()
         return np.asarray(0.0 - magnitude(self._rows)[0])
 
     def hull(self, other: Operand) -> IntervalArray:
@@ -317,12 +320,13 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
-        if isinstance(other, int | np.integer) and abs(other) & (abs(other) - 1) == 0:
-            if other == 1:
+        number = int(other) if isinstance(other, int | np.integer) else 3  # numpy's abs would wrap
+        if abs(number) & (abs(number) - 1) == 0:
+            if number == 1:
                 return self
-            rows = self._rows if other >= 0 else self._rows[::-1]
+            rows = self._rows if number >= 0 else self._rows[::-1]
             with _quiet():
-                return _make(bounded(rows * float(abs(other))))
+                return _make(bounded(rows * float(abs(number))))
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented
@@ -345,8 +349,9 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def __pow__(self, n: Operand) -> IntervalArray:
         """Return the n-th powers without the dependency of x * x; real powers by `pow`."""
-        if not isinstance(n, int):
+        if not isinstance(n, int | np.integer):
             return NotImplemented if _rows_of(n) is None else self.pow(n)
+        n = int(n)
         if n < 0:
             return (1 / self) ** -n
         if n < 2:
@@ -446,11 +451,12 @@ class IntervalArray(Relations[Mask], Elementary):
         return f"IntervalArray.from_floats({low}, {high}){empty}"
 
     def __str__(self) -> str:
-        bounds = np.stack((self.inf, self.sup), axis=-1)
-        return np.array2string(bounds, floatmode="unique", separator=", ", threshold=40)
+        """Return decimals that enclose, which the constructor reads; of many only some."""
+        return display.array_text(self.inf, self.sup)
 
     def _repr_html_(self) -> str:
-        return display.html(self)
+        flat = self.reshape(-1)
+        return display.html(self.shape, zip(flat.inf, flat.sup, strict=True), self.size)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _make, (np.ascontiguousarray(self._rows),)

@@ -1,43 +1,61 @@
-"""Intervals in notebooks: decimals that enclose, as LaTeX and HTML."""
+"""Intervals as text, in decimals that enclose: for people, for notebooks, and to be read back."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
 from html import escape
-from typing import TYPE_CHECKING
+from typing import Any
 
 from intervals.exact import decimal_down, decimal_up
 
-if TYPE_CHECKING:
-    from intervals.array import IntervalArray
-    from intervals.interval import Interval
-
 _DIGITS = 17  # significant digits, enough to tell binary64 numbers apart
 _ROWS = 20
+_DOWN, _UP = (Context(prec=_DIGITS, rounding=mode) for mode in (ROUND_FLOOR, ROUND_CEILING))
 
 
-def decimals(x: Interval, digits: int = _DIGITS) -> tuple[str, str]:
-    """Return decimals of `digits` significant digits below and above the interval."""
-    return decimal_down(x.inf, digits), decimal_up(x.sup, digits)
+def text(low: Fraction, high: Fraction, digits: int) -> str:
+    """Return [low, high] in decimals of so many significant digits, rounded outward."""
+    return f"[{decimal_down(low, digits)}, {decimal_up(high, digits)}]"
 
 
-def latex(x: Interval) -> str:
-    """Return LaTeX for an interval."""
-    low, high = decimals(x, max(3, x.precision * 3 // 10))
-    return f"$\\left[{low},\\ {high}\\right]$"
+def latex(low: Fraction, high: Fraction, digits: int) -> str:
+    """Return the same as LaTeX."""
+    return f"$\\left[{decimal_down(low, digits)},\\ {decimal_up(high, digits)}\\right]$"
 
 
-def html(x: IntervalArray) -> str:
+def _binary64(low: float, high: float) -> tuple[str, str]:
+    """Return decimals of at most 17 digits, one not above and one not below."""
+    return _short(_DOWN.create_decimal(Decimal(low))), _short(_UP.create_decimal(Decimal(high)))
+
+
+def _short(value: Decimal) -> str:
+    value = value.normalize(_DOWN)  # which drops zeros at the end, and has room for the digits
+    return f"{value:f}" if -5 < value.adjusted() < _DIGITS else str(value)
+
+
+def array_text(lower: Any, upper: Any) -> str:
+    """Return nested lists of [low, high], which the constructor reads back as supersets."""
+    import numpy as np
+
+    texts = np.empty(lower.shape, dtype=object)
+    for index in np.ndindex(lower.shape):
+        texts[index] = "[{}, {}]".format(*_binary64(float(lower[index]), float(upper[index])))
+    return np.array2string(texts, formatter={"all": str}, separator=", ", threshold=20)
+
+
+def html(shape: tuple[int, ...], elements: Iterable[tuple[float, float]], size: int) -> str:
     """Return an HTML table of the first intervals of an array, with their indices."""
     import numpy as np
 
-    flat = x.reshape(-1)
     lines = [
         f"<tr><th>{escape(str(index))}</th><td>{low}</td><td>{high}</td></tr>"
-        for index, element in zip(np.ndindex(x.shape), flat[:_ROWS], strict=False)
-        for low, high in [decimals(element.item())]
+        for _, index, bounds in zip(range(_ROWS), np.ndindex(shape), elements, strict=False)
+        for low, high in [_binary64(*bounds)]
     ]
-    if x.size > _ROWS:
-        lines.append(f"<tr><td colspan='3'>and {x.size - _ROWS} more</td></tr>")
-    head = f"<caption>IntervalArray {escape(str(x.shape))}</caption>"
+    if size > _ROWS:
+        lines.append(f"<tr><td colspan='3'>and {size - _ROWS} more</td></tr>")
+    head = f"<caption>IntervalArray {escape(str(shape))}</caption>"
     titles = "<tr><th></th><th>inf</th><th>sup</th></tr>"
     return f"<table>{head}{titles}{''.join(lines)}</table>"

@@ -86,8 +86,8 @@ class Interval(Relations[bool], Elementary):
         number = float(value)
         if number != value or number - number != 0:
             raise ValueError(f"not a finite binary64 number: {value!r}")
-        raw, p = from_bits(number), _checked(precision)
-        return _make(mpf_pos(raw, p, DOWN), mpf_pos(raw, p, UP), p)
+        raw = from_bits(number)
+        return _outward(raw, raw, _checked(precision))
 
     @classmethod
     def pi(cls, *, precision: int = 53) -> Interval:
@@ -138,24 +138,25 @@ class Interval(Relations[bool], Elementary):
         """The smallest absolute value."""
         return max(Fraction(0), self.inf, -self.sup)
 
-    def hull(self, other: Interval) -> Interval:
+    def hull(self, other: Interval | Fraction | int) -> Interval:
         """Return the smallest interval that holds both."""
+        other = self._required(other)
         low = other._lo if mpf_lt(other._lo, self._lo) else self._lo
         high = self._hi if mpf_lt(other._hi, self._hi) else other._hi
-        return _make(low, high, max(self.precision, other.precision))
+        return _outward(low, high, max(self.precision, other.precision))
 
-    def intersection(self, other: Interval) -> Interval | None:
+    def intersection(self, other: Interval | Fraction | int) -> Interval | None:
         """Return the common part, None where there is none."""
+        other = self._required(other)
         low = self._lo if mpf_lt(other._lo, self._lo) else other._lo
         high = other._hi if mpf_lt(other._hi, self._hi) else self._hi
         if mpf_lt(high, low):
             return None
-        return _make(low, high, max(self.precision, other.precision))
+        return _outward(low, high, max(self.precision, other.precision))
 
     def with_precision(self, precision: int) -> Interval:
         """Return an enclosure of this interval at another precision."""
-        p = _checked(precision)
-        return _make(mpf_pos(self._lo, p, DOWN), mpf_pos(self._hi, p, UP), p)
+        return _outward(self._lo, self._hi, _checked(precision))
 
     def bisect(self) -> tuple[Interval, Interval]:
         """Return two intervals whose union this is, cut at the midpoint or a number next to it."""
@@ -225,8 +226,7 @@ class Interval(Relations[bool], Elementary):
         if d[0]:
             return -(self * -other)
         products = [mpf_mul(x, y) for x in (a, b) for y in (c, d)]
-        low, high = extremes(products)
-        return _make(mpf_pos(low, p, DOWN), mpf_pos(high, p, UP), p)
+        return _outward(*extremes(products), p)
 
     __rmul__ = __mul__
 
@@ -252,24 +252,26 @@ class Interval(Relations[bool], Elementary):
         """Return 1 / x."""
         return 1 / self
 
-    def fma(self, factor: Interval, term: Interval) -> Interval:
+    def fma(self, factor: Interval | Fraction | int, term: Interval | Fraction | int) -> Interval:
         """Return x y + z, rounded once."""
+        factor, term = self._required(factor), self._required(term)
         p = max(self.precision, factor.precision, term.precision)
         low, high = extremes(
             [mpf_mul(x, y) for x in (self._lo, self._hi) for y in (factor._lo, factor._hi)]
         )
         return _make(mpf_add(low, term._lo, p, DOWN), mpf_add(high, term._hi, p, UP), p)
 
-    def cancel_minus(self, term: Interval) -> Interval | None:
+    def cancel_minus(self, term: Interval | Fraction | int) -> Interval | None:
         """Return the tightest Z with term + Z containing X; None where term is wider than X."""
+        term = self._required(term)
         if self.wid < term.wid:
             return None
         p = max(self.precision, term.precision)
         return _make(mpf_sub(self._lo, term._lo, p, DOWN), mpf_sub(self._hi, term._hi, p, UP), p)
 
-    def cancel_plus(self, term: Interval) -> Interval | None:
+    def cancel_plus(self, term: Interval | Fraction | int) -> Interval | None:
         """Return the tightest Z with Z - term containing X; None where term is wider than X."""
-        return self.cancel_minus(-term)
+        return self.cancel_minus(-self._required(term))
 
     def __abs__(self) -> Interval:
         if not self._lo[0]:
@@ -440,7 +442,7 @@ class Interval(Relations[bool], Elementary):
         """Return the range of min(x, y)."""
         y = self._required(other)
         low, high = extremes([self._lo, y._lo])[0], extremes([self._hi, y._hi])[0]
-        return _make(low, high, max(self.precision, y.precision))
+        return _outward(low, high, max(self.precision, y.precision))
 
     def maximum(self, other: Interval | Fraction | int) -> Interval:
         """Return the range of max(x, y)."""
@@ -509,7 +511,7 @@ class Interval(Relations[bool], Elementary):
 
     def __str__(self) -> str:
         """Return decimals that enclose, about as many digits as the precision is worth."""
-        return format(self, str(max(3, self.precision * 3 // 10)))
+        return display.text(self.inf, self.sup, self._digits)
 
     def __format__(self, digits: str) -> str:
         """Return decimals that enclose: f"{x:20}" has 20 significant digits."""
@@ -517,11 +519,15 @@ class Interval(Relations[bool], Elementary):
             return str(self)
         if not digits.isdecimal():
             raise ValueError(f"not a number of digits: {digits!r}")
-        low, high = display.decimals(self, int(digits))
-        return f"[{low}, {high}]"
+        return display.text(self.inf, self.sup, int(digits))
 
     def _repr_latex_(self) -> str:
-        return display.latex(self)
+        return display.latex(self.inf, self.sup, self._digits)
+
+    @property
+    def _digits(self) -> int:
+        """About as many digits as the precision is worth."""
+        return max(3, self.precision * 3 // 10)
 
     def __reduce__(self) -> tuple[Callable[..., Interval], tuple[Any, ...]]:
         return _restore, (dyadic(self._lo), dyadic(self._hi), self.precision)
@@ -539,6 +545,11 @@ def _make(lo: _Raw, hi: _Raw, precision: int) -> Interval:
     new._hi = hi
     new.precision = precision
     return new
+
+
+def _outward(lo: _Raw, hi: _Raw, precision: int) -> Interval:
+    """Return the tightest enclosure of the interval at this precision: an int may have more."""
+    return _make(mpf_pos(lo, precision, DOWN), mpf_pos(hi, precision, UP), precision)
 
 
 def _restore(low: tuple[int, int], high: tuple[int, int], precision: int) -> Interval:

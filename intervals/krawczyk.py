@@ -145,6 +145,8 @@ def _contract(f: Function, box: Box, image: _Image, steps: int) -> _State:
     """
     if steps < 1:
         raise ValueError("at least one step")
+    if isinstance(box, Interval):
+        raise TypeError("a box is a sequence of intervals, one for each variable")
     none = unique = np.zeros(np.shape(box[0].inf), dtype=bool)
     for _ in range(steps):
         values, derivatives = jacobian(f, box)

@@ -50,6 +50,8 @@ def solve(a: IntervalArray, b: IntervalArray) -> IntervalArray:
     Raises SingularMatrix if no such C and w are found.
     """
     n = _order(a)
+    if b.ndim not in (1, 2) or b.shape[0] != n or not b.size:
+        raise ValueError(f"a right side of the shape {b.shape} for a matrix of the order {n}")
     columns = b.reshape(n, -1)
     inverse = _approximate_inverse(a.mid)
     c = IntervalArray.from_floats(inverse)

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from itertools import accumulate
+from typing import Any, TypeAlias
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from intervals.array import IntervalArray
 
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 
 
-def _method(name: str) -> Callable[..., Any]:
-    return lambda x, *rest: getattr(x, name)(*rest)
+Kind: TypeAlias = Any  # the class IntervalArray, whose module imports this one
 
 
-_UFUNCS: dict[Any, Callable[..., Any]] = {
+_OPERATORS: dict[Any, Callable[..., Any]] = {
     np.add: operator.add,
     np.subtract: operator.sub,
     np.multiply: operator.mul,
@@ -39,18 +36,20 @@ _UFUNCS: dict[Any, Callable[..., Any]] = {
     np.less_equal: operator.le,
     np.greater: operator.gt,
     np.greater_equal: operator.ge,
-    np.square: _method("sqr"),
-    np.reciprocal: _method("recip"),
-    np.arcsin: _method("asin"),
-    np.arccos: _method("acos"),
-    np.arctan: _method("atan"),
-    np.arcsinh: _method("asinh"),
-    np.arccosh: _method("acosh"),
-    np.arctanh: _method("atanh"),
-    np.arctan2: _method("atan2"),
-    np.rint: _method("round_ties_to_even"),
+}
+_METHODS: dict[Any, str] = {
+    np.square: "sqr",
+    np.reciprocal: "recip",
+    np.arcsin: "asin",
+    np.arccos: "acos",
+    np.arctan: "atan",
+    np.arcsinh: "asinh",
+    np.arccosh: "acosh",
+    np.arctanh: "atanh",
+    np.arctan2: "atan2",
+    np.rint: "round_ties_to_even",
 } | {
-    getattr(np, name): _method(name)
+    getattr(np, name): name
     for name in (
         *("sqrt", "cbrt", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p"),
         *("sin", "cos", "tan", "sinh", "cosh", "tanh"),
@@ -60,68 +59,134 @@ _UFUNCS: dict[Any, Callable[..., Any]] = {
 _REDUCTIONS = {np.add: "sum", np.multiply: "prod"}
 
 
-def apply_ufunc(
-    kind: type[IntervalArray], ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any
-) -> Any:
+def apply_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_ufunc__` is asked for; TypeError for what intervals do not do."""
     if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= {"axis"}:
         return getattr(inputs[0], _REDUCTIONS[ufunc])(axis=options.get("axis", 0))
-    operation = _UFUNCS.get(ufunc)
-    if method != "__call__" or options or operation is None:
+    if method != "__call__" or options or not (ufunc in _OPERATORS or ufunc in _METHODS):
         asked = ".".join([ufunc.__name__, *([] if method == "__call__" else [method]), *options])
         raise TypeError(f"numpy.{asked} is not defined for IntervalArrays")
-    return operation(*(_exact(kind, x) for x in inputs))
+    first, *others = (_exact(kind, x) for x in inputs)
+    if ufunc in _OPERATORS:
+        return _OPERATORS[ufunc](first, *others)
+    return getattr(first if isinstance(first, kind) else kind(first), _METHODS[ufunc])(*others)
 
 
-def _exact(kind: type[IntervalArray], x: Any) -> Any:
+def _exact(kind: Kind, x: Any) -> Any:
     """Return x, arrays of ints as intervals; floats, which may be rounded, raise TypeError."""
     if isinstance(x, float | np.floating):
         raise TypeError(_HINT)
+    if isinstance(x, np.integer):
+        return int(x)
+    if isinstance(x, np.generic):  # its operators would ask here again
+        raise TypeError(f"not an interval or an exact number: {x!r}")
     if not isinstance(x, np.ndarray):
-        return int(x) if isinstance(x, np.integer) else x
+        return x
     if not np.issubdtype(x.dtype, np.integer):
         raise TypeError(_HINT)
     return kind.from_floats(x)
 
 
-def _lifted(kind: type[IntervalArray], x: Any) -> IntervalArray:
+def _lifted(kind: Kind, x: Any) -> Any:
     exact = _exact(kind, x)
     return exact if isinstance(exact, kind) else kind(exact)
 
 
 # -- functions that move elements --------------------------------------------------------------
 
-_OF_ONE = {
-    *(np.reshape, np.ravel, np.squeeze, np.expand_dims, np.broadcast_to, np.atleast_1d),
-    *(np.transpose, np.swapaxes, np.moveaxis, np.flip, np.fliplr, np.flipud, np.rot90, np.roll),
-    *(np.split, np.array_split, np.tile, np.repeat, np.take, np.compress, np.delete, np.copy),
-    *(np.diag, np.diagonal, np.tril, np.triu, np.atleast_2d),
+# The options that are heeded, in numpy's order: others (dtype, casting, out) would round, or write.
+_OF_ONE: dict[Any, tuple[str, ...]] = {
+    **dict.fromkeys((np.ravel, np.copy, np.fliplr, np.flipud, np.atleast_1d, np.atleast_2d), ()),
+    **dict.fromkeys((np.reshape, np.broadcast_to), ("shape",)),
+    **dict.fromkeys((np.squeeze, np.expand_dims, np.flip), ("axis",)),
+    np.transpose: ("axes",),
+    np.swapaxes: ("axis1", "axis2"),
+    np.moveaxis: ("source", "destination"),
+    np.rot90: ("k", "axes"),
+    np.roll: ("shift", "axis"),
+    **dict.fromkeys((np.split, np.array_split), ("indices_or_sections", "axis")),
+    np.tile: ("reps",),
+    np.repeat: ("repeats", "axis"),
+    np.take: ("indices", "axis"),
+    np.delete: ("obj", "axis"),
+    **dict.fromkeys((np.diag, np.tril, np.triu), ("k",)),
+    np.diagonal: ("offset", "axis1", "axis2"),
 }
-_OF_MANY = {np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack}
+_OF_MANY: dict[Any, tuple[str, ...]] = {
+    **dict.fromkeys((np.concatenate, np.stack), ("axis",)),
+    **dict.fromkeys((np.vstack, np.hstack, np.dstack, np.column_stack), ()),
+}
+_MOVING = _OF_ONE | _OF_MANY
+
+
+# -- functions that compute, or ask ------------------------------------------------------------
+
+
+def _dot(x: Any, y: Any) -> Any:
+    if max(x.ndim, y.ndim) > 2:
+        raise TypeError("numpy.dot of more than two axes is not defined for IntervalArrays: use @")
+    return x @ y
+
+
+def _inner(x: Any, y: Any) -> Any:
+    return _dot(x, y.T)
+
+
+def _mean(x: Any, axis: int | None = None) -> Any:
+    return x.sum(axis=axis) / (x.size if axis is None else x.shape[axis])
+
+
+def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
+    for _ in range(n):
+        moved = np.moveaxis(x, axis, 0)
+        x = np.moveaxis(moved[1:] - moved[:-1], 0, axis)
+    return x
+
+
+def _cumsum(x: Any, axis: int | None = None) -> Any:
+    moved = x.reshape(-1) if axis is None else np.moveaxis(x, axis, 0)
+    totals = list(accumulate(moved))
+    return np.moveaxis(np.stack(totals), 0, axis or 0) if totals else x
+
+
+def _largest(x: Any, axis: int | None = None) -> Any:
+    """Return the range of the largest element: it increases with each of them."""
+    return type(x).from_floats(x.inf.max(axis=axis), x.sup.max(axis=axis))
+
+
 _ASKING: dict[Any, Callable[..., Any]] = {
     np.shape: lambda x: x.shape,
     np.ndim: lambda x: x.ndim,
     np.size: lambda x: x.size,
     np.sum: lambda x, axis=None: x.sum(axis=axis),
     np.prod: lambda x, axis=None: x.prod(axis=axis),
-    np.dot: operator.matmul,
+    np.dot: _dot,
+    np.inner: _inner,
+    np.mean: _mean,
+    np.diff: _diff,
+    np.cumsum: _cumsum,
+    np.trace: lambda x, offset=0: np.diagonal(x, offset).sum(axis=-1),
+    np.max: _largest,
+    np.min: lambda x, axis=None: -_largest(-x, axis),
+    np.clip: lambda x, low, high: x.maximum(low).minimum(high),
+    np.zeros_like: lambda x: 0 * x,
+    np.ones_like: lambda x: type(x).from_floats(np.ones(x.shape)),
     np.array_equal: lambda x, y: x.shape == y.shape and bool((x == y).all()),
 }
 
 
-def apply_function(
-    kind: type[IntervalArray], function: Any, arguments: tuple[Any, ...], options: Any
-) -> Any:
+def apply_function(kind: Kind, function: Any, arguments: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_function__` is asked for; TypeError for what intervals do not do."""
     if function in _ASKING:
         return _ASKING[function](*arguments, **options)
-    known = function in _OF_ONE | _OF_MANY | {np.where}
-    if not known or not arguments or "out" in options:
+    if function is np.where and len(arguments) == 3 and not options:
+        mask, pair = arguments[0], [_lifted(kind, x)._rows for x in arguments[1:]]
+        return _joined(kind, [np.where(mask, pair[0][i], pair[1][i]) for i in (0, 1)])
+    names = _MOVING.get(function, ())
+    heeded = options.keys() <= set(names) and len(arguments) <= 1 + len(names)
+    if function not in _MOVING or not arguments or not heeded:
         raise TypeError(f"numpy.{function.__name__} is not defined so for IntervalArrays")
     first, *rest = arguments
-    if function is np.where:
-        mask, pair = first, [_lifted(kind, x)._rows for x in rest]
-        return _joined(kind, [np.where(mask, pair[0][i], pair[1][i]) for i in (0, 1)])
     if function in _OF_MANY:
         rows = [_lifted(kind, x)._rows for x in first]
         data: list[Any] = [[r[0] for r in rows], [r[1] for r in rows]]
@@ -130,7 +195,7 @@ def apply_function(
     return _joined(kind, [function(x, *rest, **options) for x in data])
 
 
-def _joined(kind: type[IntervalArray], rows: list[Any]) -> Any:
+def _joined(kind: Kind, rows: list[Any]) -> Any:
     """Return the intervals of two equally moved rows, a list where numpy returned lists."""
     if isinstance(rows[0], list):
         return [_joined(kind, [low, high]) for low, high in zip(*rows, strict=True)]

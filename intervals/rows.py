@@ -5,11 +5,12 @@ mode. If e is the largest exact candidate and x < e, then its own rounded value,
 neighbour of it and at most x, is x: so `outward`, which only asks that, makes an upper bound.
 """
 
+import json
 from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, prod
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,6 @@ from numpy.typing import NDArray
 from intervals.errors import DomainError
 from intervals.exact import fraction
 from intervals.rounding import Rows, float_down, float_up, outward, outward_sum
-
-if TYPE_CHECKING:
-    pass
 
 _BLOCK = 16384  # elements at a time
 
@@ -185,6 +183,8 @@ def scalar_rows(value: object) -> Rows | None:
         return float_rows(value, value)
     if isinstance(value, float | np.floating | np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
+    if isinstance(value, np.generic) and not isinstance(value, np.integer):  # else numpy asks again
+        raise TypeError(f"not an interval or an exact number: {value!r}")
     if type(value) is int or type(value) is Fraction:
         return _rational_rows(value)
     if isinstance(value, int | Fraction | np.integer) or _is_interval(value):
@@ -215,8 +215,10 @@ def exact_rows(values: Any) -> Rows:
 
 def _nested(values: Any) -> Any:
     """Replace the elements in nested lists by their pairs (-lower, upper)."""
+    if isinstance(values, str) and values.lstrip().startswith("["):
+        values = _from_text(values)
     if isinstance(values, np.ndarray):
-        values = values.tolist()
+        values = _unmasked(values).tolist()
     if isinstance(values, list | range):
         return [_nested(value) for value in values]
     if not isinstance(values, tuple):
@@ -227,6 +229,31 @@ def _nested(values: Any) -> Any:
     if _endpoint(lower, "inf") > _endpoint(upper, "sup"):
         raise ValueError(f"reversed interval: {lower} > {upper}")
     return (_enclosure(lower)[0], _enclosure(upper)[1])
+
+
+def _from_text(text: str) -> Any:
+    """Return the nested lists of pairs that `str` of an IntervalArray prints."""
+
+    try:
+        values = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
+        return _elements(values)
+    except ValueError:
+        raise ValueError(f"not intervals in nested brackets: {text[:40]!r}") from None
+
+
+def _elements(values: list[Any]) -> Any:
+    """Return one or two numbers as a pair, lists as an axis."""
+    if not any(isinstance(value, str) for value in values):
+        return [_elements(value) for value in values]
+    if len(values) > 2 or any(isinstance(value, list) for value in values):
+        raise ValueError("neither an interval nor an axis")
+    return values[0], values[-1]
+
+
+def _unmasked(values: NDArray[Any]) -> NDArray[Any]:
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError("a masked array has no numbers where it is masked: take its .compressed()")
+    return values
 
 
 def _endpoint(value: Any, name: str) -> Fraction:
@@ -257,7 +284,7 @@ def float_rows(lower: Any, upper: Any) -> Rows:
 
 def _binary64(values: Any) -> NDArray[np.float64]:
     """Return floats as an array, unchanged; ints that binary64 does not hold raise ValueError."""
-    if isinstance(values, np.ndarray) and values.dtype == np.float64:
+    if isinstance(values, np.ndarray) and _unmasked(values).dtype == np.float64:
         return values
     objects = np.asarray(values, dtype=object)
     if not all(isinstance(x, float | int | np.floating | np.integer) for x in objects.flat):

@@ -12,7 +12,8 @@ from time import perf_counter
 
 import proofs.benchmark
 from proofs.benchmark import page
-from proofs.benchmark.page import Run, Section, Tell
+from proofs.benchmark.measure import Tell
+from proofs.benchmark.page import Run, Section
 from proofs.benchmark.peers import FLINT, IV, OURS
 from proofs.shell.cli import USAGE_ERROR, Parser, check_targets, progress, writable, write_target
 

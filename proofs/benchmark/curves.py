@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from intervals import DomainError, Undecided
-from proofs.benchmark.page import Row, in_turn, ratio_row, seconds_of
+from proofs.benchmark.measure import Row, in_turn, ratio_row, seconds_of
 from proofs.benchmark.peers import PEERS
 
 _FITTED = 4  # an order is that of so many of the last points

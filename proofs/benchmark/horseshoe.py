@@ -13,7 +13,8 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from proofs.benchmark.page import Row, Section, Tell, ratio_row, spread
+from proofs.benchmark.measure import Row, Tell, ratio_row, spread
+from proofs.benchmark.page import Section
 from proofs.benchmark.peers import FLINT, libraries
 from proofs.trusted.paper import GROUPS
 

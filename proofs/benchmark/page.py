@@ -1,49 +1,26 @@
-"""What is measured and shown: rows in sections; tables, a page with pictures, JSON with samples."""
+"""What is shown: rows in sections; tables, a page with pictures, JSON with samples."""
 
 from __future__ import annotations
 
 import json
 import os
 import platform
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from importlib.metadata import PackageNotFoundError, version
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
-from time import perf_counter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import NamedTuple
 
+from proofs.benchmark.diagrams import Diagram, svg
+from proofs.benchmark.measure import Row, version_of
 from proofs.report.markup import markdown_table
 from proofs.trusted.certificate import write_atomically
 
-if TYPE_CHECKING:
-    from proofs.benchmark.diagrams import Diagram
-
-Tell = Callable[[str], None]
 SCHEMA = "impact-proofs-benchmark-1"
 _PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 _ABOUT = """\
 Times are on the clock: medians, with the least and the largest in brackets. What is
 compared was measured in turn, in one run, so that a busy machine slows all alike;
 ratios are of samples taken side by side. The raw samples are in `benchmark.json`."""
-
-
-@dataclass
-class Row:
-    """One line of the table. reached is None where there is no target, or no measurement."""
-
-    name: str
-    measured: str
-    target: str = ""
-    reached: bool | None = None
-    samples: dict[str, Any] = field(default_factory=dict)
-
-    @property
-    def cells(self) -> tuple[str, ...]:
-        """The line of the table."""
-        unknown = "not measured" if self.target else "-"
-        state = {True: "yes", False: "NO", None: unknown}[self.reached]
-        return self.name, self.target or "-", self.measured, state
 
 
 class Section(NamedTuple):
@@ -59,35 +36,6 @@ class Section(NamedTuple):
         """The rows under their header."""
         header = "what", "target", "measured", "reached"
         return "\n".join(markdown_table([header, *(row.cells for row in self.rows)]))
-
-
-def spread(samples: Sequence[float]) -> str:
-    """Write the median and, in brackets, the least and the largest."""
-    return f"{median(samples):.3g} ({min(samples):.3g} .. {max(samples):.3g})"
-
-
-def seconds_of(task: Callable[[], Any]) -> float:
-    """Return the seconds that one call takes."""
-    began = perf_counter()
-    task()
-    return perf_counter() - began
-
-
-def in_turn(tasks: Sequence[Callable[[], Any]], rounds: int) -> list[list[float]]:
-    """Time the tasks A B A B ..., so that a busy machine slows all; return the seconds of each."""
-    samples = [[seconds_of(task) for task in tasks] for _ in range(rounds)]
-    return [[one[k] for one in samples] for k in range(len(tasks))]
-
-
-def ratio_row(
-    name: str, above: Sequence[float], below: Sequence[float], most: float | None = None
-) -> Row:
-    """Return the row of ratios in pairs, whose median should be at most `most`."""
-    ratios = [one / other for one, other in zip(above, below, strict=False)]
-    row = Row(f"{name} (pairs)", spread(ratios), samples={"ratios": ratios})
-    if most is not None:
-        row.target, row.reached = f"<= {most:g}", median(ratios) <= most
-    return row
 
 
 @dataclass(frozen=True)
@@ -118,14 +66,6 @@ def text(run: Run) -> str:
     """Return the tables and the verdict."""
     parts = [f"## {one.title}\n\n{one.table}\n" for one in run.sections]
     return "\n".join([*parts, f"median (least .. largest); {run.verdict}"])
-
-
-def version_of(package: str) -> str:
-    """Return the version of a package, or that it is absent."""
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "absent"
 
 
 def environment() -> dict[str, str]:
@@ -161,8 +101,6 @@ def write(folder: Path, run: Run) -> bool:
     All is drawn before anything is written, and the page comes last: what it links to is there.
     Without matplotlib there are no pictures. OSError if nothing can be written.
     """
-    from proofs.benchmark.diagrams import svg
-
     diagrams = [one for section in run.sections for one in section.diagrams]
     drawn = True
     try:

@@ -16,7 +16,8 @@ from proofs.benchmark import tasks
 from proofs.benchmark.codac_server import Bounds, codac
 from proofs.benchmark.curves import Budget, Curve, beside, sweep
 from proofs.benchmark.diagrams import Diagram
-from proofs.benchmark.page import Row, Section, Tell, spread, version_of
+from proofs.benchmark.measure import Row, Tell, spread, version_of
+from proofs.benchmark.page import Section
 from proofs.benchmark.peers import CODAC, FLINT, IV, installed, libraries
 from proofs.trusted.paper import GROUPS
 

@@ -22,6 +22,7 @@ _TITLES = {
     "soft": "Section 5: soft springs, equation by equation",
     "resonance": "Sections 6 and 7: resonance",
     "foundations": "Section 2 and the appendix",
+    "explore": "What is proved about the motion",
 }
 
 _NAMES = {

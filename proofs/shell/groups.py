@@ -17,7 +17,7 @@ from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import SCHEMA, Reader, parameters_to_json, render, used_steps
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper import GROUPS, find
+from proofs.trusted.paper import BEYOND, GROUPS, find
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row, Verdict
 
@@ -34,10 +34,11 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "single": "s4_single",
         "soft": "s5_soft",
         "resonance": "s6_resonance",
+        "explore": "beyond",
     }
 )
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
-    {group: {group: claims} for group, claims in GROUPS.items()}
+    {group: {group: claims} for group, claims in {**GROUPS, **BEYOND}.items()}
     | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
 )  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)

@@ -59,6 +59,9 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-orbit": "paper.s4_single.orbits.single_orbit",
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
+        "markov-set": "paper.beyond.chaos.prove_markov_set",
+        "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
+        "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
     }
 )
 

@@ -130,12 +130,17 @@ class ImageArc(Conclusion):
         """Whether the arc does not pass phase 0."""
         return self.low[1] < self.high[0]
 
+    @property
+    def passes_zero(self) -> bool:
+        """Whether the arc is all phases from `low` on and all up to `high`."""
+        return self.high[1] < self.low[0]
+
     def covers(self, target: Range) -> bool:
-        """Whether the image is proved to contain an interval of phases."""
+        """Whether the image is proved to be an interval that contains an interval of phases."""
         return self.low[1] <= target[0] and target[1] <= self.high[0]
 
     def misses(self, target: Range) -> bool:
-        """Whether the image is proved to miss an interval of phases."""
+        """Whether the image is proved to be an interval that misses an interval of phases."""
         return self.is_interval and (target[1] < self.low[0] or self.high[1] < target[0])
 
     @property

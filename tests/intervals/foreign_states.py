@@ -12,6 +12,7 @@ import platform
 import sys
 from contextlib import contextmanager
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
@@ -63,7 +64,12 @@ ANY_MODE = {  # hold in every rounding mode
     "round": lambda: X.round_ties_to_even(),
     "sqrt": lambda: X.sqrt(),
 }
-RELATIONS = {
+RELATIONS = {  # and what is read from an array
+    **{name: partial(getattr, SMALL, name) for name in ("inf", "mag", "mig")},
+    "mid": lambda: SMALL.contains(IntervalArray.from_floats(SMALL.mid)),
+    "repr": lambda: [repr(SMALL)],
+    "str": lambda: [str(SMALL)],
+    "item": lambda: [repr(SMALL[2].item())],
     "subset": lambda: SMALL.subset(ZERO),
     "positive": lambda: SMALL.certainly_positive(),
 }
@@ -117,7 +123,7 @@ def attempt(operation):
 
 
 def written(value):
-    if isinstance(value, str):
+    if isinstance(value, str | list):
         return value
     if isinstance(value, np.ndarray):
         return value.tolist()

@@ -438,3 +438,25 @@ def test_the_ends_have_the_precision_of_the_interval(data, p):
     x, zero, one = (Interval(v, precision=p) for v in (data.draw(numbers(p)), 0, 1))
     for y in (x + 2**500, zero - 3**300, one * 3**300):
         assert bounds(y) == outward(*bounds(y), p)
+
+
+def test_exact_numbers_as_operands_of_every_operation():
+    x = Interval(1, 3)
+    assert x.fma(2, Fraction(1, 2)) == Interval("2.5", "6.5")
+    assert (x.hull(7), x.hull(0)) == (Interval(1, 7), Interval(0, 3))
+    assert (x.intersection(2), x.intersection(4)) == (Interval(2), None)
+    assert (x.cancel_minus(1), x.cancel_plus(1)) == (Interval(0, 2), Interval(2, 4))
+    for operation in (x.hull, x.intersection, x.cancel_minus, x.cancel_plus, x.minimum):
+        with pytest.raises(TypeError, match="exact number"):
+            operation("2")
+
+
+def test_results_have_no_more_bits_than_their_precision():
+    wide = 2**60 + 1
+    for result in (
+        *(Interval(0, 2**61).minimum(wide), Interval(0).maximum(wide)),
+        *(Interval(0).hull(wide), Interval(0, 2**61).intersection(wide)),
+    ):
+        assert result.contains(wide) and result.subset(Interval(0, 2**61))
+        for end in map(int, (result.inf, result.sup)):
+            assert end == 0 or (end // (end & -end)).bit_length() <= 53

@@ -272,3 +272,9 @@ def test_four_variables(method):
     assert outcome is Roots.UNIQUE
     assert holds(smaller, target)
     assert max(x.wid for x in smaller) < Fraction(1, 2**40)
+
+
+@pytest.mark.parametrize("operator", [krawczyk, newton_system])
+def test_a_box_is_a_sequence(operator):
+    with pytest.raises(TypeError, match="a box is a sequence"):
+        operator(lambda x: [x], Interval(0, 2))

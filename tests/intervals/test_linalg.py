@@ -297,3 +297,10 @@ def test_symmetric_matrices_sharply():
     check_spectrum(found, integers(rows))
     assert all(x.multiplicity == 1 and x.imag.is_singleton() for x in found)
     assert max(x.real.wid for x in found) < Fraction(1, 2**30)
+
+
+@pytest.mark.parametrize("shape", [(4,), (6,), (1,), (), (2, 3), (3, 1, 1), (0,), (3, 0)])
+def test_right_sides_of_other_shapes_are_refused(shape):
+    side = IntervalArray.from_floats(np.ones(shape))
+    with pytest.raises(ValueError, match="right side"):
+        solve(IntervalArray.from_floats(np.eye(3)), side)

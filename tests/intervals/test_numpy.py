@@ -8,6 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray
+from intervals.zeros import zeros
 from tests.intervals.boxes import for_all
 
 X = IntervalArray([[(1, 2), (3, 5), ("1/3", "1/2")], [(2, 2), (1, 4), (7, 8)]])
@@ -95,7 +96,7 @@ def test_what_has_no_meaning_raises():
     for operation in (
         *(lambda: np.less(X, Y), lambda: np.isnan(X), lambda: np.add(X, Y, where=True)),
         *(lambda: np.add(X, Y, out=np.empty((2, 3))), lambda: np.add.accumulate(X)),
-        *(lambda: np.subtract.reduce(X), lambda: np.mean(X), lambda: np.linalg.inv(X)),
+        *(lambda: np.subtract.reduce(X), lambda: np.median(X), lambda: np.linalg.inv(X)),
         *(lambda: np.sort(X), lambda: np.asarray(X), lambda: np.array(X, dtype=float)),
         *(lambda: np.concatenate(([1.0], X)), lambda: np.take(np.arange(3), X)),
         lambda: float(X[0, 0]),
@@ -145,6 +146,112 @@ def test_moving_exact_numbers_beside_intervals():
     assert (np.shape(X), np.ndim(X), np.size(X), len(X)) == ((2, 3), 2, 6, 2)
     assert np.array_equal(X, X)
     assert not np.array_equal(X, Y)
+
+
+OPTIONS = (  # of functions that only move elements, and what must not pass with them
+    *(lambda: np.concatenate([X, Y], dtype=np.float32), lambda: np.hstack([X, Y], dtype="f4")),
+    *(lambda: np.stack([X, Y], casting="unsafe"), lambda: np.vstack([X, Y], dtype=np.float32)),
+    *(lambda: np.concatenate([X, Y], 0, np.empty((4, 3))), lambda: np.stack([X], 0, np.empty(6))),
+    *(lambda: np.take(X, [0], 0, np.empty((1, 3))), lambda: np.take(X, [0], mode="wrap")),
+    *(lambda: np.sum(X, dtype=np.float32), lambda: np.add.reduce(X, dtype=np.float32)),
+    *(lambda: np.compress([1, 0], X), lambda: np.where(X), lambda: np.copy(X, "K")),
+    *(lambda: np.mean(X, dtype=np.float32), lambda: np.cumsum(X, 0, np.float32)),
+)
+
+
+@pytest.mark.parametrize("call", OPTIONS)
+def test_options_that_would_round_or_write_are_refused(call):
+    with pytest.raises(TypeError):
+        call()
+
+
+POINTS = IntervalArray([[1, 2], [-3, 0]])
+INTEGERS = [np.dtype(code).type for code in "bhilqBHILQ"]
+
+
+@pytest.mark.parametrize("kind", INTEGERS, ids=lambda kind: kind.__name__)
+def test_numpy_integers_are_integers_to_their_last_one(kind):
+    ends = np.iinfo(kind)
+    for number in {int(ends.min), int(ends.max), 0, 1, 64, -int(ends.min) // 2}:
+        typed = kind(number)
+        for product in (POINTS * typed, typed * POINTS, np.multiply(POINTS, typed)):
+            assert contains(product, exact(POINTS.sup) * number)
+        assert same(X * typed, X * number) and same(typed * X, X * number)
+        assert same(X - typed, X - number) and same(typed - X, number - X)
+        assert Interval(1, 2) * typed == Interval(1, 2) * number
+    assert same((-X) ** kind(2), X.sqr()) and same(np.power(-X, kind(3)), -(X**3))
+
+
+def test_a_zero_is_not_lost_to_the_smallest_integer():
+    with_numpy, with_int = (zeros(lambda x, k=k: x * k + 64, Interval(0, 1)) for k in SMALLEST)
+    assert [each.outcome for each in with_numpy] == [each.outcome for each in with_int]
+    assert with_int and with_int[0].box[0].contains(Fraction(1, 2))
+
+
+SMALLEST = (np.int8(-128), -128)
+
+
+@pytest.mark.parametrize("bad", [np.True_, np.complex128(1), np.str_("1"), np.datetime64("2026")])
+def test_scalars_that_are_no_exact_numbers_are_refused_at_once(bad):
+    for op in (operator.add, operator.sub, operator.mul, operator.truediv, operator.pow):
+        for pair in ((X, bad), (bad, X)):
+            with pytest.raises(TypeError):
+                op(*pair)
+
+
+def test_masked_arrays_are_refused():
+    masked = np.ma.array([1, 2, 3], mask=[False, True, False])
+    for operation in (
+        *(lambda: X + masked, lambda: masked + X, lambda: IntervalArray(masked)),
+        *(lambda: IntervalArray.from_floats(masked), lambda: np.where(True, X, masked)),
+        lambda: IntervalArray.from_floats(np.ma.array([1.0], mask=[True])),
+    ):
+        with pytest.raises(TypeError):
+            operation()
+
+
+def test_an_exact_number_may_come_first():
+    for ufunc in (np.maximum, np.minimum, np.hypot, np.arctan2):
+        assert same(ufunc(1, X), ufunc(np.ones_like(X), X))
+    assert same(np.maximum(np.array([1, 2, 3]), X), X.maximum(np.array([1, 2, 3])))
+
+
+COMPUTED = {  # a function of numpy's, and the same of exact numbers
+    "mean": (lambda a: np.mean(a, axis=0), lambda a: a.sum(axis=0) / Fraction(len(a))),
+    "mean of all": (np.mean, lambda a: np.array(a.sum() / Fraction(a.size))),
+    "diff": (np.diff, lambda a: np.diff(a)),
+    "second diff": (lambda a: np.diff(a, 2, axis=0), lambda a: np.diff(a, 2, axis=0)),
+    "cumsum": (np.cumsum, lambda a: np.cumsum(a)),
+    "cumsum of rows": (lambda a: np.cumsum(a, axis=1), lambda a: np.cumsum(a, axis=1)),
+    "trace": (lambda a: np.trace(a, 1), lambda a: np.array(np.trace(a, 1))),
+    "inner": (lambda a: np.inner(a, a), lambda a: np.inner(a, a)),
+    "inner of vectors": (lambda a: np.inner(a[0], a[1]), lambda a: np.array(np.inner(*a[:2]))),
+    "max": (lambda a: np.max(a, axis=1), lambda a: np.max(a, axis=1)),
+    "min": (np.min, lambda a: np.array(np.min(a))),
+    "clip": (lambda a: np.clip(a, -1, 2), lambda a: np.clip(a, -1, 2)),
+    "zeros": (np.zeros_like, lambda a: a * 0),
+    "ones": (np.ones_like, lambda a: a * 0 + 1),
+}
+
+
+@pytest.mark.parametrize("name", COMPUTED)
+@for_all(st.data(), tries=20)
+def test_functions_that_compute_against_fractions(name, data):
+    ours, true = COMPUTED[name]
+    values = data.draw(matrices(3, 4))
+    assert contains(ours(IntervalArray.from_floats(values)), true(exact(values)))
+
+
+def test_largest_of_wide_intervals():
+    low = np.max(IntervalArray([(1, 5), (2, 3)]))
+    assert (low.inf, low.sup) == (2, 5)
+    assert (np.min(IntervalArray([(1, 5), (2, 3)])).sup) == 3
+
+
+def test_dot_of_many_axes_is_no_matrix_product():
+    cube = X.reshape(1, 2, 3)
+    with pytest.raises(TypeError, match="two axes"):
+        np.dot(cube, cube)
 
 
 floats = st.floats(-1e30, 1e30, allow_subnormal=True)

@@ -1,6 +1,7 @@
 """Text in and out: decimals that enclose, texts that are read back, what notebooks show."""
 
 import copy
+import json
 import pickle
 import re
 from fractions import Fraction
@@ -66,6 +67,31 @@ def test_texts_that_are_intervals():
     assert Interval("[1, 2]") == Interval(" [ 1 ,2 ] ") == Interval(1, 2)
     assert Interval("[7/5]") == Interval("7/5")
     assert Interval("[-1e-3, 2]").inf <= Fraction(-1, 1000)
+
+
+@for_all(st.lists(st.floats(-1.7e308, 1.7e308), min_size=1, max_size=20))
+def test_printed_arrays_enclose_and_are_read_back(values):
+    x = IntervalArray.from_floats(sorted(values)[:1] * len(values), sorted(values))
+    for shown in (x, x.reshape(-1, 1), x[0]):
+        printed = np.array(json.loads(str(shown), parse_float=Fraction, parse_int=Fraction))
+        assert printed.shape == (*shown.shape, 2)
+        assert (printed[..., 0] <= shown.inf).all() and (printed[..., 1] >= shown.sup).all()
+        assert shown.subset(IntervalArray(str(shown))).all()
+
+
+def test_short_numbers_are_printed_short():
+    x = IntervalArray([(1, 2), ("0.5", 1000), (-(10**16), 10**300)])
+    assert str(x) == "[[1, 2], [0.5, 1000], [-10000000000000000, 1.0000000000000001E+300]]"
+    assert IntervalArray(["[1.5, 2]", 3]).sup.tolist() == [2, 3]
+    assert IntervalArray("[[1], [-2, 3]]").inf.tolist() == [1, -2]
+
+
+@pytest.mark.parametrize(
+    "text", ["[1, 2", "[[1, 2], ...]", "[1, 2, 3]]", "[[1, 2], [3, NaN]]", "[[2, 1]]", "[[1], 2]"]
+)
+def test_texts_that_are_no_arrays(text):
+    with pytest.raises(ValueError, match=r"interval|number"):
+        IntervalArray(text)
 
 
 @for_all(st.data(), precisions)

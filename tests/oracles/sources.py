@@ -34,11 +34,13 @@ def certificates():
 def proved(group, eta, nu):
     """The parts of what the prover of a group finds at other parameters."""
     from proofs.shell.groups import produce
-    from proofs.trusted.paper import GROUPS
+    from proofs.trusted.paper import BEYOND, GROUPS
     from proofs.trusted.parameters import PAPER
 
     of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
-    return _parts(json.loads(produce({group: GROUPS[group]}, of, digits=20).certificate))
+    return _parts(
+        json.loads(produce({group: {**GROUPS, **BEYOND}[group]}, of, digits=20).certificate)
+    )
 
 
 def conclusions(made):

@@ -17,7 +17,10 @@ from tests.oracles.sources import (
     classes,
     committed_conclusions,
     committed_rows,
+    conclusions,
     lemmas,
+    proved,
+    rows,
 )
 from tests.oracles.verdicts import TRUTHS, verdict_oracle
 
@@ -34,6 +37,12 @@ def true_views():
         found += [(f"{name} {step}", one, of) for step, one in known.items()]
         for claim, _, shown in committed_rows(name)[1]:
             found += [(f"{name} {claim}", one, of) for one in shown]
+    for eta, nu in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"), ("2", "-0.2")):
+        made = proved("explore", eta, nu)
+        of, known = conclusions(made)
+        found += [(f"explore {eta} {step}", one, of) for step, one in known.items()]
+        for claim, _, shown in rows(made, made["proofs"], of, known):
+            found += [(f"explore {eta} {claim}", one, of) for one in shown]
     found += [(where, one, None) for where, one in lemmas()]
     found += [("by hand", one, None) for one in by_hand()]
     return [(where, view(one, of)) for where, one, of in found]
@@ -247,6 +256,28 @@ FALSE = {
     "Entropy": [put("growth", lambda old: 100 * old)],
     "Conjugacy": [_never_disjoint],
     "Theorem": [put("text", "")],
+    "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
+    "Leaves": [put("nu", F("0.01"))],
+    "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
+    "MarkovSet": [
+        put("cells", lambda old: old[::-1]),
+        put("cells", lambda old: (off(old[0]), *old[1:])),
+        put("onward", ((0,), (0, 1))),
+        put("onward", ((0,), (1,))),
+        put("slopes", (F(1), F(2))),
+        put("growth", (F(3), F(4))),
+        put("fixed_points", (2, 4, 8, 16, 32, 64, 128, 250)),
+    ],
+    "StickingMotion": [
+        put("cells", lambda old: tuple(off(x) for x in old)),
+        put("cells", lambda old: old[:-1]),
+        _of("arc", offs("phase")),
+    ],
+    "StableOrbit": [
+        offs("cells"),
+        put("contraction", (F(1, 3), F(1, 2))),
+        put("contraction", (F(1), F(2))),
+    ],
 }
 
 
@@ -293,6 +324,7 @@ WRONG = [
     ("G5", {}, "VERIFIED"),
     ("N1", {}, "VERIFIED"),
     ("N2", {"left": (F(2), F("2.1")), "right": (F("2.2"), F("2.3"))}, "VERIFIED"),
+    ("X1", {}, "VERIFIED"),
     ("P4", {}, "VERIFIED"),
     ("P5", {}, "VERIFIED"),
     ("P6", {}, "VERIFIED"),

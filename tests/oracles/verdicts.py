@@ -178,6 +178,7 @@ TRUTHS = {
     "G5": _second_set,
     "N1": _edges,
     "N2": _hyperbolic,
+    "X1": lambda of: all(sticks(of.eta, of.nu, TURN * k / 97) for k in range(97)),
     "P4": _false,
     "P5": _false,
     "P6": _false,

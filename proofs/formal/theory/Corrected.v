@@ -36,61 +36,35 @@ Proof.
   pose proof (first_impact_unique _ _ _ _ _ _ I J). lra.
 Qed.
 
+(* f near [a, b]: first impacts, transversal, with the slope formula for a derivative. *)
+Record regular (a b : R) : Prop := {
+  re_impact : forall phi, a <= phi <= b -> first_impact phi (impact_time phi);
+  re_fall : forall phi, a <= phi <= b -> gap_t side eta nu phi (impact_time phi) < 0;
+  re_derive : forall phi, a < phi < b -> is_derive lift phi (rate phi)
+}.
+
+Lemma glue a b c d : regular a b -> regular c d -> a <= c -> c < b -> b <= d -> regular a d.
+Proof.
+  intros [I F D] [I' F' D'] ac cb bd. split; intros phi P; destruct (Rlt_dec phi b).
+  - apply I; lra.
+  - apply I'; lra.
+  - apply F; lra.
+  - apply F'; lra.
+  - apply D; lra.
+  - apply D'; lra.
+Qed.
+
 Section Branch.
 Variables a b T u v : R.
 Hypothesis Br : branch a b T u v.
 
-Lemma lift_impact phi : a <= phi <= b -> first_impact phi (lift phi - phi).
+Lemma branch_regular : regular a b.
 Proof.
-  intros P. unfold lift. replace (phi + impact_time phi - phi) with (impact_time phi) by ring.
-  apply (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P).
-Qed.
-
-Lemma lift_derive phi : a < phi < b -> is_derive lift phi (rate phi).
-Proof. apply (branch_derivative side eta nu eta_pos a b T u v Br). Qed.
-
-Lemma slope_at_rate phi : a < phi < b -> slope_at phi (rate phi).
-Proof.
-  intros P. exists lift. split; [|apply lift_derive; auto].
-  generalize (between_near a b phi P). apply filter_imp. apply lift_impact.
-Qed.
-
-Lemma rate_continuous phi : a < phi < b -> continuous rate phi.
-Proof.
-  intros P. apply (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
-  assert (E : ex_derive impact_time phi).
-  { apply (ex_derive_ext (fun p => lift p - p)). { intros; unfold lift; simpl; ring. }
-    apply (ex_derive_minus lift (fun p => p)); [eexists; apply lift_derive; auto | apply ex_derive_id]. }
-  destruct (branch_time side eta nu eta_pos _ _ _ _ _ Br phi ltac:(lra)) as [I Q].
-  assert (Z : gap_t side eta nu phi (impact_time phi) <> 0).
-  { destruct Br as [_ _ _ F _]. specialize (F phi (impact_time phi)). lra. }
-  unfold rate, Flight.slope, gap_t in *. auto_derive. repeat split; auto.
-Qed.
-
-(* In lap k of the circle: f is the lift less k turns. *)
-Definition in_lap (k : Z) : Prop := forall p, a <= p <= b -> 0 <= lift p - 2 * PI * IZR k < 2 * PI.
-
-Lemma f_lift k : in_lap k -> forall phi, a <= phi <= b ->
-  f phi = lift phi - 2 * PI * IZR k /\ forall psi, next phi psi <-> psi = f phi.
-Proof.
-  intros L phi P.
-  assert (H : next phi (lift phi - 2 * PI * IZR k)).
-  { exists (impact_time phi), k. split; [|split; auto].
-    apply (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P). }
-  split. { apply f_spec, H. }
-  intros psi. split; [intros G; symmetry; apply f_spec; auto|].
-  intros ->. rewrite (f_spec _ _ H). auto.
-Qed.
-
-Lemma f_derive k : in_lap k -> forall phi, a < phi < b -> is_derive f phi (rate phi).
-Proof.
-  intros L phi P.
-  apply (is_derive_ext_loc (fun p => minus (lift p) (2 * PI * IZR k))).
-  - generalize (between_near a b phi P). apply filter_imp. intros p Q.
-    rewrite (proj1 (f_lift k L p Q)). reflexivity.
-  - replace (rate phi) with (minus (rate phi) zero) by (unfold minus, plus, opp, zero; simpl; ring).
-    apply (is_derive_minus lift (fun _ => 2 * PI * IZR k)); [apply lift_derive; auto|].
-    apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
+  split; intros phi P.
+  - apply (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P).
+  - destruct (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P). destruct Br as [_ _ _ F _].
+    apply F; lra.
+  - apply (branch_derivative side eta nu eta_pos a b T u v Br phi P).
 Qed.
 
 (* A sharper bracket of the impact time, on a piece; s and t may depend on the phase. *)
@@ -123,13 +97,70 @@ Proof.
   apply S; auto. lra.
 Qed.
 
+End Branch.
+
+Section Regular.
+Variables a b : R.
+Hypothesis Re : regular a b.
+
+Lemma lift_impact phi : a <= phi <= b -> first_impact phi (lift phi - phi).
+Proof.
+  intros P. unfold lift. replace (phi + impact_time phi - phi) with (impact_time phi) by ring.
+  apply (re_impact _ _ Re phi P).
+Qed.
+
+Lemma lift_derive phi : a < phi < b -> is_derive lift phi (rate phi).
+Proof. apply Re. Qed.
+
+Lemma slope_at_rate phi : a < phi < b -> slope_at phi (rate phi).
+Proof.
+  intros P. exists lift. split; [|apply lift_derive; auto].
+  generalize (between_near a b phi P). apply filter_imp. apply lift_impact.
+Qed.
+
+Lemma rate_continuous phi : a < phi < b -> continuous rate phi.
+Proof.
+  intros P. apply (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
+  assert (E : ex_derive impact_time phi).
+  { apply (ex_derive_ext (fun p => lift p - p)). { intros; unfold lift; simpl; ring. }
+    apply (ex_derive_minus lift (fun p => p)); [eexists; apply lift_derive; auto | apply ex_derive_id]. }
+  assert (Z : gap_t side eta nu phi (impact_time phi) <> 0).
+  { pose proof (re_fall _ _ Re phi ltac:(lra)). lra. }
+  unfold rate, Flight.slope, gap_t in *. auto_derive. repeat split; auto.
+Qed.
+
+(* In lap k of the circle: f is the lift less k turns. *)
+Definition in_lap (k : Z) : Prop := forall p, a <= p <= b -> 0 <= lift p - 2 * PI * IZR k < 2 * PI.
+
+Lemma f_lift k : in_lap k -> forall phi, a <= phi <= b ->
+  f phi = lift phi - 2 * PI * IZR k /\ forall psi, next phi psi <-> psi = f phi.
+Proof.
+  intros L phi P.
+  assert (H : next phi (lift phi - 2 * PI * IZR k)).
+  { exists (impact_time phi), k. split; [|split; auto]. apply (re_impact _ _ Re phi P). }
+  split. { apply f_spec, H. }
+  intros psi. split; [intros G; symmetry; apply f_spec; auto|].
+  intros ->. rewrite (f_spec _ _ H). auto.
+Qed.
+
+Lemma f_derive k : in_lap k -> forall phi, a < phi < b -> is_derive f phi (rate phi).
+Proof.
+  intros L phi P.
+  apply (is_derive_ext_loc (fun p => minus (lift p) (2 * PI * IZR k))).
+  - generalize (between_near a b phi P). apply filter_imp. intros p Q.
+    rewrite (proj1 (f_lift k L p Q)). reflexivity.
+  - replace (rate phi) with (minus (rate phi) zero) by (unfold minus, plus, opp, zero; simpl; ring).
+    apply (is_derive_minus lift (fun _ => 2 * PI * IZR k)); [apply lift_derive; auto|].
+    apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
+Qed.
+
 Section Monotone.
-(* s = 1: f increases on [a, b], s = -1: it decreases; bounds on |f'| for [x, y]. *)
+(* s = 1: f increases on [x, y], s = -1: it decreases; there m <= |f'| <= M. *)
 Variables x y s m M : R.
 Record monotone : Prop := {
   mo_order : a < x /\ x < y /\ y < b;
   mo_sign : s = 1 \/ s = -1;
-  mo_strict : forall phi, a <= phi <= b -> 0 < s * rate phi;
+  mo_pos : 0 < m;
   mo_bounds : forall phi, x <= phi <= y -> m <= s * rate phi <= M
 }.
 Hypothesis Mo : monotone.
@@ -142,31 +173,26 @@ Proof.
   rewrite E. specialize (Bo c ltac:(lra)). nra.
 Qed.
 
-Lemma increases p q : x <= p -> p < q -> q <= y -> 0 < s * (lift q - lift p).
-Proof.
-  destruct Mo as [O _ St _]. intros P PQ Q.
-  destruct (mvt lift rate p q) as [c [C E]]; [lra | intros c C; apply lift_derive; lra |].
-  rewrite E. specialize (St c ltac:(lra)). rewrite <- Rmult_assoc. apply Rmult_lt_0_compat; lra.
-Qed.
-
 (* The paper's claim H3. *)
 Lemma monotone_lift : exists F,
   (forall p, x <= p <= y -> continuous F p /\ first_impact p (F p - p)) /\
   forall p q, x <= p -> p < q -> q <= y -> 0 < s * (F q - F p).
 Proof.
-  exists lift. split; [|apply increases]. destruct Mo as [O _ _ _]. intros p P. split.
+  exists lift. split.
+  2: { intros p q P PQ Q. pose proof (growth p q P ltac:(lra) Q). destruct Mo as [_ _ m0 _]. nra. }
+  destruct Mo as [O _ _ _]. intros p P. split.
   - apply (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
     exists (rate p). apply lift_derive. lra.
   - apply lift_impact. lra.
 Qed.
 
 (* The paper's claim H6: of an interval in I, the preimage is shorter by the factor m. *)
-Lemma short_preimage A B : M * (y - x) + (B - A) < 2 * PI -> 0 < m ->
+Lemma short_preimage A B : M * (y - x) + (B - A) < 2 * PI ->
   forall c d p q i j, A <= c -> d <= B -> x <= p -> p <= q -> q <= y ->
   next p i -> next q j -> c <= i <= d -> c <= j <= d -> m * (q - p) <= d - c.
 Proof.
-  intros W m0 c d p q i j C D P PQ Q (t & k & Ft & Ei & _) (t' & k' & Ft' & Ej & _) I J.
-  pose proof (growth p q P PQ Q) as G. destruct Mo as [O Si _ _].
+  intros W c d p q i j C D P PQ Q (t & k & Ft & Ei & _) (t' & k' & Ft' & Ej & _) I J.
+  pose proof (growth p q P PQ Q) as G. destruct Mo as [O Si m0 _].
   assert (E : forall z w, x <= z <= y -> first_impact z w -> lift z = z + w).
   { intros z w Z F. unfold lift. f_equal. apply impact_time_spec; auto. }
   rewrite (E p t), (E q t') in G by (auto; lra).
@@ -178,6 +204,19 @@ Proof.
   assert (K : -1 < IZR (k' - k) < 1) by (destruct Si as [-> | ->]; nra).
   assert (Kz : (k' - k = 0)%Z) by (destruct K as [K K']; apply lt_IZR in K, K'; lia).
   rewrite Kz in G. destruct Si as [-> | ->]; lra.
+Qed.
+
+(* Off [x, y], rough bounds on the lift are enough. *)
+Lemma lap k l r : (forall p, a <= p <= x \/ y <= p <= b -> l <= lift p <= r) ->
+  0 <= l - 2 * PI * IZR k -> r - 2 * PI * IZR k < 2 * PI -> in_lap k.
+Proof.
+  intros H L R p P. destruct Mo as [O Si m0 _].
+  assert (l <= lift p <= r); [|lra].
+  destruct (Rle_dec p x); [apply H; lra|]. destruct (Rle_dec y p); [apply H; lra|].
+  pose proof (H x ltac:(lra)). pose proof (H y ltac:(lra)).
+  pose proof (growth x p ltac:(lra) ltac:(lra) ltac:(lra)).
+  pose proof (growth p y ltac:(lra) ltac:(lra) ltac:(lra)).
+  destruct Si as [S1 | S1]; rewrite S1 in *; nra.
 Qed.
 
 (* f maps [x, y] over [A, B], in lap k. *)
@@ -228,7 +267,7 @@ Proof.
 Qed.
 
 End Monotone.
-End Branch.
+End Regular.
 
 (* No first impact of a phase in [x, y] has its phase in [A, B]: the gap is positive up to time T,
    and whenever the table is in [A, B] in laps 1 to K - 1; at time v, before lap K, it is negative. *)
@@ -256,14 +295,13 @@ Proof.
 Qed.
 
 Section Two.
-Variables a0 A b0 b0' T0 u0 v0 : R.
-Variables a1' a1 B b1 T1 u1 v1 : R.
+Variables a0 A b0 b0' a1' a1 B b1 : R.
 Variables k0 k1 : Z.
 Variables s0 s1 m M : R.
 Hypothesis order : A < b0 < a1 /\ a1 < B.
 Hypothesis m_pos : 0 < m.
-Hypothesis Br0 : branch a0 b0' T0 u0 v0.
-Hypothesis Br1 : branch a1' b1 T1 u1 v1.
+Hypothesis Re0 : regular a0 b0'.
+Hypothesis Re1 : regular a1' b1.
 Hypothesis Mo0 : monotone a0 b0' A b0 s0 m M.
 Hypothesis Mo1 : monotone a1' b1 a1 B s1 m M.
 Hypothesis Co0 : covers a0 b0' A b0 s0 A B k0.
@@ -279,8 +317,8 @@ Lemma shift_hypotheses : 0 < M /\ (forall i, s i = 1 \/ s i = -1) /\
     m * (y - x) <= s i * (f y - f x) <= M * (y - x)) /\
   (forall i y, A <= y <= B -> exists x, In_ A b0 a1 B i x /\ f x = y).
 Proof.
-  destruct (covers_interval _ _ _ _ _ Br0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & R0 & S0).
-  destruct (covers_interval _ _ _ _ _ Br1 _ _ _ _ _ Mo1 _ _ _ Co1 ltac:(lra)) as (P1 & Q1 & R1 & S1).
+  destruct (covers_interval _ _ Re0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & R0 & S0).
+  destruct (covers_interval _ _ Re1 _ _ _ _ _ Mo1 _ _ _ Co1 ltac:(lra)) as (P1 & Q1 & R1 & S1).
   split. { destruct Mo0 as [O _ _ Bo]. specialize (Bo A ltac:(lra)). lra. }
   split. { intros [|]; [apply Mo1 | apply Mo0]. }
   split. { intros [|] x y X; [apply (locally_singleton _ _ (P1 x X)) | apply (locally_singleton _ _ (P0 x X))]. }
@@ -301,8 +339,8 @@ Proof.
   intros m1. destruct shift_hypotheses as (M0 & Si & Nf & Ex & Co).
   split; [|split; [apply (cylinder_theorem next A b0 a1 B f s m M) |
     apply (shift_theorem next A b0 a1 B f s m M)]; auto].
-  destruct (covers_interval _ _ _ _ _ Br0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & _).
-  destruct (covers_interval _ _ _ _ _ Br1 _ _ _ _ _ Mo1 _ _ _ Co1 ltac:(lra)) as (P1 & Q1 & _).
+  destruct (covers_interval _ _ Re0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & _).
+  destruct (covers_interval _ _ Re1 _ _ _ _ _ Mo1 _ _ _ Co1 ltac:(lra)) as (P1 & Q1 & _).
   exists f. split; [|split; [|split]].
   - intros [|] x X; unfold In_ in X; auto.
   - intros [|] x X; unfold In_ in X; auto.

@@ -28,6 +28,9 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "resonance": (*(f"R{number}" for number in range(1, 14)), "E1"),
     }
 )
+BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"explore": ("X1", "X2", "X3", "X4")}
+)  # asked at any parameters, and not of the paper: no part of the ledger
 
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -47,13 +50,10 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s5_soft.stability": GROUPS["soft"][10:],
         "s6_resonance.resonance": GROUPS["resonance"],
         "s7_appendix": ("A1", "A2"),
+        "beyond.chaos": ("X2",),
+        "beyond.attractors": ("X1", "X3", "X4"),
     }
 )
-
-
-def group_of(claim: str) -> str | None:
-    """Return the group that a claim belongs to, None for an unknown id."""
-    return next((group for group, claims in GROUPS.items() if claim in claims), None)
 
 
 def find(claim: str) -> Row | None:

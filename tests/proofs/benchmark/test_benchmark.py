@@ -11,7 +11,8 @@ from proofs.benchmark import horseshoe, page
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.diagrams import Diagram
-from proofs.benchmark.page import Row, Section, ratio_row
+from proofs.benchmark.measure import Row, ratio_row
+from proofs.benchmark.page import Section
 
 MISSED, REACHED = Row("ratio", "5.00", "<= 4", False), Row("loss|", "1e-30", "< 1e-20", True)
 
@@ -131,11 +132,11 @@ def test_without_matplotlib_the_page_has_no_pictures(monkeypatch, tmp_path, caps
 def test_a_report_is_never_half_new_and_the_page_comes_last(monkeypatch, tmp_path, capsys):
     (tmp_path / "benchmark.md").write_text("the page before")
     measured(monkeypatch, Section("First", "About.", [REACHED], [diagram()]))
-    monkeypatch.setattr("proofs.benchmark.diagrams.svg", lambda one: 1 / 0)
+    monkeypatch.setattr("proofs.benchmark.page.svg", lambda one: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         main(["--out", str(tmp_path)])
     written = []
-    monkeypatch.setattr("proofs.benchmark.diagrams.svg", lambda one: "<svg/>")
+    monkeypatch.setattr("proofs.benchmark.page.svg", lambda one: "<svg/>")
     monkeypatch.setattr(page, "write_atomically", lambda path, content: written.append(path.name))
     assert main(["--out", str(tmp_path)]) == 0
     assert written == ["benchmark-curves.svg", "benchmark.json", "benchmark.md"]

@@ -59,7 +59,7 @@ def passing(monkeypatch):
     """Time that passes only where a task says so."""
     now = [0.0]
     monkeypatch.setattr(curves, "perf_counter", lambda: now[0])
-    monkeypatch.setattr("proofs.benchmark.page.perf_counter", lambda: now[0])
+    monkeypatch.setattr("proofs.benchmark.measure.perf_counter", lambda: now[0])
     return now
 
 

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.verify import check
 
 FLAT = ["H1", "H2", "H11"]
@@ -20,6 +21,7 @@ def test_every_claim_once():
     assert settled == {
         name: tuple(claim for ids in parts.values() for claim in ids)
         for name, parts in FILES.items()
+        if name not in BEYOND
     }
     for claim in CLAIMS:
         (job,) = jobs([claim], None, 30, False)

@@ -5,35 +5,23 @@ still prove what it says, for the reason given there; all others must be refused
 `python -m tests.proofs.trusted.mutations` prints how many of each kind are refused.
 """
 
-import copy
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from proofs.trusted.certificate import SCHEMA, Malformed
 from proofs.trusted.certificate import render as text_of
 from proofs.trusted.paper import GROUPS as FILES
 from proofs.trusted.verify import Rejected, Report, check
+from tests.proofs.trusted.edits import Document, Edit, Mutation, at, drop, edited, put, swap, walk
 from tests.proofs.trusted.renewing import fresh, renewed
 
 VERDICTS = ("VERIFIED", "REFUTED", "UNDECIDED", "CONDITIONAL", "verified", "")
 
 RESTITUTION = {"epsilon", "velocities", "reach"}
-
-Document = dict[str, Any]
-Edit = Callable[[Document], None]
-
-
-class Mutation(NamedTuple):
-    """A changed certificate (made when asked for), the kind of its change, and where it is."""
-
-    kind: str
-    where: str
-    make: Callable[[], str]
-
 
 HARMLESS = {
     "time dropped": "another subdivision: every piece that is left is examined again",
@@ -58,55 +46,6 @@ HARMLESS = {
 
 
 # -- access ----------------------------------------------------------------------------------------
-
-
-def walk(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Yield (path, value) for all values inside, the whole first."""
-    yield path, value
-    if isinstance(value, dict):
-        for key, member in value.items():
-            yield from walk(member, (*path, key))
-    elif isinstance(value, list):
-        for index, member in enumerate(value):
-            yield from walk(member, (*path, index))
-
-
-def at(document: Any, path: tuple[Any, ...]) -> Any:
-    for key in path:
-        document = document[key]
-    return document
-
-
-def put(path: tuple[Any, ...], value: Any) -> Edit:
-    """Return the edit that replaces one value."""
-
-    def edit(document: Document) -> None:
-        at(document, path[:-1])[path[-1]] = value
-
-    return edit
-
-
-def drop(path: tuple[Any, ...]) -> Edit:
-    def edit(document: Document) -> None:
-        del at(document, path[:-1])[path[-1]]
-
-    return edit
-
-
-def swap(first: tuple[Any, ...], second: tuple[Any, ...]) -> Edit:
-    def edit(document: Document) -> None:
-        one, two = at(document, first), at(document, second)
-        at(document, first[:-1])[first[-1]] = two
-        at(document, second[:-1])[second[-1]] = one
-
-    return edit
-
-
-def edited(document: Document, *edits: Edit) -> str:
-    changed = copy.deepcopy(document)
-    for edit in edits:
-        edit(changed)
-    return text_of(changed)
 
 
 def steps(document: Document, rule: str) -> list[tuple[str, Document]]:

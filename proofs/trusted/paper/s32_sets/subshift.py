@@ -2,20 +2,51 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
+from typing import TypeVar
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
 
+S = TypeVar("S", bound=Hashable)
 _ROUNDS = 200
 
 
 def words(length: int) -> list[str]:
     """Return all words of a length over 0 and 1, in lexicographic order."""
     return ["".join(letters) for letters in product("01", repeat=length)]
+
+
+def irreducible(arrows: Mapping[S, Sequence[S]]) -> bool:
+    """Whether a path of one step or more leads from every state of a graph to every one.
+
+    It is enough that one state reaches all states and is reached from all.
+    """
+    ahead = set(list(arrows)[:1])
+    behind = set(ahead)
+    while new := {then for state in ahead for then in arrows[state]} - ahead:
+        ahead |= new
+    while new := {x for x, after in arrows.items() if behind.intersection(after)} - behind:
+        behind |= new
+    return all(arrows.values()) and ahead == behind == set(arrows)
+
+
+def spectral_radius(arrows: Mapping[S, Sequence[S]]) -> Range:
+    """Enclose the spectral radius of a graph.
+
+    min (A v)_i / v_i <= radius <= max (A v)_i / v_i for any positive vector v (Collatz and
+    Wielandt); v is iterated under 1 + A, in integers that stay positive.
+    """
+    vector = image = dict.fromkeys(arrows, 1 << 200)
+    for _ in range(_ROUNDS):
+        vector = {x: 1 + (vector[x] + image[x]) // 2 for x in vector}
+        image = {x: sum(vector[then] for then in after) for x, after in arrows.items()}
+    quotients = [Fraction(image[x], vector[x]) for x in vector]
+    return min(quotients), max(quotients)
 
 
 @dataclass(frozen=True)
@@ -72,7 +103,6 @@ class Subshift:
     def chaotic(self) -> bool:
         """Whether a path leads from every state to every one, and some state has two successors.
 
-        It is enough that one state reaches all states and is reached from all.
         Then, for the shift on the set X of sequences:
 
         1. X is a Cantor set. It is compact, and any two points differ in a letter, which splits X
@@ -85,14 +115,7 @@ class Subshift:
            countably many, X is not countable.
         4. Some orbit is dense: that of a path that follows all finite paths one after another.
         """
-        ahead = set(list(self.arrows)[:1])
-        behind = set(ahead)
-        while new := {then for state in ahead for then in self.arrows[state]} - ahead:
-            ahead |= new
-        while new := {x for x, after in self.arrows.items() if behind.intersection(after)} - behind:
-            behind |= new
-        splits = any(len(after) == 2 for after in self.arrows.values())
-        return splits and ahead == behind == set(self.arrows)
+        return irreducible(self.arrows) and any(len(x) > 1 for x in self.arrows.values())
 
     def fixed_points(self, period: int) -> int:
         """Return how many sequences the shift's iterate fixes: w w w ... for words w."""
@@ -102,16 +125,7 @@ class Subshift:
 
     @cached_property
     def growth(self) -> Range:
-        """Bounds on the spectral radius of a chaotic graph; its log is the entropy.
-
-        min (A v)_i / v_i <= radius <= max (A v)_i / v_i for any positive vector v (Collatz and
-        Wielandt); v is iterated under 1 + A, in integers that stay positive.
-        """
+        """Bounds on the spectral radius of a chaotic graph; its log is the entropy."""
         if not self.chaotic:
             raise Unproved("the graph is not proved irreducible")
-        vector = image = dict.fromkeys(self.arrows, 1 << 200)
-        for _ in range(_ROUNDS):
-            vector = {x: 1 + (vector[x] + image[x]) // 2 for x in vector}
-            image = {x: sum(vector[then] for then in after) for x, after in self.arrows.items()}
-        quotients = [Fraction(image[x], vector[x]) for x in vector]
-        return min(quotients), max(quotients)
+        return spectral_radius(self.arrows)

@@ -1,0 +1,197 @@
+"""Horseshoes at any parameters, in floating point: branches of f, and sets mapped across them all.
+
+Candidates only: `proofs.search.beyond` proves or discards them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+from proofs.motion.candidate import next_impact
+from proofs.motion.system import System
+from proofs.search.repair import rounded_slopes
+from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.parameters import Parameters
+
+_GRID = 1500  # phases that are looked at
+_FARTHEST = 200.0  # the longest flight among them
+_STEEP = 1.02  # the least |f'| of a piece
+_SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
+_MOST_SYMBOLS = 8
+
+
+# -- branches, in floating point -------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Phases in a row on a branch of f where it expands, and about their images: phase + time."""
+
+    phases: tuple[float, ...]
+    images: tuple[float, ...]
+
+    @property
+    def arc(self) -> tuple[float, float]:
+        """The image, from below."""
+        low, high = sorted((self.images[0], self.images[-1]))
+        return low, high
+
+    def preimage(self, image: float) -> float | None:
+        """Return about the phase with this image; None if there is none."""
+        rising = self.images[-1] > self.images[0]
+        phases, images = self.phases, self.images
+        if not rising:
+            phases, images = phases[::-1], images[::-1]
+        if not images[0] <= image <= images[-1]:
+            return None
+        for k in range(1, len(images)):
+            if image <= images[k]:
+                share = (image - images[k - 1]) / (images[k] - images[k - 1])
+                return phases[k - 1] + share * (phases[k] - phases[k - 1])
+        return None
+
+
+def pieces(system: System, grid: int = _GRID) -> list[Piece]:
+    """Return the pieces of branches on which f expands, as a grid of phases shows them."""
+    runs: list[list[tuple[float, float, float]]] = [[]]
+    for k in range(grid):
+        phase = math.tau * (k + 0.5) / grid
+        found = next_impact(system, phase, _FARTHEST)
+        if found is None or abs(found[2]) < _STEEP:
+            runs.append([])
+            continue
+        point = phase, phase + found[0], found[2]
+        if runs[-1] and not _continues(runs[-1][-1], point):
+            runs.append([])
+        runs[-1].append(point)
+    return [
+        Piece(tuple(x for x, _, _ in run), tuple(y for _, y, _ in run))
+        for run in runs
+        if len(run) > 2
+    ]
+
+
+def _continues(one: tuple[float, float, float], two: tuple[float, float, float]) -> bool:
+    """Whether the second of two neighbours is on the branch of the first, by the slopes."""
+    expected = (one[2] + two[2]) / 2 * (two[0] - one[0])
+    return one[2] * two[2] > 0 and abs(two[1] - one[1] - expected) < 0.3 * abs(expected) + 1e-3
+
+
+# -- horseshoes ------------------------------------------------------------------------------------
+
+Symbol = tuple[Piece, int]  # a piece, and the turns of the table that an image is less
+
+
+def symbols(found: Sequence[Piece]) -> list[Symbol]:
+    """Return the pieces, once for each turn that their images reach."""
+    return [
+        (piece, turn)
+        for piece in found
+        for turn in range(int(piece.arc[0] // math.tau), int(piece.arc[1] // math.tau) + 1)
+    ]
+
+
+def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] | None:
+    """Return the sets that f maps over an interval J around all of them, by `spare` at each end.
+
+    J is the greatest that the images share, then the hull of the sets and the spare, and so on.
+    """
+    low = max(0.0, *(piece.arc[0] - math.tau * turn for piece, turn in chosen))
+    high = min(float(TURN), *(piece.arc[1] - math.tau * turn for piece, turn in chosen))
+    for _ in range(60):
+        found = []
+        for piece, turn in chosen:
+            ends = piece.preimage(math.tau * turn + low), piece.preimage(math.tau * turn + high)
+            if ends[0] is None or ends[1] is None or low >= high:
+                return None
+            found.append((min(ends[0], ends[1]), max(ends[0], ends[1])))
+        found.sort()
+        first, last = found[0][0] - spare, max(end for _, end in found) + spare
+        if first < low or last > high:
+            return None
+        if first - low + high - last < spare / 100:
+            break
+        low, high = first, last
+    apart = all(one[1] + spare / 10 < two[0] for one, two in pairwise(found))
+    return found if apart else None
+
+
+def full_shifts(system: System) -> Iterator[list[Range]]:
+    """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
+    found = symbols(pieces(system))
+    for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
+        yield from _with_spare(family)
+
+
+def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
+    """Yield I0 and I1, likewise, on which f seems to be an increasing horseshoe."""
+    found = [x for x in symbols(pieces(system)) if x[0].images[0] < x[0].images[-1]]
+    for family in families(found, 2):
+        yield from ((left, right) for left, right in _with_spare(family))
+
+
+def own_sets(of: Parameters) -> Parameters | None:
+    """Return the statement about I0 and I1 found at its oscillator, bounds of f' rounded outward.
+
+    None where no increasing horseshoe is seen.
+    """
+    system = System(of.eta, of.nu)
+    for sets in rising_pairs(system):
+        seen = [
+            next_impact(system, float(low + (high - low) * Fraction(k, 8)))
+            for low, high in sets
+            for k in range(9)
+        ]
+        slopes = [found[2] for found in seen if found is not None]
+        bounds = rounded_slopes((Fraction(min(slopes)), Fraction(max(slopes))), 1)
+        interval = sets[0][0], sets[1][1]
+        return replace(
+            of,
+            left=sets[0],
+            right=sets[1],
+            interval=interval,
+            slopes=bounds,
+            ratios=None,
+            printed_s0=None,
+        )
+    return None
+
+
+def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
+    """Return symbols that seem to make a full shift, up to so many together, each family once."""
+    least = _SPARES[-1]
+    grown: list[list[Symbol]] = []
+    for pair in combinations(found, 2):
+        if any(set(map(id, pair)) <= set(map(id, family)) for family in grown):
+            continue
+        family = list(pair)
+        if not cells(family, least):
+            continue
+        for symbol in found:
+            if len(family) < most and symbol not in family:
+                more = [*family, symbol]
+                family = more if cells(more, least) else family
+        grown.append(family)
+    return grown
+
+
+def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
+    """Yield the sets of a full shift with as much spare as there is, rounded outward."""
+    for spare in _SPARES:
+        sets = cells(family, spare)
+        if sets:
+            yield _short(sets, spare)
+            return
+
+
+def _short(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
+    """Round sets outward to decimals, of the fewest places that leave room around them."""
+    narrowest = min(high - low for low, high in sets)
+    gap = min(two[0] - one[1] for one, two in pairwise(sets))
+    room = min(narrowest / 20, gap / 20, spare / 5)
+    unit = Fraction(1, 10 ** max(2, math.ceil(-math.log10(room))))
+    return [(Fraction(low) // unit * unit, -(Fraction(-high) // unit) * unit) for low, high in sets]

@@ -1,0 +1,308 @@
+"""Attractors at any parameters: rest, motions that stick, stable orbits that do not. X1, X3, X4."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import prod
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.flights import COVER_BITS, lifted
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Phases, Range, between, ceil_text, show_range
+from proofs.trusted.paper.s31_horseshoe import read_part
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+_MOST_IMPACTS = 200
+
+
+def _named(cells: Sequence[Phases]) -> str:
+    return ", ".join(map(show_range, cells))
+
+
+# -- X1: the mass that never leaves ----------------------------------------------------------------
+
+
+def _has_an_arc(at: Place) -> bool:
+    """Whether |nu| |1 - eta^2| > eta^2, eta and nu being numbers: A, below, takes both signs.
+
+    A = nu (1 - eta^2) sin(phi) - eta^2 is the relative acceleration of a free mass at the table, in
+    units of the sign of nu: the mass sticks where sign(nu) A < 0 (`sticking`, in section 2). Where
+    A = 0 = cos(phi) the gap begins with its fourth derivative, -sign(nu) eta^2.
+    """
+    (eta, last), (nu, most) = at.eta, at.nu
+    if (eta, nu) != (last, most):
+        raise Unproved("one eta and one nu are expected")
+    return abs(nu * (1 - eta * eta)) > eta * eta
+
+
+@dataclass(frozen=True)
+class AtRest(Conclusion):
+    """Theorem. Let nu > 0 and nu |1 - eta^2| <= eta^2. Then what the sentence says.
+
+    Proof. A <= 0 at every phase; where it is 0, the mass stays: `_has_an_arc`.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        if self.at.nu[0] < 0 or _has_an_arc(self.at):
+            raise Unproved("the mass leaves the table at some phase")
+
+    @property
+    def sentence(self) -> str:
+        return (
+            "nothing lifts the mass off the table at any phase: after its first plastic impact it "
+            "stays on the table for ever, and f is defined at no phase."
+        )
+
+
+@dataclass(frozen=True)
+class Leaves(Conclusion):
+    """Theorem. If nu < 0 or |nu| |1 - eta^2| > eta^2, then what the sentence says.
+
+    Proof. sign(nu) A is eta^2 > 0 at the phase 0 if nu < 0. If nu > 0 it is nu |1 - eta^2| - eta^2
+    > 0 at the phase pi/2 or 3 pi/2. Each phase comes within one turn.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        if self.at.nu[0] > 0 and not _has_an_arc(self.at):
+            raise Unproved("the mass may rest on the table for ever")
+
+    @property
+    def sentence(self) -> str:
+        return "after a plastic impact the mass leaves the table, within one turn at the latest."
+
+
+@dataclass(frozen=True)
+class NeverSticks(Conclusion):
+    """Theorem. Let nu < 0 and |nu| |1 - eta^2| <= eta^2. Then what the sentence says.
+
+    Proof. -A >= 0 at every phase; where it is 0, the mass leaves: `_has_an_arc`.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        if self.at.nu[0] > 0 or _has_an_arc(self.at):
+            raise Unproved("the mass sticks at some phase")
+
+    @property
+    def sentence(self) -> str:
+        return "the mass leaves the table at once after every plastic impact: it never sticks."
+
+
+def first_proved(at: Place, *kinds: Callable[[Place], Conclusion]) -> Conclusion | None:
+    """Return the first of these conclusions about an oscillator that holds."""
+    for kind in kinds:
+        with suppress(Unproved):
+            return kind(at)
+    return None
+
+
+def _rests(of: Parameters, found: Found) -> Decision:
+    del found
+    rests = first_proved(of.place, AtRest)
+    if rests is not None:
+        return decided(Verdict.VERIFIED, rests)
+    return decided(Verdict.REFUTED, Leaves(of.place))
+
+
+# -- X3: motions that stick ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class StickingMotion(Conclusion):
+    """After the separation the mass makes an impact in each of the cells and then sticks."""
+
+    arc: Separation
+    cells: tuple[Phases, ...]
+
+    def __post_init__(self) -> None:
+        if not self.cells and not self.arc.returns:
+            raise Unproved("the flight after the separation does not end where the mass sticks")
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.arc.at
+
+    @property
+    def sentence(self) -> str:
+        between_them = f" at phases in {_named(self.cells)}," if self.cells else ""
+        return (
+            f"{self.brief}. It leaves the table at a phase in {between(self.arc.phase, 12)}, with "
+            f"impacts{between_them} the last one where the mass sticks until it leaves again. The "
+            "motion is superstable: a mass that sticks anywhere joins it exactly when it leaves, "
+            "and so do those that make their next impact near one of these."
+        )
+
+    @property
+    def brief(self) -> str:
+        count = len(self.cells) + 1
+        each = "1 impact" if count == 1 else f"{count} impacts"
+        return f"a periodic motion has {each} and one separation a period"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"separation_phase": self.arc.phase}
+
+
+def sticking_motion(arc: Separation, parts: Sequence[SlopeRange]) -> StickingMotion:
+    """Theorem. Let the first impact after the separation be in a set C_1 of phases on which f is
+    C^1, f(C_i) inside C_(i+1), and that of the last one inside the arc where the mass sticks; or
+    let it be there at once. Then what `StickingMotion.sentence` says.
+
+    Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick; so its
+    motion from there repeats. f is continuous on the C_i and phi_1 is inside C_1: impacts near
+    those of the motion are followed by impacts near its next ones, the last inside the arc.
+    """
+    if any(part.at != arc.at for part in parts):
+        raise Unproved("the hypotheses are about different oscillators")
+    if parts and not _inside(arc.arrival, parts[0].domain):
+        raise Unproved("the first impact is not proved to be in the first set")
+    arcs = [image_arc(part) for part in parts]
+    if not all(_sends(one, two.domain) for one, two in zip(arcs, parts[1:], strict=False)):
+        raise Unproved("an image is not proved to be inside the next set")
+    sticking = arc.start[1], arc.phase[0]
+    for last in arcs[-1:]:
+        if not (last.is_interval and _inside((last.low[0], last.high[1]), sticking)):
+            raise Unproved("the last impact is not proved to be where the mass sticks")
+    return StickingMotion(arc, tuple(part.domain for part in parts))
+
+
+def _inside(values: Range, target: Range) -> bool:
+    """Whether numbers are inside an interval, modulo 2 pi."""
+    moved = (lifted(values, turns, COVER_BITS) for turns in (-1, 0, 1))
+    return any(target[0] < low and high < target[1] for low, high in moved)
+
+
+def _sends(arc: ImageArc, target: Phases) -> bool:
+    """Whether an image is inside a set of phases."""
+    return arc.is_interval and target[0] < arc.low[0] and arc.high[1] < target[1]
+
+
+def prove_sticking_motion(context: Context, reader: Reader) -> StickingMotion:
+    """Rule `sticking-motion`: {separation: name of a step, cells: [{slopes, domain}]}.
+
+    slopes: a slope-range step; domain: two of its points. Conclusion: `sticking_motion`.
+    """
+    separation_of, cells_of = reader.fields("separation", "cells")
+    parts = [read_part(context, cell) for cell in cells_of.items(0, _MOST_IMPACTS)]
+    return sticking_motion(context.step(separation_of, Separation), parts)
+
+
+def _sticks(of: Parameters, found: Found) -> Decision:
+    motion, none = found.first(StickingMotion), first_proved(of.place, AtRest, NeverSticks)
+    if motion is not None:
+        return decided(Verdict.VERIFIED, motion)
+    return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+# -- X4: stable orbits -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class StableOrbit(Conclusion):
+    """f maps each cell inside the next, the last inside the first, and the loop contracts."""
+
+    at: Place
+    cells: tuple[Phases, ...]
+    contraction: Range
+
+    def __post_init__(self) -> None:
+        ordered = sorted(self.cells)
+        if not ordered or any(one[1] >= two[0] for one, two in pairwise(ordered)):
+            raise Unproved("the cells of a stable orbit are not apart")
+        if not 0 <= self.contraction[0] <= self.contraction[1] < 1:
+            raise Unproved("f is not proved to contract around the loop")
+
+    @property
+    def sentence(self) -> str:
+        return (
+            f"{self.brief}, one point in each of {_named(self.cells)}, in this order, and it "
+            "attracts all phases of these sets; all its impacts are transversal, and after each "
+            "the mass leaves the table at once."
+        )
+
+    @property
+    def brief(self) -> str:
+        most = ceil_text(self.contraction[1])
+        return f"f has a stable periodic orbit of period {len(self.cells)}, |multiplier| <= {most}"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"multiplier_size": self.contraction}
+
+
+def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
+    """Theorem. Let f be C^1 on disjoint closed intervals C_1, ..., C_k of phases, monotone on each,
+    f(C_i) inside C_(i+1), f(C_k) inside C_1, and let the product of sup |f'| be below 1. Then what
+    `StableOrbit.sentence` says.
+
+    Proof. f^k maps C_1 into itself and contracts: it has one fixed point there, to which all orbits
+    of C_1 come, and its orbit is in the cells in turn, which are apart: its period is k. The others
+    come to C_1 first.
+    """
+    if len({part.at for part in parts}) != 1:
+        raise Unproved("the hypotheses are about different oscillators")
+    first = min(range(len(parts)), key=lambda i: parts[i].domain)
+    parts = [*parts[first:], *parts[:first]]
+    arcs = [image_arc(part) for part in parts]
+    following = [*parts[1:], parts[0]]
+    if not all(_sends(arc, part.domain) for arc, part in zip(arcs, following, strict=True)):
+        raise Unproved("an image is not proved to be inside the next set")
+    one = Fraction(1)
+    most = prod((max(-part.minimum[0], part.maximum[1]) for part in parts), start=one)
+    least = prod((max(part.minimum[0], -part.maximum[1]) for part in parts), start=one)
+    return StableOrbit(parts[0].at, tuple(part.domain for part in parts), (least, most))
+
+
+def prove_stable_orbit(context: Context, reader: Reader) -> StableOrbit:
+    """Rule `stable-orbit`: {cells: [{slopes, domain}]}, as in `sticking-motion`.
+
+    Conclusion: `stable_orbit`.
+    """
+    (cells_of,) = reader.fields("cells")
+    parts = [read_part(context, cell) for cell in cells_of.items(1, _MOST_IMPACTS)]
+    METER.get().spend(len(parts))
+    return stable_orbit(parts)
+
+
+def _stable(of: Parameters, found: Found) -> Decision:
+    orbits, none = found.all(StableOrbit), first_proved(of.place, AtRest)
+    if orbits:
+        return decided(Verdict.VERIFIED, *orbits)
+    return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+_AT = "At (eta, nu) = ({eta}, {nu}), for plastic impacts: "
+ROWS = (
+    Row("X1", "beyond", "", _AT + "the mass comes to rest on the table for ever.", _rests),
+    Row(
+        "X3",
+        "beyond",
+        "",
+        _AT + "there is a stable periodic motion on which the mass sticks and leaves again.",
+        _sticks,
+    ),
+    Row(
+        "X4",
+        "beyond",
+        "",
+        _AT + "f has a stable periodic orbit of transversal impacts, at which the mass leaves at "
+        "once.",
+        _stable,
+    ),
+)

@@ -1,0 +1,120 @@
+"""Judges of what is said at any parameters: rest, shifts, motions that stick, stable orbits."""
+
+from fractions import Fraction
+from itertools import pairwise
+from math import prod
+
+import numpy as np
+
+from tests.oracles.circle import _released, separation_arc
+from tests.oracles.motion import TURN, Impact, inside, next_impact, sticks
+from tests.oracles.plastic import _impact, lifted, points, smooth
+
+
+def _pushes(view, count=720):
+    return [sticks(view.eta, view.nu, TURN * k / count) for k in range(count)]
+
+
+def at_rest(view, rng):
+    """The table pushes a mass at rest at every phase, but perhaps for one."""
+    return [] if _pushes(view).count(False) <= 1 else ["at some phases the mass leaves"]
+
+
+def leaves(view, rng):
+    """At some phase the mass leaves."""
+    return [] if not all(_pushes(view)) else ["at no phase that is looked at the mass leaves"]
+
+
+def never_sticks(view, rng):
+    """At no phase the mass sticks, but perhaps for one."""
+    return [] if _pushes(view).count(True) <= 1 else ["at some phases the mass sticks"]
+
+
+def _over(view, cell, target):
+    """Whether f maps a cell over another, or misses it; None where neither is seen."""
+    ends = [lifted(view, phase) for phase in cell]
+    if None in ends:
+        return "unknown"
+    low, high = min(ends), max(ends)
+    for turns in range(int(low // TURN) - 1, int(high // TURN) + 2):
+        first, last = (float(end) + turns * TURN for end in target)
+        if low <= first + 1e-12 and last - 1e-12 <= high:
+            return True
+        if first <= high and low <= last:
+            return None
+    return False
+
+
+def markov_set(view, rng):
+    """Disjoint cells, f steeper than 1, and each mapped over those that are said, past the rest."""
+    told, cells = [], view.cells
+    if any(b[0] <= a[1] for a, b in pairwise(cells)) or view.slopes[0] <= 1:
+        told.append("the cells are out of order or overlap, or f does not expand")
+    for i, cell in enumerate(cells):
+        found = _impact(view, sum(cell) / 2)
+        sign = -1 if isinstance(found, Impact) and found.slope < 0 else 1
+        told += smooth(view, cell, sorted(sign * each for each in view.slopes), rng, 1)
+        for j, other in enumerate(cells):
+            seen = _over(view, cell, other)
+            if seen != "unknown" and seen is not (j in view.onward[i]):
+                told.append(f"cell {i} is mapped over cell {j}: {seen}")
+    matrix = np.array([[int(j in after) for j in range(len(cells))] for after in view.onward])
+    radius = max(abs(np.linalg.eigvals(matrix)))
+    if not float(view.growth[0]) - 1e-9 <= radius <= float(view.growth[1]) + 1e-9:
+        told.append(f"the spectral radius is {radius}")
+    counts = [int(np.trace(np.linalg.matrix_power(matrix, n))) for n in range(1, 9)]
+    if list(view.fixed_points) != counts:
+        told.append(f"there are {counts} closed paths")
+    if not (np.linalg.matrix_power(np.eye(len(cells)) + matrix, 2 * len(cells)) > 0).all():
+        told.append("no path leads from some cell to some other")
+    return told
+
+
+def _in_cell(phase, cell, slack=1e-9):
+    return float(cell[0]) - slack < phase < float(cell[1]) + slack
+
+
+def sticking_motion(view, rng):
+    """The flight from the separation, impacts in the cells in turn, the last where it sticks."""
+    told = separation_arc(view.arc, rng)
+    _, found = _released(view.arc)
+    for cell in view.cells:
+        if not isinstance(found, Impact):
+            return told
+        if sticks(view.arc.eta, view.arc.nu, found.phase) or not _in_cell(found.phase, cell):
+            return [*told, f"an impact at {found.phase:.12g}, not in {cell}"]
+        found = next_impact(view.arc.eta, view.arc.nu, Fraction(found.phase))
+    if isinstance(found, Impact) and not sticks(view.arc.eta, view.arc.nu, found.phase):
+        told.append(f"the last impact, at {found.phase:.12g}, does not stick")
+    return told
+
+
+def stable_orbit(view, rng):
+    """Cells that are apart, mapped into each other in turn; the product of slopes is bounded."""
+    told, cells, slopes = [], view.cells, []
+    if any(b[0] <= a[1] for a, b in pairwise(sorted(cells))):
+        told.append("the cells overlap")
+    if not view.contraction[1] < 1:
+        told.append("no contraction is said")
+    for cell, after in zip(cells, (*cells[1:], *cells[:1]), strict=True):
+        for phase in points(cell, rng, 1):
+            found = _impact(view, phase)
+            if not isinstance(found, Impact):
+                told += [f"the launch at {float(phase):.12g}: {found}"] if found else []
+            elif not _in_cell(found.phase, after):
+                told.append(f"f({float(phase):.12g}) = {found.phase:.12g}, not in the next cell")
+            elif phase == sum(cell) / 2:
+                slopes.append(abs(found.slope))
+    if len(slopes) == len(cells) and not inside(prod(slopes), view.contraction, 1e-9):
+        told.append(f"the multiplier is about {float(prod(slopes)):.9g}")
+    return told
+
+
+JUDGES = {
+    "AtRest": at_rest,
+    "Leaves": leaves,
+    "NeverSticks": never_sticks,
+    "MarkovSet": markov_set,
+    "StickingMotion": sticking_motion,
+    "StableOrbit": stable_orbit,
+}

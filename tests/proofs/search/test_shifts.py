@@ -1,0 +1,54 @@
+"""Sets found at parameters of one's own: what they are for is proved of them."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from proofs.motion.system import System
+from proofs.search.s31_horseshoe import prove
+from proofs.search.shifts import families, own_sets, pieces, symbols
+from proofs.shell.groups import decide
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
+
+CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6")
+F = Fraction
+
+
+def at(eta, nu):
+    return replace(PAPER, eta=F(eta), nu=F(nu))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("eta", "nu"), [("0.22", "-0.2"), ("0.112", "-0.336"), ("0.2121", "-0.2")])
+def test_an_increasing_horseshoe_is_found_and_all_of_it_is_proved(eta, nu):
+    of = own_sets(at(eta, nu))
+    assert of is not None and of.interval == (of.left[0], of.right[1])
+    assert max(end.denominator for end in (*of.left, *of.right)) <= 10**5  # short decimals
+    found = prove(of, CLAIMS)
+    assert {decide(claim, of, found, 15)[0].verdict for claim in CLAIMS} == {Verdict.VERIFIED}
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("0.25", "-0.3"), ("0.5", "0.2"), ("2.5", "1.9")])
+def test_where_there_is_none_none_is_found(eta, nu):
+    assert own_sets(at(eta, nu)) is None
+
+
+def test_pieces_follow_the_map_and_are_expanding():
+    from proofs.motion.candidate import next_impact
+
+    system = System(F("0.22"), F("-0.2"))
+    for piece in pieces(system, grid=300):
+        for phase in piece.phases[1:-1:7]:
+            time, _, slope = next_impact(system, phase)
+            image = piece.images[piece.phases.index(phase)]
+            assert image == phase + time and abs(slope) > 1
+            assert piece.preimage(image) == pytest.approx(phase)
+        assert piece.preimage(piece.arc[0] - 1e-9) is None
+
+
+def test_families_are_told_once():
+    found = families(symbols(pieces(System(F("0.2121"), F("-0.2")))), 8)
+    names = [frozenset((id(piece), turn) for piece, turn in family) for family in found]
+    assert max(map(len, found)) >= 3 and len(set(names)) == len(names)

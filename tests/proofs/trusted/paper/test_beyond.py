@@ -1,0 +1,261 @@
+"""What is said at any parameters: only from hypotheses that are proved."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from proofs.shell.groups import produce
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.paper import BEYOND
+from proofs.trusted.paper.beyond.attractors import (
+    AtRest,
+    Leaves,
+    NeverSticks,
+    StableOrbit,
+    StickingMotion,
+    stable_orbit,
+    sticking_motion,
+)
+from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.parameters import PAPER, Place
+from proofs.trusted.slopes import ImageArc, SlopeRange
+from proofs.trusted.verify import check
+
+F = Fraction
+HERE, THERE = PAPER.place, Place.plastic(F(1, 4), F(-1, 5))
+
+
+def around(value):
+    return Phase(F(value) - F(1, 10**6), F(value) + F(1, 10**6))
+
+
+def affine(low, high, first, last, at=HERE):
+    """What a slope-range step says of a line from (low, first) to (high, last)."""
+    low, high, first, last = map(F, (low, high, first, last))
+    slope = (last - first) / (high - low)
+    bounds = slope - F(1, 1000), slope + F(1, 1000)
+    return SlopeRange(at, (low, high), (bounds, bounds), (around(first), around(last)), (bounds,))
+
+
+# -- chaos: the tent and the golden mean, rising and falling ---------------------------------------
+
+TENT = affine(1, "1.4", "0.9", "2.1"), affine("1.6", 2, "2.1", "0.9")
+GOLDEN = affine(1, "1.4", "0.9", "2.1"), affine("1.6", 2, "0.9", "1.5")
+
+
+def test_full_shift_of_a_rising_and_a_falling_branch():
+    found = markov_set(TENT)
+    assert found.full and found.onward == ((0, 1), (0, 1))
+    assert found.fixed_points == [2**n for n in range(1, 9)]
+    assert found.growth[0] <= 2 <= found.growth[1]
+    assert "full shift on 2 symbols" in found.sentence and "|f'| >= 2.99" in found.sentence
+    assert markov_set(TENT[::-1]) == found  # the order of a file is none
+
+
+def test_golden_mean():
+    found = markov_set(GOLDEN)
+    assert found.onward == ((0, 1), (0,)) and not found.full
+    assert found.fixed_points == [1, 3, 4, 7, 11, 18, 29, 47]  # Lucas
+    assert found.growth[0] ** 2 <= found.growth[0] + 1 + F(1, 10**9)
+    assert abs(found.growth[1] - F("1.6180339887498948")) < F(1, 10**9)
+    assert "0 by 0, 1, 1 by 0" in found.sentence
+
+
+def cell(low, high):
+    return Phases(F(low), F(high))
+
+
+def test_images_that_pass_phase_0():
+    arc = ImageArc(HERE, cell(1, 2), around(6), around(1))
+    assert arc.passes_zero and not arc.is_interval
+    assert contains(arc, cell("6.1", "6.2")) and contains(arc, cell("0.1", "0.9"))
+    assert not contains(arc, cell("0.9", "1.1")) and not contains(arc, cell("5.9", "6.1"))
+    assert misses(arc, cell("1.1", "5.9"))
+    assert not misses(arc, cell("0.9", 2)) and not misses(arc, cell(2, "6.1"))
+    vague = ImageArc(HERE, arc.domain, Phase(F(2), F(4)), Phase(F(3), F(5)))
+    assert not vague.passes_zero and not contains(vague, cell("4.1", "4.2"))
+    assert not misses(vague, cell("5.1", "5.2"))
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        TENT[:1],  # one cell
+        (),
+        (TENT[0], affine("1.3", 2, "2.1", "0.9")),  # they overlap
+        (TENT[0], affine("1.4", 2, "2.1", "0.9")),  # they touch
+        (TENT[0], affine("1.6", 2, "2.1", "1.2")),  # covers half a cell
+        (TENT[0], affine("1.6", 2, "1.5", "1.9")),  # not steep, and no way back
+        (TENT[0], affine("1.6", 2, "1.999999", "0.9")),  # by less than is known
+        (affine(1, "1.4", "0.9", "1.5"), affine("1.6", 2, "1.5", "2.1")),  # two fixed points
+        (affine(1, "1.4", "1.5", "2.1"), affine("1.6", 2, "0.9", "1.5")),  # one orbit of period 2
+        (TENT[0], affine("1.6", 2, "2.1", "0.9", at=THERE)),  # another oscillator
+        (TENT[0], affine("1.6", 2, 4, 5)),  # leads away
+    ],
+)
+def test_what_is_no_markov_set(parts):
+    with pytest.raises(Unproved):
+        markov_set(parts)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"cells": (Phases(F("1.6"), F(2)), Phases(F(1), F("1.4")))},
+        {"slopes": (F(1), F(3))},
+        {"onward": ((0, 1), (0, 2))},
+        {"onward": ((0, 1),)},
+        {"onward": ((0, 1), ())},
+        {"onward": ((1,), (0,))},
+        {"onward": ((0, 1), (1,))},
+    ],
+)
+def test_a_markov_set_cannot_be_made_of_false_data(changes):
+    with pytest.raises(Unproved):
+        replace(markov_set(TENT), **changes)
+
+
+# -- rest ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "holds"),
+    [
+        ("1/2", "1/5", {AtRest}),
+        ("1/2", "1/3", {AtRest}),  # 1/3 * 3/4 = 1/4: no force at one phase
+        ("1/2", "0.33334", {Leaves}),
+        ("1/5", "1/5", {Leaves}),
+        ("1", "5", {AtRest}),
+        ("2", "4/3", {AtRest}),
+        ("2", "1.33334", {Leaves}),
+        ("1/2", "-1/5", {Leaves, NeverSticks}),
+        ("1/2", "-1/3", {Leaves, NeverSticks}),
+        ("1/2", "-0.33334", {Leaves}),
+        ("3", "-1/1000", {Leaves, NeverSticks}),
+        ("1", "-5", {Leaves, NeverSticks}),
+    ],
+)
+def test_the_mass_rests_leaves_or_never_sticks(eta, nu, holds):
+    at = Place.plastic(F(eta), F(nu))
+    for kind in (AtRest, Leaves, NeverSticks):
+        if kind in holds:
+            kind(at)
+        else:
+            with pytest.raises(Unproved):
+                kind(at)
+
+
+def test_a_box_of_oscillators_is_none():
+    for nu in ((F(1, 9), F(1, 5)), (F(-1, 5), F(-1, 9))):
+        with pytest.raises(Unproved, match="one eta"):
+            (AtRest if nu[0] > 0 else NeverSticks)(Place((F(1, 2),) * 2, nu))
+
+
+# -- motions that stick ----------------------------------------------------------------------------
+
+
+def arc(arrival, at=HERE):
+    """The mass sticks on (3.4, 6), and lands at a phase after it left at 6."""
+    low, high = F(arrival) - F(1, 1000), F(arrival) + F(1, 1000)
+    bounds = F("0.1"), F("0.2")
+    return Separation(
+        at, (F("3.39"), F("3.4")), Phase(F("5.99"), F(6)), bounds, 1, (low, high), bounds
+    )
+
+
+def test_a_motion_that_sticks_at_once_and_one_that_does_later():
+    assert sticking_motion(arc(4), ()).brief.endswith("1 impact and one separation a period")
+    steps = affine("1.1", "1.3", "2.1", "2.3"), affine(2, "2.5", 4, 5)
+    found = sticking_motion(arc("1.2"), steps)
+    assert found.cells == (Phases(F("1.1"), F("1.3")), Phases(F(2), F("2.5")))
+    assert "3 impacts" in found.sentence
+    before = arc(F("1.2") - F("6.283185307179586"))  # the arrival is counted in the turn before
+    assert sticking_motion(before, steps).cells == found.cells
+
+
+@pytest.mark.parametrize(
+    ("arrival", "parts"),
+    [
+        ("1.2", ()),  # it does not stick there
+        ("1.2", (affine("1.1", "1.15", 4, 5),)),  # lands beside the cell
+        ("1.2", (affine("1.1", "1.2", 4, 5),)),  # on its edge
+        ("1.2", (affine("1.1", "1.3", 2, "2.6"), affine(2, "2.5", 4, 5))),  # leaves the next
+        ("1.2", (affine("1.1", "1.3", "2.1", "2.3"), affine(2, "2.5", "3.3", 5))),  # not in the arc
+        ("1.2", (affine("1.1", "1.3", "2.1", "2.3"), affine(2, "2.5", 5, 6))),
+        ("1.2", (affine("1.1", "1.3", 4, 5, at=THERE),)),
+        ("1.2", (affine("1.1", "1.3", "6.2", "0.1"),)),  # falls by more than is left
+    ],
+)
+def test_what_is_no_motion_that_sticks(arrival, parts):
+    with pytest.raises(Unproved):
+        sticking_motion(arc(arrival), parts)
+    if not parts:
+        with pytest.raises(Unproved):
+            StickingMotion(arc(arrival), ())
+
+
+# -- stable orbits ---------------------------------------------------------------------------------
+
+PAIR = affine(1, 2, "3.1", "3.4"), affine(3, "3.5", "1.9", "1.2")
+
+
+def test_a_stable_orbit_of_period_2_whatever_the_order():
+    found = stable_orbit(PAIR)
+    assert found == stable_orbit(PAIR[::-1])
+    assert found.cells == (Phases(F(1), F(2)), Phases(F(3), F("3.5")))
+    assert found.contraction[0] <= F("0.3") * F("1.4") <= found.contraction[1] < F("0.43")
+    assert "period 2" in found.sentence
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        (),
+        (PAIR[0],),  # maps elsewhere
+        (PAIR[0], affine(3, "3.5", "1.9", "0.9")),  # leaves the first
+        (PAIR[0], affine(3, "3.5", 2, "1.2")),  # touches its edge
+        (affine(1, 2, "1.1", "1.9"), affine("1.5", "2.5", "1.6", "2.4")),  # they overlap
+        (PAIR[0], affine(3, "3.5", "1.9", "1.2", at=THERE)),
+        (affine(1, 2, "1.000001", "1.999999"),),  # hardly contracts: not by what is known
+    ],
+)
+def test_what_is_no_stable_orbit(parts):
+    with pytest.raises((Unproved, ValueError)):
+        stable_orbit(parts)
+
+
+def test_a_stable_orbit_cannot_be_made_of_false_data():
+    found = stable_orbit(PAIR)
+    for changes in (
+        {"cells": ()},
+        {"cells": (Phases(F(1), F(2)), Phases(F("1.5"), F(3)))},
+        {"contraction": (F(1, 2), F(1))},
+        {"contraction": (F(1, 2), F(1, 3))},
+        {"contraction": (F(-1, 2), F(1, 3))},
+    ):
+        with pytest.raises(Unproved):
+            replace(found, **changes)
+    assert isinstance(found, StableOrbit)
+
+
+# -- from parameters to verdicts, by the search and the checker ------------------------------------
+
+ASKED = [  # verdicts of X1 to X4; X2 and X4 by simulation in the oracles
+    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED"),
+    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED"),
+    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED"),
+    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED"),
+    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("eta", "nu", "verdicts"), ASKED)
+def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
+    of = replace(PAPER, eta=F(eta), nu=F(nu))
+    made = produce(BEYOND, of, digits=20)
+    assert [line.verdict.value for line in made.lines] == verdicts.split()
+    assert len(check(made.certificate).claims) == 4
