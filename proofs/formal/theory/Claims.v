@@ -1,4 +1,4 @@
-(* The paper's claims H6, H7, H11 and H16, each from what it needs. No numbers but its own. *)
+(* The paper's claims H7, H11 and H16, each from what it needs. No numbers but its own. *)
 From Coq Require Import Reals Psatz Lia.
 From Coquelicot Require Import Coquelicot.
 From Oscillator Require Import Impact Flight.
@@ -22,23 +22,6 @@ Proof.
   - intros z Z. apply Derive_correct, (proj1 (proj2 map) i). destruct i; unfold Impact.In_ in *; lra.
   - assert (I : In_ i c) by (destruct i; unfold Impact.In_ in *; lra).
     destruct (proj1 (proj2 map) i c I) as (_ & _ & G & _). rewrite E. nra.
-Qed.
-
-(* Claim H6: the points of an interval I_i with images in [p, q] are less than |q - p| / lo apart. *)
-Theorem short_preimages lo : 0 < lo < m -> Rabs s0 = 1 -> Rabs s1 = 1 ->
-  forall i p q x y u v, p < q -> In_ i x -> In_ i y -> N x u -> N y v ->
-  p <= u <= q -> p <= v <= q -> Rabs (x - y) < (q - p) / lo.
-Proof.
-  intros L S0 S1 i p q x y u v. assert (S : Rabs (s i) = 1) by (destruct i; auto).
-  assert (W : forall x y, In_ i x -> In_ i y -> x <= y -> m * Rabs (x - y) <= Rabs (f x - f y)).
-  { clear x y. intros x y X Y H. pose proof (expansion i x y X Y H).
-    pose proof (Rle_abs (s i * (f y - f x))) as G. rewrite Rabs_mult, S in G.
-    rewrite (Rabs_minus_sym x), (Rabs_pos_eq (y - x)), (Rabs_minus_sym (f x)) by lra. lra. }
-  intros pq X Y U V Hu Hv. rewrite (image i x u X U), (image i y v Y V) in *.
-  assert (m * Rabs (x - y) <= Rabs (f x - f y)).
-  { destruct (Rle_dec x y); [auto|]. rewrite (Rabs_minus_sym x), (Rabs_minus_sym (f x)). apply W; lra || auto. }
-  assert (Rabs (f x - f y) <= q - p) by (apply Rabs_le; lra). pose proof (Rabs_pos (x - y)).
-  apply Rmult_lt_reg_r with lo; [lra|]. replace ((q - p) / lo * lo) with (q - p) by (field; lra). nra.
 Qed.
 
 (* Claim H7 as printed: where the left end c of an interval [c, d] in I0 moves to the right, no

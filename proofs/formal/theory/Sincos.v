@@ -295,3 +295,133 @@ Proof.
   destruct (k mod 4)%Z as [|[m|[m|m|]|]|m]; injection E as <- <- <- <-;
     (split; [|split; [|exact Bound]]); auto using neg_holds.
 Qed.
+
+(* -- intervals: between the ends lie at most the extrema that are put in -- *)
+
+(* sin(j pi/2 + t) = 1 at the quarters t = m pi/2 with m + j = 1 mod 4. *)
+Lemma peak j t : sin (IZR j * (PI / 2) + t) = 1 -> exists m, t = IZR m * (PI / 2) /\ ((m + j) mod 4 = 1)%Z.
+Proof.
+  intros H. assert (C : cos (IZR j * (PI / 2) + t) = 0).
+  { pose proof (sin2_cos2 (IZR j * (PI / 2) + t)) as E. rewrite H in E. unfold Rsqr in E. nra. }
+  destruct (cos_eq_0_0 _ C) as [k K]. destruct (turned 0 (2 * k + 1)) as [T _].
+  replace (0 + IZR (2 * k + 1) * (PI / 2)) with (IZR j * (PI / 2) + t) in T
+    by (rewrite K, plus_IZR, mult_IZR; field).
+  rewrite H, sin_0, cos_0 in T. exists (2 * k + 1 - j)%Z. split.
+  - rewrite minus_IZR, plus_IZR, mult_IZR. lra.
+  - replace (2 * k + 1 - j + j)%Z with (2 * k + 1)%Z by ring.
+    pose proof (Z.mod_pos_bound (2 * k + 1) 4 ltac:(lia)) as B.
+    assert (D : ((2 * k + 1) mod 4 = 0 \/ (2 * k + 1) mod 4 = 1 \/ (2 * k + 1) mod 4 = 2 \/ (2 * k + 1) mod 4 = 3)%Z) by lia.
+    destruct D as [D|[D|[D|D]]]; rewrite D in T; lra || exact D.
+Qed.
+
+Lemma between c a b x : a <= x <= b -> sin (c + x) <= Rmax (sin (c + a)) (sin (c + b)) \/
+  exists t, a < t < b /\ sin (c + t) = 1.
+Proof.
+  intros X. set (f := fun t => sin (c + t)).
+  assert (D : forall t, derivable_pt_lim f t (cos (c + t))).
+  { intros t. apply is_derive_Reals. unfold f. auto_derive; auto. ring. }
+  destruct (continuity_ab_maj f a b) as [t [M T]]; [lra| |].
+  { intros t _. apply derivable_continuous_pt. exists (cos (c + t)). apply D. }
+  pose proof (M x X) as Mx. unfold f in Mx.
+  destruct (Req_dec t a) as [->|Na]; [left; eapply Rle_trans; [apply Mx|apply Rmax_l]|].
+  destruct (Req_dec t b) as [->|Nb]; [left; eapply Rle_trans; [apply Mx|apply Rmax_r]|].
+  assert (Z : cos (c + t) = 0).
+  { set (pr := exist _ (cos (c + t)) (D t) : derivable_pt f t).
+    rewrite <- (derive_pt_eq_0 f t _ pr (D t)). apply (deriv_maximum f a b t pr); try lra.
+    intros s Sa Sb. apply M. lra. }
+  pose proof (sin2_cos2 (c + t)) as E. rewrite Z in E. unfold Rsqr in E.
+  destruct (Rlt_dec 0 (sin (c + t))) as [P|P].
+  - right. exists t. split; [lra|nra].
+  - left. assert (sin (c + t) = -1) by nra. pose proof (SIN_bound (c + a)).
+    eapply Rle_trans; [|apply Rmax_l]. lra.
+Qed.
+
+(* Which bound the extremum at a turn sets: 0, 1 above cos and sin, 2, 3 below. *)
+Definition bounds (bits : Z) (x : R) (V : enclosure * enclosure) (i : Z) : Prop :=
+  let U := IZR (2 ^ bits) in
+  match i with
+  | 0%Z => cos x * U <= IZR (hi (snd V)) | 1%Z => sin x * U <= IZR (hi (fst V))
+  | 2%Z => IZR (lo (snd V)) <= cos x * U | _ => IZR (lo (fst V)) <= sin x * U
+  end.
+
+Lemma extremum_bounds bits x V m i : (0 <= bits)%Z -> (0 <= i < 4)%Z ->
+  bounds bits x V i \/ (m mod 4 = i)%Z -> bounds bits x (extremum bits V m) i.
+Proof.
+  intros B I H. destruct V as [S C]. pose proof (unit_pos bits B) as Ub.
+  pose proof (SIN_bound x) as Sx. pose proof (COS_bound x) as Cx.
+  assert (One : IZR (Z.shiftl 1 bits) = IZR (2 ^ bits)) by (rewrite shiftl_unit by auto; ring).
+  pose proof (Z.mod_pos_bound m 4 ltac:(lia)) as M. unfold extremum.
+  assert (Di : (i = 0 \/ i = 1 \/ i = 2 \/ i = 3)%Z) by lia.
+  assert (Dm : (m mod 4 = 0 \/ m mod 4 = 1 \/ m mod 4 = 2 \/ m mod 4 = 3)%Z) by lia.
+  destruct Dm as [Dm|[Dm|[Dm|Dm]]]; rewrite Dm in *; destruct Di as [->|[->|[->| ->]]];
+    unfold bounds in *; simpl in *; rewrite ?opp_IZR, ?One; (destruct H as [H|H]; [|try discriminate]); nra.
+Qed.
+
+Lemma fold_bounds bits x i l : (0 <= bits)%Z -> (0 <= i < 4)%Z -> forall V,
+  bounds bits x V i \/ (exists m, In m l /\ (m mod 4 = i)%Z) -> bounds bits x (fold_left (extremum bits) l V) i.
+Proof.
+  intros B I. induction l as [|m l IH]; intros V H; simpl.
+  - destruct H as [H|(m & [] & _)]. exact H.
+  - apply IH. destruct H as [H|(n & [->|N] & E)]; [left|left|right; eauto]; apply extremum_bounds; auto.
+Qed.
+
+Lemma in_turns first last m : (first < m <= last)%Z -> exists n, In n (turns first last) /\ (n mod 4 = m mod 4)%Z.
+Proof.
+  intros H. exists (first + 1 + (m - first - 1) mod 4)%Z.
+  pose proof (Z.mod_pos_bound (m - first - 1) 4 ltac:(lia)).
+  pose proof (Z.mod_le (m - first - 1) 4 ltac:(lia) ltac:(lia)). split.
+  - apply in_map_iff. exists (Z.to_nat ((m - first - 1) mod 4)). split; [lia|]. apply in_seq. lia.
+  - rewrite Z.add_mod_idemp_r by lia. f_equal. ring.
+Qed.
+
+Lemma ends u s p q P P' Q Q' : 0 < u -> P <= p * u <= P' -> Q <= q * u <= Q' ->
+  (s <= Rmax p q -> s * u <= Rmax P' Q') /\ (- s <= Rmax (- p) (- q) -> Rmin P Q <= s * u).
+Proof.
+  intros U Hp Hq. split; intros H.
+  - assert (s <= p \/ s <= q) as [G|G] by (unfold Rmax in H; destruct Rle_dec; auto);
+      [eapply Rle_trans; [|apply Rmax_l]|eapply Rle_trans; [|apply Rmax_r]]; nra.
+  - assert (p <= s \/ q <= s) as [G|G] by (unfold Rmax in H; destruct Rle_dec; lra);
+      [eapply Rle_trans; [apply Rmin_l|]|eapply Rle_trans; [apply Rmin_r|]]; nra.
+Qed.
+
+Theorem sincos_holds fuel bits X S C x : (0 <= bits)%Z ->
+  (bits + guard_bits (lo X) bits <= 2 ^ 17)%Z -> (bits + guard_bits (hi X) bits <= 2 ^ 17)%Z ->
+  sincos fuel bits X = Some (S, C) -> holds bits X x -> holds bits S (sin x) /\ holds bits C (cos x).
+Proof.
+  intros B Wl Wh E Hx. unfold sincos in E. pose proof (unit_pos bits B) as Ub.
+  destruct (sincos_at fuel (lo X) bits) as [[[[S0 C0] first] ?]|] eqn:El; [|discriminate].
+  destruct (sincos_at_holds _ _ _ _ _ _ _ B Wl El) as (HS0 & HC0 & F & _).
+  set (a := IZR (lo X) / IZR (2 ^ bits)) in *. unfold holds in Hx.
+  assert (Ha : a <= x) by (unfold a; apply <- Rle_div_l; lra).
+  destruct (Z.eqb_spec (lo X) (hi X)) as [Eq|_].
+  { apply Some_injective in E. injection E as <- <-. rewrite <- Eq in Hx.
+    replace x with a; auto. unfold a. apply Rmult_eq_reg_r with (IZR (2 ^ bits)); [|lra].
+    unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
+  destruct (sincos_at fuel (hi X) bits) as [[[[S1 C1] ?] last]|] eqn:Eh; [|discriminate].
+  destruct (sincos_at_holds _ _ _ _ _ _ _ B Wh Eh) as (HS1 & HC1 & _ & L).
+  set (b := IZR (hi X) / IZR (2 ^ bits)) in *.
+  assert (Hb : x <= b) by (unfold b; apply -> Rle_div_r; lra).
+  apply Some_injective in E. set (V := (hull S0 S1, hull C0 C1)) in *.
+  pose proof pi_near.
+  assert (Turn : forall j i, (i = (1 - j) mod 4)%Z -> (0 <= i < 4)%Z ->
+    (sin (IZR j * (PI / 2) + x) <= Rmax (sin (IZR j * (PI / 2) + a)) (sin (IZR j * (PI / 2) + b)) -> bounds bits x V i) ->
+    bounds bits x (fold_left (extremum bits) (turns first last) V) i).
+  { intros j i Ei I W. apply fold_bounds; auto.
+    destruct (between (IZR j * (PI / 2)) a b x ltac:(lra)) as [G|(t & T & G)]; [left; auto|right].
+    destruct (peak j t G) as (m & -> & Em). destruct (in_turns first last m) as (n & N & En).
+    - split; apply lt_IZR || (apply Zlt_succ_le, lt_IZR; rewrite succ_IZR); nra.
+    - exists n. split; auto. rewrite En, Ei, <- Em. rewrite Zminus_mod_idemp_l. f_equal. ring. }
+  assert (Q : forall y, sin (IZR 0 * (PI / 2) + y) = sin y /\ sin (IZR 1 * (PI / 2) + y) = cos y /\
+    sin (IZR 2 * (PI / 2) + y) = - sin y /\ sin (IZR 3 * (PI / 2) + y) = - cos y).
+  { intros y. rewrite !(Rplus_comm _ y). repeat split; apply turned. }
+  destruct (Q x) as (X0 & X1 & X2 & X3), (Q a) as (A0 & A1 & A2 & A3), (Q b) as (B0 & B1 & B2 & B3).
+  unfold holds in HS0, HS1, HC0, HC1.
+  pose proof (Turn 0%Z 1%Z eq_refl ltac:(lia)) as T1. rewrite X0, A0, B0 in T1.
+  pose proof (Turn 1%Z 0%Z eq_refl ltac:(lia)) as T0. rewrite X1, A1, B1 in T0.
+  pose proof (Turn 2%Z 3%Z eq_refl ltac:(lia)) as T3. rewrite X2, A2, B2 in T3.
+  pose proof (Turn 3%Z 2%Z eq_refl ltac:(lia)) as T2. rewrite X3, A3, B3 in T2.
+  rewrite E in *. unfold bounds, V, hull in T0, T1, T2, T3. simpl in T0, T1, T2, T3.
+  rewrite ?max_IZR, ?min_IZR in *. unfold holds.
+  destruct (ends _ (sin x) (sin a) (sin b) _ _ _ _ Ub HS0 HS1), (ends _ (cos x) (cos a) (cos b) _ _ _ _ Ub HC0 HC1).
+  auto.
+Qed.
