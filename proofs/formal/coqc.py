@@ -102,6 +102,7 @@ def run(folder: Path, module: str) -> Accepted:
             process.returncode = os.waitstatus_to_exitcode(status)
         except BaseException:
             process.kill()
+            process.wait()
             raise
         output.seek(0)
         errors.seek(0)

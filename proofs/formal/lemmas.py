@@ -84,9 +84,14 @@ class Lemmas:
         self.lines: list[str] = []
         self.finest = 1.0
         self.sets = list(self._sets())
-        self.branches = [self._branches(index) for index in (0, 1)] if self.sets else []
+        self.branches: list[list[Branch]] = []
         self.laps: dict[int, int] = {}
         self.avoid: dict[str, str] = {}  # for each of the sets, the lemma that the gap leaves I
+
+    def slopes(self) -> None:
+        """Write the first impacts of launches near I0 and I1, and the bounds on f' there."""
+        if self.sets:
+            self.branches = [self._branches(index) for index in (0, 1)]
 
     def add(self, template: str, **values: object) -> None:
         """Write a template with these values."""
