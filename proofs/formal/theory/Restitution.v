@@ -168,6 +168,139 @@ Proof.
   intros r [[QX QY] [Rp Rg]]. assert (x < tau r < y) by (apply time_bracket; auto; unfold H in *; lra).
   apply Rabs_def1; lra.
 Qed.
+
+Ltac continuous_2 F S :=
+  repeat lazymatch goal with
+  | |- continuous (fun z => @?h z * @?k z) _ => apply (continuous_mult h k)
+  | |- continuous (fun z => @?h z + @?k z) _ => apply (continuous_plus h k)
+  | |- continuous (fun z => @?h z - @?k z) _ => apply (continuous_minus h k)
+  | |- continuous (fun z => - @?h z) _ => apply (continuous_opp h)
+  | |- continuous (fun z => cos (@?h z)) _ => apply (continuous_comp h cos); [|apply continuous_cos]
+  | |- continuous (fun z => sin (@?h z)) _ => apply (continuous_comp h sin); [|apply continuous_sin]
+  | |- continuous (fun z => fst z) _ => exact F
+  | |- continuous (fun z => snd z) _ => exact S
+  | |- continuous (fun _ => ?c) _ => apply continuous_const
+  end.
+
+Lemma tau_derive s : inside s ->
+  is_derive tau s (- H_s s (tau s) / height_t (ph s) (ve s) (tau s)).
+Proof.
+  intros Is. pose proof Is as [P G]. destruct (time_first (ph s) (ve s) ltac:(lra) ltac:(lra)) as [_ L].
+  apply (implicit H tau s (H_s s (tau s))).
+  - apply filterdiff_differentiable_pt_lim.
+    apply (is_derive_filterdiff H s (tau s) H_s (height_t (ph s) (ve s) (tau s))).
+    + apply filter_forall. intros z. apply d_H_s.
+    + apply d_height_t.
+    + assert (F : continuous (fun z : R * R => fst z) (s, tau s)) by apply continuous_fst.
+      assert (S : continuous (fun z : R * R => snd z) (s, tau s)) by apply continuous_snd.
+      unfold H_s, height_p, height_g, kick_p, ph. continuous_2 F S.
+  - destruct Fl as [_ _ _ _ D _]. assert (height_t (ph s) (ve s) (tau s) < 0) by (apply D; unfold tau; lra). lra.
+  - generalize (inside_near s Is). apply filter_imp. intros r [Rp Rg]. apply (time_first (ph r) (ve r) Rp Rg).
+  - apply tau_continuous, Is.
+Qed.
+
+Lemma phase_derive s : inside s -> is_derive (fun s => ph s + tau s) s
+  (DP_p (ph s) (ve s) (tau s) * df + DP_g (ph s) (ve s) (tau s) * dc).
+Proof.
+  intros Is. pose proof (tau_derive s Is) as D. destruct Is as [P G].
+  destruct (time_first (ph s) (ve s) ltac:(lra) ltac:(lra)) as [_ L].
+  assert (N : height_t (ph s) (ve s) (tau s) < 0).
+  { destruct Fl as [_ _ _ _ F _]. apply F; unfold tau; lra. }
+  replace (DP_p _ _ _ * df + _) with (df + - H_s s (tau s) / height_t (ph s) (ve s) (tau s))
+    by (unfold DP_p, DP_g, H_s; field; lra).
+  apply (is_derive_plus ph tau); [unfold ph; auto_derive; auto; ring|exact D].
+Qed.
+
+Lemma arrival_derive s : inside s -> is_derive (fun s => arrival (ph s) (ve s) (tau s)) s
+  (DQ_p (ph s) (ve s) (tau s) * df + DQ_g (ph s) (ve s) (tau s) * dc).
+Proof.
+  intros Is. pose proof (tau_derive s Is) as D. destruct Is as [P G].
+  destruct (time_first (ph s) (ve s) ltac:(lra) ltac:(lra)) as [_ L].
+  assert (N : height_t (ph s) (ve s) (tau s) < 0).
+  { destruct Fl as [_ _ _ _ F _]. apply F; unfold tau; lra. }
+  assert (Et : ex_derive (fun x => tau x) s) by (eexists; exact D).
+  assert (Ep : ex_derive (fun x => ph x) s) by (unfold ph; auto_derive; auto).
+  assert (Ev : ex_derive (fun x => ve x) s) by (unfold ve; auto_derive; auto).
+  unfold Rebounds.arrival, Rebounds.kick. auto_derive.
+  - repeat match goal with |- _ /\ _ => split end; assumption || exact Logic.I.
+  - replace (Derive (fun x => tau x) s) with (- H_s s (tau s) / height_t (ph s) (ve s) (tau s))
+      by (symmetry; apply is_derive_unique, D).
+    replace (Derive (fun x => ph x) s) with df by (symmetry; apply is_derive_unique; unfold ph; auto_derive; auto; ring).
+    replace (Derive (fun x => ve x) s) with dc by (symmetry; apply is_derive_unique; unfold ve; auto_derive; auto; ring).
+    unfold DQ_p, DQ_g, H_s, arrival_t, arrival_p, arrival_g, Rebounds.kick.
+    set (w := height_t (ph s) (ve s) (tau s)) in *. unfold kick_p. field. split; lra.
+Qed.
 End Line.
+
+(* Bounds on DF at the impacts of a rectangle give those on differences. *)
+Section Bounds.
+Variables x y g0 g1 p q r s : R.
+Hypothesis within : a < x /\ x < y /\ y < b /\ d < g0 /\ g1 < e.
+Hypothesis derivatives : forall phi g, x <= phi <= y -> g0 <= g <= g1 ->
+  p <= DP_p phi g (time phi g) /\ Rabs (DP_g phi g (time phi g)) <= q /\
+  Rabs (DQ_p phi g (time phi g)) <= r /\ Rabs (DQ_g phi g (time phi g)) <= s.
+Hypothesis p_pos : 0 < p.
+
+Lemma on_line f0 c0 f1 c1 t : x <= f0 <= y -> x <= f1 <= y -> g0 <= c0 <= g1 -> g0 <= c1 <= g1 -> 0 <= t <= 1 ->
+  x <= ph f0 (f1 - f0) t <= y /\ g0 <= ve c0 (c1 - c0) t <= g1.
+Proof. intros. unfold ph, ve. split; split; nra. Qed.
+
+Lemma differences f0 c0 f1 c1 : x <= f0 <= y -> x <= f1 <= y -> g0 <= c0 <= g1 -> g0 <= c1 <= g1 ->
+  p * Rabs (f1 - f0) <= Rabs (f1 + time f1 c1 - (f0 + time f0 c0)) + q * Rabs (c1 - c0) /\
+  Rabs (arrival f1 c1 (time f1 c1) - arrival f0 c0 (time f0 c0)) <= r * Rabs (f1 - f0) + s * Rabs (c1 - c0).
+Proof.
+  intros F0 F1 C0 C1. pose proof (fun t => on_line f0 c0 f1 c1 t F0 F1 C0 C1) as On.
+  assert (Is : forall t, 0 <= t <= 1 -> inside f0 (f1 - f0) c0 (c1 - c0) t).
+  { intros t Ht. destruct (On t Ht). unfold inside. lra. }
+  assert (E0 : ph f0 (f1 - f0) 0 = f0 /\ ve c0 (c1 - c0) 0 = c0) by (unfold ph, ve; lra).
+  assert (E1 : ph f0 (f1 - f0) 1 = f1 /\ ve c0 (c1 - c0) 1 = c1) by (unfold ph, ve; lra).
+  destruct E0 as [Ep Ev], E1 as [Fp Fv]. split.
+  - destruct (mvt (fun t => ph f0 (f1 - f0) t + tau f0 (f1 - f0) c0 (c1 - c0) t) (fun t =>
+      DP_p (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (f1 - f0) +
+      DP_g (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (c1 - c0)) 0 1) as [t [Ht Q]].
+    + lra.
+    + intros t Ht. apply phase_derive, Is, Ht.
+    + unfold tau in Q. rewrite Ep, Ev, Fp, Fv in Q. destruct (On t Ht) as [Op Og].
+      destruct (derivatives _ _ Op Og) as (D1 & D2 & _). rewrite Q.
+      set (Dp := DP_p _ _ _) in *. set (Dg := DP_g _ _ _) in *.
+      pose proof (Rabs_triang (Dp * (f1 - f0) + Dg * (c1 - c0)) (- (Dg * (c1 - c0)))) as Tr.
+      replace (Dp * (f1 - f0) + Dg * (c1 - c0) + - (Dg * (c1 - c0))) with (Dp * (f1 - f0)) in Tr by ring.
+      rewrite Rabs_Ropp in Tr. rewrite (Rabs_mult Dp), (Rabs_mult Dg), (Rabs_pos_eq Dp) in Tr by lra.
+      pose proof (Rabs_pos (f1 - f0)). pose proof (Rabs_pos (c1 - c0)).
+      assert (p * Rabs (f1 - f0) <= Dp * Rabs (f1 - f0)) by (apply Rmult_le_compat_r; lra).
+      assert (Rabs Dg * Rabs (c1 - c0) <= q * Rabs (c1 - c0)) by (apply Rmult_le_compat_r; lra).
+      replace ((Dp * (f1 - f0) + Dg * (c1 - c0)) * (1 - 0)) with (Dp * (f1 - f0) + Dg * (c1 - c0)) by ring. lra.
+  - destruct (mvt (fun t => arrival (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t)) (fun t =>
+      DQ_p (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (f1 - f0) +
+      DQ_g (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (c1 - c0)) 0 1) as [t [Ht Q]].
+    + lra.
+    + intros t Ht. apply arrival_derive, Is, Ht.
+    + unfold tau in Q. rewrite Ep, Ev, Fp, Fv in Q. destruct (On t Ht) as [Op Og].
+      destruct (derivatives _ _ Op Og) as (_ & _ & D3 & D4). rewrite Q.
+      set (Dp := DQ_p _ _ _) in *. set (Dg := DQ_g _ _ _) in *.
+      replace ((Dp * (f1 - f0) + Dg * (c1 - c0)) * (1 - 0)) with (Dp * (f1 - f0) + Dg * (c1 - c0)) by ring.
+      eapply Rle_trans; [apply Rabs_triang|]. rewrite !Rabs_mult.
+      pose proof (Rabs_pos (f1 - f0)). pose proof (Rabs_pos (c1 - c0)).
+      apply Rplus_le_compat; apply Rmult_le_compat_r; lra.
+Qed.
+
+Lemma line_covers g Y : g0 <= g <= g1 -> x + time x g <= Y <= y + time y g ->
+  exists phi, x <= phi <= y /\ phi + time phi g = Y.
+Proof.
+  intros G [Lo Hi]. destruct (Req_dec (x + time x g) Y) as [E|N1]; [exists x; split; [lra|auto]|].
+  destruct (Req_dec (y + time y g) Y) as [E|N2]; [exists y; split; [lra|auto]|].
+  set (z := fun t => ph 0 1 t + tau 0 1 g 0 t).
+  assert (Z : forall t, z t = t + time t g).
+  { intros t. unfold z, tau, ph, ve. replace (0 + t * 1) with t by ring. replace (g + t * 0) with g by ring. auto. }
+  destruct (ivt (fun t => minus Y (z t)) (fun t => minus 0 (DP_p (ph 0 1 t) (ve g 0 t) (tau 0 1 g 0 t) * 1 +
+    DP_g (ph 0 1 t) (ve g 0 t) (tau 0 1 g 0 t) * 0)) x y) as [c [C E]].
+  - lra.
+  - intros t Ht. apply (is_derive_minus (fun _ => Y) z).
+    + apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
+    + apply phase_derive. unfold inside, ph, ve. lra.
+  - change (Y - z y < 0 < Y - z x). rewrite !Z. lra.
+  - change (Y - z c = 0) in E. rewrite Z in E. exists c. lra.
+Qed.
+End Bounds.
 End Flights.
 End Model.
