@@ -8,6 +8,11 @@ and the theorems' statements (docs/formal.md), and believe Coq.
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.formal")
+
 import sys
 from argparse import Namespace
 from collections.abc import Callable
@@ -19,8 +24,10 @@ from proofs.formal.cases import Case, case
 from proofs.formal.hints import NoHint
 from proofs.formal.plan import NoTheorem, plan
 from proofs.shell.answers import Answer, machine_text
-from proofs.shell.cli import Parser, check_targets, progress, writable, write_target
-from proofs.trusted.certificate import Malformed, read, write_atomically
+from proofs.shell.cli import Parser, progress, share
+from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.screen import say
+from proofs.trusted.certificate import Malformed, read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected
@@ -48,27 +55,25 @@ def main(arguments: list[str] | None = None) -> int:
     add("certificate", metavar="CERTIFICATE", type=Path, help="of python -m proofs.horseshoe")
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
     add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
-    add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
+    share(parser, "--json")
     options = parser.parse_args(arguments)
     made = _made(parser, options)
     if isinstance(made, int):
         return made
     check_targets(parser, options.json)
-    writable(parser, options.out)
+    check_folder(parser, options.out)
     modules = coqc.order(made.text)
-    try:
+    with refusing(parser, options.out), writing(options.out) as put:
         coqc.copy_theory(options.out, modules)
-        write_atomically(options.out / f"{MODULE}.v", made.text)
-    except OSError as error:
-        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+        put(f"{MODULE}.v", made.text)
     try:
         with progress() as tell:
             return _prove(parser, options, made, modules, tell)
     except coqc.Missing as missing:
-        print(f"{parser.prog}: {options.out} is written; {missing}", file=sys.stderr)
+        say(f"{parser.prog}: {options.out} is written; {missing}", sys.stderr)
         return 1
     except coqc.Refused as refused:
-        print(f"{parser.prog}: coqc REFUSES {options.out}/{refused}: a bug", file=sys.stderr)
+        say(f"{parser.prog}: coqc REFUSES {options.out}/{refused}: a bug", sys.stderr)
         return 3
 
 
@@ -82,7 +87,7 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
     except OSError as error:
         parser.error(f"{name}: cannot be read: {error.strerror or error}")
     except (NoTheorem, NoHint, Exhausted, Unproved, ArithmeticError) as failure:
-        print(f"{parser.prog}: {name}: nothing written: {failure}", file=sys.stderr)
+        say(f"{parser.prog}: {name}: nothing written: {failure}", sys.stderr)
         return 1
 
 
@@ -116,11 +121,11 @@ def _prove(
         "seconds": f"{perf_counter() - began:.0f}",
         "megabytes": max(memory, done.memory) // 1024,
     }
-    write_target(parser, options.json, lambda: machine_text(answer))
+    write_target(parser, options.json, lambda: machine_text(parser, answer))
     if options.json != "-":
-        print(_text(answer, options.out))
+        say(_text(answer, options.out))
     if others or not found:
-        print(f"{parser.prog}: axioms not expected: {', '.join(others)}: a bug", file=sys.stderr)
+        say(f"{parser.prog}: axioms not expected: {', '.join(others)}: a bug", sys.stderr)
         return 3
     return 0
 
@@ -140,7 +145,3 @@ def _text(answer: Answer, folder: Path) -> str:
             f"{answer['arithmetic']}: {answer['seconds']} s, {answer['megabytes']} MB",
         ]
     )
-
-
-if __name__ == "__main__":
-    sys.exit(main())

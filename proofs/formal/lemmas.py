@@ -102,8 +102,8 @@ class Lemmas:
         plan, headline = self.plan, self.plan.headline
         if headline is not None:
             low, high = headline.slopes
-            bounds = [(low, high) if sign > 0 else (-high, -low) for sign in headline.signs]
-            yield Sets("horseshoe", (headline.left, headline.right), (bounds[0], bounds[1]))
+            first, second = ((low, high) if sign > 0 else (-high, -low) for sign in headline.signs)
+            yield Sets("horseshoe", (headline.left, headline.right), (first, second))
         asked = {"H1", "H2", "H3", "H6"} & {name for name in plan.verdicts if plan.holds(name)}
         if asked or "H5" in plan.verdicts:
             bounds = self._bounds(plan.of.left), self._bounds(plan.of.right)
