@@ -15,16 +15,9 @@ from intervals import Interval, Undecided
 from proofs.motion.flight import Flight
 from proofs.motion.impact import HORIZON, locate
 from proofs.motion.phase import turn as full_turn
-from proofs.motion.single_orbits import (
-    SingleImpact,
-    bracket,
-    earlier,
-    eta_end,
-    graze_end,
-    nu_end,
-    solutions,
-)
+from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
+from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
 from proofs.search.derivations import Steps
 from proofs.search.evidence import Evidence
 from proofs.search.steps import Prover

@@ -283,8 +283,9 @@ def _persists(verdict: Verdict) -> Decide:
 
 
 _OBSERVED = (
-    "an observation about simulated motions, no theorem and no certificate: python -m "
-    "proofs.persistence --only G8 prints medians, means, and how many do not come to rest"
+    "an observation about simulated motions, no theorem and no certificate: medians, means and how "
+    "many do not come to rest are on the page persistence.md, which python -m proofs.persistence "
+    "makes"
 )
 
 

@@ -15,8 +15,9 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs import single_impact
-from proofs.motion.single_orbits import earlier, eta_end, graze_end, last_period, nu_end, solutions
+from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
+from proofs.motion.window_ends import earlier, eta_end, graze_end, nu_end
 from proofs.trusted.equations import Clock
 from proofs.trusted.paper.s4_single.orbits import (
     FLIP,

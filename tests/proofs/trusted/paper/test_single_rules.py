@@ -404,6 +404,20 @@ def test_sentences_have_all_their_hypotheses(document):
     assert abs(slope_18(eta, nu, 1, phi) - mpf("0.463")) < 1e-3
 
 
+@pytest.mark.parametrize("eta", ["0.23", "0.237", "0.25"])
+def test_stable_orbits_that_stick_are_in_no_window(document, eta):
+    """One impact a turn: where the mass lands the table holds it until phi_s, so f' = 0."""
+    (witness,) = steps_of(document, "single-eta-windows")
+    found = derived("single-eta-windows", witness)
+    assert not any(flip[0] <= Fraction(eta) <= stick[1] for flip, stick in found.ends)
+    eta, nu = mpf(eta), mpf("0.2")
+    leave = mp.asin(eta**2 / (nu * (1 - eta**2)))
+    time, _ = reference.first_impact(eta, nu, leave + mpf(10) ** -20)
+    for share in range(11):  # from the landing on, up to phi_s a turn later
+        phi = leave + time + (2 * mp.pi - time) * share / 11
+        assert time < 2 * mp.pi and reference.launch_acceleration(eta, nu, phi) < 0
+
+
 @pytest.mark.slow
 def test_a_claim_alone_has_its_own_certificate():
     alone = produce({"single": ["P6"]}, PAPER, digits=15).certificate
