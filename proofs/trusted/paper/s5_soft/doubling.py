@@ -48,7 +48,7 @@ _FAMILY = f"b=r*t*{_BEND}/k, {_FLIGHT.format(f'(w*h - t*{_BEND}/k)')}"
 _ODD = tuple(f"at(D(at({each}, {_FAMILY}), h), h=0)" for each in near.STIFF)
 _REGULAR = (
     f"D({_ODD[0]}, a)*D({_ODD[1]}, w) - D({_ODD[0]}, w)*D({_ODD[1]}, a)",
-    f"4*t*{_D}/(k*(1 + r)*(1 + t**2))",
+    f"-4*t*{_D}/(k*(1 + r)*(1 + t**2))",
 )
 
 doubling = corollary(
