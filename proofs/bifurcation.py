@@ -41,7 +41,8 @@ EPILOG = """\
 Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact. An
 argument @FILE is replaced by the lines of the file. Other bifurcations than those found in closed
 form may exist. The coefficient "critical" decides: of a flip, positive for a stable cycle of period
-two; of a Neimark-Sacker bifurcation, negative for a stable circle.
+two; of a Neimark-Sacker bifurcation, negative for a stable circle, if t, the trace, is between -2
+and 2, not -1, not 0. "speed" is how fast the first parameter passes it: none takes place at 0.
 
 exit status: 0 done and checked, 1 a bifurcation that was asked for is not found,
              2 bad input, 3 the checker disagrees (a bug)

@@ -69,7 +69,8 @@ def _called(name, inner, others, places):
 def _derivative(value, name):
     def central(env):
         step = flint.arb(2) ** (_DEEP_STEP if flint.ctx.prec > BITS else STEP)
-        up, down = ({**env, name: env[name] + sign * step} for sign in (1, -1))
+        here = env.get(name, flint.arb(0))  # the formula may be without it
+        up, down = ({**env, name: here + sign * step} for sign in (1, -1))
         return (value(up) - value(down)) / (2 * step)
 
     return central
