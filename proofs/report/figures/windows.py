@@ -51,10 +51,11 @@ def _candidates(points: Sequence[tuple[float, float]], n: int) -> list[float]:
     return kept
 
 
-def _between(first: Range, last: Range) -> list[float]:
-    """Return 40 numbers from one enclosed end of a window to the other, all inside it."""
+def _between(first: Range, last: Range, count: int = 40) -> list[float]:
+    """Return numbers from one enclosed end of a window to the other, all inside it."""
     low, high = float(first[1]), float(last[0])
-    return [low + (high - low) * (k / 39 if k < 39 else 1 - 1e-9) for k in range(40)]
+    shares = [k / (count - 1) for k in range(count - 1)]
+    return [low + (high - low) * share for share in (*shares, 1 - 1e-9)]
 
 
 def _window(axes: Axes, x: list[float], y: list[float], label: str) -> None:
@@ -94,7 +95,7 @@ def _against_eta(axes: Axes, nu: Fraction, low: Fraction, windows: Sequence[Wind
         axes.plot(etas, phases, color=GREY, ls=dashes, lw=0.6, label=f"{_OTHER}: n = {n}")
     label = _STABLE
     for n, first, last in windows:
-        inside = _between(first, last)
+        inside = _between(first, last, 40 if n <= _NAMED else 6)
         phases = [solution(eta, amplitude, n)[0] for eta in inside]
         _window(axes, inside, phases, label)
         label = "_"
