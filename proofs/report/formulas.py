@@ -17,7 +17,8 @@ from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import show
 
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
-_SIGNED_NUMBER = re.compile(r"(<mo[^>]*>[(\[=,∈≤]</mo>(?:<mrow>)?)<mo>−</mo>")  # no difference
+_SPELT = {"epsilon": r"\varepsilon", "lam": r"\lambda"}
+_SIGNED_NUMBER = re.compile(r"(<m\w+[^>]*>[(\[=,∈≤]</m\w+>(?:<mrow>)?)<mo>−</mo>")  # no difference
 _SUM, _SIGNED, _PRODUCT, _POWER, _ATOM = range(5)  # how tightly a formula is bound
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
 
@@ -163,9 +164,9 @@ def _symbol(name: str) -> str:
     match = _NAME.fullmatch(name)
     letters, index = (match[1], match[2]) if match else (name, None)
     written = f"\\{letters}" if letters in GREEK else letters
-    if letters == "epsilon":
-        written = r"\varepsilon"
-    if len(letters) > 1 and letters not in GREEK:
+    if letters in _SPELT:
+        written = _SPELT[letters]
+    elif len(letters) > 1 and letters not in GREEK:
         written = rf"\mathrm{{{letters}}}"
     return f"{written}_{_short(index.strip('_'))}" if index else written
 

@@ -52,7 +52,7 @@ def test_the_value_is_that_of_the_text(text):
         ("D(f, x, x)", r"\partial_{xx}(f)"),
         ("at(x*y, x=0, y=t)", r"{[x y]}_{x = 0,\,y = t}"),
         ("omega_n*x0", r"\omega_n x_0"),
-        ("lam", r"\mathrm{lam}"),
+        ("lam*big", r"\lambda \mathrm{big}"),
     ],
 )
 def test_cases(text, expected):
