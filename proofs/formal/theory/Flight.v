@@ -32,6 +32,15 @@ Proof.
     destruct (Req_dec c a) as [->|]; [lra|]. destruct (Req_dec c b) as [->|]; [lra|]. lra.
 Qed.
 
+Lemma sin_turns x k : sin (x + 2 * IZR k * PI) = sin x.
+Proof.
+  assert (P : forall x n, sin (x + 2 * IZR (Z.of_nat n) * PI) = sin x).
+  { intros y n. rewrite <- INR_IZR_INZ. apply sin_period. }
+  destruct (Z_le_gt_dec 0 k).
+  - rewrite <- (Z2Nat.id k) by auto. apply P.
+  - rewrite <- (P _ (Z.to_nat (- k))). f_equal. rewrite Z2Nat.id, opp_IZR by lia. ring.
+Qed.
+
 Section Model.
 Variables side eta nu : R.
 Hypothesis eta_pos : 0 < eta.

@@ -157,15 +157,6 @@ Proof.
   apply Rabs_le_between in A, B, C. lra.
 Qed.
 
-Lemma sin_turns x k : sin (x + 2 * IZR k * PI) = sin x.
-Proof.
-  assert (P : forall x n, sin (x + 2 * IZR (Z.of_nat n) * PI) = sin x).
-  { intros y n. rewrite <- INR_IZR_INZ. apply sin_period. }
-  destruct (Z_le_gt_dec 0 k).
-  - rewrite <- (Z2Nat.id k) by auto. apply P.
-  - rewrite <- (P _ (Z.to_nat (- k))). f_equal. rewrite Z2Nat.id, opp_IZR by lia. ring.
-Qed.
-
 (* sin and cos of x + k pi / 2 *)
 Lemma turned x k :
   sin (x + IZR k * (PI / 2)) = match (k mod 4)%Z with 0%Z => sin x | 1%Z => cos x | 2%Z => - sin x | _ => - cos x end /\
