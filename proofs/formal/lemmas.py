@@ -106,8 +106,8 @@ class Lemmas:
             yield Sets("horseshoe", (headline.left, headline.right), (first, second))
         asked = {"H1", "H2", "H3", "H6"} & {name for name in plan.verdicts if plan.holds(name)}
         if asked or "H5" in plan.verdicts:
-            bounds = self._bounds(plan.of.left), self._bounds(plan.of.right)
-            yield Sets("printed", (plan.of.left, plan.of.right), bounds)
+            known = self._bounds(plan.of.left), self._bounds(plan.of.right)
+            yield Sets("printed", (plan.of.left, plan.of.right), known)
 
     def _bounds(self, domain: Range) -> Range:
         """Return what the claims say about f' on a printed set, roughly where they say nothing."""

@@ -4,6 +4,24 @@ From Coquelicot Require Import Coquelicot.
 From Oscillator Require Import Impact Rebounds.
 Open Scope R_scope.
 
+(* Cones: differences |dg| <= c |dx| go to such and grow p - q c times; those that go to
+   c |dx'| <= |dg'| shrink. *)
+Lemma cones p q r s c dx dg dx' dg' : 0 <= p -> 0 <= q -> 0 <= r -> 0 <= s -> 0 < c -> 0 <= dx -> 0 <= dg ->
+  p * dx <= dx' + q * dg -> dg' <= r * dx + s * dg -> r + s * c <= c * (p - q * c) ->
+  (dg <= c * dx -> (p - q * c) * dx <= dx' /\ dg' <= c * dx') /\
+  (c * dx' <= dg' -> (c * p - r) * dg' <= c * (r * q + s * p) * dg).
+Proof.
+  intros p0 q0 r0 s0 c0 x0 g0 S T C. split; intros H.
+  - assert (q * dg <= q * (c * dx)) by (apply Rmult_le_compat_l; lra).
+    assert (s * dg <= s * (c * dx)) by (apply Rmult_le_compat_l; lra).
+    assert ((r + s * c) * dx <= c * (p - q * c) * dx) by (apply Rmult_le_compat_r; lra).
+    assert (E : (p - q * c) * dx <= dx') by lra. split; auto.
+    assert (c * ((p - q * c) * dx) <= c * dx') by (apply Rmult_le_compat_l; lra). lra.
+  - assert (c * p * dg' <= c * p * (r * dx + s * dg)) by (apply Rmult_le_compat_l; [apply Rmult_le_pos|]; lra).
+    assert (c * r * (p * dx) <= c * r * (dx' + q * dg)) by (apply Rmult_le_compat_l; [apply Rmult_le_pos|]; lra).
+    assert (r * (c * dx') <= r * dg') by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
 Section Crossed.
 Variable N : R * R -> R * R -> Prop.
 Variables A b0 a1 B g0 g1 : R.
@@ -306,27 +324,5 @@ Theorem crossed_theorem : two_sided_shift N A b0 a1 B g0 g1 c k e0.
 Proof.
   exists X. split; [|split; [apply X_N|split; [apply X_injective|intros n w w'; apply X_close]]].
   intros w u. split; [apply orbit_X|]. intros H n. rewrite (H n), (H (n + 1)%Z). apply (X_orbit w n).
-Qed.
-
-(* Claim N2: differences |dg| <= c |dx| are mapped to such and stretched p - q c times, and those
-   that are mapped to c |dx'| <= |dg'| shrink. *)
-Theorem cones i z z' : V i z -> V i z' -> r + s * c <= c * (p - q * c) ->
-  let dx := Rabs (fst z - fst z') in let dg := Rabs (snd z - snd z') in
-  let dx' := Rabs (P z - P z') in let dg' := Rabs (Q z - Q z') in
-  (dg <= c * dx -> (p - q * c) * dx <= dx' /\ dg' <= c * dx') /\
-  (c * dx' <= dg' -> (c * p - r) * dg' <= c * (r * q + s * p) * dg).
-Proof.
-  intros Z Z' C dx dg dx' dg'. pose proof (stretch i z z' Z Z') as S. pose proof (shrink i z z' Z Z') as T.
-  fold dx dg dx' in S. fold dx dg dg' in T.
-  assert (x0 : 0 <= dx) by apply Rabs_pos. assert (g0' : 0 <= dg) by apply Rabs_pos.
-  split; intros H.
-  - assert (q * dg <= q * (c * dx)) by (apply Rmult_le_compat_l; lra).
-    assert (s * dg <= s * (c * dx)) by (apply Rmult_le_compat_l; lra).
-    assert ((r + s * c) * dx <= c * (p - q * c) * dx) by (apply Rmult_le_compat_r; lra).
-    assert (E : (p - q * c) * dx <= dx') by lra. split; auto.
-    assert (c * ((p - q * c) * dx) <= c * dx') by (apply Rmult_le_compat_l; lra). lra.
-  - assert (c * p * dg' <= c * p * (r * dx + s * dg)) by (apply Rmult_le_compat_l; [apply Rmult_le_pos|]; lra).
-    assert (c * r * (p * dx) <= c * r * (dx' + q * dg)) by (apply Rmult_le_compat_l; [apply Rmult_le_pos|]; lra).
-    assert (r * (c * dx') <= r * dg') by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 End Crossed.

@@ -246,7 +246,8 @@ Lemma on_line f0 c0 f1 c1 t : x <= f0 <= y -> x <= f1 <= y -> g0 <= c0 <= g1 -> 
 Proof. intros. unfold ph, ve. split; split; nra. Qed.
 
 Lemma differences f0 c0 f1 c1 : x <= f0 <= y -> x <= f1 <= y -> g0 <= c0 <= g1 -> g0 <= c1 <= g1 ->
-  p * Rabs (f1 - f0) <= Rabs (f1 + time f1 c1 - (f0 + time f0 c0)) + q * Rabs (c1 - c0) /\
+  (p * Rabs (f1 - f0) <= Rabs (f1 + time f1 c1 - (f0 + time f0 c0)) + q * Rabs (c1 - c0) /\
+    (f1 = f0 -> Rabs (f1 + time f1 c1 - (f0 + time f0 c0)) <= q * Rabs (c1 - c0))) /\
   Rabs (arrival f1 c1 (time f1 c1) - arrival f0 c0 (time f0 c0)) <= r * Rabs (f1 - f0) + s * Rabs (c1 - c0).
 Proof.
   intros F0 F1 C0 C1. pose proof (fun t => on_line f0 c0 f1 c1 t F0 F1 C0 C1) as On.
@@ -269,7 +270,8 @@ Proof.
       pose proof (Rabs_pos (f1 - f0)). pose proof (Rabs_pos (c1 - c0)).
       assert (p * Rabs (f1 - f0) <= Dp * Rabs (f1 - f0)) by (apply Rmult_le_compat_r; lra).
       assert (Rabs Dg * Rabs (c1 - c0) <= q * Rabs (c1 - c0)) by (apply Rmult_le_compat_r; lra).
-      replace ((Dp * (f1 - f0) + Dg * (c1 - c0)) * (1 - 0)) with (Dp * (f1 - f0) + Dg * (c1 - c0)) by ring. lra.
+      replace ((Dp * (f1 - f0) + Dg * (c1 - c0)) * (1 - 0)) with (Dp * (f1 - f0) + Dg * (c1 - c0)) by ring.
+      split; [lra|]. intros ->. rewrite Rminus_eq_0, Rmult_0_r, Rplus_0_l, Rabs_mult. lra.
   - destruct (mvt (fun t => arrival (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t)) (fun t =>
       DQ_p (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (f1 - f0) +
       DQ_g (ph f0 (f1 - f0) t) (ve c0 (c1 - c0) t) (tau f0 (f1 - f0) c0 (c1 - c0) t) * (c1 - c0)) 0 1) as [t [Ht Q]].
@@ -427,12 +429,12 @@ Proof.
   - intros i z z' [Z1 Z2] [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
     + destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)
-        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [D _].
+        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
       unfold P. rewrite !L1 by lra. match goal with |- _ <= Rabs ?f + _ =>
         replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D.
     + destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F0) (rf_rates _ _ _ _ _ _ _ _ _ _ F0) ltac:(lra)
-        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [D _].
+        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
       unfold P. rewrite !L0 by lra. match goal with |- _ <= Rabs ?f + _ =>
         replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D.
   - intros i z z' [Z1 Z2] [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
@@ -440,6 +442,27 @@ Proof.
         (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)); auto.
     + apply (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F0) (rf_rates _ _ _ _ _ _ _ _ _ _ F0) ltac:(lra)); auto.
+Qed.
+
+(* Claim N2: two states of a rectangle, their phases lifted: F stretches horizontal distances p
+   times at least, shrinks vertical ones to q and s times in phase and velocity, and keeps cones. *)
+Theorem hyperbolic a x y b d e T u v k : 0 < p /\ 0 <= q /\ 0 <= r /\ 0 <= s /\ 0 < c ->
+  r + s * c <= c * (p - q * c) -> rectangle_facts a x y b d e T u v k ->
+  forall f g f' g', x <= f <= y -> x <= f' <= y -> g0 <= g <= g1 -> g0 <= g' <= g1 ->
+  let dx := Rabs (f' - f) in let dg := Rabs (g' - g) in
+  let dx' := Rabs (f' + time f' g' - (f + time f g)) in
+  let dg' := Rabs (arrival f' g' (time f' g') - arrival f g (time f g)) in
+  (g = g' -> p * dx <= dx') /\ (f = f' -> dx' <= q * dg /\ dg' <= s * dg) /\
+  (dg <= c * dx -> (p - q * c) * dx <= dx' /\ dg' <= c * dx') /\
+  (c * dx' <= dg' -> (c * p - r) * dg' <= c * (r * q + s * p) * dg).
+Proof.
+  intros S C F f g f' g' Hf Hf' Hg Hg' dx dg dx' dg'.
+  destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F) x y g0 g1 p q r s
+    (rf_within _ _ _ _ _ _ _ _ _ _ F) (rf_rates _ _ _ _ _ _ _ _ _ _ F) ltac:(lra) f g f' g' Hf Hf' Hg Hg') as [[D1 D2] D3].
+  fold dx dg dx' dg' in D1, D2, D3. assert (x0 : 0 <= dx) by apply Rabs_pos. assert (d0 : 0 <= dg) by apply Rabs_pos.
+  split; [|split; [|apply cones; lra]].
+  - intros E. unfold dg in D1. rewrite E, Rminus_eq_0, Rabs_R0 in D1. lra.
+  - intros E. split; [apply D2; auto|]. unfold dx in D3. rewrite E, Rminus_eq_0, Rabs_R0 in D3. lra.
 Qed.
 End Two.
 End Model.
