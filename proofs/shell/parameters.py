@@ -75,21 +75,24 @@ def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
     given = {name: value for name in heeded if (value := getattr(options, name)) is not None}
     given = {name: tuple(x) if isinstance(x, list) else x for name, x in given.items()}
     reach = given.pop("reach", None)
-    of = _with_sets(replace(PAPER, **given, reach=None), given, "slopes" in heeded)
+    left, right = given.get("left", PAPER.left), given.get("right", PAPER.right)
+    interval = given.get("interval", (left[0], right[1]))
+    plain = replace(PAPER, **{**given, "interval": interval}, reach=None)
+    of = _with_sets(plain, given, "slopes" in heeded)
     if of.slopes != PAPER.slopes:
         of = replace(of, ratios=None, printed_s0=None)
     return replace(of, reach=_reach(of, reach, "reach" in heeded))
 
 
 def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
-    """Return the numbers with I, from I0 to I1, unless it is given; with sets found if they are."""
+    """Return the numbers, at another oscillator with sets that are found unless some are given."""
     elsewhere = (of.eta, of.nu) != (PAPER.eta, PAPER.nu)
     if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
         from proofs.search.shifts import own_sets
 
         found = own_sets(of)
         return of if found is None else replace(found, slopes=given.get("slopes", found.slopes))
-    return of if "interval" in given else replace(of, interval=(of.left[0], of.right[1]))
+    return of
 
 
 def _reach(of: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
