@@ -11,7 +11,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.formal")
+    launch("proofs.formal.__main__")
 
 import sys
 from argparse import Namespace
