@@ -81,7 +81,7 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
         parser.error(f"{name}: {error}")
     except OSError as error:
         parser.error(f"{name}: cannot be read: {error.strerror or error}")
-    except (NoTheorem, NoHint, Exhausted, Unproved) as failure:
+    except (NoTheorem, NoHint, Exhausted, Unproved, ArithmeticError) as failure:
         print(f"{parser.prog}: {name}: nothing written: {failure}", file=sys.stderr)
         return 1
 

@@ -182,6 +182,7 @@ class Writer(Lemmas):
     def write(self) -> Case:
         """Return the whole file."""
         self.state("model", theorem_text.MODEL_IN_WORDS, theorem_text.MODEL)
+        self.slopes()
         self.leaving()
         if self.plan.headline is not None:
             self.horseshoe(self.plan.headline)

@@ -15,7 +15,7 @@ from proofs.formal import lemma_text as text
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
 from proofs.search.repair import short_decimal
-from proofs.trusted.numbers import Range, hull, within
+from proofs.trusted.numbers import Range, hull, show_range, within
 
 ROOM = 2.0**-24  # of a bracket, where no margin is thin
 
@@ -33,18 +33,13 @@ class Sets(NamedTuple):
         return 1 if low > 0 else -1 if high < 0 else 0
 
     def sizes(self, index: int) -> Range:
-        """Bounds on |f'|."""
+        """Bounds on |f'| for I0 or I1; for both, if f' has a sign on each."""
+        signs = self.sign(0), self.sign(1)
+        return hull([self._size(i) for i in ((0, 1) if all(signs) else (index,))])
+
+    def _size(self, index: int) -> Range:
         low, high = self.bounds[index]
         return (low, high) if self.sign(index) > 0 else (-high, -low)
-
-    def with_common_bounds(self) -> Sets:
-        """Return the sets with bounds on |f'| that hold on both, if f' has a sign on each."""
-        signs = self.sign(0), self.sign(1)
-        if not all(signs):
-            return self
-        low, high = hull([self.sizes(0), self.sizes(1)])
-        first, second = ((low, high) if sign > 0 else (-high, -low) for sign in signs)
-        return self._replace(bounds=(first, second))
 
     @property
     def interval(self) -> Range:
@@ -72,6 +67,14 @@ def by_cases(parts: Sequence[tuple[str, Fraction]], tactic: str) -> str:
     return "".join(lines) + f"\n  {tactic.format(parts[-1][0])}."
 
 
+def _place(branches: Sequence[Branch], phases: Range) -> int:
+    """Return which of the branches has all these phases."""
+    for index, branch in enumerate(branches):
+        if within(phases, (branch.a, branch.b)):
+            return index
+    raise NoHint(f"no branch has all phases of {show_range(phases)}")
+
+
 class Lemmas:
     """Collects the lemmas of a plan: slopes and images on I0 and I1, and where the gap goes."""
 
@@ -81,9 +84,14 @@ class Lemmas:
         self.lines: list[str] = []
         self.finest = 1.0
         self.sets = list(self._sets())
-        self.branches = [self._branches(index) for index in (0, 1)] if self.sets else []
+        self.branches: list[list[Branch]] = []
         self.laps: dict[int, int] = {}
         self.avoid: dict[str, str] = {}  # for each of the sets, the lemma that the gap leaves I
+
+    def slopes(self) -> None:
+        """Write the first impacts of launches near I0 and I1, and the bounds on f' there."""
+        if self.sets:
+            self.branches = [self._branches(index) for index in (0, 1)]
 
     def add(self, template: str, **values: object) -> None:
         """Write a template with these values."""
@@ -98,12 +106,8 @@ class Lemmas:
             yield Sets("horseshoe", (headline.left, headline.right), (bounds[0], bounds[1]))
         asked = {"H1", "H2", "H3", "H6"} & {name for name in plan.verdicts if plan.holds(name)}
         if asked or "H5" in plan.verdicts:
-            printed = Sets(
-                "printed",
-                (plan.of.left, plan.of.right),
-                (self._bounds(plan.of.left), self._bounds(plan.of.right)),
-            )
-            yield printed.with_common_bounds()
+            known = self._bounds(plan.of.left), self._bounds(plan.of.right)
+            yield Sets("printed", (plan.of.left, plan.of.right), known)
 
     def _bounds(self, domain: Range) -> Range:
         """Return what the claims say about f' on a printed set, roughly where they say nothing."""
@@ -143,7 +147,7 @@ class Lemmas:
         pieces: list[tuple[str, Range]] = []
         used = [bounds for _, bounds in parts]
         for zone in pairwise(sorted(cuts)):
-            j = next(j for j, branch in enumerate(branches) if within(zone, branch[:2]))
+            j = _place(branches, zone)
             inside = [bounds for domain, bounds in parts if within(zone, domain)]
             inside = inside or [self._bounds(zone)]
             bounds = max(low for low, _ in inside), min(high for _, high in inside)
@@ -177,7 +181,7 @@ class Lemmas:
         bits = 2 - math.floor(math.log2(room))
         low, high = binary(min(times) - room, bits), binary(max(times) + room, bits, up=True)
         self.finest = min(self.finest, room)
-        j = next(j for j, x in enumerate(self.branches[index]) if within(phases, x[:2]))
+        j = _place(self.branches[index], phases)
         named = {"name": name, "branch": f"{index}_{j}", "p": phases[0], "q": phases[1]}
         self.add(text.IMPACT, **named, s=low, t=high)
         return low, high

@@ -1,4 +1,4 @@
-"""The compiled theory, one for all test processes."""
+"""The paper's theorems proved once, for all test processes: their folder has the theory."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from tests.proofs.formal import coq
 
 
 @pytest.fixture(scope="session")
-def theory(tmp_path_factory, worker_id):
-    """The folder with the compiled theory."""
+def proved(tmp_path_factory, worker_id):
+    """The folder of the paper's theorems, with machine floats."""
     base = tmp_path_factory.getbasetemp()
-    return coq.compiled_theory((base if worker_id == "master" else base.parent) / "theory")
+    return coq.proved(base if worker_id == "master" else base.parent)

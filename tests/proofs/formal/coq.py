@@ -4,12 +4,14 @@ import fcntl
 import re
 import shutil
 import subprocess
+from contextlib import redirect_stdout
 from functools import cache
 from pathlib import Path
 
 import pytest
 
 from proofs import horseshoe
+from proofs.formal import __main__ as formal
 from proofs.formal import coqc
 from proofs.formal.cases import case
 from proofs.formal.plan import plan
@@ -33,16 +35,15 @@ def paper_case():
     return case(plan(PAPER.read_text()), PAPER.name, floats=True)
 
 
-def compiled_theory(folder):
-    """Compile the theory into a folder that the test processes share, once."""
-    folder.mkdir(exist_ok=True)
-    with (folder / "lock").open("w") as lock:
+def proved(base):
+    """Run the command on the paper's certificate, once; keep what it prints beside its files."""
+    folder = base / "proved"
+    with (base / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        modules = coqc.order(paper_case().text)
-        coqc.copy_theory(folder, modules)
-        for module in modules:
-            if not (folder / f"{module}.vo").exists():
-                coqc.run(folder, module)
+        if not folder.exists():
+            with (base / "shown").open("w") as shown, redirect_stdout(shown):
+                arguments = [str(PAPER), "--floats", "--out", str(folder)]
+                assert formal.main([*arguments, "--json", str(base / "answer.json")]) == 0
     return folder
 
 
@@ -66,25 +67,26 @@ def in_lemma(text, name, *edits):
     return text[:begin] + edited(text[begin:end], *edits) + text[end:]
 
 
-def accepts(theory, folder, text):
+def accepts(proved, folder, text):
     """Run coqc on a text beside the compiled theory; Refused goes through."""
-    for path in theory.glob("*.vo"):
-        (folder / path.name).symlink_to(path)
+    for module in coqc.order(paper_case().text):
+        (folder / f"{module}.vo").symlink_to(proved / f"{module}.vo")
     (folder / "Horseshoe.v").write_text(without_assumptions(text))
     return coqc.run(folder, "Horseshoe")
 
 
-def stops_at(theory, folder, text):
+def stops_at(proved, folder, text):
     """Return the lemma at which coqc refuses a text, and why."""
     with pytest.raises(coqc.Refused) as refused:
-        accepts(theory, folder, text)
+        accepts(proved, folder, text)
     return refused.value.lemma, str(refused.value)
 
 
 def printed_by_coq(folder, *commands):
-    """Return what coqc prints for commands after a compiled Horseshoe.v."""
-    lines = [f"From {coqc.NAME} Require Import Horseshoe.", *commands]
-    (folder / "Asked.v").write_text("\n".join(lines) + "\n")
+    """Return in a line what coqc prints for commands after a compiled Horseshoe.v."""
+    head = ["From Coq Require Import Reals.", "From Coquelicot Require Import Coquelicot."]
+    head += [f"From {coqc.NAME} Require Import Impact Corrected Horseshoe.", "Open Scope R_scope."]
+    (folder / "Asked.v").write_text("\n".join([*head, *commands]) + "\n")
     command = ["coqc", *coqc.OPTIONS, "Asked.v"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
-    return done.stdout
+    return " ".join(done.stdout.split())
