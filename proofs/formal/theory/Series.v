@@ -244,7 +244,7 @@ Proof.
   pose proof (down_bound (total - lost) 16 ltac:(lia)) as D.
   pose proof (up_bound (total + lost) 16 ltac:(lia)) as Up.
   unfold up in Up. replace (- (total + lost))%Z with (- total - lost)%Z in Up by ring.
-  unfold holds. simpl lo. simpl hi. rewrite Z.pow_add_r, mult_IZR in G by lia.
+  unfold holds. cbn [lo hi]. rewrite Z.pow_add_r, mult_IZR in G by lia.
   rewrite minus_IZR in D. rewrite plus_IZR in Up. change (2 ^ 16)%Z with 65536%Z in *.
   repeat split; lra.
 Qed.
