@@ -9,7 +9,7 @@ there and writes there.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -47,6 +47,15 @@ def writing(folder: Path) -> Iterator[Put]:
         finally:
             for part in parts.values():
                 part.unlink(missing_ok=True)
+
+
+def write_files(folder: Path, files: Mapping[str, str]) -> None:
+    """Write files by their names, which may be in folders inside the folder."""
+    for inner in sorted({Path(name).parent for name in files}):
+        with writing(folder / inner) as put:
+            for name, content in files.items():
+                if Path(name).parent == inner:
+                    put(Path(name).name, content)
 
 
 @contextmanager

@@ -13,18 +13,18 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from proofs.report import page
+from proofs.report import build as report
 from proofs.shell import manifest, runner
 from proofs.shell.cli import Parser, counting, heard, progress
 from proofs.shell.counting import Counts, show
 from proofs.shell.entry import workers
-from proofs.shell.files import refusing, write_target, writing
-from proofs.shell.groups import FILES, Made, produce, wanted
+from proofs.shell.files import refusing, write_files, write_target, writing
+from proofs.shell.groups import FILES, Made, produce, row_of, wanted
 from proofs.shell.screen import Decided, say, show_verdicts
 from proofs.trusted.certificate import LEDGER, Malformed, read, render
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 CLAIMS = tuple(
@@ -34,11 +34,12 @@ CLAIMS = tuple(
     )
 )
 EPILOG = """\
-Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json,
-DIR/ledger.md and for each group a certificate, which the checker re-derives. One that is there
-already, accepted and complete, is checked and not proved again, unless --fresh or --digits ask for
-it; which prover wrote it does not matter. DIR is `reports` where all claims are asked for, else
-`runs`, to which what is complete in `reports` is copied.
+Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
+group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
+DIR/ledger.md. A certificate that is there already, accepted and complete, is checked and not proved
+again, unless --fresh or --digits ask for it; which prover wrote it does not matter. DIR is
+`reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
+copied.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -167,16 +168,22 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     rows = _in_order([row for one in settled for row in one.rows()])
     text = render({"schema": LEDGER, "claims": rows})
-    with refusing(parser, options.out), writing(options.out) as put:
-        put("ledger.json", text)
-        put("ledger.md", page.ledger(rows))
-        certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
-        put(manifest.NAME, manifest.entered(options.out, certificates))
+    certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
+    with refusing(parser, options.out):
+        with writing(options.out) as put:
+            put("ledger.json", text)
+            put(manifest.NAME, manifest.entered(options.out, certificates))
+        with progress() as tell:
+            pages = report.built(options.out, tell, only_text=bool(report.missing()))
+        write_files(options.out, pages)
     write_target(parser, options.json, lambda: text)
     if heard(options):
         _print(rows, settled)
-        verdicts = runner.tally(Verdict(row["verdict"]) for row in rows)
-        say(f"{verdicts} in {perf_counter() - began:.1f} s; all of it: {options.out}/ledger.md")
+        verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
+        say(f"{verdicts} in {perf_counter() - began:.1f} s")
+        whole = "index.html" if "index.html" in pages else "ledger.md"
+        hint = "" if whole == "index.html" else f"; for a page with formulas: {report.INSTALL}"
+        say(f"all of it: {options.out}/{whole}{hint}")
     for one in settled if options.stats else ():
         show(one.counts, one.job.claims, quiet=not heard(options))
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from types import MappingProxyType
@@ -42,7 +42,6 @@ _MEANING = {
     "velocities": "range of velocities gamma",
     "reach": "box around eta, nu, epsilon, less if need be to stay in the model",
 }
-_DERIVED = ("interval", "reach")  # from the other numbers, where they are not given
 
 
 def add_parameters(parser: Parser, heeded: Iterable[str]) -> None:
@@ -55,8 +54,7 @@ def add_parameters(parser: Parser, heeded: Iterable[str]) -> None:
         if name != "interval":
             numbers = value if several else (value,)
             meaning += f" (default {' '.join(map(show, numbers))})"
-        default = None if name in _DERIVED else value
-        parser.add_argument(f"--{name}", type=number, default=default, help=meaning, **several)
+        parser.add_argument(f"--{name}", type=number, help=meaning, **several)
 
 
 def refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
@@ -69,16 +67,29 @@ def refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
 
 
 def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
-    """Return the statement's numbers; those printed for s_0 go with the printed slopes only."""
-    given = {name: getattr(options, name) for name in heeded}
+    """Return the statement's numbers; those printed for s_0 go with the printed slopes only.
+
+    At another oscillator than the paper's, I0, I1 and the slopes that are not given are found, if
+    there is an increasing horseshoe: `own_sets`.
+    """
+    given = {name: value for name in heeded if (value := getattr(options, name)) is not None}
     given = {name: tuple(x) if isinstance(x, list) else x for name, x in given.items()}
-    left, right = given.get("left", PAPER.left), given.get("right", PAPER.right)
-    given["interval"] = given.get("interval") or (left[0], right[1])
     reach = given.pop("reach", None)
-    of = replace(PAPER, **given, reach=None)
+    of = _with_sets(replace(PAPER, **given, reach=None), given, "slopes" in heeded)
     if of.slopes != PAPER.slopes:
         of = replace(of, ratios=None, printed_s0=None)
     return replace(of, reach=_reach(of, reach, "reach" in heeded))
+
+
+def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
+    """Return the numbers with I, from I0 to I1, unless it is given; with sets found if they are."""
+    elsewhere = (of.eta, of.nu) != (PAPER.eta, PAPER.nu)
+    if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
+        from proofs.search.shifts import own_sets
+
+        found = own_sets(of)
+        return of if found is None else replace(found, slopes=given.get("slopes", found.slopes))
+    return of if "interval" in given else replace(of, interval=(of.left[0], of.right[1]))
 
 
 def _reach(of: Parameters, given: Box | None, is_heeded: bool) -> Box | None:

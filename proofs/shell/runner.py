@@ -8,27 +8,33 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections import Counter
-from collections.abc import Iterable, Sequence
-from importlib import import_module
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import Parser, counting, heard, horizon, progress, share
-from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.files import (
+    check_folder,
+    check_targets,
+    refusing,
+    write_files,
+    write_target,
+    writing,
+)
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.parameters import HEEDED, add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verdicts import Verdict, tally
+from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
@@ -60,7 +66,7 @@ def run(
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
-    `proofs.report.<file>_figure.svg`, if there is one, draws it.
+    With --figure the figures that are drawn from this certificate alone are written, too.
     """
     parser = _parser(file, description, examples)
     options, unknown = parser.parse_known_args(arguments)
@@ -96,10 +102,16 @@ def _parser(file: str, description: str | None, examples: str) -> Parser:
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    if find_spec(f"proofs.report.{file}_figure") is not None:
-        help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
+    if figures := _figures(file):
+        names = ", ".join(f"{figure.name}.svg" for figure in figures)
+        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
     return parser
+
+
+def _figures(file: str) -> list[Figure]:
+    """Return the figures that are drawn from a certificate alone."""
+    return [figure for figure in FIGURES if figure.certificate == file]
 
 
 def _run(
@@ -115,14 +127,16 @@ def _run(
     with counting(options.stats) as counts, progress() as tell:
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **more)
     seconds = perf_counter() - began
-    figure = ""
+    drawn: dict[str, str] = {}
     try:
         if options.figure:
-            figure = import_module(f"proofs.report.{file}_figure").svg(made.certificate)
+            documents = {file: premises(made.certificate)}
+            drawn = {f"{each.name}.svg": each.svg(documents) for each in _figures(file)}
     except (Undecided, OverflowError) as failure:
         say(f"{parser.prog}: no figure: {failure}", sys.stderr)
     with refusing(parser, options.out):
-        write(options.out, file, made, figure)
+        write(options.out, file, made)
+        write_files(options.out / "figures", drawn)
     return finish(parser, options, made, file, seconds=seconds, counts=counts)
 
 
@@ -161,10 +175,10 @@ def claims_of(file: str) -> set[str]:
     return {claim for ids in FILES[file].values() for claim in ids}
 
 
-def write(folder: Path, name: str, made: Made, figure: str = "") -> None:
-    """Write a certificate, its page and figure, and enter it in the manifest."""
+def write(folder: Path, name: str, made: Made) -> None:
+    """Write a certificate and its page, and enter it in the manifest."""
     with writing(folder) as put:
-        for kind, content in (("json", made.certificate), ("md", made.page), ("svg", figure)):
+        for kind, content in (("json", made.certificate), ("md", made.page)):
             if content:
                 put(f"{name}.{kind}", content)
         put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
@@ -181,7 +195,8 @@ def finish(
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
         print_lines(made.lines, options.digits or PLACES, f"{options.out}/{file}.md")
-        say(f"{tally(line.verdict for line in made.lines)}; proved in {seconds * 1000:.0f} ms")
+        summary = tally((line.verdict, not line.words) for line in made.lines)
+        say(f"{summary}; proved in {seconds * 1000:.0f} ms")
     with counting(options.stats) as checking:
         path = options.out / f"{file}.json"
         accepted = options.no_check or _checked(path, quiet=not heard(options))
@@ -207,12 +222,6 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
         beside = ", ".join(claim for claim, same in gists.items() if same == text)
         say(f"\nTheorem beside {beside}, VERIFIED: {text}")
     say(f"\nall of it: {page}")
-
-
-def tally(verdicts: Iterable[Verdict]) -> str:
-    """Return how many verdicts there are of each kind, in words."""
-    counts = Counter(verdict.value for verdict in verdicts)
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
 
 
 def _checked(path: Path, quiet: bool) -> bool:
