@@ -1,7 +1,7 @@
 """All commands, and the way to each: `impact-proofs COMMAND`, or `python -m proofs COMMAND`.
 
 A command is what has a line with `__main__` in this folder, or in a `__main__.py` below it; the
-first line of its docstring says what it does.
+first paragraph of its docstring says what it does.
 """
 
 from __future__ import annotations
@@ -14,11 +14,10 @@ if __name__ == "__main__":
 import ast
 import sys
 from difflib import get_close_matches
-from importlib import import_module
 from pathlib import Path
 
 from proofs import __version__
-from proofs.shell.entry import USAGE_ERROR, launch
+from proofs.shell.entry import USAGE_ERROR, launch, run_command
 from proofs.shell.screen import flowing, say
 
 _ROOT = Path(__file__).parent
@@ -37,7 +36,8 @@ def commands() -> dict[str, str]:
         source = file.read_text(encoding="utf-8")
         if 'if __name__ == "__main__":' in source and file != Path(__file__):
             name = file.stem if file.parent == _ROOT else file.parent.name
-            found[name] = (ast.get_docstring(ast.parse(source)) or "").partition("\n")[0]
+            about = ast.get_docstring(ast.parse(source)) or ""
+            found[name] = " ".join(about.partition("\n\n")[0].split())
     return found
 
 
@@ -60,8 +60,7 @@ def main(arguments: list[str] | None = None) -> int:
         hint = f"; is it {near[0]}?" if near else ", see --help"
         say(f"python -m proofs: there is no command {first[:40]!r}{hint}", sys.stderr)
         return USAGE_ERROR
-    place = first if (_ROOT / f"{first}.py").exists() else f"{first}.__main__"
-    return int(import_module(f"proofs.{place}").main(rest))
+    return run_command(f"proofs.{first}", rest)
 
 
 def script() -> None:

@@ -31,9 +31,17 @@ class Stopped(KeyboardInterrupt):
 
 
 def launch(module: str) -> NoReturn:
-    """End the process with the status that `main` of a module returns, told how it is asked for."""
+    """End the process with the status that a command returns, given by its module or package."""
     prog = f"python -m {module.removesuffix('.__main__')}"
-    sys.exit(guarded(prog, lambda: int(import_module(module).main())))
+    sys.exit(guarded(prog, lambda: run_command(module)))
+
+
+def run_command(module: str, arguments: list[str] | None = None) -> int:
+    """Import a command, and return the status of its `main`; a package's is in its `__main__`."""
+    found = import_module(module)
+    if hasattr(found, "__path__"):
+        found = import_module(f"{module}.__main__")
+    return int(found.main(arguments))
 
 
 def guarded(prog: str, work: Callable[[], int]) -> int:

@@ -50,6 +50,11 @@ class _Help(RawDescriptionHelpFormatter):
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return flowing(text)
 
+    def _format_usage(self, *arguments: Any) -> str:
+        usage = super()._format_usage(*arguments)
+        fits = max(map(len, usage.split("\n"))) <= self._width + 2
+        return usage if fits else f"usage: {self._prog} [OPTION ...]\n\n"
+
 
 class Decided(NamedTuple):
     """A claim as the screen shows it."""

@@ -131,7 +131,6 @@ def test_for_people(capsys):
         (["--epsilon", "0.01", "--gamma", "0", "1"], "physically impossible"),
         (["--epsilon", "0.01", "--gamma", "0", "-1"], "reversed"),
         (["--epsilon", "0.01", "--gamma", "0", "1", "2"], "one velocity or two"),
-        (["--epsilon", "0.01", "--gamma", "-0.3", "--horizon", "9"], "horizon"),
     ],
 )
 def test_bad_input_is_one_line(arguments, message, capsys):
@@ -140,6 +139,13 @@ def test_bad_input_is_one_line(arguments, message, capsys):
     said = capsys.readouterr()
     assert leave.value.code == 2 and said.out == ""
     assert said.err.count("\n") == 1 and message in said.err
+
+
+def test_no_impact_within_the_horizon_is_status_1(capsys):
+    state = ["--epsilon", "0.01", "--gamma", "-0.3", "--horizon", "9"]
+    assert impact.main([*AT, "--phi", "1.11", *state]) == 1
+    said = capsys.readouterr()
+    assert said.err.count("\n") == 1 and "no impact: " in said.err and said.out == ""
 
 
 @pytest.mark.slow

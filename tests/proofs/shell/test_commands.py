@@ -6,12 +6,14 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from importlib import import_module
 
 import pytest
 
 from proofs import __main__ as every
 from proofs import __version__, check, impact, ledger
+from proofs.shell.entry import run_command
 from proofs.shell.groups import FILES, produce, wanted
 from proofs.shell.parameters import HEEDED
 from proofs.trusted.manifest import command
@@ -23,7 +25,7 @@ QUESTIONS = ["impact", "orbits", "period_doubling", "resonance", "single_impact"
 
 
 def main_of(name):
-    return import_module(f"proofs.{name}" + ".__main__" * (name in PACKAGES)).main
+    return partial(run_command, f"proofs.{name}")
 
 
 def test_the_list_has_a_line_for_every_command(capsys):
@@ -38,7 +40,7 @@ def test_the_list_has_a_line_for_every_command(capsys):
 def test_a_new_command_is_listed_when_it_is_there(tmp_path, monkeypatch):
     """By its guard; by a package's `__main__`; other modules are not."""
     guard = 'if __name__ == "__main__":\n    pass\n'
-    (tmp_path / "shadow.py").write_text(f'"""Casts one.\n\nMore."""\n{guard}')
+    (tmp_path / "shadow.py").write_text(f'"""Casts\none.\n\nMore."""\n{guard}')
     (tmp_path / "library.py").write_text('"""No command."""\n')
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder/__main__.py").write_text(f'"""Is one."""\n{guard}')
