@@ -18,7 +18,7 @@ from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
 
-PACKAGES = {"benchmark", "stress"}
+PACKAGES = {"benchmark", "report", "stress"}
 QUESTIONS = ["impact", "orbits", "period_doubling", "resonance", "single_impact"]
 
 
