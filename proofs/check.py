@@ -9,7 +9,6 @@ if __name__ == "__main__":
 
 import argparse
 import sys
-from collections import Counter
 from pathlib import Path
 
 from proofs.shell.screen import Arguments, fitted, say
@@ -24,13 +23,13 @@ from proofs.trusted.certificate import (
 )
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 PIPED = Path("-")
 FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
-exit status: 0 every claim in every file is proved as stated (verified or refuted)
+exit status: 0 every claim in every file is decided as stated (SIMULATED is no proof)
              1 a claim is undecided, or a file does not prove what it says
              2 a file cannot be read or is no certificate
 
@@ -125,8 +124,7 @@ def _refused(status: int, line: str) -> int:
 
 def _counted(listed: list[Listed]) -> str:
     claims = {(each.id, each.is_paper): each for each in listed}.values()  # in two files, as N1
-    counts = Counter(each.verdict.value for each in claims)
-    named = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    named = tally((each.verdict, each.is_own) for each in claims)
     other = sum(not each.is_paper for each in claims)
     where = f", {other} of them at other parameters" if other else " at the paper's parameters"
     return f"{len(claims)} claims{where}: {named}"

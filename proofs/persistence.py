@@ -1,6 +1,6 @@
 """Section 3.4 with restitution: the stable orbit persists, with infinitely many impacts a period.
 
-Claims G7 and G8. The flight from the separation phase does not depend on epsilon; after it, for
+Claims G7, G8 and G12 (our own). The flight from phi_s does not depend on epsilon; after it, for
 ever larger epsilon, the bounces are enclosed until they are proved to end before that phase.
 """
 

@@ -10,6 +10,8 @@ import ast
 from math import lcm
 from typing import Any
 
+from proofs.trusted.kernel.formulas import spelled
+
 
 def read(text: str) -> Any:
     """Return a formula as a sympy expression."""
@@ -79,3 +81,41 @@ def _order(function: Any, x: Any, most: int = 16) -> int:
             return order
         function = function.diff(x)
     return most
+
+
+# -- back to formulas ------------------------------------------------------------------------------
+
+
+def simplest(expression: Any) -> Any:
+    """Return a quotient of factored polynomials in what occurs, sines and cosines among it."""
+    import sympy
+
+    expression = sympy.sympify(expression)
+    if expression.has(sympy.sin, sympy.cos, sympy.tan):
+        if vanishes(expression):
+            return sympy.Integer(0)
+        expression = sympy.trigsimp(expression)
+        expression = expression.replace(sympy.tan, lambda x: sympy.sin(x) / sympy.cos(x))
+    return sympy.factor(sympy.cancel(sympy.together(expression)))
+
+
+def write(expression: Any) -> str:
+    """Write an expression of sympy as the checker reads it."""
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):  # type: ignore[misc]
+        """Half powers are roots, and e is exp(1)."""
+
+        def _print_Pow(self, power: Any, rational: bool = False) -> str:  # noqa: N802
+            base, exponent = power.as_base_exp()
+            if exponent.is_Rational and exponent.q == 2:
+                root = f"sqrt({self._print(base)})"
+                top = root if abs(exponent.p) == 1 else f"{root}**{abs(exponent.p)}"
+                return top if exponent > 0 else f"1/{top}"
+            text: str = super()._print_Pow(power, rational)
+            return text
+
+        def _print_Exp1(self, _: Any) -> str:  # noqa: N802
+            return "exp(1)"
+
+    return spelled("".join(Printer().doprint(expression).split()))

@@ -26,10 +26,13 @@ from proofs.methods.formulas import (
 from proofs.trusted.certificate import SCHEMA, Reader, texts
 from proofs.trusted.kernel.enclose import Box
 from proofs.trusted.kernel.formulas import Formulas, read_formulas, read_function
+from proofs.trusted.kernel.solutions import Expressions
+from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.numbers import Range
 
 _COARSE_DIGITS = 3
 _PLACES = 2**40  # candidates are rounded to multiples of 1 / _PLACES
+_STEPS = 8  # of Newton's method
 
 Number = Fraction | int | str
 Sides = Sequence[tuple[Number, Number]]
@@ -72,6 +75,26 @@ def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Values], bo
     formulas = read_formulas(Reader(text))
     sides = tuple(box.get(name, (Fraction(0), Fraction(0))) for name in formulas.variables)
     return subdivide(sides, lambda part: decided(enclosed(formulas, part)))
+
+
+def witness_of(lemma: Equal | Series) -> dict[str, Any]:
+    """Return what the checker needs for an equation or a series."""
+    if isinstance(lemma, Equal):
+        return {"left": lemma.left, "right": lemma.right}
+    return {
+        "function": lemma.function,
+        "variable": lemma.variable,
+        "coefficients": list(lemma.coefficients),
+        "nonzero": list(lemma.nonzero),
+    }
+
+
+def solution_witness(found: Expressions) -> dict[str, Any]:
+    """Return what the checker needs for expressions that solve equations."""
+    return {
+        "expressions": dict(found.expressions),
+        "lemmas": [witness_of(each) for each in found.lemmas],
+    }
 
 
 @dataclass
@@ -124,6 +147,16 @@ class Lemmas:
         sides = _sides(box)
         return self._value(text, sides, *bounds_of(text, sides, sign))
 
+    def bounds(self, text: str, digits: int, bits: int, **box: Range) -> Range:
+        """Add a step `formula-value` with as narrow bounds as a box allows; return them."""
+        formulas = read_formulas(Reader(text))
+        unused = (Fraction(0), Fraction(0))
+        sides = [Interval(*box.get(x, unused), precision=bits) for x in formulas.variables]
+        (found,) = values(formulas, sides)
+        lower, upper = map(Fraction, decimal_bounds(found.inf, found.sup, digits))
+        self._value(text, _sides(box), (lower, upper), None)
+        return lower, upper
+
     def _value(self, text: str, sides: Mapping[str, Range], bounds: Range, tree: Tree) -> str:
         box = {name: texts(side) for name, side in sides.items()}
         witness = {"function": text, "box": box, "tree": tree, "bounds": texts(bounds)}
@@ -131,12 +164,18 @@ class Lemmas:
 
     def equal(self, left: str, right: str) -> str:
         """Add a step `formula-equal`."""
-        return self.add("formula-equal", {"left": left, "right": right})
+        return self.add("formula-equal", witness_of(Equal(left, right)))
 
     def series(self, text: str, variable: str, *coefficients: str, nonzero: Any = ()) -> str:
         """Add a step `formula-series`."""
-        witness = {"function": text, "variable": variable, "coefficients": list(coefficients)}
-        return self.add("formula-series", {**witness, "nonzero": list(nonzero)})
+        return self.add(
+            "formula-series", witness_of(Series(text, variable, coefficients, tuple(nonzero)))
+        )
+
+    def solution(self, expressions: Mapping[str, str], *lemmas: Equal | Series) -> str:
+        """Add a step `formula-solution`."""
+        found = Expressions(tuple(expressions.items()), lemmas)
+        return self.add("formula-solution", solution_witness(found))
 
     # -- zeros ---------------------------------------------------------------------------------
 
@@ -167,21 +206,48 @@ class Lemmas:
         bracket = max(first, low // width * width), min(last, -(-high // width) * width)
         return self.zero(text, value, bracket)
 
-    def unique_zero(self, function: str, guess: Sequence[Number], radius: Number) -> str:
+    def unique_zero(
+        self, function: str, guess: Sequence[Number], radius: Number, *, bits: int = 53
+    ) -> str:
         """Add a step `unique-zero`: Newton's method from the guess, then a cube around its end."""
         formula, reach = self.function(function), Fraction(radius)
-        centre = [Fraction(x) for x in guess]
-        for _ in range(8):
+        centre, places = [Fraction(x) for x in guess], 2 ** (bits - 13)
+        for _ in range(_STEPS):
             matrix = _inverse_at(formula, centre)
-            defect = [v.mid for v in values(formula, [Interval(x) for x in centre])]
+            points = [Interval(x, precision=bits) for x in centre]
+            defect = [v.mid for v in values(formula, points)]
             moved = [x - dot(row, defect) for x, row in zip(centre, matrix, strict=True)]
-            centre = [_rounded(x) for x in moved]
+            last, centre = centre, [_rounded(x, places) for x in moved]
+            if centre == last:
+                break
         unit = reach / 100
         box = tuple(
             (round((x - reach) / unit) * unit, round((x + reach) / unit) * unit) for x in centre
         )
+        _krawczyk(formula, box, centre, matrix, bits)
         witness = {"function": function, "box": written(box), "centre": texts(centre)}
         return self.add("unique-zero", {**witness, "matrix": [texts(row) for row in matrix]})
+
+
+def _krawczyk(
+    formula: Formulas,
+    box: Box,
+    centre: Sequence[Fraction],
+    matrix: Sequence[Sequence[Fraction]],
+    bits: int,
+) -> None:
+    """Raise Undecided unless m - C F(m) + (1 - C F'(X)) (X - m) lies inside X."""
+    x = [Interval(*side, precision=bits) for side in box]
+    middle = [Interval(m, precision=bits) for m in centre]
+    defect, slopes = values(formula, middle), jacobian(formula, x)
+    for i, (row, side) in enumerate(zip(matrix, x, strict=True)):
+        rest = [
+            int(i == j) - dot(row, column) for j, column in enumerate(zip(*slopes, strict=True))
+        ]
+        moved = [a - m for a, m in zip(x, middle, strict=True)]
+        image = middle[i] - dot(row, defect) + dot(rest, moved)
+        if not (side.inf < image.inf and image.sup < side.sup):
+            raise Undecided("whether there is exactly one zero near the guess")
 
 
 def _sides(box: Named) -> dict[str, Range]:
@@ -189,8 +255,8 @@ def _sides(box: Named) -> dict[str, Range]:
     return dict(zip(sorted(box), exact([box[name] for name in sorted(box)]), strict=True))
 
 
-def _rounded(value: Fraction) -> Fraction:
-    return Fraction(round(value * _PLACES), _PLACES)
+def _rounded(value: Fraction, places: int = _PLACES) -> Fraction:
+    return Fraction(round(value * places), places)
 
 
 def _inverse_at(formula: Formulas, point: Sequence[Fraction]) -> list[list[Fraction]]:

@@ -1,32 +1,41 @@
 """Claims about formulas: find the proof of whatever they follow from.
 
-Equalities and power series are found with sympy,
-values with the package `intervals`; the checker derives each again by exact normal forms and
-enclosures of its own.
+Equalities, power series and expressions for unknowns are found with sympy, values with the package
+`intervals`; the checker derives each again by exact normal forms and enclosures of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
-from intervals import Interval, decimal_bounds
+from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods import derive
 from proofs.methods.formulas import Tree, values
-from proofs.methods.lemmas import bounds_of
+from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
 from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.formulas import Asked, DerivedRow, Equal, Lemma, Value
+from proofs.trusted.paper.formulas import (
+    Asked,
+    DerivedRow,
+    Equal,
+    Lemma,
+    Unknowns,
+    Value,
+)
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
+Solvers = Mapping[Unknowns, Callable[[Unknowns], dict[str, str]]]  # expressions by sympy
 
 
 def enclose(formula: str, digits: int, **point: Fraction) -> Range:
@@ -47,6 +56,7 @@ class Steps:
     """The steps of a certificate about formulas, each with what it proves, once."""
 
     digits: int
+    solvers: Solvers = field(default_factory=dict)
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     names: dict[Lemma | Asked, tuple[str, Conclusion]] = field(default_factory=dict)
 
@@ -55,19 +65,22 @@ class Steps:
         if wanted not in self.names:
             if isinstance(wanted, Asked):
                 self._value(wanted)
+            elif isinstance(wanted, Unknowns):
+                self._solution(wanted)
             elif isinstance(wanted, Equal):
                 if derive.equal(wanted.left, wanted.right):
-                    sides = {"left": wanted.left, "right": wanted.right}
-                    self._add(wanted, wanted, "formula-equal", sides)
+                    self._add(wanted, wanted, "formula-equal", witness_of(wanted))
             elif derive.begins(wanted.function, wanted.variable, wanted.coefficients):
-                witness = {
-                    "function": wanted.function,
-                    "variable": wanted.variable,
-                    "coefficients": list(wanted.coefficients),
-                    "nonzero": list(wanted.nonzero),
-                }
-                self._add(wanted, wanted, "formula-series", witness)
+                self._add(wanted, wanted, "formula-series", witness_of(wanted))
         return self.names.get(wanted)
+
+    def _solution(self, wanted: Unknowns) -> None:
+        try:
+            expressions = self.solvers[wanted](wanted)
+        except Undecided:
+            return
+        found = Expressions(tuple(expressions.items()), wanted.lemmas)
+        self._add(wanted, found, "formula-solution", solution_witness(found))
 
     def _value(self, asked: Asked) -> None:
         tree: Tree = None
@@ -100,11 +113,12 @@ def prove_rows(
     claims: Sequence[str],
     *,
     digits: int = 30,
+    solvers: Solvers = MappingProxyType({}),
     tell: Tell = lambda stage: None,
 ) -> Evidence:
     """Prove what the claims asked for follow from, each lemma once, whatever the parameters."""
     del of
-    steps, evidence = Steps(digits), Evidence()
+    steps, evidence = Steps(digits, solvers), Evidence()
     for row in rows:
         if row.id in claims and isinstance(row, DerivedRow):
             tell(f"formulas of {row.id}")

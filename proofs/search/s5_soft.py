@@ -2,9 +2,96 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
+from types import MappingProxyType
+from typing import Any
 
+from proofs.methods import derive
+from proofs.methods.bifurcation.maps import Map
+from proofs.methods.bifurcation.normal_forms import NormalForm
+from proofs.methods.bifurcation.solving import coefficients, solve
 from proofs.search.derivations import prove_rows
-from proofs.trusted.paper.s5_soft import soft, stability
+from proofs.trusted.paper.formulas import Unknowns
+from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 
-prove = partial(prove_rows, (*soft.ROWS, *stability.ROWS))
+_LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
+_STIFF = Map(("x", "lam"), tuple(f"at({each}, {near.STIFF_HERE})" for each in near.STIFF))
+
+
+def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
+    """Solve equations at x = 0 for names, of which there is one solution."""
+    (found,) = solve([derive.read(f"at({each}, x=0)") for each in texts], names)
+    return {"x": derive.read("0"), **found}
+
+
+def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
+    return {name: derive.write(found[name]) for name in wanted.names}
+
+
+def _point(wanted: Unknowns, *, of: Map) -> dict[str, str]:
+    """Solve for the fixed point of a map and its Jacobian, the last four names."""
+    found = _at_origin(*of.fixed, names=("lam", "b"))
+    entries = zip(wanted.names[-4:], of.jacobian_at(found), strict=True)
+    return _written(wanted, found | dict(entries))
+
+
+def _flip(wanted: Unknowns) -> dict[str, str]:
+    """Solve for the flip of the limit map, and its centre manifold."""
+    texts = (*_LIMIT.map.fixed, _LIMIT.condition())
+    point = _at_origin(*texts, names=("lam", "b", "a"))
+    return _written(wanted, coefficients(_LIMIT, point, "a"))
+
+
+def _cycle(wanted: Unknowns) -> dict[str, str]:
+    """Solve for orbits of period 2 near the flip, order by order."""
+    import sympy
+
+    h, sides = sympy.Symbol("h"), [derive.read(each) for each in doubling.SIDES]
+    known: dict[Any, Any] = {}
+    for order, names in enumerate(("b", "a l_1", "b_2 l_2", "a_2 l_3")):
+        rates = [side.diff(h, order).subs(h, 0).subs(known) for side in sides]
+        solved = sympy.solve(rates, sympy.symbols(names), dict=True)[0]
+        known = {x: value.subs(solved) for x, value in known.items()} | solved
+    return {name: derive.write(derive.simplest(known[sympy.Symbol(name)])) for name in wanted.names}
+
+
+def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
+    """Solve for the jet of the plastic map, and the derivatives of its second iterate."""
+    import sympy
+
+    h, r = sympy.symbols("h r")
+    terms = (h, h**2, h**3, r, r * h)
+    unknowns = [sympy.Symbol(name) for name in wanted.names[:5]]
+    image = slope * h + sum(s * x for s, x in zip(unknowns[1:], terms[1:], strict=True))
+    side = derive.read(f"at({near.LOCAL_PLASTIC}, a={height}, x=h)").subs("x1", image)
+    known = {unknowns[0]: sympy.Integer(slope)}
+    for unknown, term in zip(unknowns[1:], terms[1:], strict=True):
+        rate = side.diff(*_by(term)).subs({h: 0, r: 0}).subs(known)
+        known[unknown] = derive.simplest(sympy.solve(rate, unknown)[0])
+    once = image.subs(known)
+    twice = once.subs(h, once)
+    rates = [twice.diff(*_by(x)).subs({h: 0, r: 0}) for x in (r, h**2, h * r, h**3)]
+    found = [known[unknown] for unknown in unknowns] + [derive.simplest(x) for x in rates]
+    return _written(wanted, dict(zip(wanted.names, found, strict=True)))
+
+
+def _by(term: Any) -> list[Any]:
+    """Return the variables of a monomial, each as often as it occurs."""
+    return [x for x, n in sorted(term.as_powers_dict().items(), key=str) for _ in range(n)]
+
+
+prove = partial(
+    prove_rows,
+    (*soft.ROWS, *stability.ROWS),
+    solvers=MappingProxyType(
+        {
+            near.POINT: partial(_point, of=_LIMIT.map),
+            near.STIFF_POINT: partial(_point, of=_STIFF),
+            near.FLIP: _flip,
+            doubling.CYCLE: _cycle,
+            near.JET: partial(_jet, height=4, slope=-1),
+            near.PRINTED_JET: partial(_jet, height=2, slope=0),
+        }
+    ),
+)

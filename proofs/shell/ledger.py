@@ -19,12 +19,12 @@ from proofs.shell.cli import Parser, counting, heard, progress
 from proofs.shell.counting import Counts, show
 from proofs.shell.entry import workers
 from proofs.shell.files import refusing, write_files, write_target, writing
-from proofs.shell.groups import FILES, Made, produce, wanted
+from proofs.shell.groups import FILES, Made, produce, row_of, wanted
 from proofs.shell.screen import Decided, say, show_verdicts
 from proofs.trusted.certificate import LEDGER, Malformed, read, render
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 CLAIMS = tuple(
@@ -179,7 +179,7 @@ def main(arguments: list[str] | None = None) -> int:
     write_target(parser, options.json, lambda: text)
     if heard(options):
         _print(rows, settled)
-        verdicts = runner.tally(Verdict(row["verdict"]) for row in rows)
+        verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
         say(f"{verdicts} in {perf_counter() - began:.1f} s")
         whole = "index.html" if "index.html" in pages else "ledger.md"
         hint = "" if whole == "index.html" else f"; for a page with formulas: {report.INSTALL}"

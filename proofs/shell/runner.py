@@ -8,21 +8,17 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
-from fractions import Fraction
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from intervals import Undecided
 from proofs.report.figures import FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
-from proofs.shell.cli import Parser, counting, heard, horizon, number, progress, share
+from proofs.shell.cli import Parser, counting, heard, horizon, progress, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -32,49 +28,19 @@ from proofs.shell.files import (
     writing,
 )
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
+from proofs.shell.parameters import HEEDED, add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
-from proofs.trusted.numbers import show
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
 
-Box = tuple[Fraction, Fraction, Fraction]
 REPORTS, RUNS = Path("reports"), Path("runs")  # where the paper's results go, and all others
 PLACES = 30
-_OSCILLATOR, _SETS = ("eta", "nu"), ("left", "right")
-HEEDED = MappingProxyType(  # by which parameters what a certificate says changes
-    {
-        "horseshoe": (*_OSCILLATOR, *_SETS, "interval", "slopes", "epsilon", "velocities"),
-        "foundations": _OSCILLATOR,
-        "nonplastic": (*_OSCILLATOR, *_SETS, "epsilon", "velocities", "reach"),
-        "sets": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
-        "dimension": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
-        "chaos": _OSCILLATOR,
-        "circle": _OSCILLATOR,
-        "persistence": (*_OSCILLATOR, "epsilon"),
-        "single": _OSCILLATOR,
-        "soft": (),
-        "resonance": (),
-        "explore": _OSCILLATOR,
-    }
-)
-_MEANING = {
-    "eta": "frequency ratio",
-    "nu": "amplitude -beta/p",
-    "left": "I0",
-    "right": "I1",
-    "interval": "I (default: from the left end of I0 to the right end of I1)",
-    "slopes": "bounds of f'",
-    "epsilon": "of restitution",
-    "velocities": "range of velocities gamma",
-    "reach": "box around eta, nu, epsilon, less if need be to stay in the model",
-}
-_DERIVED = ("interval", "reach")  # from the other numbers, where they are not given
 EPILOG = """\
 {own}Results go to DIR/{group}.json (the certificate, which is also the machine form) and
 DIR/{group}.md; DIR/MANIFEST.json says which file settles which claim, its digest, and how it was
@@ -89,7 +55,6 @@ examples:
   python -m proofs.{group} --only {first} --digits 40
   python -m proofs.{group} --json - > {group}.json
 """
-_OWN = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
 
 
 def run(
@@ -103,28 +68,14 @@ def run(
 
     With --figure the figures that are drawn from this certificate alone are written, too.
     """
-    claims = [claim for ids in FILES[file].values() for claim in ids]
-    heeded = HEEDED[file]
-    epilog = EPILOG.format(group=file, first=claims[0], own=_OWN if heeded else "")
-    parser = Parser(f"proofs.{file}", description, epilog + examples)
-    add_parameters(parser, heeded)
-    add_outputs(parser, claims)
-    parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
-    parser.set_defaults(figure=False, horizon=None)
-    if file == "horseshoe":
-        longest = "longest flight looked at (default 1000)"
-        parser.add_argument("--horizon", type=horizon, help=longest)
-    if figures := _figures(file):
-        names = ", ".join(f"{figure.name}.svg" for figure in figures)
-        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
-        parser.add_argument("--figure", action="store_true", help=help_text)
+    parser = _parser(file, description, examples)
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
-        parser.error(_refusal(unknown, heeded))
+        parser.error(refusal(unknown, HEEDED[file]))
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     try:
-        of = parameters(options, heeded)
+        of = parameters(options, HEEDED[file])
     except ValueError as error:
         parser.error(str(error))
     asked = wanted(file, of, options.only)
@@ -138,18 +89,29 @@ def run(
     return _run(parser, file, asked, of, options)
 
 
+def _parser(file: str, description: str | None, examples: str) -> Parser:
+    """Return the parser of the command of a certificate."""
+    claims = [claim for ids in FILES[file].values() for claim in ids]
+    exact = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
+    epilog = EPILOG.format(group=file, first=claims[0], own=exact if HEEDED[file] else "")
+    parser = Parser(f"proofs.{file}", description, epilog + examples)
+    add_parameters(parser, HEEDED[file])
+    add_outputs(parser, claims)
+    parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
+    parser.set_defaults(figure=False, horizon=None)
+    if file == "horseshoe":
+        longest = "longest flight looked at (default 1000)"
+        parser.add_argument("--horizon", type=horizon, help=longest)
+    if figures := _figures(file):
+        names = ", ".join(f"{figure.name}.svg" for figure in figures)
+        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
+        parser.add_argument("--figure", action="store_true", help=help_text)
+    return parser
+
+
 def _figures(file: str) -> list[Figure]:
     """Return the figures that are drawn from a certificate alone."""
     return [figure for figure in FIGURES if figure.certificate == file]
-
-
-def _refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
-    """Say why options are not taken: at times as nothing here depends on them."""
-    names = [option.partition("=")[0] for option in unknown]
-    if not any(name.removeprefix("--") in _MEANING for name in names):
-        return f"unrecognized arguments: {' '.join(unknown)}"
-    taken = ", ".join(f"--{name}" for name in heeded) or "no numbers"
-    return f"{names[0]} would change nothing here: what is proved depends on {taken}"
 
 
 def _run(
@@ -176,20 +138,6 @@ def _run(
         write(options.out, file, made)
         write_files(options.out / "figures", drawn)
     return finish(parser, options, made, file, seconds=seconds, counts=counts)
-
-
-def add_parameters(parser: Parser, heeded: Iterable[str]) -> None:
-    """Add the options for those numbers of a statement that are heeded, by default the paper's."""
-    for name in heeded:
-        value, meaning = getattr(PAPER, name), _MEANING[name]
-        several: dict[str, Any] = {}
-        if isinstance(value, tuple):
-            several = {"nargs": len(value), "metavar": ("A", "B", "C")[: len(value)]}
-        if name != "interval":
-            numbers = value if several else (value,)
-            meaning += f" (default {' '.join(map(show, numbers))})"
-        default = None if name in _DERIVED else value
-        parser.add_argument(f"--{name}", type=number, default=default, help=meaning, **several)
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
@@ -227,35 +175,6 @@ def claims_of(file: str) -> set[str]:
     return {claim for ids in FILES[file].values() for claim in ids}
 
 
-def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
-    """Return the statement's numbers; those printed for s_0 go with the printed slopes only."""
-    given = {name: getattr(options, name) for name in heeded}
-    given = {name: tuple(x) if isinstance(x, list) else x for name, x in given.items()}
-    left, right = given.get("left", PAPER.left), given.get("right", PAPER.right)
-    given["interval"] = given.get("interval") or (left[0], right[1])
-    reach = given.pop("reach", None)
-    of = replace(PAPER, **given, reach=None)
-    if of.slopes != PAPER.slopes:
-        of = replace(of, ratios=None, printed_s0=None)
-    return replace(of, reach=_reach(of, reach, "reach" in heeded))
-
-
-def _reach(of: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
-    """Return the box asked for, else the paper's, narrowed where the numbers leave less room.
-
-    Where it is not heeded, there is none rather than a narrower one.
-    """
-    epsilon = of.epsilon or Fraction(0)
-    if given is None:
-        room = of.eta / 2, abs(of.nu) / 2, min(epsilon, (1 - epsilon) / 2)
-        first, second, third = map(min, PAPER.reach or room, room)
-        narrowed = first, second, third
-        return narrowed if is_heeded or narrowed == PAPER.reach else None
-    if given[2] > epsilon:
-        raise ValueError("reach: epsilon must stay in [0, 1)")
-    return given
-
-
 def write(folder: Path, name: str, made: Made) -> None:
     """Write a certificate and its page, and enter it in the manifest."""
     with writing(folder) as put:
@@ -276,7 +195,8 @@ def finish(
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
         print_lines(made.lines, options.digits or PLACES, f"{options.out}/{file}.md")
-        say(f"{tally(line.verdict for line in made.lines)}; proved in {seconds * 1000:.0f} ms")
+        summary = tally((line.verdict, not line.words) for line in made.lines)
+        say(f"{summary}; proved in {seconds * 1000:.0f} ms")
     with counting(options.stats) as checking:
         path = options.out / f"{file}.json"
         accepted = options.no_check or _checked(path, quiet=not heard(options))
@@ -302,12 +222,6 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
         beside = ", ".join(claim for claim, same in gists.items() if same == text)
         say(f"\nTheorem beside {beside}, VERIFIED: {text}")
     say(f"\nall of it: {page}")
-
-
-def tally(verdicts: Iterable[Verdict]) -> str:
-    """Return how many verdicts there are of each kind, in words."""
-    counts = Counter(verdict.value for verdict in verdicts)
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
 
 
 def _checked(path: Path, quiet: bool) -> bool:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
 from proofs.trusted.numbers import show
+from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -20,6 +21,7 @@ class Listed(NamedTuple):
     id: str
     verdict: Verdict
     is_paper: bool  # whether at the paper's own parameters
+    is_own: bool  # whether the claim is the project's, not the paper's
 
 
 _FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
@@ -69,7 +71,7 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
             raise Rejected(f"{made.path}: the command is {command(name, of, ids)!r}")
         for claim in report.claims:
             proved[claim.id] = {"verdict": claim.verdict.value, "statement": claim.statement}
-            listed.append(Listed(claim.id, claim.verdict, of == PAPER))
+            listed.append(Listed(claim.id, claim.verdict, of == PAPER, _is_own(claim.id)))
         _same(claims, proved)
     return _some(listed, files)
 
@@ -95,8 +97,14 @@ def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
         own = dict(proved[name].get(members["id"].string(), {}))
         own.pop("proof", None)
         _same(entry, {**own, "file": name})
-        listed.append(Listed(own["id"], Verdict(own["verdict"]), is_paper=True))
+        own_id = own["id"]
+        listed.append(Listed(own_id, Verdict(own["verdict"]), True, _is_own(own_id)))
     return _some(listed, claims_of)
+
+
+def _is_own(claim: str) -> bool:
+    row = find(claim)
+    return row is not None and row.own
 
 
 def _beside(folder: Path, name: str, reader: Reader) -> str:

@@ -8,6 +8,7 @@ import ast
 import operator
 from fractions import Fraction
 from functools import lru_cache
+from types import SimpleNamespace
 
 import flint
 
@@ -68,7 +69,8 @@ def _called(name, inner, others, places):
 def _derivative(value, name):
     def central(env):
         step = flint.arb(2) ** (_DEEP_STEP if flint.ctx.prec > BITS else STEP)
-        up, down = ({**env, name: env[name] + sign * step} for sign in (1, -1))
+        here = env.get(name, flint.arb(0))  # the formula may be without it
+        up, down = ({**env, name: here + sign * step} for sign in (1, -1))
         return (value(up) - value(down)) / (2 * step)
 
     return central
@@ -146,6 +148,23 @@ def value(view, rng):
     return []
 
 
+def expressions(view, rng):
+    """Each lemma holds with the expressions in the place of their names."""
+    given = ", ".join(f"{name}={text}" for name, text in view.expressions)
+    told = []
+    for lemma in view.lemmas:
+        put = {
+            field: tuple(f"at({x}, {given})" for x in old)
+            if isinstance(old, tuple)
+            else f"at({old}, {given})"
+            for field, old in vars(lemma).items()
+            if field not in ("kind", "variable")
+        }
+        moved = SimpleNamespace(**{**vars(lemma), **put})
+        told += (equal if lemma.kind == "Equal" else series)(moved, rng)
+    return told
+
+
 def box_points(sides, rng, count):
     """The two extreme corners of a box, and random points."""
     for k in range(count):
@@ -162,4 +181,10 @@ def theorem(view, rng):
     return [] if view.text else ["no text"]
 
 
-JUDGES = {"Equal": equal, "Series": series, "Value": value, "Theorem": theorem}
+JUDGES = {
+    "Equal": equal,
+    "Series": series,
+    "Expressions": expressions,
+    "Value": value,
+    "Theorem": theorem,
+}

@@ -218,6 +218,12 @@ FALSE = {
         put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
         put("ends", lambda old: old[:2]),
     ],
+    "BelowWindows": [
+        put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
+        put("ends", lambda old: old[:2]),
+        put("late", lambda old: (old[0], off(old[1]))),
+        put("late", lambda old: (off(old[0]), off(old[1]))),
+    ],
     "NuWindows": [_window, put("below", ())],
     "Rebound": [offs("phase"), offs("velocity"), _derivative, put("turns", lambda old: old + 1)],
     "RectangleMap": [offs("left"), offs("right"), offs("velocity"), _derivative],
@@ -243,6 +249,10 @@ FALSE = {
         put("left", lambda old: f"2*({old}) + 1"),
     ],
     "Series": [put("coefficients", lambda old: (*old[:-1], f"({old[-1]}) + 1/1000"))],
+    "Expressions": [
+        put("expressions", lambda old: ((old[0][0], f"({old[0][1]}) + 1/1000"), *old[1:])),
+        put("expressions", lambda old: (*old[:-1], (old[-1][0], f"2*({old[-1][1]}) + 1"))),
+    ],
     "Value": [offs("bounds")],
     "Zero": [
         offs("bracket"),
@@ -321,7 +331,7 @@ WRONG = [
     ("H17", {"ratios": (F(1, 2), F(3, 5))}, "REFUTED"),
     ("G1", {"eta": F(1, 10), "nu": F(-1, 100)}, "VERIFIED"),
     ("G2", {"nu": F("-0.3")}, "CONDITIONAL"),
-    ("G5", {}, "VERIFIED"),
+    ("G11", {}, "VERIFIED"),
     ("N1", {}, "VERIFIED"),
     ("N2", {"left": (F(2), F("2.1")), "right": (F("2.2"), F("2.3"))}, "VERIFIED"),
     ("X1", {}, "VERIFIED"),

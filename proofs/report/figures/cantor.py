@@ -82,7 +82,7 @@ def _levels(
 FIGURE = Figure(
     "figure-3",
     "Figure 3: the construction of the invariant set",
-    ("H9", "H13"),
+    ("H13", "H9"),
     "dimension",
     "The phases whose first n images stay in I, by the word of 0 and 1 that says in which of I0 "
     "and I1. Grey and blue: exact. Orange: located in floating point.",

@@ -12,7 +12,6 @@ from proofs.report.figures.style import style, svg_of
 from proofs.trusted.certificate import read
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.paper import find
 from proofs.trusted.verify import premises
 
 if TYPE_CHECKING:
@@ -27,8 +26,9 @@ class Figure:
     """A figure beside one of the paper's.
 
     name: of its file, without ".svg". claims: the rows that it belongs to. certificate: the one
-    that it is drawn from. shows: how to read it. Filled shapes and thick lines are what the
-    certificate proves; dots and thin lines are computed in floating point and prove nothing.
+    that it is drawn from. shows: how to read it; what it shows is said by the claims. Filled shapes
+    and thick lines are what the certificate proves; dots and thin lines are floating point, which
+    proves nothing.
     """
 
     name: str
@@ -37,17 +37,6 @@ class Figure:
     certificate: str
     shows: str
     plot: Callable[[Context], Drawing]
-
-    def caption(self, documents: Documents) -> str:
-        """Return how to read the figure, and what the certificate makes of its claims."""
-        proved, told = documents[self.certificate], dict[str, list[str]]()
-        for claim in self.claims:
-            row = find(claim)
-            if row is not None:
-                decision = row.decide(proved.of, list(proved.known.values()))
-                named = f"{claim} {decision.verdict.value}"
-                told.setdefault(decision.why, []).append(named)
-        return " ".join([self.shows, *(f"{', '.join(ids)}: {why}." for why, ids in told.items())])
 
     def svg(self, documents: Documents) -> str:
         """Return the figure as SVG, the same text for the same certificate.

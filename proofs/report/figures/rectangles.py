@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
-from proofs.motion.simulate import next_impact
-from proofs.motion.system import System
 from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sheet
-from proofs.trusted.equations import arrival, clock, closing, launch, launch_with_restitution
+from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.paper.s33_restitution.words import GoldenMean
 from proofs.trusted.parameters import Place
 
@@ -59,22 +56,21 @@ def images(proved: Context, at: Place, phases: Range, velocities: Range) -> list
 
 def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
     """Draw V1 and V2, boxes around their images, and images of their sides in floating point."""
-    system, epsilon = System(at.eta[0], at.nu[0]), float((at.epsilon or (0, 0))[0])
     points = []
     for index, (phases, light, dark) in enumerate(
         ((strips.left, "#A6CDE8", BLUE), (strips.right, "#F2BE97", RED)), start=1
     ):
         parts = images(proved, at, phases, strips.velocities)
         whole: list[tuple[Range, Range]] = []
-        sides: list[tuple[Range, Range]] = []
+        edges: list[tuple[Range, Range]] = []
         for part in parts:
-            boxes = sides if part.phases[0] in phases and part.phases[1] in phases else whole
+            boxes = edges if part.phases[0] in phases and part.phases[1] in phases else whole
             boxes.append((part.phase, part.velocity))
         proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
         label = "those of its left and right sides in here, proved"
-        proved_boxes(axes, sides, dark, label, lw=0)
+        proved_boxes(axes, edges, dark, label, lw=0)
         _outline(axes, phases, strips.velocities, f"V{index}")
-        points += _boundary(system, epsilon, phases, strips.velocities)
+        points += _boundary(at, phases, strips.velocities)
     dots(axes, points, "images of the sides, sampled", 0.9)
 
 
@@ -86,33 +82,23 @@ def _outline(axes: Axes, phases: Range, velocities: Range, name: str) -> None:
     axes.text((left + right) / 2, high + 0.01, name, ha="center", va="bottom")
 
 
-def _boundary(
-    system: System, epsilon: float, phases: Range, velocities: Range
-) -> list[tuple[float, float]]:
+def _boundary(at: Place, phases: Range, velocities: Range) -> list[tuple[float, float]]:
     """Return the images of points on the sides of a rectangle, in floating point."""
     (left, right), (low, high) = (tuple(map(float, ends)) for ends in (phases, velocities))
-    sides: Sequence[tuple[float, float, float, float]] = (
+    edges: Sequence[tuple[float, float, float, float]] = (
         (left, low, right, low),
         (left, high, right, high),
         (left, low, left, high),
         (right, low, right, high),
     )
-    return [
-        _image(system, epsilon, a + (c - a) * k / _EDGE, b + (d - b) * k / _EDGE)
-        for a, b, c, d in sides
+    states = [
+        (a + (c - a) * k / _EDGE, b + (d - b) * k / _EDGE)
+        for a, b, c, d in edges
         for k in range(_EDGE + 1)
     ]
-
-
-def _image(system: System, epsilon: float, phase: float, gamma: float) -> tuple[float, float]:
-    eta, nu = float(system.eta), float(system.nu)
-    plastic = launch(system.side, eta, nu, phase)
-    kick = epsilon * system.side * closing(plastic, gamma)
-    found = next_impact(system, phase, kick, 1000.0)
-    if found is None:
-        raise Undecided("a sampled state has no next impact")
-    start = launch_with_restitution(system.side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
-    return (phase + found[0]) % math.tau, arrival(start, clock(eta, found[0]))[1]
+    eta, nu, epsilon = (float(low) for low, _ in sides(at))
+    after = (state_after(eta, nu, epsilon, state) for state in states)
+    return [image for image in after if image is not None]
 
 
 FIGURE = Figure(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from proofs.motion.simulate import transients
+from proofs.motion.simulate import INITIAL_STATES, TURNS, transients
 from proofs.motion.system import System
 from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.style import BLACK, PROVED, RED, sheet
@@ -43,6 +43,7 @@ FIGURE = Figure(
     "Section 3.4: transients against the coefficient of restitution",
     ("G7", "G8"),
     "persistence",
-    "Points: 500 random impacts in floating point, followed for at most 200 turns of the table.",
+    f"Points: {INITIAL_STATES} random impacts in floating point; a motion that does not come to "
+    f"rest in {TURNS} turns of the table is counted as {TURNS}.",
     plot,
 )

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
 from proofs.report.figures.figure import Figure, all_of
-from proofs.report.figures.style import BLACK, BLUE, ORANGE, PROVED, RED, sheet
+from proofs.report.figures.style import BLACK, BLUE, GREEN, ORANGE, PROVED, PURPLE, RED, sheet
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, rational
 from proofs.trusted.kernel.context import Context
@@ -17,6 +18,7 @@ from proofs.trusted.kernel.values import Value
 from proofs.trusted.paper import find
 from proofs.trusted.paper.formulas import Asked, DerivedRow
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import orbits
 from proofs.trusted.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -25,31 +27,52 @@ if TYPE_CHECKING:
 
 _PERIODS = 1  # m
 _HIGHEST = 9.0  # rho
-_POINTS = 100
+_POINTS = 60
 _BITS = 64
+_UNUSED = Fraction(0)
+_LATEST = Fraction("1.57")  # of u, a little below pi/2
 _FOCUS = ("2*(1 - epsilon)**2/(1 + epsilon)", "2*(1 + epsilon)")  # alpha where the kind changes
 
 
-def curve(formula: str) -> list[float]:
-    """Return the values of a formula in epsilon and m at `_POINTS` epsilons; nan where it has none.
+def values(formula: str, points: Sequence[Mapping[str, Fraction]]) -> list[float]:
+    """Return the values of a formula; nan where it has none.
 
     It is evaluated by the checker's arithmetic; what is returned is inside its bounds.
     """
-    read = read_formulas(Reader(formula))
-    values = []
-    for epsilon in _epsilons():
-        inputs = {"epsilon": epsilon, "m": Fraction(_PERIODS)}
-        point = [rational(inputs[name], _BITS) for name in read.variables]
+    read, found = read_formulas(Reader(formula)), []
+    for inputs in points:
+        used = [inputs.get(name, _UNUSED) for name in read.variables]  # others are replaced
+        point = [rational(value, _BITS) for value in used]
         try:
             low, high = read.values(point)[0].range
-            values.append(float(low + high) / 2)
+            found.append(float(low + high) / 2)
         except Unproved:
-            values.append(math.nan)
-    return values
+            found.append(math.nan)
+    return found
+
+
+def curve(formula: str) -> list[float]:
+    """Return the values of a formula in epsilon and m at `_POINTS` epsilons."""
+    m = Fraction(_PERIODS)
+    return values(formula, [{"epsilon": epsilon, "m": m} for epsilon in _epsilons()])
 
 
 def _epsilons() -> list[Fraction]:
     return [Fraction(k, _POINTS) for k in range(_POINTS)]
+
+
+def grazing() -> list[tuple[float, float, float]]:
+    """Return epsilon, h and the rho at which the flight of a fixed point touches the table.
+
+    For one with rho sin psi = h, rho cos psi = rho_SN: at time 2 u of the flight.
+    """
+    points = [{"u": Fraction(k * k, _POINTS**2) * _LATEST} for k in range(1, _POINTS + 1)]
+    length = f"d={_PERIODS}*pi"
+    epsilons = values(f"at({orbits.RESTITUTION}, {length})", points)
+    heights = values(f"at({orbits.HEIGHT}, {length})", points)
+    born = [math.tau * _PERIODS * (1 - epsilon) / (1 + epsilon) for epsilon in epsilons]
+    rows = zip(epsilons, heights, born, strict=True)
+    return [(epsilon, h, math.hypot(h, x)) for epsilon, h, x in rows]
 
 
 def witnesses(proved: Context) -> list[tuple[float, float]]:
@@ -67,12 +90,14 @@ def witnesses(proved: Context) -> list[tuple[float, float]]:
 
 def plot(proved: Context) -> Drawing:
     """Draw the regions that are proved, and the printed bifurcation values."""
-    row = find("S15")
-    decision = None if row is None else row.decide(proved.of, list(proved.known.values()))
-    if decision is None or decision.verdict is Verdict.UNDECIDED:
-        raise Undecided("the stability of the fixed points is not proved")
-    drawing, axes = sheet(4.2)
+    for claim in ("S15", "S18"):  # stability, and which of them are orbits
+        row = find(claim)
+        decision = None if row is None else row.decide(proved.of, list(proved.known.values()))
+        if decision is None or decision.verdict is Verdict.UNDECIDED:
+            raise Undecided(f"{claim} is not decided")
+    drawing, axes = sheet(4.4)
     _regions(axes)
+    _orbits(axes)
     epsilons = [float(each) for each in _epsilons()]
     axes.plot(epsilons, curve(eq.RHO_M), "--", color=RED, label=r"printed $\rho_m$, refuted")
     printed = [rho if rho < 3 * _HIGHEST else math.nan for rho in curve(eq.RHO_MF)]
@@ -89,7 +114,7 @@ def plot(proved: Context) -> Drawing:
 def _regions(axes: Axes) -> None:
     """Fill what the fixed point psi = arccos(rho_SN/rho) is; the other one is a saddle."""
     epsilons = [float(each) for each in _epsilons()]
-    born, flip = curve(eq.RHO_SN), curve(eq.RHO_FLIP)
+    born, flip = curve(eq.RHO_SN), curve(eq.flip(eq.ALPHA_FLIP))
     first, last = (curve(eq.flip(alpha)) for alpha in _FOCUS)
     top = [_HIGHEST] * len(epsilons)
     regions = (
@@ -108,13 +133,26 @@ def _regions(axes: Axes) -> None:
     axes.plot(epsilons, flip, color=ORANGE, lw=1.2, gid=PROVED, label=label)
 
 
+def _orbits(axes: Axes) -> None:
+    """Draw where the flights of fixed points graze: beyond, they are no orbits."""
+    rows = grazing()
+    for colour, kept, label in (
+        (GREEN, [row for row in rows if row[1] >= 0], r"above it $\psi$ is an orbit, proved"),
+        (PURPLE, [row for row in rows if row[1] <= 0], r"below it $-\psi$ is an orbit, proved"),
+    ):
+        x, y = [epsilon for epsilon, _, _ in kept], [rho for _, _, rho in kept]
+        axes.plot(x, y, color=colour, lw=1.6, gid=PROVED, label=label)
+
+
 FIGURE = Figure(
     "section-5",
-    "Section 5: stability of the fixed points as the spring becomes soft",
+    "Section 5: stability of the fixed points as the spring becomes soft, and which are orbits",
     ("S15", "S16", "S17", "S18"),
     "soft",
     "The colours say what the fixed point psi = arccos(rho_SN/rho) of the limit map is; the other "
-    "one, -psi, is a saddle of the first kind wherever there is one. Curves are the formulas of "
-    "the theorem and of the paper.",
+    "one, -psi, is a saddle of the first kind wherever there is one. On the green and the purple "
+    "curve the flight of a fixed point grazes the table: psi is an orbit but from rho_SN up to the "
+    "green curve, -psi only from rho_SN up to the purple one. Curves are the formulas of the "
+    "theorems and of the paper.",
     plot,
 )

@@ -41,8 +41,8 @@ _STYLE: dict[Any, Any] = {
 _SHORT = 1e-6  # matplotlib leaves out strokes without length
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
 _PATH = re.compile(r' (?:d|x|y|points)="[^"]*"')
-_ID = re.compile(r' id="([^"]+)"')
-_REFERENCE = re.compile(r'( id="|="#|url\(#)')
+_MADE = re.compile(r' id="([^"]+)"')
+_USED = re.compile(r'(?<=="#)[^"]+|(?<=url\(#)[^)]+')
 
 
 @contextmanager
@@ -113,8 +113,8 @@ def dots(
 def svg_of(drawing: Drawing, name: str, title: str) -> str:
     """Return a drawing as SVG without date and metadata, and close it.
 
-    Coordinates have two places, a hundredth of a point. Names are those that something refers to,
-    beginning with the figure's, so that a page may hold several figures.
+    Coordinates have two places, a hundredth of a point. Names are those that something refers to;
+    they begin with the figure's, so that a page may hold several figures.
     """
     from matplotlib import pyplot as plt
 
@@ -123,9 +123,10 @@ def svg_of(drawing: Drawing, name: str, title: str) -> str:
     drawing.savefig(file, format="svg", metadata={**none, "Title": title})
     plt.close(drawing)
     text = _PATH.sub(lambda path: _NUMBER.sub(_two_places, path[0]), file.getvalue())
-    text = _ID.sub(lambda id_: id_[0] if f"#{id_[1]}" in text else "", text)
-    text = _REFERENCE.sub(rf"\1{name}-", text)
-    return "\n".join(line.rstrip() for line in text.splitlines()) + "\n"
+    short = {long: f"{name}-{k}" for k, long in enumerate(dict.fromkeys(_USED.findall(text)))}
+    text = _MADE.sub(lambda made: f' id="{short[made[1]]}"' if made[1] in short else "", text)
+    text = _USED.sub(lambda used: short[used[0]], text)
+    return "\n".join(map(str.strip, text.splitlines())) + "\n"
 
 
 def _two_places(number: re.Match[str]) -> str:

@@ -38,12 +38,16 @@ def _draw(axes: Axes, proved: Context) -> None:
     arc, under = absorption.arc, (_UNDER, 0)
     sticks = (arc.start[1], arc.phase[0])
     proved_boxes(axes, [(sticks, under)], ORANGE, "sticks at once, proved", lw=0)
-    bars = [
-        (part, (_UNDER, count)) for phases, count in absorption.within for part in on_circle(phases)
-    ]
-    proved_boxes(axes, bars, BLUE, "within n impacts, proved", lw=0)
+    proved_boxes(axes, bars(absorption), BLUE, "within n impacts, proved", lw=0)
     never = [(step.phases, (_UNDER, 12)) for step in all_of(proved, NeverImpacts)]
     proved_boxes(axes, never, RED, "no impact ever, proved", lw=0.6)
+
+
+def bars(absorption: Absorption) -> list[tuple[tuple[float, float], tuple[float, int]]]:
+    """Return the bars: phases in [0, 2 pi), and up to how many impacts."""
+    return [
+        (part, (_UNDER, count)) for phases, count in absorption.within for part in on_circle(phases)
+    ]
 
 
 FIGURE = Figure(

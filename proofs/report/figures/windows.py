@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from proofs.report.figures.figure import Figure, the
 from proofs.report.figures.style import BLUE, GREY, PROVED, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
+from proofs.trusted.paper.s4_single.below import BelowWindows
+from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +32,8 @@ def solution(eta: float, nu: float, n: int) -> tuple[float, float]:
     x = math.pi * n * eta
     try:
         theta = math.atan(1 / (math.tan(x) * eta))
-        phase = theta - math.asin(math.cos(theta) / nu)
+        ratio = math.cos(theta) / nu  # of modulus 1 at a saddle-node, but for rounding
+        phase = theta - math.asin(max(-1.0, min(1.0, ratio)) if abs(ratio) < 1 + 1e-9 else ratio)
     except (ValueError, ZeroDivisionError):
         return math.nan, math.nan
     lift = nu * math.sin(phase)
@@ -48,10 +51,11 @@ def _candidates(points: Sequence[tuple[float, float]], n: int) -> list[float]:
     return kept
 
 
-def _between(first: Range, last: Range) -> list[float]:
-    """Return 40 numbers from one enclosed end of a window to the other, all inside it."""
+def _between(first: Range, last: Range, count: int = 40) -> list[float]:
+    """Return numbers from one enclosed end of a window to the other, all inside it."""
     low, high = float(first[1]), float(last[0])
-    return [low + (high - low) * k / 39 for k in range(40)]
+    shares = [k / (count - 1) for k in range(count - 1)]
+    return [low + (high - low) * share for share in (*shares, 1 - 1e-9)]
 
 
 def _window(axes: Axes, x: list[float], y: list[float], label: str) -> None:
@@ -66,24 +70,41 @@ def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = 
 
 
 def plot_a(proved: Context) -> Drawing:
-    """Draw figure 7a: eta on a logarithmic axis."""
-    windows = the(proved, EtaWindows)
-    drawing, axes = sheet(3.6)
-    nu, low = float(windows.nu), float(windows.low)
-    etas = [low * (_WIDEST / low) ** (k / _POINTS) for k in range(_POINTS + 1)]
+    """Draw figure 7a for both signs of nu: eta on a logarithmic axis."""
+    above, below = the(proved, EtaWindows), the(proved, BelowWindows)
+    drawing, both = sheet(5.4, 2, 1, sharex=True)
+    late = [(1, *below.late)]
+    _against_eta(both[0], above.nu, above.low, _numbered(above.ends))
+    _against_eta(both[1], below.nu, below.low, [*_numbered(below.ends), *late])
+    both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(above.low), _WIDEST))
+    handles, labels = both[0].get_legend_handles_labels()
+    drawing.legend(handles, labels, loc="outside lower center", ncols=2)
+    return drawing
+
+
+def _numbered(ends: Iterable[tuple[Range, Range]]) -> list[Window]:
+    return [(n, first, last) for n, (first, last) in enumerate(ends, start=1)]
+
+
+def _against_eta(axes: Axes, nu: Fraction, low: Fraction, windows: Sequence[Window]) -> None:
+    """Draw solutions for a few n, and the stable orbits."""
+    least, amplitude = float(low), float(nu)
+    etas = [least * (_WIDEST / least) ** (k / _POINTS) for k in range(_POINTS + 1)]
     for n, dashes in enumerate(_DASHES, start=1):
-        phases = _candidates([(eta, nu) for eta in etas], n)
+        phases = _candidates([(eta, amplitude) for eta in etas], n)
         axes.plot(etas, phases, color=GREY, ls=dashes, lw=0.6, label=f"{_OTHER}: n = {n}")
-    for n, (flip, stick) in enumerate(windows.ends, start=1):
-        inside = _between(flip, stick)
-        phases = [solution(eta, nu, n)[0] for eta in inside]
-        _window(axes, inside, phases, _STABLE if n == 1 else "_")
+    label = _STABLE
+    for n, first, last in windows:
+        inside = _between(first, last, 40 if n <= _NAMED else 6)
+        phases = [solution(eta, amplitude, n)[0] for eta in inside]
+        _window(axes, inside, phases, label)
+        label = "_"
         if n <= _NAMED:
             _named(axes, inside, phases, str(n), BLUE)
-    axes.set(xlabel=r"$\eta$", ylabel=r"$\phi$ [rad]", xscale="log", xlim=(0.008, _WIDEST))
-    axes.set_title(rf"$\nu$ = {show(windows.nu)}; the numbers are n = 1, ..., {len(windows.ends)}")
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    return drawing
+    axes.set_ylabel(r"$\phi$ [rad]")
+    axes.set_title(
+        rf"$\nu$ = {show(nu)}; the numbers are n = 1, ..., {max(n for n, *_ in windows)}"
+    )
 
 
 def plot_b(proved: Context) -> Drawing:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
@@ -90,12 +90,18 @@ def read_function(name: str, reader: Reader) -> Formulas:
     if not _FUNCTION_NAME.fullmatch(name):
         raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
     variables = tuple(item.string() for item in variables_of.items(1, MAX_VARIABLES))
-    for variable in variables:
+    values = values_of.items(1, _MAX_COMPONENTS)
+    names = {token for value in values for token in _tokens(value) if token[0].isalpha()}
+    bound = sorted(names - _WORDS - {*variables})  # names that are all substituted away
+    for variable in (*variables, *bound):
         if not _VARIABLE.fullmatch(variable) or variable in {*_WORDS, "e"}:
             raise variables_of.fail(f"not a name for a variable: {variable[:30]!r}")
     if len(set(variables)) != len(variables):
         raise variables_of.fail("a variable is named twice")
-    return _read(values_of.items(1, _MAX_COMPONENTS), variables, name)
+    formulas = _read(values, (*variables, *bound), name)
+    if unknown := sorted(formulas.free() - {*variables}):
+        raise values_of.fail(f"unknown variable {unknown[0]!r}")
+    return replace(formulas, variables=variables)
 
 
 def _read(readers: Sequence[Reader], variables: tuple[str, ...], name: str = "") -> Formulas:
@@ -109,20 +115,25 @@ def _read(readers: Sequence[Reader], variables: tuple[str, ...], name: str = "")
     return Formulas(variables, texts, tape, roots, tuple(dict.fromkeys(placer.parts)), name)
 
 
+def spelled(text: str) -> str:
+    """Return a text as it has to be written: its tokens, with the spaces between them."""
+    canonical, before = "", ""
+    for token in _TOKEN.findall(text):
+        between = token in ("+", "-") and (before == ")" or _WORD.fullmatch(before))
+        canonical += f" {token} " if between else ", " if token == "," else token
+        before = token
+    return canonical
+
+
 def _tokens(reader: Reader) -> list[str]:
     """Divide a text into its tokens; they, with the spaces that belong between them, give it."""
     text = reader.string()
     if len(text) > _MAX_LENGTH:
         raise reader.fail(f"a formula has at most {_MAX_LENGTH} characters")
-    tokens = [match[0] for match in _TOKEN.finditer(text)]
+    tokens: list[str] = _TOKEN.findall(text)
     METER.get().spend(5 * len(tokens))
-    canonical, before = "", ""
-    for token in tokens:
-        between = token in ("+", "-") and (before == ")" or _WORD.fullmatch(before))
-        canonical += f" {token} " if between else ", " if token == "," else token
-        before = token
     words = [token for token in tokens if token[0].isalnum()]
-    if canonical != text or not all(map(_WORD.fullmatch, words)):
+    if spelled(text) != text or not all(map(_WORD.fullmatch, words)):
         raise reader.fail(f"not a formula, or not in canonical form: {text[:40]!r}")
     return tokens
 

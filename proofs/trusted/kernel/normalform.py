@@ -218,7 +218,9 @@ class NormalForms:
     ) -> Polynomial:
         """Return exp of sign * argument, or of i times that."""
         powers = [
-            self._generator(Exponential(circular, monomial), sign * value)
+            number((-1) ** int(value))  # exp(i pi n)
+            if circular and monomial == ((self.variables, 1),) and value.denominator == 1
+            else self._generator(Exponential(circular, monomial), sign * value)
             for monomial, value in argument.items()
         ]
         return reduce(self.times, powers, number(1))

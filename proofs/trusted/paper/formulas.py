@@ -10,7 +10,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
+from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import Range, between
 from proofs.trusted.parameters import Parameters
@@ -62,6 +65,44 @@ def differ(printed: str, derived: str, /, **point: str) -> Asked:
     return Asked(f"({printed}) - ({derived})", _point(point), (-1, 1))
 
 
+@dataclass(frozen=True)
+class Unknowns:
+    """What a theorem asks for: expressions in some variables that solve equations for unknowns."""
+
+    names: tuple[str, ...]
+    variables: frozenset[str]
+    lemmas: tuple[Equal | Series, ...]
+
+    def solved(self, found: Found) -> dict[str, str] | None:
+        """Return the expressions, None if none are proved."""
+        for each in found.all(Expressions):
+            texts = dict(each.expressions)
+            if (
+                each.lemmas == self.lemmas
+                and tuple(texts) == self.names
+                and all(read_formulas(Reader(x)).free() <= self.variables for x in texts.values())
+            ):
+                return texts
+        return None
+
+
+def unknowns(
+    names: str, variables: str, *lemmas: Equal | Series, nonzero: tuple[str, ...] = ()
+) -> Unknowns:
+    """Ask for expressions for these names, in these variables, for which the lemmas hold.
+
+    They are to be defined where the formulas `nonzero` are not 0: h times their sum is O(h) there.
+    """
+    parts = tuple(names.split())
+    defined = Series(f"h*({' + '.join(parts)})", "h", ("0",), nonzero)
+    return Unknowns(parts, frozenset(variables.split()), (defined, *lemmas))
+
+
+def spoken(formula: str) -> str:
+    """Write a formula as sentences do."""
+    return formula.replace("**", "^").replace("*", " ")
+
+
 # -- theorems that follow from formulas ------------------------------------------------------------
 
 
@@ -94,7 +135,7 @@ class Theorem(Conclusion):
         return dict(self.reported)
 
 
-Lemma = Equal | Series
+Lemma = Equal | Series | Unknowns
 Need = Lemma | Asked
 
 
@@ -114,15 +155,22 @@ class Derived:
     def prove(self, found: Found) -> Theorem | None:
         """Return the theorem, None if something that it needs is not proved."""
         known = {*found.all(Equal), *found.all(Series)}
-        asked = [need for need in self.needs if isinstance(need, Asked)]
-        if not known.issuperset(need for need in self.needs if need not in asked):
-            return None
-        if any(value.best(found) is None for value in asked):
-            return None
+        expressions: dict[str, str] = {}
+        for need in self.needs:
+            if isinstance(need, Asked):
+                proved = need.best(found) is not None
+            elif isinstance(need, Unknowns):
+                texts = need.solved(found)
+                proved = texts is not None
+                expressions |= {name: spoken(text) for name, text in (texts or {}).items()}
+            else:
+                proved = need in known
+            if not proved:
+                return None
         bounds = [each for value in self.values if (each := value.best(found)) is not None]
         shown = [between(each) for each in bounds]
         reported = tuple(zip(self.reports, bounds, strict=False))
-        return Theorem(self.text(*shown), self.tex, reported)
+        return Theorem(self.text(*shown, **expressions), self.tex, reported)
 
 
 def theorem(

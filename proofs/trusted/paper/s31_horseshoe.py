@@ -251,7 +251,7 @@ ROWS = (
     Row(
         "H4",
         "3.1, Figure 2",
-        "the image lies outside I",
+        "for phi in [1.15, 1.27] is not in [1.11, 1.32]",
         _AT + "f(phi) is outside I = {i} for every phi in {gap}.",
         _gap_escapes,
     ),
@@ -266,7 +266,7 @@ ROWS = (
     Row(
         "H6",
         "3.1",
-        "of length < gamma_2^(-1) |J|",
+        "the length of each of these intervals is less than (1/gamma_2)|J|",
         _AT + "for each closed interval J of positive length in I0 = {i0} or I1 = {i1}, the "
         "preimages of J in I0 and in I1 are shorter than |J| / {lo}.",
         _short_preimages,

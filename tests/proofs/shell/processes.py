@@ -18,6 +18,7 @@ from proofs.__main__ import commands
 ROOT = Path(__file__).parents[3]
 COMMANDS = [*commands(), "__main__"]
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
+UNSET = ("COLUMNS", "NO_COLOR", "PYTHONUNBUFFERED")  # output is buffered, as usual
 QUICK = {  # arguments with which a command prints something soon; another one prints its help
     "__main__": [],
     "chaos": ["--only", "G5"],
@@ -59,7 +60,7 @@ WRITES -= {"impact", "orbits", "period_doubling", "resonance", "single_impact"}
 
 def started(name, arguments, **streams):
     """A process of a command, at the root of the project, in a group of its own."""
-    environment = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR")}
+    environment = {k: v for k, v in os.environ.items() if k not in UNSET}
     return subprocess.Popen(
         [sys.executable, "-m", f"proofs.{name}", *arguments],
         **{"cwd": ROOT, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams},

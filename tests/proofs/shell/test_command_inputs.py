@@ -34,7 +34,7 @@ FILES = [*((command, "--json") for command in BASES), (orbits, "--csv")]
 WORK = {
     impact: "rebound",
     orbits: "horseshoe",
-    period_doubling: "values",
+    period_doubling: "answer_for",
     single_impact: "answer_for",
     resonance: "motion",
 }

@@ -13,7 +13,7 @@ import pytest
 from proofs import __main__ as every
 from proofs import __version__, check, impact, ledger
 from proofs.shell.groups import FILES, produce, wanted
-from proofs.shell.runner import HEEDED
+from proofs.shell.parameters import HEEDED
 from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of

@@ -6,6 +6,7 @@ from fractions import Fraction
 import pytest
 from flint import arb, ctx
 
+from proofs.motion.soft import Springs
 from proofs.period_doubling import main
 
 
@@ -19,10 +20,13 @@ def expected(m, epsilon):
     ctx.prec = 600
     e, c = arb(epsilon.numerator) / epsilon.denominator, 2 * arb.pi() * m
     alpha = 4 * (1 + e**2) / (1 + e)
+    r = (1 - e) / (1 + e)
     found = {
+        "rise": (r * c) ** 2 + 4 * (1 - 2 * r**2 + 3 * r**4) / 3,
         "rho_flip": (alpha**2 + ((1 - e) * c) ** 2).sqrt() / (1 + e),
         "rho_saddle_node": (1 - e) / (1 + e) * c,
         "psi": (alpha / ((1 - e) * c)).atan(),
+        "cubic": (3 * (c * (1 - e**2)) ** 2 + 8 * (1 - e) ** 4 + 64 * e**2) / (48 * (1 - e**4)),
     }
     if epsilon == 0:
         found["f2_psi_rho"] = (4 + (arb.pi() * m) ** 2).sqrt() / 2
@@ -40,15 +44,80 @@ def test_against_arb(capsys, m, epsilon, digits):
         assert arb(low.numerator) / low.denominator < true
         assert true < arb(high.numerator) / high.denominator
         assert 0 < (high - low) * 10**digits <= 10 * abs(low)
-    assert set(found) == {"schema", "m", "epsilon", *expected(m, Fraction(epsilon))}
+    more = {"schema", "m", "epsilon", "k", "q", "saddle_node", "flip", "at"}
+    more |= {"height_least", "rho_graze", "epsilon_least"}
+    assert set(found) == more | set(expected(m, Fraction(epsilon)))
 
 
 def test_by_default_the_plastic_orbit_of_one_period(capsys):
+    """The saddle-node at epsilon = 0 is no orbit: the mass sticks."""
     found = answer(capsys)
-    assert (found["m"], found["epsilon"]) == ("1", "0")
+    assert (found["m"], found["epsilon"], found["k"]) == ("1", "0", "0")
     assert found["rho_flip"]["lower"].startswith("7.448383556474346")
+    assert found["rho_graze"]["lower"].startswith("6.593816618951230")
+    assert (found["saddle_node"]["orbit"], found["flip"]["orbit"]) == (False, True)
     assert main([]) == 0
-    assert "f2_psi_psi_psi  [-31.6088132" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "saddle-node of two fixed points: no orbit (rho sin psi < h: the mass sticks)" in said
+    assert "a supercritical period doubling: an orbit" in said
+    assert "f2_psi_psi_psi  [-31.6088132" in said and "eigenvalue" in said and "J21" in said
+
+
+def near(bounds, value, room=1e-9):
+    return float(bounds["lower"]) - room < value < float(bounds["upper"]) + room
+
+
+@pytest.mark.parametrize(("epsilon", "orbit"), [("0.0204", False), ("0.0205", True)])
+def test_the_saddle_node_is_one_of_orbits_from_epsilon_1_on(capsys, epsilon, orbit):
+    found = answer(capsys, "--epsilon", epsilon)
+    assert found["saddle_node"]["orbit"] is orbit
+    assert near(found["epsilon_least"], 0.02045763242544665)
+
+
+def test_at_the_numbers_of_a_referee(capsys):
+    """epsilon = 1/2, rho = 6: the second fixed point goes through the table, so does no orbit."""
+    (motions,) = answer(capsys, "--epsilon", "1/2", "--rho", "6")["at"].values()
+    assert [(len(each["impacts"]), each["orbit"]) for each in motions] == [
+        (1, True),
+        (1, False),
+        (2, True),
+    ]
+    assert answer(capsys, "--epsilon", "1/2", "--rho", "2")["at"] == {"2": []}
+
+
+def test_springs_of_any_stiffness(capsys):
+    """The flip of S23, the eigenvalues -1 and -epsilon^2; the rise, by an orbit of period 2."""
+    plastic = answer(capsys, "--k", "0.1")
+    assert near(plastic["rho_flip"], 7.91012305614)
+    found = answer(capsys, "--k", "0.1", "--epsilon", "0.3", "--q", "2")
+    for ends, value in zip(found["flip"]["eigenvalues"], (-0.09, -1), strict=True):
+        assert near(ends, value)
+    assert "cubic" not in found and found["flip"]["orbit"] is True
+    springs = Springs(1, Fraction(3, 10), Fraction(1, 10), Fraction(2), 100)
+    rho = springs.double(springs.exact(Fraction(1, 500))).rho  # h = 1/1000
+    rise = (rho.sqr() - springs.flip.rho.sqr()) * 10**6
+    assert near(found["rise"], float(rise.mid), 1e-4)
+    assert main(["--k", "0.1", "--epsilon", "0.3"]) == 0
+    assert "a supercritical period doubling: an orbit" in capsys.readouterr().out
+
+
+def test_the_orbit_of_period_2_is_followed(capsys):
+    found = answer(capsys, "--epsilon", "0.3", "--follow", "--digits", "10")["followed"]
+    rhos = [float(each["rho"]["lower"]) for each in found]
+    assert rhos == sorted(rhos) and len(rhos) > 20
+    assert [each["attracting"] for each in found] == [True] * (len(found) - 1) + [False]
+    assert main(["--follow", "--digits", "10"]) == 0
+    assert "no orbit (the mass sticks after an impact)" in capsys.readouterr().out.split("\n")[-2]
+
+
+def test_what_is_not_decided_is_said(capsys):
+    """Where the mass grazes the table, to 60 digits: null, and status 1."""
+    grazing = answer(capsys, "--epsilon", "0.01", "--digits", "60")["rho_graze"]["lower"]
+    arguments = ["--epsilon", "0.01", "--rho", grazing, "--digits", "5"]
+    assert main([*arguments, "--json", "-"]) == 1
+    (motions,) = json.loads(capsys.readouterr().out)["at"].values()
+    assert [each["orbit"] for each in motions] == [None, False]
+    assert main(arguments) == 1 and "too close to h to tell" in capsys.readouterr().out
 
 
 def test_digits_do_not_cancel(capsys):
@@ -68,6 +137,12 @@ def test_digits_do_not_cancel(capsys):
         (["--m", "x"], "whole number"),
         (["--epsilon", "1"], "epsilon is in [0, 1)"),
         (["--epsilon", "-0.1"], "epsilon is in [0, 1)"),
+        (["--k", "0.5"], "k is in [0, 1/(2 m))"),
+        (["--m", "3", "--k", "1/6"], "k is in [0, 1/(2 m))"),
+        (["--k", "-0.1"], "k is in [0, 1/(2 m))"),
+        (["--q", "1"], "q plays no part"),
+        (["--k", "0.1", "--q", "200"], "k^2 q is less than 2"),
+        (["--rho", "0"], "rho is positive"),
         (["--digits", "0"], "digits"),
     ],
 )

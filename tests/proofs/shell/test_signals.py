@@ -37,9 +37,13 @@ def stopped(name, folder, number, after, everyone=True):
         sleep(after)
         began = monotonic()
         (os.killpg if everyone else os.kill)(process.pid, number)
-        _, err = process.communicate(timeout=20)
-        took = monotonic() - began
-        left = children(process)
+        try:
+            _, err = process.communicate(timeout=20)
+            took = monotonic() - began
+            left = children(process)
+        finally:
+            if children(process):  # a failing test is to leave nothing behind
+                os.killpg(process.pid, signal.SIGKILL)
     return process.returncode, err.decode(), took, left
 
 
@@ -75,6 +79,63 @@ def test_a_signal_at_any_time(name, number, after, tmp_path):
     ended = check_stop(name, tmp_path, number, after)
     assert ended or name not in LENGTHY or after > 0.3
     check_stop(name, tmp_path, number, after, everyone=False)
+
+
+FORKED = """
+import os, signal, sys, time
+from proofs.shell.entry import guarded
+
+def work():
+    child = os.fork()
+    if child == 0:
+        time.sleep(20)
+    time.sleep(0.2)
+    os.kill(child, signal.SIGINT)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) - 100
+
+sys.exit(guarded("it", work))
+"""
+
+
+def test_a_forked_process_ends_silently():
+    """Also before it has set up anything of its own."""
+    done = subprocess.run([sys.executable, "-c", FORKED], capture_output=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (30, b"", b"")
+
+
+SWALLOWED = """
+import os, signal, sys, time
+from proofs.shell.entry import guarded
+
+class Deaf:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.01)
+
+def work():
+    if sys.argv[1] == "finalised":
+        Deaf()
+    else:
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+        except KeyboardInterrupt:
+            raise ImportError("as C code makes of it")
+    time.sleep(5)
+    return 0
+
+sys.exit(guarded("it", work))
+"""
+
+
+@pytest.mark.parametrize(
+    "where, ended",
+    [("finalised", (130, b"it: interrupted\n")), ("in C", (143, b"it: terminated\n"))],
+)
+def test_a_signal_is_not_lost(where, ended):
+    done = subprocess.run(
+        [sys.executable, "-c", SWALLOWED, where], capture_output=True, check=False
+    )
+    assert (done.returncode, done.stderr) == ended
 
 
 def test_what_is_ignored_stays_ignored():

@@ -100,27 +100,25 @@ FACTORS28 = (
 
 LAUNCH = "(-epsilon*lam + (1 + epsilon)*rho*cos(psi))"
 FLIGHT = "(psi1 - psi + 2*pi*m)"
-MAP = f"rho*sin(psi) + {LAUNCH}*{FLIGHT} - {FLIGHT}**2 - rho*sin(psi1)"  # = 0 gives psi1
-VELOCITY = f"{LAUNCH} - 2*{FLIGHT}"  # lambda_(k+1)
+
+
+def limit(sine: str, launch: str, flight: str, landing: str) -> tuple[str, str]:
+    """Write what is 0 at the next impact, and lambda_(k+1); sine, landing: rho sin psi there."""
+    return f"{sine} + {launch}*{flight} - {flight}**2 - {landing}", f"{launch} - 2*{flight}"
+
+
+MAP, VELOCITY = limit("rho*sin(psi)", LAUNCH, FLIGHT, "rho*sin(psi1)")  # MAP = 0 gives psi1
 PLASTIC = f"rho*sin(psi) + rho*cos(psi)*{FLIGHT} - {FLIGHT}**2 - rho*sin(psi1)"
 SCALES = "beta=rho*g/(2*omega**2), v=lam*g/(2*omega)"
 
 # The fixed points, by their phase: rho and alpha = (1 + epsilon) rho sin psi.
 RHO = "(1 - epsilon)*2*pi*m/((1 + epsilon)*cos(psi))"
 ALPHA = "(1 - epsilon)*2*pi*m*sin(psi)/cos(psi)"
-FIXED = f"psi1=psi, lam=-2*pi*m, rho={RHO}"
-
 JACOBIAN = (
     "1 - (1 + epsilon)/2*alpha",
     "-epsilon*(1 + epsilon)/2",
     "epsilon*alpha",
     "epsilon**2",
-)
-TURN = (f"(-D({MAP}, psi)/D({MAP}, psi1))", f"(-D({MAP}, lam)/D({MAP}, psi1))")  # of psi1
-DERIVED_JACOBIAN = (
-    *TURN,
-    f"(D({VELOCITY}, psi) + D({VELOCITY}, psi1)*{TURN[0]})",
-    f"(D({VELOCITY}, lam) + D({VELOCITY}, psi1)*{TURN[1]})",
 )
 
 # -- eigenvalues and bifurcation values ------------------------------------------------------------
@@ -148,7 +146,7 @@ def flip(alpha: str) -> str:
     return f"1/(1 + epsilon)*sqrt(({alpha})**2 + (1 - epsilon)**2*(2*pi*m)**2)"
 
 
-RHO_FLIP, RHO_MF = flip(ALPHA_FLIP), flip(PRINTED_ALPHA_FLIP)
+RHO_MF = flip(PRINTED_ALPHA_FLIP)
 RHO_O, TRUE_RHO_O = "sqrt(4 + (2*pi*m)**2)", "sqrt(16 + (2*pi*m)**2)"
 
 # The characteristic polynomial at 1 and at -1.
@@ -161,53 +159,8 @@ _F, _G = HIGH_BOUNCE
 HIGH_DETERMINANT = f"D({_F}, phi)*D({_G}, w) - D({_F}, w)*D({_G}, phi)"
 HIGH_TRACE = f"at(D({_F}, phi) + D({_G}, w), phi=x - w)"
 
-# -- near the fixed points -------------------------------------------------------------------------
-# h = psi_k - psi_o, j = psi_(k+1) - psi_o, l = lambda_k + c, c = 2 pi m, a = alpha.
-
-LOCAL = (
-    "a*(cos(h) - cos(j)) + (1 - epsilon)*c*(sin(h) - sin(j)) + (1 + epsilon)*((epsilon*(c - l)"
-    " + (1 - epsilon)*c*cos(h) - a*sin(h))*(j - h + c) - (j - h + c)**2)"
-)
-LOCAL_VELOCITY = "epsilon*(c - l) + (1 - epsilon)*c*cos(h) - a*sin(h) - 2*(j - h + c)"
-MOVED = f"psi=x + h, psi1=x + j, lam=l - 2*pi*m, rho=at({RHO}, psi=x)"
-HERE = f"a=at({ALPHA}, psi=x), c=2*pi*m"
-
-# The centre manifold at the flip, l = MANIFOLD(h), and the map on it, j = REDUCED(h), to order 3.
-SECOND = "(c**2 - 8)*(epsilon**2 - 1)/4/c/(1 + epsilon**2)"
-THIRD = (
-    "(3*c**4*epsilon**2*(1 - epsilon**2)**2"
-    " - c**2*(20*epsilon**6 + 16*epsilon**5 - 132*epsilon**4 + 32*epsilon**3 + 12*epsilon**2"
-    " + 16*epsilon - 28) - 96*(1 - epsilon**2)**3)"
-    "/24/c**2/(1 - epsilon)/(1 + epsilon)/(1 + epsilon**2)/(1 + epsilon**2)"
-)
-REDUCED = f"(-h + {SECOND}*h**2 + {THIRD}*h**3)"
-_L2 = (
-    "(epsilon - 1)*(c**2*epsilon**2 + c**2*epsilon - 8*epsilon + 8)/2/c/(1 + epsilon)"
-    "/(1 + epsilon**2)"
-)
-_L3 = (
-    "(3*c**4*epsilon*(1 - epsilon**2)**2 + 4*c**2*(2*epsilon**7 + epsilon**6 - 2*epsilon**5 - "
-    "9*epsilon**4 + 38*epsilon**3 - 9*epsilon**2 - 6*epsilon + 1) - 96*(1 - epsilon**2)**2*(1 - "
-    "epsilon)**2)/12/c**2/(epsilon - 1)/(1 + epsilon)/(1 + epsilon)/(1 + epsilon**2)/(1 + "
-    "epsilon**2)"
-)
-MANIFOLD = f"(-4*epsilon/(1 + epsilon)*h + {_L2}*h**2 + {_L3}*h**3)"
-CUBIC = "(3*c**2*(1 - epsilon**2)**2 + 8*(1 - epsilon)**4 + 64*epsilon**2)/(48*(1 - epsilon**4))"
-
-# The plastic map near a fixed point: rho = rho_o (1 + r), a = rho_o sin psi_o, c = rho_o cos psi_o
-LOCAL_PLASTIC = (
-    "(1 + r)*(a*cos(h) + c*sin(h) + (c*cos(h) - a*sin(h))*(j - h + c) - a*cos(j) - c*sin(j))"
-    " - (j - h + c)**2"
-)
-F_FLIP = "(-h + (8 - c**2)/(4*c)*h**2 + (7*c**2 - 24)/(6*c**2)*h**3 + r*(c/2 - 3*h))"  # a = 4
-F_PRINTED = "(-c/4*h**2 + 1/3*h**3 + r*(c/2 - h))"  # a = 2
-
-F2_PSI_RHO = f"{TRUE_RHO_O}/4"  # derivatives of f^2 at its fixed point at this rho
-F2_PSI_PSI_PSI = "-(3*pi**2*m**2 + 2)"
-
 # Mass minus table at time tau of the flight from a fixed point.
 GAP = f"rho*sin(psi) + {LAUNCH}*tau - tau**2 - rho*sin(psi + tau)"
-FIXED_GAP = "tau*(2*pi*m - tau) + rho*sin(psi)*(1 - cos(tau)) - rho*cos(psi)*sin(tau)"
 
 # -- springs of any stiffness ----------------------------------------------------------------------
 # k and q as above, s = pi m k, big = 2 + k^2 (rho sin psi - q): fixed points by psi and big.
@@ -220,41 +173,3 @@ STIFF_FIXED = (
     f"psi1=psi, lam={STIFF_LAMBDA}, rho={_STIFF_RHO}, m=s/(pi*k),"
     f" q={_STIFF_RHO}*sin(psi) - (big - 2)/k**2"
 )
-_STIFF_TURN = tuple(f"(-D({STIFF_MAP}, {x})/D({STIFF_MAP}, psi1))" for x in ("psi", "lam"))
-_STIFF_ROW = tuple(
-    f"(D({STIFF_VELOCITY}, {x}) + D({STIFF_VELOCITY}, psi1)*{turn})"
-    for x, turn in zip(("psi", "lam"), _STIFF_TURN, strict=True)
-)
-STIFF_TRACE = f"{_STIFF_TURN[0]} + {_STIFF_ROW[1]}"
-STIFF_DETERMINANT = f"{_STIFF_TURN[0]}*{_STIFF_ROW[1]} - {_STIFF_TURN[1]}*{_STIFF_ROW[0]}"
-FOUND_TRACE = (
-    "((1 + epsilon)**2 + (1 - epsilon)**2*cos(2*s)"
-    f" - (1 + epsilon)**2*(1 + cos(2*s))*({_STIFF_RHO})*sin(psi)/big)/2"
-)
-
-# The plastic map there, near a fixed point: h, j as above, C = cos(2 s), S = sin(2 s), t = tan s,
-# a = rho sin psi_o, b = rho cos psi_o. Where its slope is -1, j = STIFF_FLIP(h) to order 3.
-_TURNED = ("(C*cos(k*(j - h)) - S*sin(k*(j - h)))", "(S*cos(k*(j - h)) + C*sin(k*(j - h)))")
-STIFF_LOCAL = (
-    f"(a*cos(h) + b*sin(h) - q)*{_TURNED[0]} + (b*cos(h) - a*sin(h))*{_TURNED[1]}/k"
-    f" - 2/k**2*(1 - {_TURNED[0]}) - (a*cos(j) + b*sin(j) - q)"
-)
-STIFF_HERE = "C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), b=t*big/k, q=a - (big - 2)/k**2"
-STIFF_SECOND = "(2*k**2 + 2*k**2*t**2 - k**2*t**4 - t**2)/2/k/t/(1 + t**2)"
-STIFF_THIRD = "(11*k**2*t**4 - 4*k**2*t**2 - 6*k**2 - 2*t**4 + 7*t**2)/6/t**2/(1 + t**2)"
-STIFF_FLIP = f"(-h + {STIFF_SECOND}*h**2 + {STIFF_THIRD}*h**3)"
-STIFF_CUBIC = (
-    "(k**4*(3*t**6 + 10*t**4 + 14*t**2 + 4) + 2*k**2*(t**4 - t**2 + 1) + 3*t**2)"
-    "/(12*k**2*(1 + t**2)**2)"
-)
-STIFF_SQUARE = "a**2 + (t*(2 + k**2*(a - q))/k)**2"  # rho^2
-STIFF_HEIGHT = "(2 + t**2)*(2 - k**2*q)/(1 - k**2*(2 + t**2))"  # a at the flip
-STIFF_GAP = (
-    "(a - q)*cos(k*tau) + b*sin(k*tau)/k - 2/k**2*(1 - cos(k*tau)) - (a*cos(tau) + b*sin(tau) - q)"
-)
-_AT_FLIP = f"at(a/(2 + t**2), a={STIFF_HEIGHT})"
-STIFF_FLIP_GAP = (
-    f"at(at(at({STIFF_GAP}, b=t*big/k), big={_AT_FLIP}, a={STIFF_HEIGHT}), "
-    "t=sin(pi*m*k)/cos(pi*m*k))"
-)
-STIFF_FLIP_RHO = f"sqrt(at(at({STIFF_SQUARE}, a={STIFF_HEIGHT}), t=sin(pi*m*k)/cos(pi*m*k)))"

@@ -155,8 +155,8 @@ ROWS = (
     ),
     derived_row(
         Passage("S8", "5, psi-bar", "So, for every $\\mu > 0$, there exists a $\\delta > 0$"),
-        "The fixed phase tends to arccos((1 - epsilon) pi m g/((1 + epsilon) omega^2 beta)), which "
-        "equals ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho.",
+        "The fixed phase 'can be made arbitrarily close to' arccos((1 - epsilon) pi m g/((1 + "
+        "epsilon) omega^2 beta)), which equals ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho.",
         Verdict.REFUTED,
         corollary(
             "At m = 1, epsilon = 1/3, rho = 4, X = ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho = "
@@ -168,9 +168,10 @@ ROWS = (
         ),
         corrected=(
             corollary(
-                "Let X = (1 - epsilon) pi m g/((1 + epsilon) omega^2 beta) = ((1 - epsilon)/(1 + "
-                "epsilon)) 2 pi m/rho, rho = 2 omega^2 beta/g. If X < 1, for every small omega_n > "
-                "0 there are exactly two fixed phases; they tend to arccos X and -arccos X as "
+                "Let beta, omega, g > 0, m >= 1, 0 <= epsilon < 1, rho = 2 omega^2 beta/g and X = "
+                "(1 - epsilon) pi m g/((1 + epsilon) omega^2 beta) = ((1 - epsilon)/(1 + epsilon)) "
+                "2 pi m/rho. If X < 1, for every small omega_n > 0 there are exactly two fixed "
+                "phases with flights over m periods; they tend to arccos X and -arccos X as "
                 "omega_n -> 0. If X > 1 there is none for small omega_n. The limit equation is cos "
                 "psi = X.",
                 _VELOCITY,
@@ -196,24 +197,30 @@ ROWS = (
     ),
     derived_row(
         Passage("S10", "5, O(mu)", "is said to be of $O(\\mu)$ if"),
-        "The error of these limits is O(mu), f being O(mu) if f(mu) has a finite limit K >= 0 as "
-        "mu -> 0.",
-        Verdict.REFUTED,
+        "The fixed points are their limits 'plus O(mu)', f being 'of O(mu) if there exists a "
+        "constant K such that 0 <= K < infinity and lim f(mu) = K' as mu -> 0.",
+        Verdict.CONDITIONAL,
         corollary(
-            "f(mu) = 1 for all mu has the finite limit K = 1, so it is O(mu) as defined, and 'psi "
-            "= psi_o + O(mu)' says nothing about the error of the limit; that is O(omega_n^2).",
+            "True if X < 1, X as in S8, where both fixed points exist for "
+            "small omega_n and tend to their limits. If X > 1 there are none. As defined "
+            "f = 1 is O(mu), too, so the words leave open how small the error is; it is of the "
+            "order omega_n^2.",
+            *_TRUE_LIMITS,
+            *_COSINE,
+            *_FINITE,
         ),
         corrected=(
             corollary(
-                "Let k = omega_n/omega, rho = 2 omega^2 beta/g, q = 2 omega^2 p/g, 0 < k <= 1/(pi "
-                "m), 0 <= epsilon < 1. The fixed points of (24), (25) with flights over m periods "
-                "are exactly the phases with ((1 + epsilon)/(1 - epsilon)) rho cos psi = tan(pi m "
-                "k) (2/k - k (q - rho sin psi)), with lambda = -((1 + epsilon)/(1 - epsilon)) rho "
-                "cos psi. The right side is 2 pi m + (2 (pi m)^3/3 - pi m (q - rho sin psi)) k^2 + "
-                "O(k^3), so the error is of the order omega_n^2; and |rho cos psi - ((1 - "
-                "epsilon)/(1 + epsilon)) 2 pi m| <= ((1 - epsilon)/(1 + epsilon)) 2 pi m ((pi m)^2 "
-                "+ |q| + rho) k^2. (For 0 < x <= 1: tan is convex and tan 1 < 1.56, so tan x < "
-                "1.56 x, tan' - 1 = tan^2 < 2.44 x^2 and x < tan x < x + x^3.)",
+                "Let beta, omega, g > 0, m >= 1, 0 <= epsilon < 1, k = omega_n/omega, rho = 2 "
+                "omega^2 beta/g, q = 2 omega^2 p/g, 0 < k <= 1/(pi m). The fixed points of (24), "
+                "(25) with flights over m periods are exactly the phases with ((1 + epsilon)/(1 - "
+                "epsilon)) rho cos psi = tan(pi m k) (2/k - k (q - rho sin psi)), with lambda = "
+                "-((1 + epsilon)/(1 - epsilon)) rho cos psi. The right side is 2 pi m + (2 (pi "
+                "m)^3/3 - pi m (q - rho sin psi)) k^2 + O(k^3), so the error of rho cos psi, and "
+                "with X < 1 as in S8 that of psi, is of the order omega_n^2; and |rho cos psi - "
+                "((1 - epsilon)/(1 + epsilon)) 2 pi m| <= ((1 - epsilon)/(1 + epsilon)) 2 pi m "
+                "((pi m)^2 + |q| + rho) k^2. (For 0 < x <= 1: tan is convex and tan 1 < 1.56, so "
+                "tan x < 1.56 x, tan' - 1 = tan^2 < 2.44 x^2 and x < tan x < x + x^3.)",
                 _VELOCITY,
                 _PHASE,
                 *_FINITE,

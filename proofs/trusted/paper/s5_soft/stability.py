@@ -5,7 +5,10 @@ from __future__ import annotations
 from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Passage, at, corollary, derived_row, differ
 from proofs.trusted.paper.s5_soft import displayed as eq
+from proofs.trusted.paper.s5_soft import near
 from proofs.trusted.paper.s5_soft import theorems as given
+from proofs.trusted.paper.s5_soft.doubling import doubling
+from proofs.trusted.paper.s5_soft.orbits import admissible, sticking
 from proofs.trusted.verdicts import Verdict
 
 _MINUS_ONE = f"at({eq.AT_MINUS_ONE}, alpha={eq.ALPHA_RHO})"
@@ -17,7 +20,9 @@ ROWS = (
         Verdict.VERIFIED,
         corollary(
             "All four entries, by implicit differentiation of the limits of (24), (25), for the "
-            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign.",
+            "branch sin psi_o >= 0 of the inverse cosine; on the other alpha has the other sign. "
+            "With a = rho sin psi_o and c = 2 pi m, rho cos psi_o = {b}, lambda_o = {lam}, the "
+            "rows are ({j11}, {j12}) and ({j21}, {j22}); alpha = (1 + epsilon) a.",
             *given.JACOBIAN,
         ),
     ),
@@ -75,13 +80,13 @@ ROWS = (
         ),
         corrected=(
             corollary(
-                "Let 0 <= epsilon < 1, c = 2 pi m, alpha = sqrt((1 + epsilon)^2 rho^2 - (1 - "
-                "epsilon)^2 c^2). The eigenvalues at psi_o are real exactly if (1 + epsilon) "
-                "alpha/2 is at most (1 - epsilon)^2 or at least (1 + epsilon)^2, that is if (1 + "
-                "epsilon)^2 rho^2 is at most (1 - epsilon)^2 c^2 + 4 (1 - epsilon)^4/(1 + "
-                "epsilon)^2 or at least (1 - epsilon)^2 c^2 + 4 (1 + epsilon)^2; in between, for "
-                "epsilon > 0, they are complex with the modulus epsilon, so the fixed point is a "
-                "sink (a focus).",
+                "Let m >= 1, 0 <= epsilon < 1, c = 2 pi m, rho >= ((1 - epsilon)/(1 + epsilon)) c, "
+                "alpha = sqrt((1 + epsilon)^2 rho^2 - (1 - epsilon)^2 c^2). The eigenvalues at "
+                "psi_o are real exactly if (1 + epsilon) alpha/2 is at most (1 - epsilon)^2 or at "
+                "least (1 + epsilon)^2, that is if (1 + epsilon)^2 rho^2 is at most (1 - "
+                "epsilon)^2 c^2 + 4 (1 - epsilon)^4/(1 + epsilon)^2 or at least (1 - epsilon)^2 "
+                "c^2 + 4 (1 + epsilon)^2; in between, for epsilon > 0, they are complex with the "
+                "modulus epsilon, so the fixed point is a sink (a focus).",
                 *given.JACOBIAN,
                 given.DETERMINANT,
                 given.ROOTS,
@@ -105,17 +110,19 @@ ROWS = (
         "= 2 ((1 - epsilon)/(1 + epsilon)) sqrt(pi^2 m^2 + 1).",
         Verdict.REFUTED,
         corollary(
-            "At m = 1, epsilon = 1/2, rho = 43/20 < rho_m there is a sink. rho_m - rho is in {0}, "
-            "alpha in {1}, and the characteristic polynomial, with the product 1/4 of its roots, "
-            "is positive at 1 and in {2} at -1, so both are inside the unit circle.",
+            "At m = 1, epsilon = 1/2, rho = 43/20 < rho_m there is a sink, an orbit. rho_m - rho "
+            "is in {0}, alpha in {1}, and the characteristic polynomial, with the product 1/4 of "
+            "its roots, is positive at 1 and in {2} at -1, so both are inside the unit circle; as "
+            "epsilon > epsilon_1, the mass stays above the table until its impact.",
             *given.CHARACTERISTIC,
+            admissible,
             values=(
                 at(f"{eq.RHO_M} - rho", 1, epsilon="1/2", m="1", rho="43/20"),
                 at(eq.ALPHA_RHO, 1, epsilon="1/2", rho="43/20", m="1"),
                 at(_MINUS_ONE, 1, epsilon="1/2", rho="43/20", m="1"),
             ),
         ),
-        corrected=(given.diagram,),
+        corrected=(given.first_kind,),
     ),
     derived_row(
         Passage("S17", "5, rho_m^f", "saddles of the second kind"),
@@ -124,29 +131,19 @@ ROWS = (
         "epsilon).",
         Verdict.REFUTED,
         corollary(
-            "At m = 1, epsilon = 9/10, rho = 1 > rho_m^f there is a sink. rho - rho_m^f is in {0}, "
-            "alpha in {1}, and the characteristic polynomial, with the product 81/100 of its "
-            "roots, is positive at 1 and in {2} at -1.",
+            "At m = 1, epsilon = 9/10, rho = 1 > rho_m^f there is a sink, an orbit. rho - rho_m^f "
+            "is in {0}, alpha in {1}, and the characteristic polynomial, with the product 81/100 "
+            "of its roots, is positive at 1 and in {2} at -1; as epsilon > epsilon_1, the mass "
+            "stays above the table until its impact.",
             *given.CHARACTERISTIC,
+            admissible,
             values=(
                 at(f"rho - {eq.RHO_MF}", 1, epsilon="9/10", m="1", rho="1"),
                 at(eq.ALPHA_RHO, 1, epsilon="9/10", rho="1", m="1"),
                 at(_MINUS_ONE, 1, epsilon="9/10", rho="1", m="1"),
             ),
         ),
-        corrected=(
-            given.diagram,
-            corollary(
-                "With a = 4 (1 - epsilon)/(1 - 2 epsilon^2), the paper's value of alpha at its "
-                "rho_m^f, a^2 - (4 (1 + epsilon^2)/(1 + epsilon))^2 = 64 epsilon^4 (1 - epsilon^2 "
-                "- epsilon^4)/((1 - 2 epsilon^2)^2 (1 + epsilon)^2): so rho_m^f is rho_F for "
-                "epsilon = 0 and epsilon^2 = (sqrt(5) - 1)/2 only; it is larger, and rho > rho_m^f "
-                "is sufficient but not necessary for a saddle of the second kind, if 0 < epsilon^2 "
-                "< (sqrt(5) - 1)/2, epsilon^2 not 1/2; it is smaller, with sinks between, if "
-                "epsilon^2 > (sqrt(5) - 1)/2.",
-                *given.THRESHOLDS,
-            ),
-        ),
+        corrected=(given.second_kind,),
     ),
     derived_row(
         Passage("S18", "5, rho_m, rho_m^f", "a pair of fixed points appear in a saddle-node"),
@@ -164,7 +161,7 @@ ROWS = (
                 at(f"at({eq.AT_MINUS_ONE}, alpha={eq.PRINTED_ALPHA_FLIP})", -1, epsilon="1/2"),
             ),
         ),
-        corrected=(given.diagram, given.stiff),
+        corrected=(given.bifurcations, admissible, sticking, given.stiff),
     ),
     derived_row(
         Passage("S19", "5", "we have shown that this assumption is unnecessary"),
@@ -183,12 +180,12 @@ ROWS = (
         ),
         corrected=(
             corollary(
-                "Without the high-bounce assumption the fixed points of [1] and their saddle-node "
-                "value (1 + epsilon) rho = (1 - epsilon) 2 pi m are the same. The stability is "
-                "not: the flip is at (1 + epsilon) rho = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 "
-                "+ (1 - epsilon)^2 (2 pi m)^2), that of the map of [1] at sqrt((2 (1 + "
-                "epsilon))^2 + (1 - epsilon)^2 (2 pi m)^2), which is smaller for every epsilon in "
-                "[0, 1).",
+                "For m >= 1, 0 <= epsilon < 1 and solutions of the limits of (24), (25), without "
+                "the high-bounce assumption, the fixed points of [1] and their saddle-node value "
+                "(1 + epsilon) rho = (1 - epsilon) 2 pi m are the same. The stability is not: the "
+                "flip is at (1 + epsilon) rho = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - "
+                "epsilon)^2 (2 pi m)^2), that of the map of [1] at sqrt((2 (1 + epsilon))^2 + (1 - "
+                "epsilon)^2 (2 pi m)^2), which is smaller for every epsilon in [0, 1).",
                 *given.CHARACTERISTIC,
                 *given.HIGH_BOUNCE,
             ),
@@ -218,13 +215,13 @@ ROWS = (
         ),
         corrected=(
             corollary(
-                "In the plastic case the slope of f at psi_o = arccos(2 pi m/rho) is 1 - sqrt("
-                "rho^2 - (2 pi m)^2)/2: -1 exactly at rho_o = sqrt(16 + (2 pi m)^2), which the "
-                "paper's rho_m^f gives too. sqrt(4 + (2 pi m)^2), where the slope is 0, is the "
-                "value below which the mass sticks at this fixed point: the gap is t^2 (rho sin "
-                "psi_o/2 - 1) + (2 pi m) t^3/6 + O(t^4) after the impact, rho sin psi_o = sqrt("
-                "rho^2 - (2 pi m)^2).",
+                "In the plastic case, m >= 1, the slope at psi_o = arccos(2 pi m/rho), rho >= 2 pi "
+                "m, is 1 - sqrt(rho^2 - (2 pi m)^2)/2: -1 exactly at rho_o = sqrt(16 + (2 pi "
+                "m)^2), which the paper's rho_m^f gives too. At sqrt(4 + (2 pi m)^2), where the "
+                "slope is 0, this fixed point begins to be an orbit: for smaller rho the mass "
+                "sticks there, as rho sin psi_o = sqrt(rho^2 - (2 pi m)^2) < 2.",
                 *given.SLOPES,
+                admissible,
                 tex=r"\rho_o = \sqrt{16 + (2 \pi m)^2}",
             ),
         ),
@@ -235,18 +232,19 @@ ROWS = (
         "d^2(f^2)/dpsi^2 = 0, d^2(f^2)/dpsi drho and d^3(f^2)/dpsi^3 are not 0.",
         Verdict.REFUTED,
         corollary(
-            "At rho_o = sqrt(4 + (2 pi m)^2), for every m, df/dpsi = 0, d(f^2)/drho = pi m/rho_o, "
-            "d^2(f^2)/dpsi drho = 0 and d^3(f^2)/dpsi^3 = 0: four of the six fail. f(psi_o) = "
-            "psi_o is not 0 there, nor at sqrt(16 + (2 pi m)^2), since 0 < 2 pi m/rho < 1.",
-            *given.CONDITIONS,
+            "At rho_o = sqrt(4 + (2 pi m)^2), for every m, the solution near psi_o of the equation "
+            "of S20 has df/dpsi = 0, d(f^2)/drho = pi m/rho_o, d^2(f^2)/dpsi drho = 0 and "
+            "d^3(f^2)/dpsi^3 = 0, and f = psi_o = arccos(2 pi m/rho_o) is not 0, nor is it at "
+            "sqrt(16 + (2 pi m)^2): five of the six fail, all but d^2(f^2)/dpsi^2 = 0.",
+            *given.PRINTED_CONDITIONS,
         ),
         corrected=(
             corollary(
-                "For every m >= 1, at rho_o = sqrt(16 + (2 pi m)^2) and psi_o = arccos(2 pi "
-                "m/rho_o): f = psi_o, df/dpsi = -1, d(f^2)/drho = 0, d^2(f^2)/dpsi^2 = 0, "
-                "d^2(f^2)/dpsi drho = rho_o/4 > 0, d^3(f^2)/dpsi^3 = -(3 pi^2 m^2 + 2) < 0.",
+                "For every m >= 1, at rho_o = sqrt(16 + (2 pi m)^2), the flip, and psi_o = "
+                "arccos(2 pi m/rho_o): f = psi_o, df/dpsi = -1, d(f^2)/drho = 0, d^2(f^2)/dpsi^2 = "
+                "0, d^2(f^2)/dpsi drho = rho_o/4 > 0, d^3(f^2)/dpsi^3 = -(3 pi^2 m^2 + 2) < 0.",
                 *given.CONDITIONS,
-                values=(at(eq.F2_PSI_RHO, m="1"), at(eq.F2_PSI_PSI_PSI, m="1")),
+                values=(at(near.F2_PSI_RHO, m="1"), at(near.F2_PSI_PSI_PSI, m="1")),
                 reports=("f2_psi_rho", "f2_psi_psi_psi"),
             ),
         ),
@@ -256,7 +254,7 @@ ROWS = (
         "The plastic limit map f undergoes a period-doubling bifurcation.",
         Verdict.VERIFIED,
         given.flip,
-        given.stiff_flip,
-        corrected=(given.flip, given.admissible, given.stiff_flip),
+        doubling,
+        corrected=(given.flip, doubling),
     ),
 )

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from proofs.trusted.kernel.values import Equal, Series
-from proofs.trusted.paper.formulas import Lemma, at, corollary, over
+from proofs.trusted.paper.formulas import Lemma, corollary
 from proofs.trusted.paper.s5_soft import displayed as eq
-
-
-def _by_phase(entry: str) -> str:
-    """Write an entry of the Jacobian by the phase of the fixed point."""
-    return f"at({entry}, alpha={eq.ALPHA})" if "alpha" in entry else entry
-
+from proofs.trusted.paper.s5_soft import near
+from proofs.trusted.paper.s5_soft.orbits import admissible
 
 _SCALED = ("omega", "g")
 MAP: tuple[Lemma, ...] = (
@@ -21,13 +17,11 @@ MAP: tuple[Lemma, ...] = (
     Equal(f"at({eq.LAUNCH}, lam=-2*pi*m, rho={eq.RHO})", "2*pi*m"),
     Equal(f"({eq.ALPHA})**2", f"at({eq.ALPHA_SQUARE}, rho={eq.RHO})"),
 )
-JACOBIAN: tuple[Lemma, ...] = (
-    *MAP,
-    *(
-        Equal(f"at({derived}, {eq.FIXED})", _by_phase(printed))
-        for derived, printed in zip(eq.DERIVED_JACOBIAN, eq.JACOBIAN, strict=True)
-    ),
+LOCAL: tuple[Lemma, ...] = tuple(
+    Equal(f"at({each}, {near.MOVED})", f"at({local}, {near.HERE})")
+    for each, local in zip((eq.MAP, f"lam1 - ({eq.VELOCITY})"), near.LOCAL, strict=True)
 )
+JACOBIAN: tuple[Lemma, ...] = (*MAP, *LOCAL, near.POINT)
 _A, _B, _C, _D = (f"({entry})" for entry in eq.JACOBIAN)
 DETERMINANT = Equal(f"{_A}*{_D} - {_B}*{_C}", "epsilon**2")
 TRACE: tuple[Lemma, ...] = (Equal(f"{_A} + {_D}", eq.TRACE),)
@@ -52,55 +46,19 @@ THRESHOLDS: tuple[Lemma, ...] = (
     ),
 )
 STIFF: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, {eq.STIFF_FIXED})", "0"),
-    Equal(f"at({eq.STIFF_VELOCITY}, {eq.STIFF_FIXED})", eq.STIFF_LAMBDA),
-    Equal(f"at({eq.STIFF_TRACE}, {eq.STIFF_FIXED})", eq.FOUND_TRACE),
-    Equal(f"at({eq.STIFF_DETERMINANT}, {eq.STIFF_FIXED})", "epsilon**2"),
-)
-ADMISSIBLE = Equal(f"at({eq.GAP}, lam=-2*pi*m, rho={eq.RHO})", f"at({eq.FIXED_GAP}, rho={eq.RHO})")
-HEIGHT: tuple[Lemma, ...] = (
-    Equal(f"at(rho*sin(psi), rho={eq.RHO})", f"({eq.ALPHA})/(1 + epsilon)"),
-    Equal(f"({eq.ALPHA_FLIP})/(1 + epsilon)", "2*(1 + ((1 - epsilon)/(1 + epsilon))**2)"),
-)
-_ZERO4 = ("0", "0", "0", "0")
-_RESTITUTION = ("1 + epsilon", "1 - epsilon", "1 + epsilon**2", "c")
-MANIFOLD: tuple[Lemma, ...] = (
-    Equal(f"at(D({eq.LOCAL}, j), h=0, j=0, l=0)", "-2*c"),
-    Equal(f"(1 + epsilon)*at({eq.MAP}, {eq.MOVED})", f"at({eq.LOCAL}, {eq.HERE})"),
-    Equal(f"at({eq.VELOCITY}, {eq.MOVED})", f"at({eq.LOCAL_VELOCITY}, {eq.HERE})"),
-    Series(
-        f"at({eq.LOCAL}, a={eq.ALPHA_FLIP}, j={eq.REDUCED}, l={eq.MANIFOLD})",
-        "h",
-        _ZERO4,
-        _RESTITUTION,
+    *(
+        Equal(
+            f"at({each}, psi=x + y, psi1=x1 + y, m=s/(pi*k))",
+            f"at({local}, a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s))",
+        )
+        for each, local in zip(
+            (eq.STIFF_MAP, f"lam1 - ({eq.STIFF_VELOCITY})"), near.STIFF, strict=True
+        )
     ),
-    Series(
-        f"at({eq.LOCAL_VELOCITY}, a={eq.ALPHA_FLIP}, j={eq.REDUCED}, l={eq.MANIFOLD})"
-        f" + c - at({eq.MANIFOLD}, h={eq.REDUCED})",
-        "h",
-        _ZERO4,
-        _RESTITUTION,
-    ),
-    Equal(f"({eq.SECOND})**2 + {eq.THIRD}", eq.CUBIC),
+    Equal("cos(2*s)*(1 + (sin(s)/cos(s))**2)", "1 - (sin(s)/cos(s))**2"),
+    Equal("sin(2*s)*(1 + (sin(s)/cos(s))**2)", "2*sin(s)/cos(s)"),
+    near.STIFF_POINT,
 )
-
-
-def _jet(slope: str, jet: str) -> tuple[Series, Series]:
-    """Return that a polynomial in h and r is the plastic map, but for h^4, h^2 r and r^2."""
-    near = f"at({eq.LOCAL_PLASTIC}, a={slope}, j={jet})"
-    return (
-        Series(f"at({near}, r=0)", "h", _ZERO4, ("c",)),
-        Series(f"at(D({near}, r), r=0)", "h", ("0", "0"), ("c",)),
-    )
-
-
-def _second(jet: str, by: str) -> str:
-    """Write a derivative of the second iterate of a polynomial at h = r = 0."""
-    return f"at(D(at({jet}, h={jet}), {by}), h=0, r=0)"
-
-
-_PLASTIC_MOVED = "psi=x + h, psi1=x + j, rho=rho*(1 + r)"
-_PLASTIC_HERE = "a=rho*sin(x), c=rho*cos(x)"
 PLASTIC_LIMIT = Series(
     f"at({eq.S24}, epsilon=0, beta=rho*g/(2*omega**2))*2*omega**2/g",
     "omega_n",
@@ -109,30 +67,17 @@ PLASTIC_LIMIT = Series(
 )
 CONDITIONS: tuple[Lemma, ...] = (
     PLASTIC_LIMIT,
-    Equal(f"at(D({eq.LOCAL_PLASTIC}, j), h=0, j=0, r=0)", "-2*c"),
-    Equal(
-        f"at({eq.PLASTIC}, {_PLASTIC_MOVED}, m=rho*cos(x)/(2*pi))",
-        f"at({eq.LOCAL_PLASTIC}, {_PLASTIC_HERE})",
-    ),
-    *_jet("4", eq.F_FLIP),
-    *_jet("2", eq.F_PRINTED),
-    Equal(f"at(D({eq.F_PRINTED}, h), h=0, r=0)", "0"),
-    Equal(_second(eq.F_PRINTED, "r"), "c/2"),
-    Equal(_second(eq.F_PRINTED, "h, r"), "0"),
-    Equal(_second(eq.F_PRINTED, "h, h, h"), "0"),
-    Equal(f"at(D({eq.F_FLIP}, h), h=0, r=0)", "-1"),
-    Equal(_second(eq.F_FLIP, "r"), "0"),
-    Equal(_second(eq.F_FLIP, "h, h"), "0"),
-    Equal(_second(eq.F_FLIP, "h, r"), "(c**2 + 16)/4"),
-    Equal(_second(eq.F_FLIP, "h, h, h"), "-(3*c**2/4 + 2)"),
-    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", eq.F2_PSI_PSI_PSI),
-    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", eq.F2_PSI_RHO),
+    Equal(f"at({eq.MAP}, epsilon=0)", eq.PLASTIC),
+    *LOCAL,
+    near.JET,
+    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", near.F2_PSI_PSI_PSI),
+    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", near.F2_PSI_RHO),
 )
+PRINTED_CONDITIONS: tuple[Lemma, ...] = (*CONDITIONS, near.PRINTED_JET)
 SLOPES: tuple[Lemma, ...] = (
     *JACOBIAN,
     Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.RHO_O})", "2**2"),
     Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.TRUE_RHO_O})", "4**2"),
-    Series("tau*(c - tau) + a*(1 - cos(tau)) - c*sin(tau)", "tau", ("0", "0", "a/2 - 1", "c/6")),
 )
 HIGH_BOUNCE: tuple[Lemma, ...] = (
     Equal(eq.HIGH_DETERMINANT, "epsilon"),
@@ -140,50 +85,14 @@ HIGH_BOUNCE: tuple[Lemma, ...] = (
     Equal(f"{eq.ALPHA_FLIP} - 2*(1 + epsilon)", "2*(1 - epsilon)**2/(1 + epsilon)"),
 )
 
-_TANGENT = "(sin(s)/cos(s))"
-_STIFF_STEP = "psi=x + h, psi1=x + j, m=s/(pi*k)"
-_STIFF_HERE = "a=rho*sin(x), b=rho*cos(x), C=cos(2*s), S=sin(2*s)"
-STIFF_PLASTIC: tuple[Lemma, ...] = (
-    Equal(f"at({eq.STIFF_MAP}, epsilon=0, {_STIFF_STEP})", f"at({eq.STIFF_LOCAL}, {_STIFF_HERE})"),
-    Equal(f"cos(2*s)*(1 + {_TANGENT}**2)", f"1 - {_TANGENT}**2"),
-    Equal(f"sin(2*s)*(1 + {_TANGENT}**2)", f"2*{_TANGENT}"),
-    Equal(f"at(at({eq.STIFF_LOCAL}, h=0, j=0), {eq.STIFF_HERE})", "0"),
-    Equal(f"at(at(D({eq.STIFF_LOCAL}, j), h=0, j=0), {eq.STIFF_HERE})", "-2*t*big/k"),
-    Equal(
-        f"at(at(-D({eq.STIFF_LOCAL}, h)/D({eq.STIFF_LOCAL}, j), h=0, j=0), {eq.STIFF_HERE})",
-        "(1 - a/big)/(1 + t**2)",
-    ),
-    Series(
-        f"at(at(at({eq.STIFF_LOCAL}, j={eq.STIFF_FLIP}), {eq.STIFF_HERE}), big=a/(2 + t**2))",
-        "h",
-        _ZERO4,
-        ("k", "t", "1 + t**2", "2 + t**2"),
-    ),
-    Equal(f"({eq.STIFF_SECOND})**2 + {eq.STIFF_THIRD}", eq.STIFF_CUBIC),
-    Equal(f"at(a - (2 + t**2)*(2 + k**2*(a - q)), a={eq.STIFF_HEIGHT})", "0"),
-    Equal(
-        f"at(D({eq.STIFF_SQUARE}, a), q=a - (a/(2 + t**2) - 2)/k**2)",
-        "4*a*(1 + t**2)/(2 + t**2)",
-    ),
-    Equal(f"at({eq.STIFF_LOCAL}, h=0, j=tau, C=1, S=0)", eq.STIFF_GAP),
-    Equal("D(a/(2 + k**2*(a - q)), a)", "(2 - k**2*q)/(2 + k**2*(a - q))**2"),
-)
-_STIFF_POINT = {"m": "1", "k": "1/10", "q": "0"}
-_STIFF_RATE = f"D({eq.STIFF_FLIP_GAP}, tau)"
-STIFF_VALUES = (
-    at(eq.STIFF_FLIP_RHO, **_STIFF_POINT),
-    over(f"D({_STIFF_RATE}, tau)", 1, "tau", ("0", "1/2"), **_STIFF_POINT),
-    over(eq.STIFF_FLIP_GAP, 1, "tau", ("1/2", "6"), **_STIFF_POINT),
-    over(_STIFF_RATE, -1, "tau", ("6", "63/10"), **_STIFF_POINT),
-)
-
 # -- theorems --------------------------------------------------------------------------------------
 
 diagram = corollary(
-    "Let m >= 1, 0 <= epsilon < 1, c = 2 pi m. The limit map has fixed points with flights over m "
-    "periods exactly for rho >= rho_SN = ((1 - epsilon)/(1 + epsilon)) c: psi = arccos(rho_SN/rho) "
-    "and psi = -arccos(rho_SN/rho), with lambda = -c. Let alpha = sqrt((1 + epsilon)^2 rho^2 - (1 "
-    "- epsilon)^2 c^2) >= 0 and rho_F = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - epsilon)^2 "
+    "Let m >= 1, 0 <= epsilon < 1, rho > 0, c = 2 pi m, r = (1 - epsilon)/(1 + epsilon). The "
+    "limits of (24), (25) have solutions with psi_(k+1) = psi_k, lambda_(k+1) = lambda_k and "
+    "flights over m periods exactly for rho >= rho_SN = r c: psi = arccos(rho_SN/rho) and psi = "
+    "-arccos(rho_SN/rho), with lambda = -c. Let alpha = sqrt((1 + epsilon)^2 rho^2 - (1 - "
+    "epsilon)^2 c^2) >= 0 and rho_F = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - epsilon)^2 "
     "c^2)/(1 + epsilon). The first has trace 1 + epsilon^2 - (1 + epsilon) alpha/2 and determinant "
     "epsilon^2: it is a sink for rho_SN < rho < rho_F, with eigenvalues that are not real, of "
     "modulus epsilon, exactly if (1 - epsilon)^2 < (1 + epsilon) alpha/2 < (1 + epsilon)^2; for "
@@ -192,18 +101,54 @@ diagram = corollary(
     "first kind if epsilon > 0) for all rho > rho_SN. At rho_SN, where the two are one, the "
     "eigenvalues are 1 and epsilon^2; at rho_F those of the first are -1 and -epsilon^2. (The "
     "characteristic polynomial is (1 + epsilon) alpha/2 at 1 and (1 + epsilon) (4 (1 + epsilon^2)/"
-    "(1 + epsilon) - alpha)/2 at -1, and the product of its roots is epsilon^2 < 1.) So rho_SN is "
-    "the value of the saddle-node bifurcation and rho_F that of the flip.",
+    "(1 + epsilon) - alpha)/2 at -1, and the product of its roots is epsilon^2 < 1.) These are "
+    "orbits, the mass staying above the table from launch to impact, as follows. For 0 < epsilon < "
+    "1 let h be the greatest value of r c cot u - u (c - 2 u)/sin^2 u, 0 < u <= pi/2, and rho_G = "
+    "sqrt(rho_SN^2 + h^2); h < 2 falls as epsilon grows and is 0 at one epsilon_m, epsilon_1 = "
+    "0.0204576.... If epsilon > epsilon_m, the first is an orbit for all rho >= rho_SN, the second "
+    "exactly for rho < rho_G; if epsilon < epsilon_m, the first exactly for rho > rho_G, the "
+    "second for no rho; if epsilon = epsilon_m, the first for rho > rho_SN, the second for no rho. "
+    "If epsilon = 0, the first exactly for rho >= sqrt(4 + c^2), the second for no rho: the mass "
+    "sticks.",
     *CHARACTERISTIC,
+    admissible,
+)
+first_kind = corollary(
+    "For m >= 1, 0 < epsilon < 1 and rho > 0 a fixed point is a saddle of the first kind exactly "
+    "if it is the second one of S15, psi = -arccos(rho_SN/rho), and rho > rho_SN; and an orbit, "
+    "too, exactly if epsilon > epsilon_m and rho < rho_G, with epsilon_m and rho_G of S15.",
+    diagram,
+)
+second_kind = corollary(
+    "For m >= 1, 0 < epsilon < 1 and rho > 0 a fixed point is a saddle of the second kind exactly "
+    "if it is the first one of S15, psi = arccos(rho_SN/rho), and rho > rho_F; it is an orbit "
+    "then. With a = 4 (1 - epsilon)/(1 - 2 epsilon^2), the paper's value of alpha at its rho_m^f, "
+    "a^2 - (4 (1 + epsilon^2)/(1 + epsilon))^2 = 64 epsilon^4 (1 - epsilon^2 - epsilon^4)/((1 - 2 "
+    "epsilon^2)^2 (1 + epsilon)^2): so rho_m^f is rho_F for epsilon = 0 and epsilon^2 = (sqrt(5) - "
+    "1)/2 only; it is larger, and rho > rho_m^f is sufficient but not necessary for a saddle of "
+    "the second kind, if 0 < epsilon^2 < (sqrt(5) - 1)/2, epsilon^2 not 1/2; it is smaller, with "
+    "sinks between, if epsilon^2 > (sqrt(5) - 1)/2.",
+    diagram,
+    *THRESHOLDS,
+)
+bifurcations = corollary(
+    "For m >= 1 and 0 <= epsilon < 1 two solutions, the fixed points of S15, appear at rho_SN in a "
+    "saddle-node bifurcation, and the first has a flip at rho_F. The flip is one of an orbit; the "
+    "saddle-node is one of orbits exactly if epsilon > epsilon_m, epsilon_1 = 0.0204576.... If 0 < "
+    "epsilon < epsilon_m the first becomes an orbit at rho_G > rho_SN, where the mass grazes the "
+    "table, if epsilon = 0 at sqrt(4 + (2 pi m)^2).",
+    diagram,
 )
 stiff = corollary(
-    "For springs of any stiffness, k = omega_n/omega with 0 < k < 1/(2 m), q = 2 omega^2 p/g, s = "
-    "pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25) with psi_(k+1) = "
-    "psi_k = psi, cos psi not 0, lambda_(k+1) = lambda_k, where rho cos psi = ((1 - epsilon)/(1 + "
-    "epsilon)) tan(s) B/k, the determinant is epsilon^2 as well and the trace is ((1 + epsilon)^2 "
-    "+ (1 - epsilon)^2 cos(2 s) - (1 + epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an "
-    "eigenvalue exactly where ((1 + epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 "
-    "q), M = (1 + epsilon)^2 + 2 (1 + epsilon^2) + (1 - epsilon)^2 cos(2 s).",
+    "For springs with k = omega_n/omega, 0 < k < 1/(2 m), m >= 1, 0 <= epsilon < 1, q = 2 omega^2 "
+    "p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25), an orbit "
+    "or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a flight over m periods, "
+    "where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the Jacobian has the rows "
+    "({k11}, {k12}) and ({k21}, {k22}), a = rho sin psi, t = tan s, big = B. The determinant is "
+    "epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) - (1 + "
+    "epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 + "
+    "epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 + "
+    "epsilon^2) + (1 - epsilon)^2 cos(2 s).",
     *STIFF,
 )
 flip = corollary(
@@ -211,43 +156,21 @@ flip = corollary(
     "map, rho_SN = ((1 - epsilon)/(1 + epsilon)) c, c = 2 pi m, undergoes a supercritical "
     "period-doubling bifurcation at rho_F = sqrt((4 (1 + epsilon^2)/(1 + epsilon))^2 + (1 - "
     "epsilon)^2 c^2)/(1 + epsilon), and at no other rho, so for epsilon = 0 at sqrt(16 + c^2), not "
-    "at the printed rho_o. It is stable below, unstable above, and an attracting orbit of period 2 "
-    "branches off for rho just above rho_F. At rho_F the eigenvalues are -1 and -epsilon^2; the "
-    "characteristic polynomial at -1, (1 + epsilon) (4 (1 + epsilon^2)/(1 + epsilon) - alpha)/2, "
-    "changes sign there with alpha = sqrt((1 + epsilon)^2 rho^2 - (1 - epsilon)^2 c^2), whose "
-    "derivative is positive; and the map on the centre manifold, h = psi - psi_o, has the second "
-    "iterate h - 2 K h^3 + O(h^4) with K = (3 c^2 (1 - epsilon^2)^2 + 8 (1 - epsilon)^4 + 64 "
-    "epsilon^2)/(48 (1 - epsilon^4)) > 0. For epsilon = 0 the third derivative of f^2 is -(3 pi^2 "
-    "m^2 + 2).",
+    "at the printed rho_o. It is an orbit there, stable just below and unstable just above, and an "
+    "attracting orbit of period 2 branches off for rho just above rho_F. At rho_F the eigenvalues "
+    "are -1 and -epsilon^2; the characteristic polynomial at -1, (1 + epsilon) (4 (1 + "
+    "epsilon^2)/(1 + epsilon) - alpha)/2, changes sign there with alpha = sqrt((1 + epsilon)^2 "
+    "rho^2 - (1 - epsilon)^2 c^2), whose derivative is positive; and the map on the centre "
+    "manifold, h = psi - psi_o, has the second iterate h - 2 K h^3 + O(h^4) with K = (3 c^2 (1 - "
+    "epsilon^2)^2 + 8 (1 - epsilon)^4 + 64 epsilon^2)/(48 (1 - epsilon^4)) > 0. For epsilon = 0 "
+    "the third derivative of f^2 is -(3 pi^2 m^2 + 2). (There rho sin psi > 2, so the mass leaves "
+    "at once, stays above the table and meets it with a speed that is not 0; so it does on nearby "
+    "flights.)",
     *CHARACTERISTIC,
     *CONDITIONS,
-    *MANIFOLD,
+    *LOCAL,
+    near.FLIP,
+    admissible,
     tex=r"h - 2 K h^3 + O(h^4), \quad K = \frac{3 c^2 (1 - \varepsilon^2)^2 + 8 (1 - \varepsilon)^4"
     r" + 64 \varepsilon^2}{48 (1 - \varepsilon^4)}",
-)
-admissible = corollary(
-    "These orbits are real: with r = (1 - epsilon)/(1 + epsilon) and S = rho sin psi >= 2 r, the "
-    "gap of the flight from the fixed point is t (c - t) + S (1 - cos t) - r c sin t > 0 for 0 < t "
-    "< c, and S = 2 (1 + r^2) at rho_F. Proof. For t < 2 pi it is at least t (t - r sin t) - t^2 + "
-    "S (1 - cos t) = 2 sin(t/2) (S sin(t/2) - r t cos(t/2)), positive as tan u > u. For 2 pi <= t "
-    "< c let u = c - t: it is t u + S (1 - cos u) + r c sin u, positive for u <= pi; else t u > c, "
-    "since t >= 2 pi, u >= pi and c >= 4 pi.",
-    ADMISSIBLE,
-    *HEIGHT,
-)
-stiff_flip = corollary(
-    "For springs of any stiffness and plastic impacts every period doubling is supercritical. Let "
-    "k = omega_n/omega, q = 2 omega^2 p/g, t = tan(pi m k) defined and not 0. At a solution of "
-    "(24) with psi_(k+1) = psi_k = psi and a flight over m periods, where rho cos psi = t B/k, a = "
-    "rho sin psi, B = 2 + k^2 (a - q) not 0, the slope of the solution is (1 - a/B)/(1 + t^2): it "
-    "is -1 exactly if a = (2 + t^2) B, and then its second iterate is h - 2 K h^3 + O(h^4) with K "
-    "= (k^4 (3 t^6 + 10 t^4 + 14 t^2 + 4) + 2 k^2 (t^4 - t^2 + 1) + 3 t^2)/(12 k^2 (1 + t^2)^2) > "
-    "0. If k^2 (2 + t^2) is not 1, that is at a = (2 + t^2) (2 - k^2 q)/(1 - k^2 (2 + t^2)), rho^2 "
-    "= a^2 + (t B/k)^2, and the slope passes -1 with a speed in rho that is not 0, as "
-    "d(rho^2)/da = 4 a (1 + t^2)/(2 + t^2) and d(a/B)/da = (2 - k^2 q)/B^2. For m = 1, k = 1/10, q "
-    "= 0 it is at rho in {0}, and the flight from its fixed point has gap'' > 0 up to time 1/2, "
-    "gap > 0 from 1/2 to 6 and gap' < 0 from 6 to 6.3, so its first impact is at 2 pi.",
-    *STIFF_PLASTIC,
-    values=STIFF_VALUES,
-    reports=("rho_flip_at_k_tenth",),
 )

@@ -7,8 +7,9 @@ t for half a time of flight, so that no arctan is needed.
 
 from __future__ import annotations
 
+from proofs.trusted.kernel.solutions import implicit_derivative
 from proofs.trusted.kernel.values import Equal
-from proofs.trusted.paper.formulas import differ
+from proofs.trusted.paper.formulas import differ, unknowns
 
 # -- the relations, (14), (15), (30), (31) ---------------------------------------------------------
 
@@ -67,15 +68,14 @@ A21, TRUE_A21 = (
 _A22 = f"({HEIGHT}*{_A12}*cos{_D} + {SPEED}*sin{_D}*{_A12} - epsilon*cos{_D})"
 JACOBIAN = (_A11, _A12, TRUE_A21, _A22)
 
-# The same by implicit differentiation of (14), (15).
+# They are the derivative that (14), (15) determine.
 _IMPACT, _VELOCITY = (f"at({side}, d=phi1 - phi)" for side in (S14, S15))
-_PHASE = tuple(f"(-D({_IMPACT}, {x})/D({_IMPACT}, phi1))" for x in ("phi", "gamma"))
-DERIVED_JACOBIAN = (
-    *_PHASE,
-    f"(D({_VELOCITY}, phi) + D({_VELOCITY}, phi1)*{_PHASE[0]})",
-    f"(D({_VELOCITY}, gamma) + D({_VELOCITY}, phi1)*{_PHASE[1]})",
+ENTRIES = tuple(
+    Equal(entry, "0")
+    for entry in implicit_derivative(
+        (_IMPACT, f"{_VELOCITY} - gamma1"), ("phi", "gamma"), ("phi1", "gamma1"), JACOBIAN
+    )
 )
-ENTRIES = tuple(map(Equal, DERIVED_JACOBIAN, JACOBIAN))
 SIGN_OF_A21 = Equal(f"{A21} - {TRUE_A21}", "-2*nu*(1 + epsilon)*sin(phi)*cos(phi1 - phi)")
 _ROOT = "gamma=sin(t)/cos(t)/epsilon - nu*cos(phi), phi1=phi + 2*t"  # K = tan t
 A21_DIFFERS = differ(
@@ -85,13 +85,10 @@ A21_DIFFERS = differ(
 # At K = 0: F near it, but for O(K^3), and DF there; what is printed; and the entries at any phi1.
 _FIXED = "gamma=-nu*cos(phi)"
 _NEAR_FIXED = (f"(phi + 2*{KICK})", f"({KICK} - nu*cos(phi + 2*{KICK}))")
-FIXED_JACOBIAN = (
-    "(1 - 2*epsilon*nu*sin(phi))",
-    "(2*epsilon)",
-    "(nu*sin(phi)*(1 - epsilon - 2*epsilon*nu*sin(phi)))",
-    "(epsilon*(1 + 2*nu*sin(phi)))",
-)
-AT_REST = (
+FIXED_JACOBIAN = ("f11", "f12", "f21", "f22")
+AT_REST = unknowns(
+    " ".join(FIXED_JACOBIAN),
+    "phi nu epsilon",
     *(
         Equal(f"at(D({part}, {x}), {_FIXED})", FIXED_JACOBIAN[2 * row + column])
         for row, part in enumerate(_NEAR_FIXED)
@@ -110,13 +107,15 @@ PRINTED = (
     Equal(trace(PRINTED_JACOBIAN), "1 - 2*epsilon*nu*sin(phi)"),
     Equal(determinant(PRINTED_JACOBIAN), "0"),
 )
-_OFF_THE_MAP = (
-    "1 - epsilon*nu*sin(phi)",
-    "epsilon",
-    "nu*sin(phi1)*(1 - epsilon*nu*sin(phi))",
-    "epsilon*nu*sin(phi1)",
+_OFF_THE_MAP = ("o11", "o12", "o21", "o22")
+OFF_THE_MAP = unknowns(
+    " ".join(_OFF_THE_MAP),
+    "phi phi1 nu epsilon",
+    *(
+        Equal(f"at({entry}, {_FIXED})", name)
+        for entry, name in zip(JACOBIAN, _OFF_THE_MAP, strict=True)
+    ),
 )
-OFF_THE_MAP = tuple(map(Equal, (f"at({each}, {_FIXED})" for each in JACOBIAN), _OFF_THE_MAP))
 
 # -- 6.2, double impacts ---------------------------------------------------------------------------
 

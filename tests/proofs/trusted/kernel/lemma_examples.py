@@ -6,6 +6,7 @@ from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.kernel.values import Equal, Series
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
 CUBIC = "x**3 - 3*x + 1"
@@ -152,7 +153,27 @@ def refutations():
     return file
 
 
+def flips():
+    """The logistic map flips at r = 3, with the normal form of a stable cycle of period two."""
+    file = Lemmas()
+    step = "x1 - r*x*(1 - x)"
+    reduced = "-h + b2*h**2 + b3*h**3"
+    file.solution(
+        {"x": "2/3", "r": "3", "b2": "-3", "b3": "0", "c": "9"},
+        Equal(f"at({step}, x1=x)", "0"),
+        Series(f"at({step}, x=x + h, x1=x + ({reduced}))", "h", ("0",) * 4),
+        Equal("b2**2 + b3", "c"),
+    )
+    file.solution(
+        {"c": "-x**2/4", "d": "-x"},
+        Equal("x**2 + 4*c", "0"),
+        Series("sin(h*d)/d", "h", ("0", "1", "0", "-d**2/6"), ("x",)),
+    )
+    return file
+
+
 EXAMPLES = {
+    "flips": flips,
     "logistic": logistic,
     "henon_fixed_points": henon_fixed_points,
     "henon_horseshoe": henon_horseshoe,

@@ -73,7 +73,7 @@ def is_number(value):
 
 def numbers(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
     for path, value in walk(document["steps"], ("steps",)):
-        if is_tree(path) or {"rule", "coefficients"} & {*path}:
+        if is_tree(path) or {"rule", "coefficients", "expressions"} & {*path}:
             continue
         if isinstance(value, list) and len(value) > 1 and all(map(is_number, value)):
             yield "numbers swapped", path, put(path, value[::-1])

@@ -211,6 +211,16 @@ def test_functions_declare_their_variables():
     assert formula("x", variables=["x"]).definition == "F(x) = x"
 
 
+def test_other_names_are_all_substituted_away():
+    given = formula("at(D(x*z**2, z), z=y)", "y")
+    assert given.variables == ("x", "y") and given.free() == {"x", "y"}
+    for text in ("at(x + z, x=y)", "at(D(x*z**2, z), x=y)", "at(D(z, z), z=x) + z"):
+        with pytest.raises(Malformed, match="unknown variable 'z'"):
+            formula(text)
+    with pytest.raises(Malformed, match="not a name"):
+        formula("at(x + Z, Z=y)")
+
+
 def test_derivatives_that_grow_are_refused_when_read():
     """Each derivative of a product is about twice as long."""
     product = "*".join(["sin(x)*exp(x**2)"] * 12)

@@ -4,9 +4,24 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.paper.formulas import Equal, Passage, Value, at, corollary, derived_row, differ
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.solutions import Expressions
+from proofs.trusted.paper.formulas import (
+    Equal,
+    Passage,
+    Unknowns,
+    Value,
+    at,
+    corollary,
+    derived_row,
+    differ,
+    unknowns,
+)
+from proofs.trusted.paper.s5_soft import stability
+from proofs.trusted.paper.s6_resonance.resonance import ROWS as RESONANCE
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Found, Verdict
 
 
 class TestDecisions:
@@ -55,3 +70,31 @@ class TestDecisions:
             del found[index]
             assert self.ROW.decide(PAPER, found).verdict is Verdict.UNDECIDED
             assert beside.decide(PAPER, found).verdict is Verdict.UNDECIDED
+
+
+class TestUnknowns:
+    ASKED = unknowns("a", "x", Equal("a - 2*x", "0"))
+    THEOREM = corollary("The root is {a}, in {0}.", ASKED, values=(at("x", x="1"),))
+    ONE = Value("x", (("x", (Fraction(1), Fraction(1))),), (Fraction(1), Fraction(1)))
+
+    def proved(self, text, *more):
+        solved = Expressions((("a", text),), self.ASKED.lemmas)
+        return self.THEOREM.prove(Found(PAPER, [solved, *more]))
+
+    def test_a_theorem_says_what_is_solved_for(self):
+        assert self.proved("2*x", self.ONE).sentence == "The root is 2 x, in 1."
+
+    def test_nothing_follows_without_it_or_with_other_variables(self):
+        assert self.THEOREM.prove(Found(PAPER, [self.ONE])) is None
+        assert self.proved("2*y", self.ONE) is None
+        assert self.proved("2*x") is None
+
+
+@pytest.mark.parametrize("row", [*stability.ROWS, *RESONANCE], ids=lambda row: row.id)
+def test_no_two_unknowns_of_a_theorem_have_one_name(row):
+    asked = [need for need in row.needs if isinstance(need, Unknowns)]
+    for each in asked:
+        assert len(set(each.names)) == len(each.names)
+        assert not {"h", *each.names} & each.variables
+        free = read_formulas(*(Reader(f"({name})") for name in each.names)).variables
+        assert set(free) == set(each.names)

@@ -1,0 +1,223 @@
+"""Bifurcations of fixed points of a map of your own: Jacobian, conditions, normal forms, proved.
+
+The map is given by an equation for each of its one or two variables; x1 is the image of x, and the
+equations may be implicit. Every other name is a parameter. sympy differentiates and solves: for a
+fold (saddle-node), a flip (period doubling) and a Neimark-Sacker bifurcation it gives the
+condition, and, where it finds them in closed form, the fixed point, a parameter and the
+coefficients of the normal form (Kuznetsov's a, c and a). With --near they are enclosed at exact
+numbers instead. All of it is written as lemmas, which the checker derives again: sympy is not
+trusted.
+"""
+
+from __future__ import annotations
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.bifurcation")
+
+import sys
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from intervals import IntervalError, Undecided
+from proofs.methods import derive
+from proofs.methods.bifurcation.certify import Enclosed, closed, enclosure, prove_jacobian
+from proofs.methods.bifurcation.maps import Map
+from proofs.methods.bifurcation.normal_forms import KINDS, NormalForm
+from proofs.methods.lemmas import Lemmas
+from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
+from proofs.shell.cli import Parser, number, progress
+from proofs.shell.files import check_folder, refusing, writing
+from proofs.shell.screen import say
+from proofs.trusted.certificate import render
+from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.verify import Rejected, check
+
+EPILOG = """\
+Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact. An
+argument @FILE is replaced by the lines of the file. Other bifurcations than those found in closed
+form may exist. The coefficient "critical" decides: of a flip, positive for a stable cycle of period
+two; of a Neimark-Sacker bifurcation, negative for a stable circle, if t, the trace, is between -2
+and 2, not -1, not 0. "speed" is how fast the first parameter passes it: none takes place at 0.
+
+exit status: 0 done and checked, 1 a bifurcation that was asked for is not found,
+             2 bad input, 3 the checker disagrees (a bug)
+
+examples:
+  python -m proofs.bifurcation "x1 = r*x*(1 - x)"
+  python -m proofs.bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip
+  python -m proofs.bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip \\
+         --set b=0.3 --near x=1,y=0.3,a=0.4 --digits 50
+  python -m proofs.bifurcation "phi1 = phi + v - 2*pi*n" "v1 = alpha*v - g*cos(phi1)" \\
+         --kind flip --solve v,g,n                       the bouncing ball
+  python -m proofs.bifurcation "x1 = r*x*(1 - y)" "y1 = x" --kind neimark_sacker --out lemmas
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Derive the bifurcations of a map; return the exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.out is not None:
+        check_folder(parser, options.out)
+    try:
+        of = Map.read(*options.equations).with_numbers(
+            **{name: f"({value})" for name, value in options.set.items()}
+        )
+        forms = {kind: NormalForm(of, kind) for kind in _kinds(of, options)}
+        names = _names(of, options)
+    except ValueError as error:
+        parser.error(str(error))
+    with answering(parser, options, f"{', '.join(of.state)}: {', '.join(forms)}"):
+        return _answer(parser, options, forms, names)
+
+
+def _parser() -> Parser:
+    parser = Parser("proofs.bifurcation", __doc__, EPILOG)
+    parser.fromfile_prefix_chars = "@"
+    add = parser.add_argument
+    add("equations", nargs="+", metavar="EQUATION", help='such as "x1 = r*x*(1 - x)"')
+    add("--kind", action="append", choices=KINDS, help="which bifurcation (default: all)")
+    solve = "names to solve for, one more than variables (default: these and the first parameter)"
+    add("--solve", metavar="NAME,...", help=solve)
+    add("--set", type=_numbers, default={}, metavar="NAME=NUMBER,...", help="exact parameters")
+    near = "enclose the bifurcation near these numbers for the variables and the parameter left"
+    add("--near", type=_numbers, metavar="NAME=NUMBER,...", help=near)
+    add("--out", type=Path, metavar="DIR", help="write the lemmas to DIR/bifurcation.json")
+    add_answer(parser)
+    return parser
+
+
+def _numbers(text: str) -> dict[str, Fraction]:
+    found = {}
+    for each in text.split(","):
+        name, equals, value = each.partition("=")
+        if not equals or not name.strip().isidentifier():
+            raise ArgumentTypeError(f"NAME=NUMBER is expected, not {each[:30]!r}")
+        found[name.strip()] = number(value.strip())
+    return found
+
+
+def _kinds(of: Map, options: Namespace) -> list[str]:
+    possible = KINDS if len(of.state) == 2 else KINDS[:2]
+    return options.kind or [*possible]
+
+
+def _names(of: Map, options: Namespace) -> tuple[str, ...]:
+    """Return what is solved for: the variables, then a parameter; with --near its names."""
+    if options.near is not None:
+        if len(options.kind or ()) != 1:
+            raise ValueError("--near is about one bifurcation: --kind KIND")
+        if {*options.near} != {*of.state, *of.parameters} or len(of.parameters) != 1:
+            wanted = ", ".join((*of.state, "one parameter"))
+            raise ValueError(f"--near has numbers for {wanted}, --set for all other parameters")
+        return (*of.state, *of.parameters)
+    if options.solve:
+        names = tuple(name.strip() for name in options.solve.split(","))
+    else:
+        names = (*of.state, *of.parameters[:1])
+    if len(set(names)) != len(of.state) + 1 or not {*names} <= {*of.state, *of.parameters}:
+        raise ValueError(f"{len(of.state) + 1} names of variables and parameters are solved for")
+    return names
+
+
+def _answer(
+    parser: Parser, options: Namespace, forms: Mapping[str, NormalForm], names: tuple[str, ...]
+) -> int:
+    """Derive, check and print; return the exit status."""
+    file, missing = Lemmas(), list[str]()
+    of = next(iter(forms.values())).map
+    answer = _map_form(of)
+    prove_jacobian(file, of)
+    with progress() as tell:
+        for kind, form in forms.items():
+            tell(kind)
+            entry: Answer = {"condition": _formula(derive.read(form.condition()))}
+            answer["bifurcations"][kind] = entry
+            try:
+                if options.near is not None:
+                    found = enclosure(file, form, names[-1], options.near, options.digits)
+                    entry["enclosed"] = _enclosed_form(found, options.digits)
+                else:
+                    entry["closed"] = [_closed_form(each) for each in closed(file, form, names)]
+            except (Undecided, IntervalError, OverflowError) as failure:
+                missing.append(f"{kind}: {failure}")
+                entry["undecided"] = str(failure)
+        tell("the check")
+        source = render(file.document())
+        try:
+            answer["checked"] = list(check(source).sentences)
+        except (Rejected, Exhausted) as error:
+            say(f"{parser.prog}: the checker disagrees: {error}", sys.stderr)
+            return 3
+    if options.out is not None:
+        with refusing(parser, options.out), writing(options.out) as put:
+            put("bifurcation.json", source)
+    give(parser, options, answer, _text)
+    for each in missing if options.kind or options.near else []:
+        say(f"{parser.prog}: undecided: {each}", sys.stderr)
+    return int(bool(missing and (options.kind or options.near)))
+
+
+# -- the machine form ------------------------------------------------------------------------------
+
+
+def _formula(expression: Any) -> dict[str, str]:
+    import sympy
+
+    simple = derive.simplest(expression)
+    return {"formula": derive.write(simple), "latex": sympy.latex(simple)}
+
+
+def _map_form(of: Map) -> Answer:
+    """Return the map, its Jacobian and what holds at fixed points."""
+    matrix = of.jacobian
+    return {
+        "variables": list(of.state),
+        "parameters": list(of.parameters),
+        "equations": [_formula(derive.read(each)) for each in of.equations],
+        "fixed_points": [_formula(derive.read(each)) for each in of.fixed],
+        "jacobian": [[_formula(entry) for entry in row] for row in matrix.tolist()],
+        "trace": _formula(of.jacobian_at_rest.trace()),
+        "determinant": _formula(of.jacobian_at_rest.det()),
+        "bifurcations": {},
+    }
+
+
+def _closed_form(found: Mapping[str, Any]) -> Answer:
+    return {name: _formula(value) for name, value in found.items()}
+
+
+def _enclosed_form(found: Enclosed, digits: int) -> Answer:
+    values = {**found.box, "critical": found.critical, "speed": found.speed}
+    values["determinant"] = found.determinant
+    ends = {name: bounds(each, digits) for name, each in values.items()}
+    return {**ends, "says": found.says}
+
+
+def _text(answer: Answer) -> str:
+    """Write the answer for the screen."""
+    rows = [" ".join(f"{entry['formula']}," for entry in row)[:-1] for row in answer["jacobian"]]
+    said = [
+        f"variables {', '.join(answer['variables'])}; parameters "
+        f"{', '.join(answer['parameters']) or 'none'}",
+        *(f"  0 = {each['formula']}" for each in answer["equations"]),
+        "Jacobian, rows",
+        *(f"  {row}" for row in rows),
+        f"at fixed points: trace {answer['trace']['formula']}, "
+        f"determinant {answer['determinant']['formula']}",
+    ]
+    for kind, entry in answer["bifurcations"].items():
+        said.append(f"{kind}: 0 = {entry['condition']['formula']}")
+        for each in entry.get("closed", ()):
+            said.append("  " + ", ".join(f"{x} = {value['formula']}" for x, value in each.items()))
+        for name, value in entry.get("enclosed", {}).items():
+            said += lines(name, value, 12) if isinstance(value, dict) else [f"  {value}"]
+        if "undecided" in entry:
+            said.append(f"  undecided: {entry['undecided']}")
+    said.append(f"{len(answer['checked'])} lemmas, derived again by the checker")
+    return "\n".join(said)

@@ -1,0 +1,1 @@
+"""Bifurcations of fixed points of a map of one's own, of the line or the plane."""

@@ -1,0 +1,291 @@
+"""Normal forms of bifurcations against published coefficients, and against Kuznetsov's formulas.
+
+Published: Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4: Ricker's map flips
+at alpha = e^2, x = 2 with c(0) = 1/6 (example 4.1); the delayed logistic map has a Neimark-Sacker
+bifurcation at r = 2, x = 1/2 with theta = 60 degrees and a(0) = -2 (example 4.2); the Henon map has
+its fold at a = -(1 - b)^2/4 and its flip at a = 3 (1 - b)^2/4 in Henon's own coordinates
+(exercises; M. Henon, Commun. Math. Phys. 50, 1976). The logistic map flips at r = 3, with
+c = (f''/2)^2 = 9. J. Guckenheimer and P. Holmes, Nonlinear Oscillations, section 2.4: the bouncing
+ball (phi + v, alpha v - gamma cos(phi + v)) has its saddle-nodes at gamma = 2 n pi (1 - alpha) and
+its flips at gamma = 2 sqrt(n^2 pi^2 (1 - alpha)^2 + (1 + alpha)^2).
+"""
+
+from fractions import Fraction
+from itertools import product
+
+import pytest
+import sympy
+from mpmath import mp, mpc, mpf
+
+from intervals import Undecided
+from proofs.methods import derive
+from proofs.methods.bifurcation.certify import closed, enclosure, prove_jacobian
+from proofs.methods.bifurcation.maps import Map, formula
+from proofs.methods.bifurcation.normal_forms import NormalForm
+from proofs.methods.lemmas import Lemmas
+from proofs.trusted.certificate import render
+from proofs.trusted.verify import Rejected, check
+
+LOGISTIC = ("x1 = r*x*(1 - x)",)
+RICKER = ("x1 = a*x*exp(-x)",)
+HENON = ("x1 = 1 - a*x^2 + y", "y1 = b*x")
+DELAYED = ("x1 = r*x*(1 - y)", "y1 = x")
+BALL = ("phi1 = phi + v - 2*pi*n", "v1 = alpha*v - g*cos(phi1)")
+
+
+def in_closed_form(kind, names, *lines):
+    """What is found, after the checker has accepted its proof."""
+    file = Lemmas()
+    found = closed(file, NormalForm(Map.read(*lines), kind), names)
+    check(render(file.document()))
+    return found
+
+
+def enclosed(kind, parameter, near, *lines, digits=15, **numbers):
+    """An enclosure, after the checker has accepted its proof."""
+    file, of = Lemmas(), Map.read(*lines).with_numbers(**numbers)
+    near = {name: Fraction(value) for name, value in near.items()}
+    found = enclosure(file, NormalForm(of, kind), parameter, near, digits)
+    check(render(file.document()))
+    return found
+
+
+def same(expression, text):
+    return derive.simplest(expression - derive.read(formula(text))) == 0
+
+
+# -- published -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("kind", "names", "lines", "wanted"),
+    [
+        ("flip", ("x", "r"), LOGISTIC, {"x": "2/3", "r": "3", "critical": "9", "speed": "-1"}),
+        ("flip", ("x", "a"), RICKER, {"x": "2", "a": "exp(2)", "critical": "1/6"}),
+        ("fold", ("x", "y", "a"), HENON, {"a": "-(1 - b)^2/4", "x": "2/(1 - b)"}),
+        ("flip", ("x", "y", "a"), HENON, {"a": "3*(1 - b)^2/4", "x": "2/(3*(1 - b))"}),
+        (
+            "neimark_sacker",
+            ("x", "y", "r"),
+            DELAYED,
+            {"r": "2", "x": "1/2", "y": "1/2", "t": "1", "critical": "-2"},
+        ),
+    ],
+)
+def test_published_coefficients(kind, names, lines, wanted):
+    found = in_closed_form(kind, names, *lines)[-1]
+    for name, text in wanted.items():
+        assert same(found[name], text), (name, found[name])
+
+
+@pytest.mark.slow
+def test_the_bouncing_ball():
+    folds = in_closed_form("fold", ("v", "g", "phi"), *BALL)
+    assert {str(each["g"]) for each in folds} == {"-2*pi*n*(alpha - 1)", "2*pi*n*(alpha - 1)"}
+    (flip,) = in_closed_form("flip", ("v", "g", "n"), *BALL)
+    value = 4 * (sympy.pi**2 * flip["n"] ** 2 * derive.read("(1 - alpha)**2"))
+    value += derive.read("4*(1 + alpha)**2")
+    assert derive.simplest(flip["g"] ** 2 - value) == 0
+    with mp.workdps(30):
+        found = enclosed("flip", "g", {"phi": -2, "v": "6.28", "g": 5}, *BALL, n="1", alpha="1/5")
+        exact = 2 * mp.sqrt(mp.pi**2 * mpf("0.64") + mpf("1.44"))
+        low, high = found.box["g"]
+        assert mpf(low.numerator) / low.denominator < exact < mpf(high.numerator) / high.denominator
+        assert high - low < Fraction(1, 10**15)
+
+
+def test_a_fold_that_its_parameter_does_not_unfold_has_speed_0():
+    """The logistic map at r = 1: two fixed points cross, and neither vanishes."""
+    (found,) = in_closed_form("fold", ("x", "r"), *LOGISTIC)
+    assert (found["r"], found["critical"], found["speed"]) == (1, -1, 0)
+
+
+# -- by the formulas of Kuznetsov, with numerical derivatives --------------------------------------
+
+
+def forms(f, point):
+    """A, B, C of a map of the plane: its derivative and its second and third differentials."""
+
+    def differential(order):
+        places = list(product((0, 1), repeat=order))
+        known = {
+            (i, sum(c)): mp.diff(lambda x, y, i=i: f(x, y)[i], point, (order - sum(c), sum(c)))
+            for i in (0, 1)
+            for c in places
+        }
+
+        def apply(*vectors):
+            terms = {c: mp.fprod(v[k] for v, k in zip(vectors, c, strict=True)) for c in places}
+            return [mp.fsum(known[i, sum(c)] * terms[c] for c in places) for i in (0, 1)]
+
+        return apply
+
+    return differential(1), differential(2), differential(3)
+
+
+def dual(a, multiplier, q):
+    """The left eigenvector with p . q = 1 (p already conjugate)."""
+    first, second = a((1, 0)), a((0, 1))
+    p = [first[1], multiplier - first[0]]
+    assert abs(dot(p, second) - multiplier * p[1]) < 1e-10
+    return [each / dot(p, q) for each in p]
+
+
+def solve(a, shift, right):
+    """Solve (shift - A) x = right."""
+    first, second = a((1, 0)), a((0, 1))
+    rows = mp.matrix([[shift - first[0], -second[0]], [-first[1], shift - second[1]]])
+    return list(mp.lu_solve(rows, mp.matrix(right)))
+
+
+def dot(p, x):
+    return p[0] * x[0] + p[1] * x[1]
+
+
+def flip_coefficient(f, point):
+    """c = <p, C(q, q, q) + 3 B(q, (1 - A)^-1 B(q, q))>/6, equation (5.41), q = (1, .)."""
+    a, b, c = forms(f, point)
+    columns = a((1, 0)), a((0, 1))
+    q = [mpf(1), (-1 - columns[0][0]) / columns[1][0]]
+    p = dual(a, mpf(-1), q)
+    return (dot(p, c(q, q, q)) + 3 * dot(p, b(q, solve(a, 1, b(q, q))))) / 6
+
+
+def circle_coefficient(f, point):
+    """a = Re(conj(l) g21/2) - Re((1 - 2 l) conj(l)^2/(2 (1 - l)) g20 g11) - |g11|^2/2 - |g02|^2/4.
+
+    Equation (4.22), q = (l - J22, J21).
+    """
+    a, b, c = forms(f, point)
+    columns = a((1, 0)), a((0, 1))
+    trace = columns[0][0] + columns[1][1]
+    unit = mpc(trace, mp.sqrt(4 - trace**2)) / 2
+    q = [unit - columns[1][1], mpc(columns[0][1])]
+    p, bar = dual(a, unit, q), [mp.conj(each) for each in q]
+    g20, g11, g02 = dot(p, b(q, q)), dot(p, b(q, bar)), dot(p, b(bar, bar))
+    g21 = dot(p, c(q, q, bar))
+    cross = (1 - 2 * unit) * mp.conj(unit) ** 2 / (2 * (1 - unit)) * g20 * g11
+    last = mp.re(mp.conj(unit) * g21 / 2) - mp.re(cross)
+    return last - abs(g11) ** 2 / 2 - abs(g02) ** 2 / 4
+
+
+def middle(ends):
+    return mpf(sum(ends).numerator) / sum(ends).denominator / 2
+
+
+CASES = {
+    "henon": (
+        "flip", "a", {"x": 1, "y": "0.3", "a": "0.4"}, HENON, {"b": "3/10"},
+        lambda x, y, a: (1 - a * x**2 + y, mpf("0.3") * x),
+    ),
+    "implicit ball": (
+        "flip", "g", {"phi": -2, "v": "6.28", "g": 5}, BALL, {"n": "1", "alpha": "1/5"},
+        lambda x, y, g: (x + y - 2 * mp.pi, y / 5 - g * mp.cos(x + y)),
+    ),
+    "delayed logistic": (
+        "neimark_sacker", "r", {"x": ".5", "y": ".5", "r": 2}, DELAYED, {},
+        lambda x, y, r: (r * x * (1 - y), x),
+    ),
+    "predator and prey": (
+        "neimark_sacker", "d", {"x": ".5", "y": "1", "d": "2"},
+        ("x1 = 3*x*(1 - x) - x*y", "y1 = d*x*y"), {},
+        lambda x, y, d: (3 * x * (1 - x) - x * y, d * x * y),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", CASES)
+def test_coefficients_by_the_projection_method(case):
+    kind, parameter, near, lines, numbers, f = CASES[case]
+    found = enclosed(kind, parameter, near, *lines, **numbers)
+    with mp.workdps(40):
+        state = [middle(found.box[x]) for x in found.form.map.state]
+        value = middle(found.box[parameter])
+        wanted = (flip_coefficient if kind == "flip" else circle_coefficient)(
+            lambda x, y: f(x, y, value), state
+        )
+        assert abs(wanted - middle(found.critical)) < mpf(10) ** -11, wanted
+        assert abs(wanted) > 0.05
+
+
+# -- what is refused -------------------------------------------------------------------------------
+
+
+def proof(kind, names, *lines):
+    file = Lemmas()
+    prove_jacobian(file, Map.read(*lines))
+    closed(file, NormalForm(Map.read(*lines), kind), names)
+    return file
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("b2", "-2"), ("r", "2"), ("x", "1/3"), ("b3", "1"), ("critical", "8"), ("speed", "1")],
+)
+def test_the_checker_refuses_other_coefficients(name, text):
+    document = proof("flip", ("x", "r"), *LOGISTIC).document()
+    step = document["steps"]["solution-2"]["witness"]
+    assert step["expressions"][name] != text
+    step["expressions"][name] = text
+    with pytest.raises(Rejected):
+        check(render(document))
+
+
+@pytest.mark.parametrize("place", range(20))
+def test_the_checker_refuses_any_other_coefficient_of_a_circle(place):
+    document = proof("neimark_sacker", ("x", "y", "r"), *DELAYED).document()
+    expressions = document["steps"]["solution-1"]["witness"]["expressions"]
+    expressions[list(expressions)[place]] = "7/5"
+    with pytest.raises(Rejected):
+        check(render(document))
+
+
+def test_the_checker_refuses_another_jacobian():
+    document = proof("flip", ("x", "r"), *LOGISTIC).document()
+    text = document["steps"]["equal-1"]["witness"]["left"]
+    document["steps"]["equal-1"]["witness"]["left"] = text.replace("(2*x - 1)", "(2*x - 2)")
+    with pytest.raises(Rejected):
+        check(render(document))
+
+
+@pytest.mark.slow
+def test_real_multipliers_of_product_1_are_no_circle():
+    with pytest.raises(Undecided, match="real"):
+        enclosed(
+            "neimark_sacker", "b", {"x": "1", "y": "1", "b": "1"},
+            "x1 = 4*x - y - 2 + (x - 1)^2", "y1 = b*x + (y - 1)^2",
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (("x1 = r*x*(1 - x",), "not a formula"),
+        (("x1 = x@2",), "in no formula"),
+        (("r*x = 0",), "one or two variables"),
+        (("x1 = x", "y1 = y", "z1 = z"), "one or two variables"),
+        (("x1",), "not an equation"),
+    ],
+)
+def test_what_is_no_map(lines, message):
+    with pytest.raises(ValueError, match=message):
+        Map.read(*lines)
+
+
+def test_names_that_are_taken():
+    with pytest.raises(ValueError, match="something else: b2"):
+        NormalForm(Map.read("x1 = b2*x*(1 - x)"), "flip")
+
+
+def test_what_people_type():
+    assert formula("0.30*x^2-(1+y)") == "(3/10)*x**2 - (1 + y)"
+
+
+def test_an_implicit_map_has_the_jacobian_of_the_explicit_one():
+    """x1 = f(x), and the same map given as the root of exp(x1) - exp(f(x))."""
+    plain, hidden = Map.read(*RICKER), Map.read("exp(x1) = exp(a*x*exp(-x))")
+    image = derive.read("a*x*exp(-x)")
+    for of in (plain, hidden):
+        there = of.jacobian[0, 0].subs(sympy.Symbol("x1"), image)
+        assert sympy.simplify(there - sympy.diff(image, sympy.Symbol("x"))) == 0

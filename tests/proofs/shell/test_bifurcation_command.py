@@ -1,0 +1,105 @@
+"""`python -m proofs.bifurcation`: what it prints and writes, and what it refuses."""
+
+import json
+
+import pytest
+
+from proofs import bifurcation
+from proofs.bifurcation import main
+from proofs.trusted.verify import Rejected, check
+
+LOGISTIC = "x1 = r*x*(1 - x)"
+HENON = ("x1 = 1 - a*x^2 + y", "y1 = b*x")
+
+
+def answer(capsys, *arguments):
+    assert main([*arguments, "--json", "-"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_formulas_with_latex(capsys):
+    found = answer(capsys, *HENON, "--kind", "flip")
+    assert found["jacobian"][0][0] == {"formula": "-2*a*x", "latex": r"- 2 a x"}
+    (flip,) = found["bifurcations"]["flip"]["closed"]
+    assert flip["a"] == {
+        "formula": "3*(b - 1)**2/4",
+        "latex": r"\frac{3 \left(b - 1\right)^{2}}{4}",
+    }
+    assert flip["critical"]["formula"] == "-9*(b - 1)**3/(16*(b + 1))"
+    assert len(found["checked"]) == 5
+
+
+def test_enclosures_hold_the_digits_asked_for(capsys):
+    near = ["--set", "b=0.3", "--near", "x=1,y=0.3,a=0.4", "--digits", "25"]
+    found = answer(capsys, *HENON, "--kind", "flip", *near)["bifurcations"]["flip"]["enclosed"]
+    low, high = found["a"]["lower"], found["a"]["upper"]
+    assert float(low) <= 0.3675 <= float(high) and low.startswith("0.36749999999999999999999")
+    assert found["says"].startswith("supercritical")
+    assert found["critical"]["lower"].startswith("0.148413461538461538461538")
+
+
+def test_the_lemma_file_is_accepted_and_a_changed_one_is_not(tmp_path, capsys):
+    assert main([LOGISTIC, "--out", str(tmp_path)]) == 0
+    source = (tmp_path / "bifurcation.json").read_text()
+    assert f"{len(check(source).sentences)} lemmas" in capsys.readouterr().out
+    with pytest.raises(Rejected):
+        check(source.replace('"r": "3"', '"r": "5/2"'))
+
+
+def test_equations_from_a_file(tmp_path, capsys):
+    (tmp_path / "map").write_text("\n".join(HENON))
+    found = answer(capsys, f"@{tmp_path / 'map'}", "--kind", "fold")
+    assert found["variables"] == ["x", "y"]
+
+
+def test_what_is_not_found_is_said(capsys):
+    assert main([*HENON, "--kind", "neimark_sacker"]) == 1
+    assert "no closed form of x, y, a" in capsys.readouterr().err
+
+
+def test_no_bifurcation_near_a_guess(capsys, tmp_path):
+    """x1 = x + r has the multiplier 1 everywhere: no flip."""
+    arguments = ["x1 = x + r", "--kind", "flip", "--near", "x=0,r=1"]
+    assert main([*arguments, "--out", str(tmp_path)]) == 1
+    assert "undecided: flip" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["x1 = r*x*(1 - x"], "not a formula"),
+        (["x1 = x^2 + c", "--set", "d=1"], "no parameter d"),
+        (["x1 = x^2 + c", "--set", "c"], "NAME=NUMBER"),
+        (["x1 = x^2 + c", "--kind", "neimark_sacker"], "one variable"),
+        (["x1 = x^2 + c", "--near", "x=0,c=0"], "--kind"),
+        (["x1 = x^2 + c", "--kind", "flip", "--near", "x=0"], "one parameter"),
+        (["x1 = x^2 + c", "--solve", "x"], "2 names"),
+        (["x1 = x^2 + h"], "something else: h"),
+        (["x = 2"], "one or two variables"),
+        ([LOGISTIC, "--json", "/proc/none/x"], "cannot write"),
+        ([LOGISTIC, "--out", "/proc/none"], "cannot write"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, message, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    printed = capsys.readouterr()
+    assert stop.value.code == 2 and not printed.out
+    assert printed.err.count("\n") == 1 and message in printed.err
+
+
+def test_a_checker_that_disagrees_is_said_loudly(monkeypatch, capsys):
+    def disagree(source):
+        raise Rejected("$.steps")
+
+    monkeypatch.setattr(bifurcation, "check", disagree)
+    assert main([LOGISTIC]) == 3
+    assert "the checker disagrees" in capsys.readouterr().err
+
+
+def test_help_has_examples(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    shown = capsys.readouterr().out
+    assert 'python -m proofs.bifurcation "x1 = r*x*(1 - x)"' in shown
+    assert "bouncing ball" in shown
