@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 
@@ -19,6 +17,7 @@ from proofs.report.differences import marked
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
 from proofs.report.inline import inlined
+from proofs.report.layout import Block, block, enclosure, sentences
 from proofs.report.names import (
     DEFINITIONS,
     MEANINGS,
@@ -32,23 +31,13 @@ from proofs.report.names import (
 from proofs.report.pictures import Picture
 from proofs.report.typeset import begun, html
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import ceil_text, floor_text
+from proofs.trusted.numbers import floor_text
 from proofs.trusted.verdicts import Verdict
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
 _POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
 _TEMPLATES = Path(__file__).parent / "templates"
 _LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
-_MANY = 6  # steps of one rule that are shown behind a line of their own
-
-
-@dataclass(frozen=True)
-class Block:
-    """A sentence of a statement, or a list with what introduces it."""
-
-    text: Markup
-    items: tuple[Markup, ...] = ()
-    style: str = ""
 
 
 def page(
@@ -170,7 +159,7 @@ class View:
             if isinstance(part, Statement):
                 blocks.append(Block(self.link(part) + "; moreover:"))
             else:
-                blocks += [_block(sentence, printed) for sentence in sentences(part)]
+                blocks += [block(sentence, printed) for sentence in sentences(part)]
         return blocks
 
     def link(self, statement: Statement) -> Markup:
@@ -278,41 +267,3 @@ def formula(conclusion: Conclusion) -> Markup:
 
 def _math(latex: str) -> Markup:
     return Markup(mathml(latex))
-
-
-def sentences(text: str) -> list[str]:
-    """Divide a text after each full stop that a capital or a symbol in brackets follows."""
-    return re.split(r"(?<=\.) (?=[A-Z(|])", text)
-
-
-def _block(sentence: str, printed: str) -> Block:
-    """Return a sentence, enumerations as a list: (1) ...; (2) ..., or many parts after a colon."""
-    head, *numbered = re.split(r"[;:] \(\d\) ", sentence)
-    if len(numbered) > 1:
-        return Block(Markup(marked(head + ":", printed)), _items(numbered, printed), "parts")
-    head, colon, rest = sentence.rpartition(": n = 1: ")
-    parts = f"n = 1: {rest}".split("; ")
-    if colon and len(parts) > _MANY:
-        return Block(Markup(marked(head + ":", printed)), _items(parts, printed), "narrow")
-    return Block(Markup(marked(sentence, printed)))
-
-
-def _items(parts: Sequence[str], printed: str) -> tuple[Markup, ...]:
-    return tuple(Markup(marked(part, printed)) for part in parts)
-
-
-def enclosure(lower: str, upper: str) -> str:
-    """Write two decimals as one: 1.23[45, 46]; wide ones as a range, rounded outward."""
-    if lower == upper:
-        return lower
-    places = max(len(text.partition(".")[2]) for text in (lower, upper))
-    low, high = (_padded(text, places) for text in (lower, upper))
-    shared = next((k for k, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), 0)
-    if len(low) == len(high) and shared > len(low.partition(".")[0]) + 4:
-        return f"{low[:shared]}[{low[shared:]}, {high[shared:]}]"
-    return f"[{floor_text(Fraction(lower), 8)}, {ceil_text(Fraction(upper), 8)}]"
-
-
-def _padded(text: str, places: int) -> str:
-    whole, _, digits = text.partition(".")
-    return f"{whole}.{digits.ljust(places, '0')}" if places else whole

@@ -8,8 +8,8 @@ import pytest
 
 from proofs.report import __main__ as command
 from proofs.report.differences import facts, marked
-from proofs.report.html import enclosure, sentences
 from proofs.report.inline import inlined, shortened
+from proofs.report.layout import enclosure, sentences
 from proofs.report.ledger import ledger
 from proofs.report.typeset import html, markdown
 from tests.proofs.report.conftest import REPORTS

@@ -1,0 +1,62 @@
+"""How texts are laid out on the page: sentences, enumerations, enclosures."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from markupsafe import Markup
+
+from proofs.report.differences import marked
+from proofs.trusted.numbers import ceil_text, floor_text
+
+_MANY = 6  # parts after which an enumeration is a list
+
+
+@dataclass(frozen=True)
+class Block:
+    """A sentence of a statement, or a list with what introduces it."""
+
+    text: Markup
+    items: tuple[Markup, ...] = ()
+    style: str = ""
+
+
+def sentences(text: str) -> list[str]:
+    """Divide a text after each full stop that a capital or a symbol in brackets follows."""
+    return re.split(r"(?<=\.) (?=[A-Z(|])", text)
+
+
+def block(sentence: str, printed: str) -> Block:
+    """Return a sentence, enumerations as a list: (1) ...; (2) ..., or many parts after a colon."""
+    head, *numbered = re.split(r"[;:] \(\d\) ", sentence)
+    if len(numbered) > 1:
+        return Block(Markup(marked(head + ":", printed)), _items(numbered, printed), "parts")
+    head, colon, rest = sentence.rpartition(": n = 1: ")
+    parts = f"n = 1: {rest}".split("; ")
+    if colon and len(parts) > _MANY:
+        return Block(Markup(marked(head + ":", printed)), _items(parts, printed), "narrow")
+    return Block(Markup(marked(sentence, printed)))
+
+
+def _items(parts: Sequence[str], printed: str) -> tuple[Markup, ...]:
+    return tuple(Markup(marked(part, printed)) for part in parts)
+
+
+def enclosure(lower: str, upper: str) -> str:
+    """Write two decimals as one: 1.23[45, 46]; wide ones as a range, rounded outward."""
+    if lower == upper:
+        return lower
+    places = max(len(text.partition(".")[2]) for text in (lower, upper))
+    low, high = (_padded(text, places) for text in (lower, upper))
+    shared = next((k for k, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), 0)
+    if len(low) == len(high) and shared > len(low.partition(".")[0]) + 4:
+        return f"{low[:shared]}[{low[shared:]}, {high[shared:]}]"
+    return f"[{floor_text(Fraction(lower), 8)}, {ceil_text(Fraction(upper), 8)}]"
+
+
+def _padded(text: str, places: int) -> str:
+    whole, _, digits = text.partition(".")
+    return f"{whole}.{digits.ljust(places, '0')}" if places else whole
