@@ -1,8 +1,69 @@
-"""`python -m proofs`: every claim decided so far, with one exit status."""
+"""All commands, and the way to each: `impact-proofs COMMAND`, or `python -m proofs COMMAND`.
 
-import sys
+A command is what has a line with `__main__` in this folder, or in a `__main__.py` below it; the
+first line of its docstring says what it does.
+"""
 
-from proofs.shell.ledger import main
+from __future__ import annotations
 
 if __name__ == "__main__":
-    sys.exit(main())
+    from proofs.shell.entry import launch
+
+    launch("proofs.__main__")
+
+import ast
+import sys
+from difflib import get_close_matches
+from importlib import import_module
+from pathlib import Path
+
+from proofs import __version__
+from proofs.shell.entry import USAGE_ERROR, launch
+from proofs.shell.screen import flowing, say
+
+_ROOT = Path(__file__).parent
+_USAGE = """\
+usage: impact-proofs COMMAND [OPTION ...]     or: python -m proofs.COMMAND [OPTION ...]
+
+Verdicts on a paper about chaos in an impact oscillator, each with a certificate. `COMMAND --help`
+has its options and examples; options without a command go to `ledger`.
+"""
+
+
+def commands() -> dict[str, str]:
+    """Return for each command its line in the list."""
+    found = {}
+    for file in sorted([*_ROOT.glob("*.py"), *_ROOT.glob("*/__main__.py")]):
+        source = file.read_text(encoding="utf-8")
+        if 'if __name__ == "__main__":' in source and file != Path(__file__):
+            name = file.stem if file.parent == _ROOT else file.parent.name
+            found[name] = (ast.get_docstring(ast.parse(source)) or "").partition("\n")[0]
+    return found
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """List the commands, or run the one that is named; return the exit status."""
+    first, *rest = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    if first in ("-h", "--help"):
+        print(flowing(_USAGE))
+        for name, line in commands().items():
+            say(f"  {name:16} {line}", hanging=17)
+        return 0
+    if first == "--version":
+        say(f"impact-proofs {__version__}")
+        return 0
+    if first.startswith("-"):
+        first, rest = "ledger", [first, *rest]
+    known = commands()
+    if first not in known:
+        near = get_close_matches(first, known, 1)
+        hint = f"; is it {near[0]}?" if near else ", see --help"
+        say(f"python -m proofs: there is no command {first[:40]!r}{hint}", sys.stderr)
+        return USAGE_ERROR
+    place = first if (_ROOT / f"{first}.py").exists() else f"{first}.__main__"
+    return int(import_module(f"proofs.{place}").main(rest))
+
+
+def script() -> None:
+    """Run the console script."""
+    launch("proofs.__main__")

@@ -11,6 +11,11 @@ trusted.
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.bifurcation")
+
 import sys
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Mapping
@@ -25,12 +30,13 @@ from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import KINDS, NormalForm
 from proofs.methods.lemmas import Lemmas
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
-from proofs.shell.cli import Parser, number, progress, writable
-from proofs.trusted.certificate import render, write_atomically
+from proofs.shell.cli import Parser, number, progress
+from proofs.shell.files import check_folder, refusing, writing
+from proofs.shell.screen import say
+from proofs.trusted.certificate import render
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
 
-SCHEMA = "impact-proofs.bifurcation/1"
 EPILOG = """\
 Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact. An
 argument @FILE is replaced by the lines of the file. Other bifurcations than those found in closed
@@ -57,7 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.out is not None:
-        writable(parser, options.out)
+        check_folder(parser, options.out)
     try:
         of = Map.read(*options.equations).with_numbers(
             **{name: f"({value})" for name, value in options.set.items()}
@@ -146,13 +152,14 @@ def _answer(
         try:
             answer["checked"] = list(check(source).sentences)
         except (Rejected, Exhausted) as error:
-            print(f"{parser.prog}: the checker disagrees: {error}", file=sys.stderr)
+            say(f"{parser.prog}: the checker disagrees: {error}", sys.stderr)
             return 3
     if options.out is not None:
-        write_atomically(options.out / "bifurcation.json", source)
+        with refusing(parser, options.out), writing(options.out) as put:
+            put("bifurcation.json", source)
     give(parser, options, answer, _text)
     for each in missing if options.kind or options.near else []:
-        print(f"{parser.prog}: undecided: {each}", file=sys.stderr)
+        say(f"{parser.prog}: undecided: {each}", sys.stderr)
     return int(bool(missing and (options.kind or options.near)))
 
 
@@ -170,7 +177,6 @@ def _map_form(of: Map) -> Answer:
     """Return the map, its Jacobian and what holds at fixed points."""
     matrix = of.jacobian
     return {
-        "schema": SCHEMA,
         "variables": list(of.state),
         "parameters": list(of.parameters),
         "equations": [_formula(derive.read(each)) for each in of.equations],
@@ -215,7 +221,3 @@ def _text(answer: Answer) -> str:
             said.append(f"  undecided: {entry['undecided']}")
     said.append(f"{len(answer['checked'])} lemmas, derived again by the checker")
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

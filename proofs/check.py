@@ -1,26 +1,41 @@
-"""`python -m proofs.check FILE ...`: re-derive every verdict in certificates, print them."""
+"""Re-derive every verdict in certificates, from their witnesses alone: the independent checker."""
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.check")
+
 import argparse
 import sys
-from collections import Counter
 from pathlib import Path
 
-from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, digest, read, schema_of
+from proofs.shell.screen import Arguments, fitted, say
+from proofs.trusted.certificate import (
+    LEDGER,
+    MANIFEST,
+    Malformed,
+    digest,
+    read,
+    read_stream,
+    schema_of,
+)
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
-FOLDERS = {MANIFEST: check_manifest, LEDGER: check_ledger}
+PIPED = Path("-")
+FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
-exit status: 0 every claim in every file is proved as stated (verified or refuted)
+exit status: 0 every claim in every file is decided as stated (SIMULATED is no proof)
              1 a claim is undecided, or a file does not prove what it says
              2 a file cannot be read or is no certificate
 
 examples:
   python -m proofs.check reports/horseshoe.json
+  python -m proofs.horseshoe --json - | python -m proofs.check -
   python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
   python -m proofs.check --rules                  what may be inferred, and from what
 """
@@ -28,14 +43,11 @@ examples:
 
 def main(arguments: list[str] | None = None) -> int:
     """Check the files named on the command line; return the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="python -m proofs.check",
-        description=__doc__,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("files", nargs="*", metavar="FILE", type=Path)
+    parser = Arguments("proofs.check", __doc__, EPILOG)
+    files = "a certificate, or MANIFEST.json or ledger.json beside those; - for one piped in"
+    parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
     parser.add_argument("--stats", action="store_true", help="count what is evaluated")
     help_text = f"how much work a file may take (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
@@ -43,11 +55,12 @@ def main(arguments: list[str] | None = None) -> int:
     if options.rules:
         from proofs.report.specification import specification
 
-        print(specification(), end="")
+        print(fitted(specification(), sys.stdout), end="")
     elif not options.files:
         parser.error("no file to check")
     examine = check_counting if options.stats else check_file
-    return max((examine(path, options.work) for path in options.files), default=0)
+    checks = (examine(path, options.work, options.quiet) for path in options.files)
+    return max(checks, default=0)
 
 
 def _work(text: str) -> int:
@@ -57,69 +70,73 @@ def _work(text: str) -> int:
     return int(text[:19])
 
 
-def check_counting(path: Path, work: int) -> int:
+def check_counting(path: Path, work: int, is_quiet: bool) -> int:
     """Check one file, and print what that evaluates; return its exit status."""
     from proofs.shell.counting import counted, show
 
     with counted() as counts:
-        status = check_file(path, work)
+        status = check_file(path, work, is_quiet)
     if status < 2:
-        show(counts, [printable(path)], quiet=False)
+        show(counts, [printable(path)], quiet=is_quiet)
     return status
 
 
 def printable(path: Path) -> str:
     """Return the name of a file as a terminal may show it."""
+    if path == PIPED:
+        return "standard input"
     return str(path) if str(path).isprintable() else ascii(str(path))
 
 
-def check_file(path: Path, work: int = DEFAULT) -> int:
+def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False) -> int:
     """Check one file, print a line a claim; return its exit status."""
     name = printable(path)
     try:
-        source = read(path)
+        source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
         schema = schema_of(source)
         if schema in FOLDERS:
-            listed = FOLDERS[schema](source, path.parent, work)
-            print(f"{name}: {_counted(listed)}, all as listed")
-            return int(any(each.verdict is Verdict.UNDECIDED for each in listed))
-        report = check(source, work)
+            kind, check_listed = FOLDERS[schema]
+            name = f"{name}: {kind}"
+            listed = check_listed(source, path.parent, work)
+            said = [f"{name} of {_counted(listed)}, all as the certificates beside it prove"]
+            verdicts = [each.verdict for each in listed]
+        else:
+            report = check(source, work)
+            said = report_lines(name, report, digest(source))
+            verdicts = [claim.verdict for claim in report.claims]
     except Malformed as error:
-        print(f"{name}: malformed: {error}", file=sys.stderr)
-        return 2
+        return _refused(2, f"{name}: malformed: {error}")
     except OSError as error:
-        print(f"{name}: cannot be read: {error.strerror or error}", file=sys.stderr)
-        return 2
+        return _refused(2, f"{name}: cannot be read: {error.strerror or error}")
     except Rejected as error:
-        print(f"{name}: REJECTED: {error}", file=sys.stderr)
-        return 1
+        return _refused(1, f"{name}: REJECTED: {error}")
     except Exhausted as error:
-        print(f"{name}: not decided: {error}", file=sys.stderr)
-        return 1
-    print_report(name, report, digest(source))
-    return int(any(claim.verdict is Verdict.UNDECIDED for claim in report.claims))
+        return _refused(1, f"{name}: not decided: {error}")
+    if not is_quiet:
+        say("\n".join(said))
+    return int(Verdict.UNDECIDED in verdicts)
+
+
+def _refused(status: int, line: str) -> int:
+    say(line, sys.stderr)
+    return status
 
 
 def _counted(listed: list[Listed]) -> str:
-    counts = Counter(each.verdict.value for each in listed)
-    named = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    other = sum(not each.is_paper for each in listed)
+    claims = {(each.id, each.is_paper): each for each in listed}.values()  # in two files, as N1
+    named = tally((each.verdict, each.is_own) for each in claims)
+    other = sum(not each.is_paper for each in claims)
     where = f", {other} of them at other parameters" if other else " at the paper's parameters"
-    return f"{len(listed)} claims{where}: {named}"
+    return f"{len(claims)} claims{where}: {named}"
 
 
-def print_report(name: str, report: Report, digest_of: str) -> None:
-    """Print what a certificate was found to prove."""
+def report_lines(name: str, report: Report, digest_of: str) -> list[str]:
+    """Return what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
     about = "about formulas" if report.parameters is None else whose
-    print(f"{name}: accepted, {about}, {digest_of}")
+    said = [f"{name}: accepted, {about}, {digest_of}"]
     for claim in report.claims:
-        print(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
+        said.append(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
         if claim.corrected is not None:
-            print(f"       corrected, VERIFIED: {claim.corrected}")
-    for sentence in report.sentences:
-        print(f"  {sentence}")
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+            said.append(f"       corrected, VERIFIED: {claim.corrected}")
+    return said + [f"  {sentence}" for sentence in report.sentences]

@@ -4,17 +4,19 @@ The main job: proves or refutes each claim at exact parameters, repairs the sets
 printed numbers fail, writes certificate and report, and has the checker re-derive them.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.horseshoe")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 EXAMPLES = """
+  python -m proofs.horseshoe --eta 0.22 --nu -0.2      I0, I1 and the slopes are found there
   python -m proofs.horseshoe --eta 0.212 --nu -0.2 --left 1.1 1.15 --right 1.27 1.32
   python -m proofs.horseshoe --only N1 N2 --epsilon 0.02
 """
 
 main = partial(run, "horseshoe", description=__doc__, examples=EXAMPLES)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -11,6 +11,11 @@ This is the plastic map. With a coefficient of restitution EPSILON and the veloc
 (PHI, GAMMA), instead of the slope.
 """
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.impact")
+
 import sys
 from argparse import Namespace
 from fractions import Fraction
@@ -32,8 +37,8 @@ asked for are certified; for an interval the bounds enclose the images of all it
 the map jumps in the interval (grazing, the edge of the sticking arc), the set of possible
 images is printed instead, and the exit status is 1.
 
-exit status: 0 certified, 1 only a set of possible images, or undecided,
-             2 bad input, or no impact within the horizon
+exit status: 0 certified, 1 only a set of possible images, undecided, or no impact within the
+             horizon, 2 bad input
 
 examples:
   python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11
@@ -62,10 +67,11 @@ def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -
     """Print or write the image; return the exit status."""
     try:
         found = _image(system, phases, options)
-    except (NoImpact, Impossible) as failure:
+    except Impossible as failure:
         parser.error(str(failure))
     except (Undecided, IntervalError) as failure:
-        print(f"{parser.prog}: undecided: {failure}", file=sys.stderr)
+        kind = "no impact" if isinstance(failure, NoImpact) else "undecided"
+        print(f"{parser.prog}: {kind}: {failure}", file=sys.stderr)
         return 1
     answer = {"eta": show(system.eta), "nu": show(system.nu), "phi": [show(x) for x in phases]}
     if options.gamma:
@@ -176,7 +182,3 @@ def _text(answer: Answer) -> str:
     ]
     said = [at, *(line for label, ends in rows if ends is not None for line in lines(label, ends))]
     return "\n".join([*said, f"  sticks first       {'yes' if answer['sticking'] else 'no'}"])
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -4,12 +4,13 @@ Candidates by floating point; every impact, rectangle and barred word is proved 
 arithmetic and recorded for the checker.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.nonplastic")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "nonplastic", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -11,6 +11,11 @@ of its orbit).
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.orbits")
+
 import csv
 import io
 import sys
@@ -27,14 +32,14 @@ from proofs.motion.phase import turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
 from proofs.search.s31_horseshoe import prove
-from proofs.shell.answers import Answer, add_answer, answering, bounds, lines, machine_text
-from proofs.shell.cli import Parser, number, progress, whole, write_target
+from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
+from proofs.shell.cli import Parser, number, whole
+from proofs.shell.files import write_target
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 
-SCHEMA = "impact-proofs.orbits/1"
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
 _BOXES = 16  # of each branch, for the proof that f is C^1 there
 _LONGEST_PERIOD = 16
@@ -117,20 +122,18 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     places = None if options.fast else options.digits
     began = perf_counter()
     try:
-        with progress() as tell:
-            tell("the horseshoe")
-            found = periodic_points(horseshoe(of), words, places, tell)
+        options.tell("the horseshoe")
+        found = periodic_points(horseshoe(of), words, places, options.tell)
     except (Undecided, IntervalError, OverflowError) as failure:
         print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
         return 1
     seconds = perf_counter() - began
+    options.tell("")
     shown = options.digits if places else min(options.digits, _FAST_DIGITS)
     rows = [_row(point, shown) for point in found]
     write_target(parser, options.csv, lambda: _csv(rows))
-    answer = {"schema": SCHEMA, "parameters": _machine_form(of, places), "orbits": rows}
-    write_target(parser, options.json, lambda: machine_text(answer))
-    if "-" not in (options.csv, options.json):
-        print(_text(of, rows, len(words.cycles), seconds))
+    answer = {"parameters": _machine_form(of, places), "orbits": rows}
+    give(parser, options, answer, lambda _: _text(of, rows, len(words.cycles), seconds))
     return 0
 
 
@@ -220,7 +223,3 @@ def _text(of: Parameters, rows: list[Answer], orbits: int, seconds: float) -> st
         f"I1 = {show_range(of.right)}; orbits: {orbits}, in {seconds:.2f} s"
     )
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

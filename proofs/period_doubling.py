@@ -14,7 +14,11 @@ of `python -m proofs.soft`.
 
 from __future__ import annotations
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.period_doubling")
+
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterable
 from fractions import Fraction
@@ -247,7 +251,3 @@ def _matrix(motion: Answer) -> list[str]:
     ]
     cells += [("eigenvalue", each) for each in motion["eigenvalues"]]
     return [line for name, ends in cells for line in lines(name, ends, 15)]
-
-
-if __name__ == "__main__":
-    sys.exit(main())

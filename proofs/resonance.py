@@ -10,6 +10,11 @@ to:
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.resonance")
+
 import sys
 from argparse import Namespace
 
@@ -21,7 +26,7 @@ from proofs.shell.runner import run
 from proofs.trusted.numbers import TURN, show
 
 _NUMBERS = ("nu", "epsilon", "phi", "gamma")
-_STATE = ("--phi", "--gamma")  # options that only the map takes
+_STATE = ("--nu", "--epsilon", "--phi", "--gamma")  # options that only the map takes
 EPILOG = """\
 Numbers are exact: 0.2 is 1/5; 7/5 and 2e-3 are fine too. All digits asked for are certified. A
 mass that rests on the table for ever has no next impact, elastic impacts have no limit phase:
@@ -94,7 +99,3 @@ def _text(answer: Answer) -> str:
         said += [f"  {label:18} none"] if ends is None else lines(label, ends)
     said.append(f"  rests at once      {'yes' if answer['sticking'] else 'no'}")
     return "\n".join(said)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

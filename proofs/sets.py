@@ -4,12 +4,13 @@ Claims H7-H10, on the invariant set of the map, rest on a horseshoe around the g
 on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on powers of rationals.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.sets")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "sets", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -4,12 +4,13 @@ Identities are found with sympy; solutions, first impacts and the ends of the wi
 orbits in figures 7a and 7b are enclosed with the package `intervals`.
 """
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.single")
+
 from functools import partial
 
 from proofs.shell.runner import run
 
 main = partial(run, "single", description=__doc__)
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -7,22 +7,27 @@ is N periods later and transversal), and whether that is stable.
 
 from __future__ import annotations
 
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.single_impact")
+
 from argparse import Namespace
-from collections.abc import Iterable
+from collections.abc import Callable, Sequence
 
 from intervals import DomainError, Undecided
 from proofs.motion.single_orbits import SingleImpact, last_period, solutions
 from proofs.motion.system import System
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
-from proofs.shell.cli import Parser, number, whole
+from proofs.shell.cli import Parser, number, progress, whole
 from proofs.trusted.numbers import show
 
 EPILOG = """\
 Numbers are exact: 0.237 is 237/1000; 7/5 and 2e-3 are fine too. Without --n, N goes up to where
 no solution can be an orbit any more, or to --most (then "complete" is false). "resonant" lists the
 N with N eta an integer: there every phase solves (16), none with a transversal impact. What is not
-decided, too close to sticking or grazing, is null; "undecided" lists the N at a saddle-node.
+decided, too close to sticking or grazing, is null, as is a slope (18) that is 0/0; "undecided"
+lists the N at which the solutions are two or none, at a saddle-node or next to one.
 
 exit status: 0 all is decided, 1 something is not, 2 bad input
 
@@ -57,19 +62,26 @@ def _answer(parser: Parser, system: System, options: Namespace) -> int:
     """Print the solutions asked for; return the exit status."""
     last = last_period(system)
     most = options.most if last is None else min(last, options.most)
-    periods = range(1, most + 1) if options.n is None else (options.n,)
-    answer = answer_for(system, periods, options.digits)
+    periods = range(1, most + 1) if options.n is None else range(options.n, options.n + 1)
+    with progress() as tell:
+        answer = answer_for(system, periods, options.digits, tell)
     answer["complete"] = options.n is None and last is not None and last <= options.most
     give(parser, options, answer, _text)
     open_ones = [one for one in answer["solutions"] if None in (one["admissible"], one["stable"])]
     return int(bool(answer["undecided"] or open_ones))
 
 
-def answer_for(system: System, periods: Iterable[int], places: int) -> Answer:
+def answer_for(
+    system: System,
+    periods: Sequence[int],
+    places: int,
+    tell: Callable[[str], None] = lambda stage: None,
+) -> Answer:
     """Return the JSON object of an answer."""
     found: list[Answer] = []
     resonant, undecided = [], []
     for n in periods:
+        tell(f"n = {n} of {periods[-1]}")
         if n * system.eta % 1 == 0:
             resonant.append(n)
             continue
@@ -80,6 +92,7 @@ def answer_for(system: System, periods: Iterable[int], places: int) -> Answer:
     return {
         "eta": show(system.eta),
         "nu": show(system.nu),
+        "periods": [periods[0], periods[-1]] if periods else [],
         "solutions": found,
         "resonant": resonant,
         "undecided": undecided,
@@ -91,7 +104,7 @@ def machine_form(one: SingleImpact, places: int) -> Answer:
     return {
         "n": one.n,
         "phase": bounds(one.phase, places),
-        "multiplier": bounds(one.multiplier, places),
+        "multiplier": None if one.multiplier is None else bounds(one.multiplier, places),
         "admissible": one.admissible,
         "stable": one.stable,
         "reason": one.reason,
@@ -99,24 +112,46 @@ def machine_form(one: SingleImpact, places: int) -> Answer:
 
 
 def _text(answer: Answer) -> str:
-    said = [f"eta = {answer['eta']}, nu = {answer['nu']}"]
+    said = [f"eta = {answer['eta']}, nu = {answer['nu']}", *_summary(answer)]
     for one in answer["solutions"]:
         kind = {True: "an orbit", False: "no orbit", None: "undecided"}[one["admissible"]]
         if one["admissible"]:
             kind += {True: ", stable", False: ", not stable", None: ""}[one["stable"]]
         said.append(f"n = {one['n']}: {kind} ({one['reason']})")
-        for name in ("phase", "multiplier"):
-            said += lines(name, one[name], 10)
-    if answer["resonant"]:
-        periods = ", ".join(map(str, answer["resonant"]))
-        said.append(f"n = {periods}: n eta is an integer, every phase solves (16)")
-    said += [f"n = {n}: undecided, a saddle-node" for n in answer["undecided"]]
-    if len(said) == 1:
-        said.append("no solution of (16)")
-    if answer["complete"]:
-        said.append("for greater n no solution is an orbit")
+        said += lines("phase", one["phase"], 10)
+        said += lines("multiplier", one["multiplier"], 10) if one["multiplier"] else []
     return "\n".join(said)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def _summary(answer: Answer) -> list[str]:
+    """Say what there is, before all of it is listed."""
+    if not answer["periods"]:
+        return [
+            "no orbit for any n: for 0 < nu < 1 one needs n eta < 1/2; (16) may have solutions "
+            "all the same: --n 1 lists those for n = 1"
+        ]
+    first, last = answer["periods"]
+    looked, found = f"n = {first}" + f", ..., {last}" * (first < last), answer["solutions"]
+    orbits = [one for one in found if one["admissible"]]
+    stable = sorted({one["n"] for one in orbits if one["stable"]})
+    open_ones = sum(None in (one["admissible"], one["stable"]) for one in found)
+    named = f", for n = {', '.join(map(str, stable))}" if stable else ""
+    said = [
+        f"{looked}: {_count(found, 'solution')} of (16) where n eta is no integer, "
+        f"{_count(orbits, 'orbit')}, {len(stable)} stable{named}"
+    ]
+    if open_ones:
+        said.append(f"{open_ones} of the solutions are not decided")
+    for name, why in (
+        ("resonant", "n eta is an integer, every phase solves (16), no impact is transversal"),
+        ("undecided", "undecided, two solutions or none: a saddle-node, or close to one"),
+    ):
+        if answer[name]:
+            said.append(f"n = {', '.join(map(str, answer[name]))}: {why}")
+    if answer["complete"]:
+        said.append("for greater n no solution is an orbit")
+    return said
+
+
+def _count(found: Sequence[Answer], noun: str) -> str:
+    return f"{len(found) or 'no'} {noun}" + "s" * (len(found) != 1)

@@ -1,9 +1,13 @@
-"""The command line: what to measure, how often, and where tables, page and samples go."""
+"""Speed and accuracy, measured here and now beside what others would use."""
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.benchmark.__main__")
+
 import shutil
-import subprocess
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -15,7 +19,10 @@ from proofs.benchmark import page
 from proofs.benchmark.measure import Tell
 from proofs.benchmark.page import Run, Section
 from proofs.benchmark.peers import FLINT, IV, OURS
-from proofs.shell.cli import USAGE_ERROR, Parser, check_targets, progress, writable, write_target
+from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.entry import USAGE_ERROR, run_process
+from proofs.shell.files import check_folder, check_targets, refusing, write_target
+from proofs.shell.screen import say
 
 SUBJECTS = ("all", "horseshoe", "limit", "precision", "claims", "intervals")
 EXAMPLES = """
@@ -63,13 +70,14 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
 def _parser() -> Parser:
     parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
     add = parser.add_argument
-    add("subject", nargs="?", choices=SUBJECTS, default="all", help="default: all")
+    parser.usage = "%(prog)s [SUBJECT] [OPTION ...]"
+    what = f"one of {', '.join(SUBJECTS)} (default: all)"
+    add("subject", nargs="?", choices=SUBJECTS, default="all", metavar="SUBJECT", help=what)
     modes = parser.add_mutually_exclusive_group()
     for mode, text in {"quick": "default", "full": "more runs", "smallest": "each once"}.items():
         modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode, help=text)
     parser.set_defaults(mode="quick")
-    add("--json", metavar="FILE", help="write all samples; - for standard output")
-    add("--out", metavar="DIR", type=Path, help="write the report there (default: print only)")
+    share(parser, "--out", "--json", "--quiet")
     where = "where the certificates are whose check is measured (default: reports)"
     add("--reports", metavar="DIR", type=Path, default=Path("reports"), help=where)
     python = "the interpreter that has codac (default: this one)"
@@ -83,28 +91,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     check_targets(parser, options.json)
     if shutil.which(options.codac_python) is None:
-        print(f"{parser.prog}: no such interpreter: {options.codac_python}", file=sys.stderr)
+        say(f"{parser.prog}: no such interpreter: {options.codac_python}", sys.stderr)
         return USAGE_ERROR
     if options.subject == "intervals":
         return _intervals(options.mode, options.codac_python)
     if options.out is not None:
-        writable(parser, options.out)
+        check_folder(parser, options.out)
     began = perf_counter()
     try:
         with progress() as tell:
             sections = list(measure(options, tell))
     except (ChildProcessError, ModuleNotFoundError) as failure:
-        print(f"{parser.prog}: {failure}", file=sys.stderr)
+        say(f"{parser.prog}: {failure}", sys.stderr)
         return 1
     run = Run(options.subject, options.mode, sections, perf_counter() - began)
-    if options.json != "-":
-        print(page.text(run))
+    if heard(options):
+        say(page.text(run))
     write_target(parser, options.json, lambda: page.machine_form(run))
-    try:
-        if options.out is not None and not page.write(options.out, run):
-            print("no pictures: matplotlib is not installed", file=sys.stderr)
-    except OSError as error:
-        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+    if options.out is not None:
+        with refusing(parser, options.out):
+            if not page.write(options.out, run):
+                say("no pictures: matplotlib is not installed", sys.stderr)
     return int(any(not row.reached for row in run.asked))
 
 
@@ -114,8 +121,4 @@ def _intervals(mode: str, python: str) -> int:
     few = ["--processes=2", "--min-time=0.01"]
     wide = [python, "-m", "proofs.benchmark.operations", "--quiet", *effort.get(mode, few)]
     long = [*wide, "--bits=333", "--length=100", "--libraries", OURS, FLINT, IV]
-    return int(any(subprocess.run(command, check=False).returncode for command in (wide, long)))
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    return int(any(run_process(command).returncode for command in (wide, long)))

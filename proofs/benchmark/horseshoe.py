@@ -16,6 +16,7 @@ from typing import NamedTuple
 from proofs.benchmark.measure import Row, Tell, ratio_row, spread
 from proofs.benchmark.page import Section
 from proofs.benchmark.peers import FLINT, libraries
+from proofs.shell.entry import run_process
 from proofs.trusted.paper import GROUPS
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")  # that the script in flint decides too
@@ -61,8 +62,9 @@ def scratch() -> Iterator[Path]:
 def process(arguments: Sequence[str]) -> Process:
     """Run python with these arguments; ChildProcessError if it fails."""
     command = [sys.executable, "-S", "-c", _LAUNCHER, *arguments]
-    found = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
-    seconds, status, peak = json.loads(found)
+    done = run_process(command, stdout=subprocess.PIPE)
+    done.check_returncode()
+    seconds, status, peak = json.loads(done.stdout)
     if status not in (0, 1):  # 1: a claim is undecided
         raise ChildProcessError(f"python {' '.join(arguments)}: exit status {status}")
     return Process(seconds, status, peak / (1 << 20 if sys.platform == "darwin" else 1 << 10))

@@ -13,9 +13,9 @@ from typing import NamedTuple
 from proofs.benchmark.diagrams import Diagram, svg
 from proofs.benchmark.measure import Row, version_of
 from proofs.report.markup import markdown_table
-from proofs.trusted.certificate import write_atomically
+from proofs.shell.files import writing
 
-SCHEMA = "impact-proofs-benchmark-1"
+SCHEMA = "impact-proofs.benchmark/1"
 _PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 _ABOUT = """\
 Times are on the clock: medians, with the least and the largest in brackets. What is
@@ -109,6 +109,7 @@ def write(folder: Path, run: Run) -> bool:
         files, drawn = {}, False
     files["benchmark.json"] = machine_form(run)
     files["benchmark.md"] = markdown(run, drawn)
-    for name, content in files.items():
-        write_atomically(folder / name, content)
+    with writing(folder) as put:
+        for name, content in files.items():
+            put(name, content)
     return drawn

@@ -39,6 +39,7 @@ from proofs.motion.impact import HORIZON, locate
 from proofs.motion.marching import march
 from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.motion.system import System
+from proofs.shell.entry import run_process
 
 SYSTEM = System(ETA, NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
@@ -243,8 +244,9 @@ def dimensions(digits: float) -> float:
     with TemporaryDirectory() as folder:
         options = ["--digits", str(int(digits)), "--no-check", "--out", folder, "--json", "-"]
         command = [sys.executable, "-m", "proofs.dimension", *options]
-        found = subprocess.run(command, capture_output=True, check=True, text=True).stdout
-    quantities = json.loads(found)["claims"][0]["quantities"]
+        done = run_process(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    done.check_returncode()
+    quantities = json.loads(done.stdout)["claims"][0]["quantities"]
     both = [quantities[name] for name in ("dimension", "dimension_of_I")]
     return float(max(Fraction(one["upper"]) - Fraction(one["lower"]) for one in both))
 

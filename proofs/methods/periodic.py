@@ -309,4 +309,4 @@ def _all(masks: list[NDArray[np.bool_]]) -> Mask:
 
 
 def _shown(boxes: Boxes, i: int) -> str:
-    return " x ".join(f"[{side.inf[i]:.17g}, {side.sup[i]:.17g}]" for side in boxes)
+    return " x ".join(f"[{side.inf[i]:.12g}, {side.sup[i]:.12g}]" for side in boxes)

@@ -215,7 +215,7 @@ def locate(
             return found
         known = found.known
     raise Undecided(
-        f"phase {float(phases[0]):.17g} grazes, or starts to stick, to within what was tried"
+        f"phase {float(phases[0]):.12g} grazes, or starts to stick, to within what was tried"
     )
 
 

@@ -310,7 +310,7 @@ def _require(launches: Launches, holds: Mask, begin: int, reason: str) -> None:
     box = launches.phases[index]
     raise Undecided(
         f"{reason}: box {index} of {len(launches.phases)}, "
-        f"phases [{float(box.inf):.17g}, {float(box.sup):.17g}]"
+        f"phases [{float(box.inf):.12g}, {float(box.sup):.12g}]"
     )
 
 

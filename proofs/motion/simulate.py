@@ -23,6 +23,7 @@ _NO_PUSH = 1e-12  # a launch acceleration that is no more than rounding above 0
 _CLOSE = 1e-13  # relative, of the time of an impact
 EPSILONS = tuple(Fraction(k, 20) for k in range(8))
 TURNS = 200
+INITIAL_STATES = 500
 
 
 @dataclass(frozen=True)
@@ -134,7 +135,7 @@ def late_state(
 def transients(
     system: System,
     epsilons: Sequence[Fraction] = EPSILONS,
-    count: int = 500,
+    count: int = INITIAL_STATES,
     *,
     fastest: float = 0.4,
     turns: float = TURNS,

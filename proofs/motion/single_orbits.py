@@ -6,29 +6,23 @@ the first impact is found by intervals.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from intervals import DomainError, Interval, Undecided
-from intervals.newton import Roots, derivative, newton
-from proofs.motion.digits import around
 from proofs.motion.flight import Flight
 from proofs.motion.impact import first_impact
 from proofs.motion.phase import on_circle
 from proofs.motion.phase import turn as full_turn
 from proofs.motion.system import System
-from proofs.trusted.equations import clock, launch, launch_acceleration, sincos
+from proofs.trusted.equations import Launch, launch, launch_acceleration, sincos
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s4_single.orbits import defect, distance, excess, records
+from proofs.trusted.paper.s4_single.orbits import records
 
-Function = Callable[[Any], Any]
-
-_LOOKS = 64  # times looked at in a table period
-_DEEP = 1e-12  # far above rounding
 _ATTEMPTS = 6
+_STICKS = "the mass sticks after the impact"
 _LONGEST = 10**4  # time of flight that is followed
 
 
@@ -37,15 +31,22 @@ def turn(eta: Any, n: int, pi: Any) -> tuple[Any, Any]:
     return sincos(eta * (pi * n))
 
 
-def multiplier(eta: Any, nu: Any, phase: tuple[Any, Any], around: tuple[Any, Any]) -> Any:
-    """Return M, the slope (18) where K = 0, from the sines and cosines of phi and of x."""
-    lift = nu * phase[0]
-    return around[1] * around[1] * (1 - lift / ((lift + 1) * eta * eta))
+def multiplier(
+    eta: Interval, nu: Interval, phase: tuple[Interval, Interval], around: tuple[Interval, Interval]
+) -> Interval:
+    """Return M, the slope (18) where K = 0, from the sines and cosines of phi and of x.
+
+    Where h may be 0, the launch at x = 0, by 1/h = eta tan(x)/(nu cos(phi)).
+    """
+    lift, cos = nu * phase[0], around[1]
+    if not (lift + 1).contains(0):
+        return cos * cos * (1 - lift / ((lift + 1) * eta * eta))
+    return cos * (cos - around[0] * phase[0] / (phase[1] * eta))
 
 
 @dataclass(frozen=True)
 class SingleImpact:
-    """A phase in `phase` that solves (16), and the slope (18) there.
+    """A phase in `phase` that solves (16), and the slope (18) there, None where it is 0/0.
 
     admissible: whether the mass leaves at once and its first impact is n table periods later, a
     transversal one; stable: whether it is an orbit, and attracts. None: not decided.
@@ -53,7 +54,7 @@ class SingleImpact:
 
     n: int
     phase: Range
-    multiplier: Range
+    multiplier: Range | None
     admissible: bool | None
     stable: bool | None
     reason: str
@@ -70,7 +71,8 @@ def solutions(system: System, n: int, bits: int) -> list[SingleImpact]:
     for _ in range(_ATTEMPTS):
         phases, orbit = _phases(system, n, precision)
         if phases is not None and all(phase.wid * 2**bits <= 1 for phase in phases):
-            return [_judged(system, n, phase, orbit, bits) for phase in phases]
+            found = [_judged(system, n, phase, orbit, bits) for phase in phases]
+            return [*found, *_at_rest(system, n, precision)]
         precision *= 2
     raise Undecided(f"n = {n}: two solutions meet to within the precision")
 
@@ -78,17 +80,45 @@ def solutions(system: System, n: int, bits: int) -> list[SingleImpact]:
 def _phases(
     system: System, n: int, precision: int
 ) -> tuple[list[Interval] | None, tuple[Interval, Interval]]:
-    """Enclose the solutions by (17), None if their number is not decided, and sin x, cos x."""
+    """Enclose the solutions by (17), None if their number is not decided, and sin x, cos x.
+
+    If |nu| = 1 but for `_at_rest`: asin(cos(theta)) = pi/2 - |theta|, and theta = 0 if n eta is a
+    half-integer.
+    """
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    sin, cos = orbit = turn(eta, n, Interval.pi(precision=precision))
+    half_turn = Interval.pi(precision=precision)
+    sin, cos = turn(eta, n, half_turn)
+    if _is_half(n * system.eta):
+        cos = Interval(0, precision=precision)
+    if sin.contains(0):
+        return None, (sin, cos)
     theta = (cos / (sin * eta)).atan()
+    if abs(system.nu) == 1:
+        return [] if cos.mag == 0 else [theta * 2 - nu * half_turn / 2], (sin, cos)
     sine = theta.cos() / nu
     if sine.mig > 1:
-        return [], orbit
+        return [], (sin, cos)
     if sine.mag > 1:
-        return None, orbit
+        return None, (sin, cos)
     angle = sine.asin()
-    return [theta - angle, theta + angle + Interval.pi(precision=precision)], orbit
+    return [theta - angle, theta + angle + half_turn], (sin, cos)
+
+
+def _is_half(number: Fraction) -> bool:
+    return number % 1 == Fraction(1, 2)
+
+
+def _at_rest(system: System, n: int, precision: int) -> list[SingleImpact]:
+    """Return the solution with 1 + nu sin(phi) = cos(phi) = 0, if |nu| = 1: a launch at rest at x =
+    0, which sticks for nu = 1, and which the table reaches once a period for nu = -1.
+    """
+    if abs(system.nu) != 1:
+        return []
+    phase = Interval(-system.nu, precision=precision) * Interval.pi(precision=precision) / 2
+    touched = "the mass, at rest at x = 0, is touched without relative velocity"
+    reason = _STICKS if system.nu > 0 else touched
+    reduced = on_circle((phase.inf, phase.sup), precision)
+    return [SingleImpact(n, reduced, None, False, False, reason)]
 
 
 def last_period(system: System) -> int | None:
@@ -122,20 +152,35 @@ def _admissible(system: System, n: int, phase: Range, bits: int) -> tuple[bool |
     precision = bits + 20
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     start = launch(system.side, eta, nu, Interval(*phase, precision=precision))
-    speed = start.rate * system.side
     acceleration = launch_acceleration(start)
+    arrives = _arrives(system, n, start)
     if acceleration.certainly_negative():
-        return False, "the mass sticks after the impact"
-    if speed.certainly_negative():
+        return False, _STICKS
+    if arrives.certainly_negative():
         return False, "the gap is negative just before"
-    if not (speed.certainly_positive() and acceleration.certainly_positive()):
+    if not (arrives.certainly_positive() and acceleration.certainly_positive()):
         return None, "too close to sticking, or to grazing"
     if abs(system.nu) < 1:
         if n * system.eta < 1:  # lemma 3: as cos(phi) > 0, tan x has the sign of nu
             return True, "the first impact"
-        if system.side > 0 or n not in records(system.eta, n):
+        if system.side > 0 or n not in _known_records(system.eta, 1 << n.bit_length()):
             return False, "an earlier impact"
     return _by_flight(system, n, phase)
+
+
+def _arrives(system: System, n: int, start: Launch) -> Interval:
+    """Return a number with the sign of -gap' at 2 pi n, that of side nu cos(phi).
+
+    By lemma 1 that is the sign of side h tan x, which is exact but for h.
+    """
+    number: Interval = start.rate if _is_half(n * system.eta) else start.lift + 1
+    rises = n * system.eta % 1 <= Fraction(1, 2)
+    return number * (system.side if rises else -system.side)
+
+
+@lru_cache(maxsize=8)
+def _known_records(eta: Fraction, most: int) -> frozenset[int]:
+    return frozenset(records(eta, most))
 
 
 def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
@@ -157,79 +202,3 @@ def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
             return True, "the first impact"
         reason = "the first impact is not told from one after n periods"
     return None, reason
-
-
-# -- where windows end, and counterexamples ------------------------------------------------------
-
-
-def root(function: Function, about: float, bits: int) -> Range:
-    """Enclose a zero of an increasing or decreasing function near a float, to 2^(1 - bits).
-
-    The bracket's ends are multiples of 2^-bits at which the function has opposite signs.
-    """
-    precision, reach = 2 * bits + 60, Fraction(1, 2**36)
-    box = Interval(Fraction(about) - reach, Fraction(about) + reach, precision=precision)
-    found = newton(function, derivative(function), box)
-    if found.outcome is not Roots.UNIQUE or found.box is None:
-        raise Undecided(f"no root is isolated near {about:.9g}: {found.reason}")
-    return _changes_sign(function, around(found.box.mid, bits), precision)
-
-
-def _changes_sign(function: Function, ends: Range, precision: int) -> Range:
-    """Return the ends, where a function is proved to have opposite signs; Undecided if not."""
-    low, high = (function(Interval(x, precision=precision)) for x in ends)
-    if not (low * high).certainly_negative():
-        raise Undecided(f"no change of sign is seen near {float(ends[0]):.9g}")
-    return ends
-
-
-def bisected(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return about where a function of floats becomes positive."""
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (low, middle) if function(middle) > 0 else (middle, high)
-    return low
-
-
-def eta_end(nu: Fraction, n: int, end: int, bits: int) -> Range:
-    """Enclose the eta in (0, 1/(2 n)) at which the solution for nu in (0, 1) has slope `end`."""
-
-    def beyond(eta: float) -> float:
-        return float(excess(eta, float(nu), turn(eta, n, math.pi), end))
-
-    def formula(eta: Any) -> Any:
-        precision = 2 * bits + 60
-        pi = Interval.pi(precision=precision)
-        return excess(eta, Interval(nu, precision=precision), turn(eta, n, pi), end)
-
-    return root(formula, bisected(beyond, 0.0, 0.5 / n), bits)
-
-
-def nu_end(eta: Fraction, n: int, end: int, bits: int) -> Range | None:
-    """Enclose the |nu| at which the solution has slope `end`, None where it is not below 1."""
-    precision = 2 * bits + 60
-    own = Interval(eta, precision=precision)
-    orbit = turn(own, n, Interval.pi(precision=precision))
-    top, rest = excess(own, 0, orbit, end), excess(own, 1, orbit, end)
-    if rest.certainly_positive():
-        return None
-    return around((top / (top - rest)).sqrt().mid, bits)
-
-
-def earlier(eta: Fraction, n: int) -> Fraction | None:
-    """Return a time at which all solutions for nu < 0 with slope <= 1 are inside the table."""
-    own, orbit = float(eta), turn(float(eta), n, math.pi)
-    share = -((own * orbit[0] / orbit[1]) ** 2)
-    times = [step * math.tau / _LOOKS for step in range(1, _LOOKS * n)]
-    best = max(times, key=lambda t: float(distance(own, orbit, clock(own, t), share)))
-    deepest = distance(own, orbit, clock(own, best), share)
-    return round(Fraction(best), 6) if deepest > _DEEP else None
-
-
-def bracket(system: System, n: int, phase: Range, bits: int) -> Range:
-    """Return a bracket of width 2^(1 - bits) of a solution of (16)."""
-    precision = bits + 60 + 2 * n.bit_length()
-    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    orbit = turn(eta, n, Interval.pi(precision=precision))
-    ends = around((phase[0] + phase[1]) / 2, bits)
-    return _changes_sign(lambda x: defect(eta, nu, x.sincos(), orbit), ends, precision)

@@ -25,6 +25,11 @@ _TITLES = {
     "explore": "What is proved about the motion",
 }
 
+_HOW = (
+    "Verdicts are proved, by exact algebra and interval arithmetic, and re-derived by the checker; "
+    "SIMULATED is no proof."
+)
+
 _NAMES = {
     "slope_min_I0": "min f' on I0",
     "slope_max_I0": "max f' on I0",
@@ -39,12 +44,22 @@ _NAMES = {
 }
 
 
+_SCOPE = {
+    "foundations": "About all parameters, or those named; A1's flights without impact are at {at}.",
+    "single": "P1 to P3 are about all parameters, P5 and P6 about those of figure 7; in P4 the "
+    "solutions that are no orbits are at (eta, nu) = (0.2121, -0.2), the orbits at {at}.",
+    "soft": "About all springs, tables and coefficients of restitution, or those named.",
+    "resonance": "About eta = 1, all nu and all epsilon, or those named.",
+}  # where not all is about the parameters of a run
+
+
 @dataclass(frozen=True)
 class Line:
-    """One decided claim, as the screen and the page show it."""
+    """One decided claim, as the screen and the page show it; words: the paper's own, a few."""
 
     id: str
     verdict: Verdict
+    words: str
     statement: str
     why: str
     corrected: str | None
@@ -54,13 +69,14 @@ class Line:
 def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence[Line]) -> str:
     """Return the report on a group of claims: verdicts, theorems, the numbers, how to check."""
     whose = "the paper's parameters" if of == PAPER else "parameters of your own"
+    scope = _SCOPE.get(group, f"At {whose}.").format(at=of.place)
     sections = [
         f"# {_TITLES[group]}",
-        f"At {whose}. Verdicts are proved by interval arithmetic and re-derived by the checker.",
+        f"{scope} {_HOW}",
         "## Verdicts",
         _table(
-            ("claim", "verdict", "statement", "because"),
-            [(row.id, row.verdict.value, row.statement, row.why) for row in rows],
+            ("claim", "verdict", "the paper's words", "statement", "because"),
+            [(x.id, x.verdict.value, quoted(x.words), x.statement, x.why) for x in rows],
         ),
         *_theorems(certificate["claims"]),
         *_ending(certificate, group),
@@ -68,12 +84,9 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
     return "\n\n".join(sections) + "\n"
 
 
-def ledger(rows: Sequence[dict[str, Any]]) -> str:
-    """Return the page on all claims, given their entries with the file that each is in."""
-    names = ("id", "verdict", "statement", "why", "file")
-    cells = [[str(row[name]) for name in names] for row in rows]
-    table = _table(("claim", "verdict", "statement", "because", "certificate"), cells)
-    return "\n\n".join(["# The claims of the paper, decided", table, *_theorems(rows)]) + "\n"
+def quoted(words: str) -> str:
+    """Return the paper's words in quotes, or that a claim is not the paper's."""
+    return f"'{words}'" if words else "(our own question)"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -20,7 +20,7 @@ class Evidence:
     """What a prover found: its steps in order, and for each claim the steps that it rests on.
 
     Each of these comes with the conclusion that the prover's own arithmetic reached. notes: why
-    more was not proved.
+    more was not proved, or what was simulated.
     """
 
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)

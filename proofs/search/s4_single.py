@@ -15,15 +15,9 @@ from intervals import Interval, Undecided
 from proofs.motion.flight import Flight
 from proofs.motion.impact import HORIZON, locate
 from proofs.motion.phase import turn as full_turn
-from proofs.motion.single_orbits import (
-    SingleImpact,
-    bracket,
-    earlier,
-    eta_end,
-    nu_end,
-    solutions,
-)
+from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
+from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
 from proofs.search.derivations import Steps
 from proofs.search.evidence import Evidence
 from proofs.search.steps import Prover
@@ -33,6 +27,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
+from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Orbit, Solution, records
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 from proofs.trusted.parameters import PAPER, Parameters, Place
@@ -103,6 +98,30 @@ class Single:
             ends=[texts([*flip, *stick]) for flip, stick in ends],
         )
 
+    def below_windows(self, nu: Fraction, low: Fraction) -> str:
+        """Record all windows in eta >= low at which stable orbits exist, for nu in [-3/10, 0)."""
+        bits, ends, n = self.prover.bits, list[tuple[Range, Range]](), 1
+        while n * low < 1:
+            whole = Fraction(1, 2 * n), Fraction(1, n)
+            saddle = eta_end(nu, n, SADDLE, bits, whole)
+            sticks = 1 - nu <= n * n * -nu
+            last = eta_end(nu, n, STICK, bits, whole) if sticks else (whole[1], whole[1])
+            if last[0] <= low:
+                break
+            ends.append((saddle, last))
+            n += 1
+        later = eta_end(nu, 1, SADDLE, bits, (3 * _HALF, Fraction(2)))
+        graze, touch = graze_end(nu, float(later[1]), bits)
+        return self._add(
+            "single-below-windows",
+            BelowWindows(nu, low, tuple(ends), (later, graze)),
+            nu=str(nu),
+            low=str(low),
+            ends=[texts([*first, *(last if last[0] < last[1] else ())]) for first, last in ends],
+            late=texts([*later, *graze]),
+            touch=str(touch),
+        )
+
     def nu_windows(self, eta: Fraction) -> str:
         """Record all windows in nu at which stable orbits exist."""
         kept = list(records(eta, eta.denominator))
@@ -153,7 +172,7 @@ def examples(system: System, most: int) -> Iterator[SingleImpact]:
 
 
 def _contracts(one: SingleImpact) -> bool:
-    return one.multiplier[0] > -1 and one.multiplier[1] < 1
+    return one.multiplier is not None and -1 < one.multiplier[0] <= one.multiplier[1] < 1
 
 
 def _first(system: System, most: int, reason: str) -> SingleImpact:
@@ -179,6 +198,7 @@ def _figure_a(steps: Single) -> list[str]:
     below, above = System(_STIFF, nu), System(_STIFF, -nu)
     return [
         steps.eta_windows(nu, claims.FIGURE_ETAS[0]),
+        steps.below_windows(-nu, claims.FIGURE_ETAS[0]),
         steps.solution(below, _first(below, 1, "the mass sticks after the impact"), False),
         steps.solution(above, _first(above, 1, "an earlier impact"), early=True),
     ]

@@ -1,4 +1,8 @@
-"""What commands that answer a question share: digits, bounds in words, the machine form."""
+"""What commands that answer a question share: digits, bounds in words, the machine form.
+
+In the machine form exact numbers and bounds are strings, bounds rounded outward; counts are
+integers, and what does not exist is null.
+"""
 
 from __future__ import annotations
 
@@ -9,18 +13,17 @@ from contextlib import contextmanager
 from typing import Any
 
 from intervals import decimal_bounds
-from proofs.shell.cli import Parser, add_stats, check_targets, counting, digits, write_target
+from proofs.shell.cli import Parser, counting, heard, progress, share
+from proofs.shell.files import check_targets, write_target
+from proofs.shell.screen import say
 from proofs.trusted.numbers import Range
 
-Answer = dict[str, Any]  # the JSON object: decimal strings, rounded outward
+Answer = dict[str, Any]  # the JSON object
 
 
 def add_answer(parser: Parser, places: int = 30) -> None:
     """Add the options for the form of an answer, and for what is evaluated for it."""
-    add, default = parser.add_argument, f"significant digits (default {places})"
-    add("--digits", type=digits, default=places, help=default)
-    add("--json", metavar="FILE", help="write the machine form to a file, or - for the screen")
-    add_stats(parser)
+    share(parser, "--digits", "--json", "--quiet", "--stats", places=places)
 
 
 def bounds(values: Range, places: int) -> dict[str, str]:
@@ -35,29 +38,33 @@ def lines(label: str, ends: dict[str, str], width: int = 18) -> list[str]:
 
 
 @contextmanager
-def answering(parser: Parser, options: Namespace, asked: str, *more: str | None) -> Iterator[None]:
+def answering(
+    parser: Parser, options: Namespace, asked: str, *more: str | None
+) -> Iterator[Callable[[str], None]]:
     """Try the files before the work inside the `with`; afterwards print what it evaluated.
 
-    asked: in words. more: other files than that of --json. An exception, SystemExit for bad input
-    as well, goes through, and no counts are printed.
+    Yields what tells the stage of the work, which is shown once it takes over a second. asked: in
+    words. more: other files than that of --json. An exception, SystemExit for bad input as well,
+    goes through, and no counts are printed.
     """
-    targets = options.json, *more
-    check_targets(parser, *targets)
-    with counting(options.stats) as counts:
-        yield
+    check_targets(parser, options.json, *more)
+    with counting(options.stats) as counts, progress() as options.tell:
+        yield options.tell
     if options.stats:
         from proofs.shell.counting import show
 
-        show(counts, [asked], quiet="-" in targets)
+        show(counts, [asked], quiet=not heard(options))
 
 
-def machine_text(answer: Answer) -> str:
-    """Return the machine form."""
-    return json.dumps(answer, indent=1) + "\n"
+def machine_text(parser: Parser, answer: Answer) -> str:
+    """Return the machine form, with the schema of the command's answers."""
+    schema = f"impact-proofs.{parser.prog.rpartition('.')[2]}/1"
+    return json.dumps({"schema": schema, **answer}, indent=1) + "\n"
 
 
 def give(parser: Parser, options: Namespace, answer: Answer, text: Callable[[Answer], str]) -> None:
     """Write the machine form where it is asked for, and print the answer in words."""
-    write_target(parser, options.json, lambda: machine_text(answer))
-    if options.json != "-":
-        print(text(answer))
+    options.tell("")
+    write_target(parser, options.json, lambda: machine_text(parser, answer))
+    if heard(options):
+        say(text(answer))

@@ -74,9 +74,11 @@ def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Li
     row, proof = row_of(claim), found.proofs.get(claim, [])
     decision = row.decide(of, [conclusion for _, conclusion in proof])
     quantities = decision.quantities.items()
-    note = found.notes.get(claim) if decision.verdict is Verdict.UNDECIDED else None
+    noted = decision.verdict in (Verdict.UNDECIDED, Verdict.SIMULATED)
+    note = found.notes.get(claim) if noted else None
     why = "; ".join(filter(None, (decision.why, note)))
-    line = Line(claim, decision.verdict, row.says(of), why, decision.theorem, decision.quantities)
+    said = (row.words, row.says(of), why, decision.theorem)
+    line = Line(claim, decision.verdict, *said, decision.quantities)
     return line, {
         "id": claim,
         "statement": line.statement,

@@ -1,9 +1,4 @@
-"""Every claim that is decided so far: `python -m proofs`.
-
-Proves what is asked for and not already there: a certificate in the folder that is about the same
-numbers, that the checker accepts and that leaves nothing open is not proved again. Which prover
-wrote it does not matter, as the checker re-derives all of it from today's equations and statements.
-"""
+"""Every claim that is decided so far."""
 
 from __future__ import annotations
 
@@ -12,21 +7,24 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from proofs.report import page
-from proofs.shell import runner
-from proofs.shell.cli import Parser, coloured, counting, progress, writable
+from proofs.report import build as report
+from proofs.shell import manifest, runner
+from proofs.shell.cli import Parser, counting, heard, progress
 from proofs.shell.counting import Counts, show
-from proofs.shell.groups import FILES, Made, produce, wanted
-from proofs.trusted.certificate import LEDGER, Malformed, read, render, write_atomically
+from proofs.shell.entry import workers
+from proofs.shell.files import refusing, write_files, write_target, writing
+from proofs.shell.groups import FILES, Made, produce, row_of, wanted
+from proofs.shell.screen import Decided, say, show_verdicts
+from proofs.trusted.certificate import LEDGER, Malformed, read, render
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 CLAIMS = tuple(
@@ -36,17 +34,20 @@ CLAIMS = tuple(
     )
 )
 EPILOG = """\
-Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json,
-DIR/ledger.md and for each group a certificate, which the checker re-derives. A certificate that is
-there already, accepted and complete, is checked and not proved again.
+Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
+group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
+DIR/ledger.md. A certificate that is there already, accepted and complete, is checked and not proved
+again, unless --fresh or --digits ask for it; which prover wrote it does not matter. DIR is
+`reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
+copied.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
 
 examples:
-  python -m proofs
-  python -m proofs --only G2 H13 --fresh
-  python -m proofs --json - > ledger.json
+  python -m proofs.ledger
+  python -m proofs.ledger --only G2 H13 --fresh
+  python -m proofs.ledger --json - --quiet > ledger.json
 """
 
 
@@ -67,14 +68,22 @@ class Job:
 
 @dataclass(frozen=True)
 class Settled:
-    """A file of claims: its certificate and page, what the checker found in it."""
+    """A file of claims: its certificate and page, what the checker found in it.
+
+    found: the folder that it was in already.
+    """
 
     job: Job
     made: Made
     report: Report
-    is_new: bool
+    found: Path | None
     seconds: float
     counts: Counts = field(default_factory=Counter)
+
+    @property
+    def is_new(self) -> bool:
+        """Whether it was proved just now."""
+        return self.found is None
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the entries asked for, for the ledger."""
@@ -104,16 +113,24 @@ def jobs(
 
 
 def settle(job: Job) -> Settled:
-    """Have a file of claims proved, if need be, and checked.
+    """Have a file of claims proved, if need be, and checked; all its claims, if all were there.
 
     Raises Rejected or Malformed where the checker does not accept what was just proved: a bug.
     """
     began = perf_counter()
-    there = None if job.fresh else _there(job)
-    if there is not None:
-        return Settled(job, Made([], there[0], ""), there[1], False, perf_counter() - began)
-    made = produce(wanted(job.name, PAPER, job.claims), PAPER, digits=job.digits)
-    return Settled(job, made, check(made.certificate), True, perf_counter() - began)
+    places = [job.folder, *([runner.REPORTS] if job.folder == runner.RUNS else [])]
+    for folder in () if job.fresh else places:
+        there = _there(job, folder)
+        if there is not None:
+            page = folder / f"{job.name}.md"
+            text = page.read_text(encoding="utf-8") if page.is_file() else ""
+            made = Made([], there[0], text)
+            return Settled(job, made, there[1], folder, perf_counter() - began)
+    whole = runner.is_whole(job.folder, job.name)
+    claims = runner.claims_of(job.name) if whole else job.claims
+    made = produce(wanted(job.name, PAPER, claims), PAPER, digits=job.digits)
+    report = check(made.certificate)
+    return Settled(job, made, report, None, perf_counter() - began)
 
 
 def settle_counting(job: Job) -> Settled:
@@ -122,10 +139,10 @@ def settle_counting(job: Job) -> Settled:
         return replace(settle(job), counts=counts)
 
 
-def _there(job: Job) -> tuple[str, Report] | None:
-    """Return the certificate that is there, if it decides every claim of the job."""
+def _there(job: Job, folder: Path) -> tuple[str, Report] | None:
+    """Return the certificate that is in a folder, if it decides every claim of the job."""
     try:
-        text = read(job.folder / f"{job.name}.json")
+        text = read(folder / f"{job.name}.json")
         report = check(text)
     except (Malformed, Rejected, OSError):
         return None
@@ -136,35 +153,39 @@ def _there(job: Job) -> tuple[str, Report] | None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Settle the claims asked for; return the exit status."""
-    parser = Parser("proofs", __doc__, EPILOG)
+    parser = Parser("proofs.ledger", __doc__, EPILOG)
     runner.add_outputs(parser, CLAIMS)
     parser.add_argument("--fresh", action="store_true", help="prove again what is there already")
     options = parser.parse_args(arguments)
-    writable(parser, options.out)
     asked = options.only or CLAIMS
-    todo = jobs(asked, options.out, options.digits, options.fresh, options.stats)
+    runner.choose_folder(parser, options, not set(asked).issuperset(CLAIMS))
+    fresh, places = options.fresh or options.digits is not None, options.digits or runner.PLACES
     began = perf_counter()
     try:
-        settled = _settle_all(todo)
+        settled = _settle_all(parser, jobs(asked, options.out, places, fresh, options.stats))
     except (Malformed, Rejected) as error:
-        print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
+        say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
         return 3
     rows = _in_order([row for one in settled for row in one.rows()])
     text = render({"schema": LEDGER, "claims": rows})
-    try:
-        for one in settled:
-            if one.is_new:
-                runner.write(options.out, one.job.name, one.made)
-        write_atomically(options.out / "ledger.json", text)
-        write_atomically(options.out / "ledger.md", page.ledger(rows))
-    except OSError as error:
-        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
-    if options.json:
-        print(text, end="")
-    else:
-        _print(rows, settled, perf_counter() - began)
+    certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
+    with refusing(parser, options.out):
+        with writing(options.out) as put:
+            put("ledger.json", text)
+            put(manifest.NAME, manifest.entered(options.out, certificates))
+        with progress() as tell:
+            pages = report.built(options.out, tell, only_text=bool(report.missing()))
+        write_files(options.out, pages)
+    write_target(parser, options.json, lambda: text)
+    if heard(options):
+        _print(rows, settled)
+        verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
+        say(f"{verdicts} in {perf_counter() - began:.1f} s")
+        whole = "index.html" if "index.html" in pages else "ledger.md"
+        hint = "" if whole == "index.html" else f"; for a page with formulas: {report.INSTALL}"
+        say(f"all of it: {options.out}/{whole}{hint}")
     for one in settled if options.stats else ():
-        show(one.counts, one.job.claims, quiet=bool(options.json))
+        show(one.counts, one.job.claims, quiet=not heard(options))
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
 
 
@@ -174,27 +195,28 @@ def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [first[claim] for claim in CLAIMS if claim in first]
 
 
-def _settle_all(wanted: Sequence[Job]) -> list[Settled]:
-    """Settle the files in processes of their own, as many at a time as there are processors."""
-    with progress() as tell, ProcessPoolExecutor(min(len(wanted), os.cpu_count() or 1)) as pool:
-        futures = {pool.submit(settle_counting, job): job for job in wanted}
-        found = {}
-        for future in as_completed(futures):
-            found[futures[future]] = future.result()
-            tell(f"{len(found)} of {len(wanted)} groups of claims")
-    return [found[job] for job in wanted]
+def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
+    """Settle the files in processes of their own, as many at a time as there are processors.
+
+    Each is written as soon as it is settled, so that an interrupt loses nothing that is.
+    """
+    settled = {}
+    with workers(min(len(todo), os.cpu_count() or 1)) as pool:
+        futures = {pool.submit(settle_counting, job): job for job in todo}
+        with progress() as tell:
+            tell(f"0 of {len(todo)} groups of claims")
+            for future in as_completed(futures):
+                job, found = futures[future], future.result()
+                if found.found != job.folder:
+                    with refusing(parser, job.folder):
+                        runner.write(job.folder, job.name, found.made)
+                settled[job] = found
+                tell(f"{len(settled)} of {len(todo)} groups of claims")
+    return [settled[job] for job in todo]
 
 
-def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled], seconds: float) -> None:
-    for row in rows:
-        print(f"{row['id']:4} {coloured(Verdict(row['verdict']))} {row['statement']}")
-        print(f"     {row['why']}")
+def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled]) -> None:
+    show_verdicts([Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows])
     for one in settled:
-        what = "proved and checked" if one.is_new else "checked again"
-        print(f"{one.job.name}: {what} in {one.seconds:.1f} s")
-    counts = Counter(row["verdict"] for row in rows)
-    print(", ".join(f"{count} {name}" for name, count in counts.items()), f"in {seconds:.1f} s")
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+        what = "proved and checked" if one.is_new else f"in {one.found}, checked again"
+        say(f"{one.job.name}: {what} in {one.seconds:.1f} s")

@@ -5,46 +5,47 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from argparse import Namespace
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
-from fractions import Fraction
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
-from proofs.shell.cli import (
-    Parser,
-    add_stats,
-    coloured,
-    counting,
-    digits,
-    horizon,
-    number,
-    progress,
-    writable,
+from proofs.shell.cli import Parser, counting, heard, horizon, progress, share
+from proofs.shell.files import (
+    check_folder,
+    check_targets,
+    refusing,
+    write_files,
+    write_target,
+    writing,
 )
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
-from proofs.trusted.certificate import Malformed, read, write_atomically
-from proofs.trusted.numbers import show
+from proofs.shell.parameters import HEEDED, add_parameters, parameters, refusal
+from proofs.shell.screen import Decided, gist, say, show_verdicts
+from proofs.trusted.certificate import Malformed, parameters_to_json, read
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verdicts import Verdict, tally
+from proofs.trusted.verify import Rejected, check, premises
 
 if TYPE_CHECKING:
     from proofs.shell.counting import Counts
 
+REPORTS, RUNS = Path("reports"), Path("runs")  # where the paper's results go, and all others
+PLACES = 30
 EPILOG = """\
-Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. Results go to DIR/{group}.json
-(the certificate, which is also the machine form) and DIR/{group}.md; DIR/MANIFEST.json says which
-file settles which claim, its digest, and how it was made.
+{own}Results go to DIR/{group}.json (the certificate, which is also the machine form) and
+DIR/{group}.md; DIR/MANIFEST.json says which file settles which claim, its digest, and how it was
+made. DIR is `reports` where the run is the paper's own, with all claims and no other option, else
+`runs`.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -65,157 +66,162 @@ def run(
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
-    `proofs.report.<file>_figure.svg`, if there is one, draws it.
+    With --figure the figures that are drawn from this certificate alone are written, too.
     """
+    parser = _parser(file, description, examples)
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        parser.error(refusal(unknown, HEEDED[file]))
+    if options.figure and find_spec("matplotlib") is None:
+        parser.error("--figure needs matplotlib: pip install matplotlib")
+    try:
+        of = parameters(options, HEEDED[file])
+    except ValueError as error:
+        parser.error(str(error))
+    asked = wanted(file, of, options.only)
+    if not asked:
+        parser.error("all its claims are about the paper's parameters: choose some by --only")
+    is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
+    is_other = is_less or file in BEYOND or options.figure or options.horizon is not None
+    choose_folder(parser, options, is_other)
+    if is_less and is_whole(options.out, file):
+        parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
+    return _run(parser, file, asked, of, options)
+
+
+def _parser(file: str, description: str | None, examples: str) -> Parser:
+    """Return the parser of the command of a certificate."""
     claims = [claim for ids in FILES[file].values() for claim in ids]
-    epilog = EPILOG.format(group=file, first=claims[0]) + examples
-    parser = Parser(f"proofs.{file}", description, epilog)
-    add_parameters(parser)
+    exact = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
+    epilog = EPILOG.format(group=file, first=claims[0], own=exact if HEEDED[file] else "")
+    parser = Parser(f"proofs.{file}", description, epilog + examples)
+    add_parameters(parser, HEEDED[file])
     add_outputs(parser, claims)
+    parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
     parser.set_defaults(figure=False, horizon=None)
     if file == "horseshoe":
         longest = "longest flight looked at (default 1000)"
         parser.add_argument("--horizon", type=horizon, help=longest)
-    if find_spec(f"proofs.report.{file}_figure") is not None:
-        help_text = f"draw DIR/{file}.svg too (needs matplotlib)"
+    if figures := _figures(file):
+        names = ", ".join(f"{figure.name}.svg" for figure in figures)
+        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
-    options = parser.parse_args(arguments)
-    if options.figure and find_spec("matplotlib") is None:
-        parser.error("--figure needs matplotlib: pip install matplotlib")
-    of = prepared(parser, options)
+    return parser
+
+
+def _figures(file: str) -> list[Figure]:
+    """Return the figures that are drawn from a certificate alone."""
+    return [figure for figure in FIGURES if figure.certificate == file]
+
+
+def _run(
+    parser: Parser,
+    file: str,
+    asked: dict[str, tuple[str, ...]],
+    of: Parameters,
+    options: Namespace,
+) -> int:
+    """Prove the claims, write, print and check; return the exit status."""
     more = {"horizon": options.horizon} if options.horizon else {}
     began = perf_counter()
     with counting(options.stats) as counts, progress() as tell:
-        asked = wanted(file, of, options.only)
-        if not asked:
-            parser.error("all its claims are about the paper's parameters: choose some by --only")
-        made = produce(asked, of, digits=options.digits, tell=tell, **more)
+        made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **more)
     seconds = perf_counter() - began
+    drawn: dict[str, str] = {}
     try:
-        write(options.out, file, made)
         if options.figure:
-            draw = import_module(f"proofs.report.{file}_figure").svg
-            write_atomically(options.out / f"{file}.svg", draw(made.certificate))
-    except OSError as error:
-        parser.error(f"cannot write to {options.out}: {error.strerror or error}")
+            documents = {file: premises(made.certificate)}
+            drawn = {f"{each.name}.svg": each.svg(documents) for each in _figures(file)}
     except (Undecided, OverflowError) as failure:
-        print(f"{parser.prog}: no figure: {failure}", file=sys.stderr)
-    return finish(made, seconds, options, f"{file}.json", counts)
-
-
-def add_parameters(parser: Parser) -> None:
-    """Add the options for the numbers of a statement, the paper's by default."""
-    add = parser.add_argument
-    add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
-    add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
-    for name, default in (("left", PAPER.left), ("right", PAPER.right), ("slopes", PAPER.slopes)):
-        help_text = f"default {show(default[0])} {show(default[1])}"
-        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
-    interval = "I (default: from the left end of I0 to the right end of I1)"
-    add("--interval", type=number, nargs=2, metavar=("A", "B"), help=interval)
-    add("--epsilon", type=number, default=PAPER.epsilon, help="of restitution (default 0.01)")
-    gamma, ends = "range of velocities gamma (default -0.45 0)", ("A", "B")
-    add("--velocities", type=number, nargs=2, default=PAPER.velocities, metavar=ends, help=gamma)
-    box = "box around eta, nu, epsilon (default 0.00005 0.00005 0.005, or less to stay in it)"
-    add("--reach", type=number, nargs=3, metavar=("DETA", "DNU", "DEPSILON"), help=box)
+        say(f"{parser.prog}: no figure: {failure}", sys.stderr)
+    with refusing(parser, options.out):
+        write(options.out, file, made)
+        write_files(options.out / "figures", drawn)
+    return finish(parser, options, made, file, seconds=seconds, counts=counts)
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
-    add = parser.add_argument
-    add("--only", nargs="+", choices=claims, metavar="ID", help=f"claims, of {' '.join(claims)}")
-    places = "significant digits of the numbers (default 30)"
-    add("--digits", type=digits, default=30, help=places)
-    add("--out", type=Path, default=Path("reports"), metavar="DIR", help="default: reports")
-    add("--json", choices=["-"], help="print the machine form on standard output")
-    add("--no-check", action="store_true", help="do not run the checker on what was written")
-    add_stats(parser)
+    names = "--only", "--digits", "--out", "--json", "--quiet", "--stats"
+    share(parser, *names, places=PLACES, claims=claims)
+    parser.set_defaults(digits=None)
 
 
-def prepared(parser: Parser, options: Namespace) -> Parameters:
-    """Return the statement's numbers, the output folder tried; leave with one line if bad."""
+def choose_folder(parser: Parser, options: Namespace, is_other: bool) -> None:
+    """Fill in the folder for results, and try what is to be written before any work is done.
+
+    is_other: whether the results are not all those of the paper.
+    """
+    if options.out is None:
+        options.out = RUNS if is_other or options.digits is not None else REPORTS
+    check_targets(parser, options.json)
+    check_folder(parser, options.out)
+
+
+def is_whole(folder: Path, file: str) -> bool:
+    """Whether the folder is that of the paper's results, and has this one, with all claims."""
+    if folder.resolve() != REPORTS.resolve():
+        return False
     try:
-        of = parameters(options)
-    except ValueError as error:
-        parser.error(str(error))
-    writable(parser, options.out)
-    return of
+        there = json.loads((folder / f"{file}.json").read_text(encoding="utf-8"))
+        claims = {entry["id"] for entry in there["claims"]}
+        return there["parameters"] == parameters_to_json(PAPER) and claims >= claims_of(file)
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
-def parameters(options: Namespace) -> Parameters:
-    """Return the statement's numbers; those printed for s_0 go with the printed slopes only."""
-    left, right, slopes = tuple(options.left), tuple(options.right), tuple(options.slopes)
-    of = replace(
-        PAPER,
-        eta=options.eta,
-        nu=options.nu,
-        left=left,
-        right=right,
-        interval=tuple(options.interval) if options.interval else (left[0], right[1]),
-        slopes=slopes,
-        epsilon=options.epsilon,
-        velocities=tuple(options.velocities),
-        reach=_reach(options),
-    )
-    return of if slopes == PAPER.slopes else replace(of, ratios=None, printed_s0=None)
-
-
-def _reach(options: Namespace) -> tuple[Fraction, Fraction, Fraction] | None:
-    """Return the box asked for, else the paper's, narrowed where the numbers leave less room."""
-    eta, nu, epsilon = options.eta, abs(options.nu), options.epsilon
-    if options.reach:
-        if options.reach[2] > epsilon:
-            raise ValueError("reach: epsilon must stay in [0, 1)")
-        return tuple(options.reach)
-    room = (eta / 2, nu / 2, min(epsilon, (1 - epsilon) / 2))
-    if PAPER.reach is None or min(room) < 0:
-        return None
-    first, second, third = map(min, PAPER.reach, room)
-    return first, second, third
+def claims_of(file: str) -> set[str]:
+    """Return all claims of a certificate."""
+    return {claim for ids in FILES[file].values() for claim in ids}
 
 
 def write(folder: Path, name: str, made: Made) -> None:
     """Write a certificate and its page, and enter it in the manifest."""
-    write_atomically(folder / f"{name}.json", made.certificate)
-    write_atomically(folder / f"{name}.md", made.page)
-    manifest.record(folder, f"{name}.json", made.certificate)
+    with writing(folder) as put:
+        for kind, content in (("json", made.certificate), ("md", made.page)):
+            if content:
+                put(f"{name}.{kind}", content)
+        put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
 
 
-def finish(made: Made, seconds: float, options: Namespace, name: str, counts: Counts) -> int:
+def finish(
+    parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float, counts: Counts
+) -> int:
     """Print what was decided, have it checked, and return the exit status.
 
     counts: of what was evaluated up to here; with what the check evaluates they are printed, if
     that is asked for.
     """
-    if options.json:
-        print(made.certificate, end="")
-    else:
-        print_lines(made.lines, seconds)
+    write_target(parser, options.json, lambda: made.certificate)
+    if heard(options):
+        print_lines(made.lines, options.digits or PLACES, f"{options.out}/{file}.md")
+        summary = tally((line.verdict, not line.words) for line in made.lines)
+        say(f"{summary}; proved in {seconds * 1000:.0f} ms")
     with counting(options.stats) as checking:
-        accepted = options.no_check or _checked(options.out / name, quiet=bool(options.json))
+        path = options.out / f"{file}.json"
+        accepted = options.no_check or _checked(path, quiet=not heard(options))
     if options.stats:
-        from proofs.shell.counting import show
+        from proofs.shell.counting import show as show_counts
 
-        show(counts + checking, [row.id for row in made.lines], quiet=bool(options.json))
+        show_counts(counts + checking, [row.id for row in made.lines], quiet=not heard(options))
     if not accepted:
         return 3
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
 
-def print_lines(lines: Sequence[Line], seconds: float) -> None:
-    """Print a paragraph a claim, the theorems beside them once each, and a summary line."""
-    for line in lines:
-        print(f"{line.id:4} {coloured(line.verdict)} {line.statement}")
-        print(f"     {line.why}")
-        for name, bounds in line.quantities.items():
-            lower, upper = printed(bounds, 17).values()
-            print(f"     {name} in [{lower}, {upper}]")
-    for text in dict.fromkeys(line.corrected for line in lines if line.corrected is not None):
-        beside = ", ".join(line.id for line in lines if line.corrected == text)
-        print(f"\nTheorem beside {beside}, VERIFIED: {text}")
-    counts = Counter(line.verdict.value for line in lines)
-    summary = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
-    print(f"\n{summary}; proved in {seconds * 1000:.0f} ms")
+def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
+    """Print the verdicts, the numbers once each, and the gist of the theorems beside them."""
+    show_verdicts([Decided(x.id, x.verdict, x.statement, x.why) for x in lines])
+    numbers = {name: ends for line in lines for name, ends in line.quantities.items()}
+    say("")
+    for name, ends in numbers.items():
+        lower, upper = printed(ends, digits).values()
+        say(f"{name} in [{lower}, {upper}]")
+    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
+    for text in dict.fromkeys(gists.values()):
+        beside = ", ".join(claim for claim, same in gists.items() if same == text)
+        say(f"\nTheorem beside {beside}, VERIFIED: {text}")
+    say(f"\nall of it: {page}")
 
 
 def _checked(path: Path, quiet: bool) -> bool:
@@ -224,10 +230,10 @@ def _checked(path: Path, quiet: bool) -> bool:
     try:
         report = check(read(path))
     except (Malformed, Rejected) as error:
-        print(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", file=sys.stderr)
+        say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
         return False
     if not quiet:
         spent = (perf_counter() - began) * 1000
         count = f"{len(report.claims)} claim{'s' if len(report.claims) > 1 else ''}"
-        print(f"checker: accepted {path}, {count}, in {spent:.0f} ms")
+        say(f"checker: accepted {path}, {count}, in {spent:.0f} ms")
     return True

@@ -1,6 +1,11 @@
-"""The command line: which cases, how many, and where the report goes."""
+"""Try to break the arithmetic and the map where they are weakest, judged by another kernel."""
 
 from __future__ import annotations
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.stress.__main__")
 
 import sys
 from argparse import ArgumentTypeError
@@ -11,13 +16,15 @@ from time import perf_counter
 
 import proofs.stress
 from proofs.benchmark.peers import Arithmetic
-from proofs.shell.cli import USAGE_ERROR, Parser, progress, writable
+from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.entry import USAGE_ERROR
+from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.screen import say
 from proofs.stress import report
 from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
 from proofs.stress.judge import Judgement, judge, shrunk
 from proofs.stress.truth import kernel_of
-from proofs.trusted.certificate import write_atomically
 
 _CASES = 600
 _SHRUNK = 3  # failures of a run that are made smaller
@@ -73,8 +80,7 @@ def _parser() -> Parser:
     add("--cases", type=_whole(1, 10**7), default=_CASES, metavar="N", help=many)
     add("--seed", type=_whole(0, 10**18), default=1, metavar="N", help="of the draw (default 1)")
     add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
-    add("--out", type=Path, metavar="DIR", help="write the report there (default: print only)")
-    add("--json", choices=("-",), help="print the machine form instead of the table")
+    share(parser, "--out", "--json", "--quiet")
     return parser
 
 
@@ -91,30 +97,31 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the stress test; return the exit status."""
     parser = _parser()
     options = parser.parse_args(arguments)
+    check_targets(parser, options.json)
     if options.out is not None:
-        writable(parser, options.out)
+        check_folder(parser, options.out)
     try:
         by = kernel_of(options.kernel)
     except ImportError:
-        print(f"{parser.prog}: python-flint is not installed", file=sys.stderr)
+        say(f"{parser.prog}: python-flint is not installed", sys.stderr)
         return USAGE_ERROR
     chosen = [f for f in FAMILIES if options.family is None or f.name in options.family]
     with progress() as tell:
         run = stress(chosen, options.cases, options.seed, by, tell)
-    print(report.machine_form(run) if options.json else report.text(run))
+    write_target(parser, options.json, lambda: report.machine_form(run))
+    if heard(options):
+        say(report.text(run))
     if options.out is not None:
-        _write(options.out, run)
+        with refusing(parser, options.out):
+            _write(options.out, run)
     return int(bool(run.failures))
 
 
 def _write(folder: Path, run: report.Run) -> None:
-    write_atomically(folder / "stress.md", report.markdown(run))
-    write_atomically(folder / "stress.json", report.machine_form(run))
-    try:
-        write_atomically(folder / "stress.svg", report.svg(run))
-    except ImportError:
-        print("no picture: matplotlib is not installed", file=sys.stderr)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    with writing(folder) as put:
+        put("stress.md", report.markdown(run))
+        put("stress.json", report.machine_form(run))
+        try:
+            put("stress.svg", report.svg(run))
+        except ImportError:
+            say("no picture: matplotlib is not installed", sys.stderr)

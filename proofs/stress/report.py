@@ -12,7 +12,7 @@ from proofs.report.markup import markdown_table, svg_text
 from proofs.stress.families import FAMILIES
 from proofs.stress.judge import Judgement, Outcome
 
-SCHEMA = "impact-proofs-stress-1"
+SCHEMA = "impact-proofs.stress/1"
 _REASONS = 3
 _OUTCOMES = {
     outcome.name if outcome.failure else outcome.name.lower(): outcome for outcome in Outcome

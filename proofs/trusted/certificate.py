@@ -19,13 +19,12 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import os
 import re
 from collections.abc import Iterator
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range
@@ -33,7 +32,7 @@ from proofs.trusted.parameters import Parameters
 
 SCHEMA = "impact-proofs.certificate/3"
 FIELDS = ("schema", "parameters", "functions", "steps", "claims")
-MANIFEST = "impact-proofs.manifest/2"
+MANIFEST = "impact-proofs.manifest/3"
 LEDGER = "impact-proofs.ledger/2"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
@@ -212,7 +211,12 @@ def parse(source: str) -> Reader:
 def read(path: Path) -> str:
     """Return a file's text; Malformed if it is too large or no UTF-8."""
     with path.open("rb") as file:
-        content = file.read(MAX_BYTES + 1)
+        return read_stream(file)
+
+
+def read_stream(file: BinaryIO) -> str:
+    """Do `read` with what is open."""
+    content = file.read(MAX_BYTES + 1)
     if len(content) > MAX_BYTES:
         raise Malformed(f"$: larger than {MAX_BYTES} bytes")
     try:
@@ -299,23 +303,3 @@ def used_steps(steps: Reader, named: set[str]) -> set[str]:
         if name in reached:
             reached.update(step.mentioned())
     return reached
-
-
-def write_atomically(path: Path, content: str) -> None:
-    """Write a file whole or not at all: a temporary file beside it, then a rename.
-
-    Raises OSError where that fails, or would replace what is no regular file, such as a device.
-    """
-    if path.exists() and not path.is_file():
-        raise OSError("not a regular file")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with beside.open("x", encoding="utf-8") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        beside.replace(path)
-    except OSError:
-        beside.unlink(missing_ok=True)
-        raise

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
 from proofs.trusted.numbers import show
+from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -17,8 +18,10 @@ from proofs.trusted.verify import Rejected, check
 class Listed(NamedTuple):
     """A claim as it is listed."""
 
+    id: str
     verdict: Verdict
     is_paper: bool  # whether at the paper's own parameters
+    is_own: bool  # whether the claim is the project's, not the paper's
 
 
 _FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
@@ -30,22 +33,30 @@ def command(file: str, of: Parameters, claims: Sequence[str] = ()) -> str:
     options = ("eta", "nu", "left", "right", "interval", "slopes", "epsilon", "velocities", "reach")
     for name in options:
         value = getattr(of, name)
-        if value is not None and value != getattr(PAPER, name):
+        usual = (of.left[0], of.right[1]) if name == "interval" else getattr(PAPER, name)
+        if value is not None and value != usual:
             numbers = value if isinstance(value, tuple) else (value,)
             parts += [f"--{name}", *map(show, numbers)]
     return " ".join([*parts, *(["--only", *claims] if claims else [])])
 
 
-def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
-    """Check every file that a manifest lists, and its entries; return what is listed.
+def checking(file: str) -> str:
+    """Return the command that checks a certificate, in its folder, wherever that is."""
+    return f"python -I -m proofs.check {file}"
 
-    An entry of a claim is what its file proves: verdict, statement; one of a file has its digest,
-    its parameters, and the command that makes it. Raises Malformed or Rejected where they differ.
+
+def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
+    """Check every file that a manifest lists, and its entry; return the claims listed.
+
+    An entry has the file's digest and parameters, the commands that make and check it, and what it
+    proves: of each claim verdict and statement. Raises Malformed or Rejected where they differ.
     """
-    _, claims_of, files_of = parse(source).fields("schema", "claims", "files")
-    proved = {}
-    for name, entry in files_of.entries():
-        digest_of, parameters, made, _ = entry.fields("digest", "parameters", "made", "with")
+    _, files = parse(source).fields("schema", "files")
+    listed = []
+    for name, entry in files.entries():
+        digest_of, parameters, made, checked, claims = entry.fields(
+            "digest", "parameters", "made", "checked", "claims"
+        )
         text = _beside(folder, name, entry)
         report = check(text, work)
         of = report.parameters
@@ -53,20 +64,16 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
             raise Rejected(f"{entry.path}: a file about formulas decides no claim")
         _same(digest_of, digest(text))
         _same(parameters, parameters_to_json(of))
+        _same(checked, checking(name))
+        proved: dict[str, Any] = {}
         ids = [claim.id for claim in report.claims]
         if made.string() not in (command(name, of), command(name, of, ids)):
             raise Rejected(f"{made.path}: the command is {command(name, of, ids)!r}")
-        proved[name] = {claim.id: (claim, of == PAPER) for claim in report.claims}
-    listed = []
-    for claim, entry in claims_of.members():
-        verdict, statement, file = entry.fields("verdict", "statement", "file")
-        found, is_paper = proved.get(file.string(), {}).get(claim, (None, False))
-        if found is None:
-            raise Rejected(f"{file.path}: no listed file of this name is about {claim}")
-        _same(verdict, found.verdict.value)
-        _same(statement, found.statement)
-        listed.append(Listed(found.verdict, is_paper))
-    return _some(listed, claims_of)
+        for claim in report.claims:
+            proved[claim.id] = {"verdict": claim.verdict.value, "statement": claim.statement}
+            listed.append(Listed(claim.id, claim.verdict, of == PAPER, _is_own(claim.id)))
+        _same(claims, proved)
+    return _some(listed, files)
 
 
 def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
@@ -90,8 +97,14 @@ def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
         own = dict(proved[name].get(members["id"].string(), {}))
         own.pop("proof", None)
         _same(entry, {**own, "file": name})
-        listed.append(Listed(Verdict(own["verdict"]), is_paper=True))
+        own_id = own["id"]
+        listed.append(Listed(own_id, Verdict(own["verdict"]), True, _is_own(own_id)))
     return _some(listed, claims_of)
+
+
+def _is_own(claim: str) -> bool:
+    row = find(claim)
+    return row is not None and row.own
 
 
 def _beside(folder: Path, name: str, reader: Reader) -> str:

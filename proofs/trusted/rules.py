@@ -58,6 +58,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "stable-pair": "paper.s34_circle.persistence.prove_stable_pair",
         "single-solution": "paper.s4_single.orbits.single_solution",
         "single-orbit": "paper.s4_single.orbits.single_orbit",
+        "single-below-windows": "paper.s4_single.below.below_windows",
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
         "markov-set": "paper.beyond.chaos.prove_markov_set",

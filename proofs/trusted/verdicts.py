@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -32,12 +33,22 @@ class Verdict(Enum):
     SIMULATED = "SIMULATED"
 
 
+def tally(verdicts: Iterable[tuple[Verdict, bool]]) -> str:
+    """Count verdicts, in words: those on the paper's claims, and on the project's own (True)."""
+    counts = Counter(verdicts)
+    paper, own = (
+        ", ".join(f"{counts[each, own]} {each.value}" for each in Verdict if counts[each, own])
+        for own in (False, True)
+    )
+    return "; ".join(filter(None, (paper, own and f"of our own {own}")))
+
+
 def told(conclusions: Iterable[Conclusion]) -> str:
     """Return conclusions as a text: their sentences, each after the parameters that it is about."""
     parts: list[str] = []
     for at, group in groupby(dict.fromkeys(conclusions), key=lambda each: each.place):
         first, *more = (each.sentence for each in group)
-        start = f"At {at}: {first}" if at is not None else _begun(first) if parts else first
+        start = f"At {at}: {first}" if at is not None else _begun(first)
         parts += [start, *map(_begun, more)]
     return " ".join(parts)
 

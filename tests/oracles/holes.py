@@ -105,7 +105,7 @@ def _straddling(made, phases):
         "rule": "fixed-point",
         "witness": {"slopes": "straddling"},
     }
-    for claim in ("G4", "G6"):
+    for claim in ("G6", "G10"):
         proof = [name for name in made["proofs"][claim] if not name.startswith("fixed-point")]
         made["proofs"][claim] = [*proof, "false-point"]
     return made
@@ -179,6 +179,10 @@ ORDER = (
     ),
 )
 ASKED = Lines("verdicts:Row.is_asked", (("self.printed_at is None", "True"),))
+PLACES = Lines(
+    "paper.s34_circle.circle:_is_the_printed_orbit",
+    (("all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)", "True"),),
+)
 STRADDLE = Lines("numbers:Phase._require", (("low <= high <= TURN", "low <= high"),))
 GAP = Lines("paper.s32_sets.linear:LinearSet.__post_init__", (("sum(self.ratios) >= 1", "False"),))
 EQUAL = Lines(
@@ -190,7 +194,7 @@ POINT = (
     Lines("paper.s34_circle.landing:never_impacts", (("phases[0] < phases[1]", "True"),)),
 )
 HOLES = (
-    Hole("swapped cells of a full shift", "G5", "REFUTED", swapped_cells, "order", ORDER),
+    Hole("swapped cells of a full shift", "G5", "VERIFIED", swapped_cells, "order", ORDER),
     Hole(
         "an image that straddles 2 pi, G6",
         "G6",
@@ -200,12 +204,12 @@ HOLES = (
         (STRADDLE, ASKED),
     ),
     Hole(
-        "an image that straddles 2 pi, G4",
-        "G4",
+        "an image that straddles 2 pi, G10",
+        "G10",
         "REFUTED",
         lambda: _straddling(proved("circle", "1/6", "-0.45"), ("1.246", "1.25")),
         "fixed point",
-        (STRADDLE, ASKED),
+        (STRADDLE, ASKED, PLACES),
     ),
     Hole(
         "equal ratios",
@@ -231,6 +235,6 @@ HOLES = (
         "VERIFIED",
         lambda: proved("circle", "1/6", "-0.45"),
         "there is not the orbit",
-        (ASKED,),
+        (ASKED, PLACES),
     ),
 )

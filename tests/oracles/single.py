@@ -90,6 +90,9 @@ def is_orbit(eta, nu, n, phi):
     return isinstance(found, Impact) and abs(float(found.time) - TURN * n) < 1e-7
 
 
+_NEAR = Fraction(1, 10**9)  # how far from the ends of windows stable orbits are looked for
+
+
 @lru_cache(maxsize=20_000)
 def stable(eta, nu, n):
     """Whether there is an n-periodic single-impact orbit with |slope| < 1; None if undecided."""
@@ -142,6 +145,35 @@ def eta_windows(view, rng):
     return told
 
 
+def below_windows(view, rng):
+    """The same for nu < 0: n eta < 1 between the ends, and n eta > 1 in the late window alone."""
+    if not (-0.3 <= view.nu < 0 and 0 < view.low < 1):
+        return ["nu is not in [-0.3, 0), or the least eta not between 0 and 1"]
+    count, tried = len(view.ends), []
+    for n in {1, 2, 3, count, count + 1, rng.randint(1, count + 3)}:
+        first, last = view.ends[n - 1] if n <= count else ((Fraction(1, n),) * 2,) * 2
+        low, high = max(view.low, Fraction(1, 2 * n)), Fraction(1, n)
+        etas = [low + (high - low) * Fraction(k, 16) for k in range(1, 16)]
+        etas += [first[1] + (last[0] - first[1]) * share for share in _shares(rng)]
+        etas += [x + step for x in (*first, *last) for step in (-_NEAR, _NEAR)]
+        tried += [(n, eta, (first, last)) for eta in etas if low < eta < high]
+    late = view.late
+    etas = [x + step for end in late for x in end for step in (-_NEAR, _NEAR)]
+    etas += [late[0][1] + (late[1][0] - late[0][1]) * share for share in _shares(rng)]
+    etas += [Fraction(k, 16) for k in range(25, 36)]
+    tried += [(1, eta, late) for eta in etas]
+    for _ in range(12):
+        n, whole = rng.randint(2, 5), rng.randint(2, 6)
+        tried.append((n, (whole - Fraction(rng.randint(1, 400), 1000)) / n, None))
+    told = []
+    for n, eta, ends in tried:
+        if eta < view.low or (ends and any(low <= eta <= high for low, high in ends)):
+            continue
+        given = ends is not None and ends[0][1] < eta < ends[1][0]
+        told += _window(stable(eta, view.nu, n), given, f"eta = {float(eta):.12g}, n = {n}")
+    return told
+
+
 def _window(own, given, where):
     return [] if own is None or own == given else [f"stable is {own} at {where}"]
 
@@ -184,5 +216,6 @@ JUDGES = {
     "Solution": solution,
     "Orbit": orbit,
     "EtaWindows": eta_windows,
+    "BelowWindows": below_windows,
     "NuWindows": nu_windows,
 }

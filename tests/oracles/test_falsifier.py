@@ -5,7 +5,7 @@ from contextlib import ExitStack
 import pytest
 
 from tests.oracles.falsifier import ODD, report, run
-from tests.oracles.holes import ASKED, EQUAL, GAP, ORDER, POINT, reopened
+from tests.oracles.holes import ASKED, EQUAL, GAP, ORDER, PLACES, POINT, reopened
 
 pytestmark = pytest.mark.slow
 
@@ -32,7 +32,7 @@ def test_thousands_that_are_accepted_are_true():
         ("H15", (EQUAL,), ()),
         ("H17", (GAP,), ()),
         ("M6", POINT, ()),
-        ("G3", (ASKED,), (ODD[4],)),
+        ("G3", (ASKED, PLACES), (ODD[4],)),
     ],
 )
 def test_holes_are_found_by_edits_alone(claim, lines, odd):

@@ -85,7 +85,7 @@ def _sticking_orbit(eta, nu):
 
 
 def _printed_orbit(of):
-    """G2-G4: the orbit is (4.64, 6.05)."""
+    """G2-G4, G10: the orbit is (4.64, 6.05)."""
     found = _sticking_orbit(of.eta, of.nu)
     return found is not None and all(
         abs(x - y) < _PLACES for x, y in zip(found, ORBIT, strict=True)
@@ -113,7 +113,7 @@ def full_branches(eta, nu, interval, count=160):
 
 
 def _second_set(of):
-    """G5: two branches over [1.32, 1.48] would be a full shift."""
+    """G11: two branches over [1.32, 1.48] would be a full shift."""
     return full_branches(of.eta, of.nu, PRINTED) >= 2
 
 
@@ -175,7 +175,7 @@ TRUTHS = {
     "H16": lambda of: max(of.ratios) < 1 and _linear(of),
     "H17": lambda of: False,
     "G1": _arc,
-    "G5": _second_set,
+    "G11": _second_set,
     "N1": _edges,
     "N2": _hyperbolic,
     "X1": lambda of: all(sticks(of.eta, of.nu, TURN * k / 97) for k in range(97)),
@@ -185,7 +185,7 @@ TRUTHS = {
 }
 NEEDS = {
     **dict.fromkeys(("H14", "H15", "H17"), ("a linear Cantor set", _linear)),
-    **dict.fromkeys(("G2", "G3", "G4"), ("the orbit (4.64, 6.05)", _printed_orbit)),
+    **dict.fromkeys(("G2", "G3", "G4", "G10"), ("the orbit (4.64, 6.05)", _printed_orbit)),
 }
 
 

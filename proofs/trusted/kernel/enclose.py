@@ -77,7 +77,7 @@ class Enclosures:
         return result
 
 
-def _sqrt(x: Enclosure) -> Enclosure:
+def sqrt(x: Enclosure) -> Enclosure:
     """Enclose the square root: sqrt(n 2^-b) = sqrt(n 2^b) 2^-b, isqrt rounds down."""
     if x.lo < 0:
         raise Unproved("the square root of a number that may be negative")
@@ -100,7 +100,7 @@ def _log(x: Enclosure) -> Enclosure:
 
 
 _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
-    "sqrt": _sqrt,
+    "sqrt": sqrt,
     "exp": _exp,
     "log": _log,
     "sin": lambda x: x.sincos()[0],

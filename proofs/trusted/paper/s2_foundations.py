@@ -278,8 +278,9 @@ ROWS = (
     ),
     derived_row(
         Passage("M9", "2, after (9)", "the mass and the table eventually separate"),
-        "After a plastic impact mass and table always separate eventually.",
-        Verdict.REFUTED,
+        "After a plastic impact mass and table always separate eventually, beta > 0.",
+        Verdict.CONDITIONAL,
+        rest,
         corollary(
             "At (eta, nu) = (1/2, 1/10), beta > 0 > p, the acceleration of a free mass relative to "
             "the table it rests on is 3/40 sin phi - 1/4 <= -7/40 < 0 at every phase phi: after a "

@@ -75,6 +75,12 @@ class Horseshoe(Conclusion):
     def brief(self) -> str:
         return f"a horseshoe on {self.sets}, f' >= {show(self.slopes[0])}"
 
+    @property
+    def latex(self) -> str:
+        low, high = map(show, self.slopes)
+        bounds = rf"{low} \le f' \le {high} \text{{ on }} I_0 \cup I_1"
+        return rf"f(I_0) \supseteq I,\quad f(I_1) \supseteq I,\quad {bounds}"
+
 
 def horseshoe(left: SlopeRange, right: SlopeRange, gap: Avoids, slopes: Range) -> Horseshoe:
     """Theorem. Let f' lie in `slopes`, from above 1, on I0 and on I1, I0 before I1, let f(I0) and
@@ -245,7 +251,7 @@ ROWS = (
     Row(
         "H4",
         "3.1, Figure 2",
-        "the image lies outside I",
+        "for phi in [1.15, 1.27] is not in [1.11, 1.32]",
         _AT + "f(phi) is outside I = {i} for every phi in {gap}.",
         _gap_escapes,
     ),
@@ -260,7 +266,7 @@ ROWS = (
     Row(
         "H6",
         "3.1",
-        "of length < gamma_2^(-1) |J|",
+        "the length of each of these intervals is less than (1/gamma_2)|J|",
         _AT + "for each closed interval J of positive length in I0 = {i0} or I1 = {i1}, the "
         "preimages of J in I0 and in I1 are shorter than |J| / {lo}.",
         _short_preimages,

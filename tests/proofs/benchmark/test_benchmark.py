@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from contextlib import contextmanager
 
 import pytest
 
@@ -137,14 +138,21 @@ def test_a_report_is_never_half_new_and_the_page_comes_last(monkeypatch, tmp_pat
         main(["--out", str(tmp_path)])
     written = []
     monkeypatch.setattr("proofs.benchmark.page.svg", lambda one: "<svg/>")
-    monkeypatch.setattr(page, "write_atomically", lambda path, content: written.append(path.name))
+
+    @contextmanager
+    def noting(folder):
+        yield lambda name, content: written.append(name)
+
+    monkeypatch.setattr(page, "writing", noting)
     assert main(["--out", str(tmp_path)]) == 0
     assert written == ["benchmark-curves.svg", "benchmark.json", "benchmark.md"]
 
-    def full(path, content):
+    def full(file):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(page, "write_atomically", full)
+    monkeypatch.undo()
+    measured(monkeypatch, Section("First", "About.", [REACHED], [diagram()]))
+    monkeypatch.setattr("os.fsync", full)
     with pytest.raises(SystemExit) as stopped:
         main(["--out", str(tmp_path)])
     assert stopped.value.code == 2 and "No space left" in capsys.readouterr().err

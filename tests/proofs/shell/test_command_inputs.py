@@ -164,10 +164,10 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_work(
 def test_where_writing_fails_in_the_end_nothing_is_printed(
     command, option, tmp_path, capsys, monkeypatch
 ):
-    def full(path, content):
+    def full(file):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("proofs.trusted.certificate.write_atomically", full)
+    monkeypatch.setattr("os.fsync", full)
     base = [*flat(BASES[command]), *(["--fast"] if command is orbits else [])]
     said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
     assert "No space left" in said and [*tmp_path.iterdir()] == []

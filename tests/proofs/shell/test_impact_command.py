@@ -60,9 +60,6 @@ def test_json_to_a_file(capsys, tmp_path):
         (["--eta", "1", "--nu", "1", "--phi", "7"], "outside the circle"),
         (["--eta", "1", "--nu", "1", "--phi", "-1/5"], "outside the circle"),
         (["--eta", "1", "--nu", "1", "--phi", "1", "2", "3"], "one phase or two"),
-        (["--eta", "1", "--nu", "1", "--phi", "1"], "forever"),
-        ([*AT, "--phi", "1.57"], "horizon"),
-        ([*AT, "--phi", "1.11", "--horizon", "20"], "horizon"),
         ([*AT, "--phi", "1.11", "--digits", "x"], "whole number"),
         ([*AT], "--phi"),
     ],
@@ -73,6 +70,21 @@ def test_bad_input_is_one_line(arguments, message, capsys):
     said = capsys.readouterr()
     assert leave.value.code == 2 and said.out == ""
     assert said.err.count("\n") == 1 and message in said.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--eta", "1", "--nu", "1", "--phi", "1"], "forever"),
+        ([*AT, "--phi", "1.57"], "horizon"),
+        ([*AT, "--phi", "1.11", "--horizon", "20"], "horizon"),
+    ],
+)
+def test_no_impact_is_an_answer_and_not_bad_input(arguments, message, capsys):
+    assert impact.main(arguments) == 1
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    assert said.err.startswith("python -m proofs.impact: no impact: ") and message in said.err
 
 
 def test_the_onset_of_sticking_is_undecided(capsys):

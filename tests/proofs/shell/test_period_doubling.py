@@ -44,7 +44,7 @@ def test_against_arb(capsys, m, epsilon, digits):
         assert arb(low.numerator) / low.denominator < true
         assert true < arb(high.numerator) / high.denominator
         assert 0 < (high - low) * 10**digits <= 10 * abs(low)
-    more = {"m", "epsilon", "k", "q", "saddle_node", "flip", "at"}
+    more = {"schema", "m", "epsilon", "k", "q", "saddle_node", "flip", "at"}
     more |= {"height_least", "rho_graze", "epsilon_least"}
     assert set(found) == more | set(expected(m, Fraction(epsilon)))
 

@@ -8,6 +8,7 @@ import pytest
 from proofs.check import main as check
 from proofs.horseshoe import main
 from proofs.shell import manifest
+from proofs.shell.files import writing
 from proofs.shell.ledger import CLAIMS
 from proofs.trusted.certificate import MANIFEST, Malformed, digest
 from proofs.trusted.kernel.meter import DEFAULT
@@ -21,9 +22,18 @@ ROOT = Path(__file__).parents[3]
 @pytest.fixture
 def folder(tmp_path):
     content = corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8")
-    (tmp_path / "horseshoe.json").write_text(content, encoding="utf-8")
-    manifest.record(tmp_path, "horseshoe.json", content)
+    enter(tmp_path, "horseshoe.json", content)
     return tmp_path
+
+
+def enter(folder, name, content):
+    with writing(folder) as put:
+        put(name, content)
+        put(manifest.NAME, manifest.entered(folder, {name: content}))
+
+
+def files(folder):
+    return json.loads((folder / manifest.NAME).read_text(encoding="utf-8"))["files"]
 
 
 def edited(folder, edit):
@@ -39,11 +49,13 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
     path = tmp_path / manifest.NAME
     document = json.loads(path.read_text(encoding="utf-8"))
     assert document["schema"] == MANIFEST
-    assert set(document["claims"]) == {"H1", "H16"}
     entry = document["files"]["horseshoe.json"]
+    assert set(entry["claims"]) == {"H1", "H16"}
     assert entry["made"] == "python -m proofs.horseshoe --only H1 H16"
     assert entry["digest"] == digest((tmp_path / "horseshoe.json").read_text(encoding="utf-8"))
-    assert {"impact-proofs", "commit", "python", "mpmath", "platform"} <= set(entry["with"])
+    checked = entry["checked"].split()
+    assert checked[:4] == ["python", "-I", "-m", "proofs.check"]
+    assert check([str(tmp_path / name) for name in checked[4:]]) == 0
     capsys.readouterr()
     assert check([str(path)]) == 0
     assert "2 claims at the paper's parameters: 2 VERIFIED" in capsys.readouterr().out
@@ -53,7 +65,7 @@ def test_the_command_names_the_parameters(tmp_path, capsys):
     words = ["--eta", "0.25", "--nu", "-0.3", "--only", "H16", "--out", str(tmp_path)]
     assert main(words) == 0
     path = tmp_path / manifest.NAME
-    made = json.loads(path.read_text(encoding="utf-8"))["files"]["horseshoe.json"]["made"]
+    made = files(tmp_path)["horseshoe.json"]["made"]
     assert made == "python -m proofs.horseshoe --eta 0.25 --nu -0.3 --only H16"
     capsys.readouterr()
     assert check([str(path)]) == 0
@@ -73,7 +85,7 @@ def test_what_is_committed_is_about_the_committed_files(name):
     source = (ROOT / "reports" / name).read_text(encoding="utf-8")
     examine = check_manifest if name == manifest.NAME else check_ledger
     listed = examine(source, ROOT / "reports", DEFAULT)
-    assert len(listed) == len(CLAIMS) and all(each.is_paper for each in listed)
+    assert {each.id for each in listed} == set(CLAIMS) and all(each.is_paper for each in listed)
 
 
 @pytest.mark.slow
@@ -95,38 +107,61 @@ def test_no_text_of_a_ledger_is_believed(tmp_path, field):
 def test_entries_about_other_files_stay(folder):
     content = corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8")
     other = corpus.path_of("accepted/h16_alone").read_text(encoding="utf-8")
-    manifest.record(folder, "other.json", other)
-    manifest.record(folder, "horseshoe.json", content)
-    claims = json.loads((folder / manifest.NAME).read_text(encoding="utf-8"))["claims"]
-    assert claims["H1"]["file"] == "horseshoe.json" and len(claims) == 8
+    enter(folder, "other.json", other)
+    enter(folder, "horseshoe.json", content)
+    assert {name: len(entry["claims"]) for name, entry in files(folder).items()} == {
+        "horseshoe.json": 8,
+        "other.json": 1,
+    }
+
+
+def test_a_manifest_is_the_same_bytes_in_whatever_order_and_how_often_files_come(tmp_path):
+    reports = [(ROOT / f"reports/{name}.json").read_text() for name in ("horseshoe", "soft")]
+    named = list(zip(("horseshoe.json", "soft.json"), reports, strict=True))
+    texts = set()
+    for folder, order in (("a", named), ("b", named[::-1]), ("c", [*named, *named])):
+        for name, content in order:
+            enter(tmp_path / folder, name, content)
+        texts.add((tmp_path / folder / manifest.NAME).read_bytes())
+    assert len(texts) == 1
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[]", "{}", '{"claims": 1, "files": {}}', '{"claims": {"H1": 1}}']
+    "text",
+    ["", "[]", "{}", '{"schema": 1, "files": {}}', f'{{"schema": "{MANIFEST}", "files": 1}}'],
 )
 def test_a_manifest_that_cannot_be_read_is_replaced(folder, text):
     path = folder / manifest.NAME
     path.write_text(text, encoding="utf-8")
     content = (folder / "horseshoe.json").read_text(encoding="utf-8")
-    manifest.record(folder, "horseshoe.json", content)
-    assert len(json.loads(path.read_text(encoding="utf-8"))["claims"]) == 8
+    enter(folder, "horseshoe.json", content)
+    assert len(files(folder)["horseshoe.json"]["claims"]) == 8
 
 
 FILE = "horseshoe.json"
+
+
+def of(document):
+    return document["files"][FILE]["claims"]
+
+
 WRONG = {
     "digest": (lambda d: d["files"][FILE].update(digest="sha256:" + "0" * 64), "proves 'sha256"),
     "parameters": (lambda d: d["files"][FILE]["parameters"].update(eta="1/5"), "file proves"),
     "made": (lambda d: d["files"][FILE].update(made="python -m proofs.sets"), "the command is"),
-    "verdict": (lambda d: d["claims"]["H2"].update(verdict="VERIFIED"), "proves 'REFUTED'"),
-    "statement": (lambda d: d["claims"]["H2"].update(statement="f' <= 7."), "file proves"),
-    "claim": (lambda d: d["claims"].update(G1=d["claims"]["H1"]), "is about G1"),
-    "no claims": (lambda d: d.update(claims={}), "no claims"),
+    "checked": (lambda d: d["files"][FILE].update(checked="true"), "proves 'python -I -m"),
+    "verdict": (lambda d: of(d)["H2"].update(verdict="VERIFIED"), "file proves"),
+    "statement": (lambda d: of(d)["H2"].update(statement="f' <= 7."), "file proves"),
+    "claim": (lambda d: of(d).update(G1=of(d)["H1"]), "file proves"),
+    "claim left out": (lambda d: of(d).pop("H1"), "file proves"),
+    "claims of another form": (lambda d: d["files"][FILE].update(claims=["H1"]), "file proves"),
+    "no files": (lambda d: d.update(files={}), "no claims"),
     "missing file": (lambda d: d["files"].update({"none.json": d["files"][FILE]}), "be read"),
     "file outside": (lambda d: d["files"].update({"../x.json": d["files"][FILE]}), "same folder"),
     "NUL": (lambda d: d["files"].update({"x\0.json": d["files"][FILE]}), "same folder"),
-    "unlisted file": (lambda d: d["claims"]["H2"].update(file="x.json"), "no listed file"),
-    "field": (lambda d: d["claims"]["H2"].pop("file"), "missing field"),
-    "extra": (lambda d: d["claims"]["H2"].update(extra=""), "unknown field"),
+    "field": (lambda d: d["files"][FILE].pop("digest"), "missing field"),
+    "extra": (lambda d: d["files"][FILE].update(extra=""), "unknown field"),
+    "extra of a claim": (lambda d: of(d)["H2"].update(extra=""), "file proves"),
 }
 
 

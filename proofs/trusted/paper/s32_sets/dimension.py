@@ -77,9 +77,17 @@ class StayingDimension(Conclusion):
         low, high = self.bounds
         return f"{low} <= dim <= {high} for I = {show_range(self.interval)}"
 
+    @property
+    def latex(self) -> str:
+        low, high = self.bounds
+        return rf"{low} \le \dim \Lambda \le {high}"
+
 
 def _dimension(of: Parameters, found: Found) -> Decision:
-    """H13: by the set of I itself, or by a larger one, whose dimension is not smaller."""
+    """H13: by the set of I itself, or by a larger one, whose dimension is not smaller.
+
+    Claim 1 is proved for lines (H12); the paper's conclusions say it of the set of f itself.
+    """
     ratios = of.moran_ratios
     if max(ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(ratios))
@@ -103,8 +111,8 @@ def _dimension(of: Parameters, found: Found) -> Decision:
 ROWS = (
     Row(
         "H13",
-        "3.2, Claim 1",
-        "The Hausdorff dimension of the set Lambda is s_0",
+        "3.2, Claim 1, and 8",
+        "We proved that Lambda is a Cantor set and computed its Hausdorff dimension",
         "At (eta, nu) = ({eta}, {nu}): the phases whose images by f all stay in I = {i} form a set "
         "of Hausdorff dimension s_0, where {r0}^s_0 + {r1}^s_0 = 1.",
         _dimension,

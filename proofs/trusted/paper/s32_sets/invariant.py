@@ -171,11 +171,14 @@ class InvariantSet(InHorseshoe):
         if not self.shift.chaotic:
             return text
         counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
+        least, most = self.shift.growth
+        exact = f"log {show(least)}"
+        entropy = exact if least == most else f"the log of a number in {between((least, most), 12)}"
         return (
             f"{text} This subshift is irreducible: Lambda is a Cantor set, with periodic orbits of "
             "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; f^n "
             f"has {counts} fixed points in Lambda for n = 1, ..., 8; the topological entropy of f "
-            f"on Lambda is the log of a number in {between(self.shift.growth, 12)}."
+            f"on Lambda is {entropy}."
         )
 
     @property

@@ -111,6 +111,9 @@ class Digits(Conclusion):
 
 
 def _moran_root(of: Parameters, found: Found) -> Decision:
+    """H11: dots after rounded digits stand for places left out; that they are not the first digits
+    of the root, which dots may mean too, is told beside.
+    """
     ratios = of.moran_ratios
     if max(ratios) >= 1:
         return decided(Verdict.REFUTED, NoGap(ratios))
@@ -136,7 +139,7 @@ ROWS = (
     Row(
         "H11",
         "3.2",
-        "s_o evaluates to 0.449...",
+        "s_o evaluates to 0.449....",
         "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
         "to the places given.",
         _moran_root,

@@ -168,6 +168,10 @@ class EntropyBound(Conclusion):
         )
 
     @property
+    def latex(self) -> str:
+        return rf"h(f|_K) \ge \log {show(self.growth)}"
+
+    @property
     def quantities(self) -> Mapping[str, Range]:
         return {"entropy": self.entropy}
 

@@ -1,4 +1,4 @@
-"""Section 3.4: is there another invariant set in [1.32, 1.48]? Claim G5."""
+"""Section 3.4: is there another invariant set in [1.32, 1.48]? Claims G5, and G11, our own."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from proofs.trusted.numbers import Phases, Range, between, covered, show_range, 
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import Avoids, SlopeRange, image_arc
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 PRINTED = Phases(Fraction("1.32"), Fraction("1.48"))
 
@@ -222,23 +222,30 @@ def prove_staying_orbit(context: Context, reader: Reader) -> StayingOrbit:
 # -- the row ---------------------------------------------------------------------------------------
 
 
-def _another_set(of: Parameters, found: Found) -> Decision:
-    """G5: is what stays in the printed interval a full shift, or one orbit? Then it is none."""
-    del of
-    shifts, orbits = found.all(FullShift), found.all(StayingOrbit)
-    for shift in shifts:
-        if shift.interval == PRINTED:
-            return decided(Verdict.VERIFIED, shift)
-    staying = [orbit for orbit in orbits if orbit.region == (PRINTED,)]
-    if not staying:
-        return undecided(f"no proof which orbits stay in {show_range(PRINTED)}")
-    beside = [each for each in orbits if each.bracketed]
-    known: dict[str, Range] = {}
-    for period in sorted({len(each.cells) for each in beside}):
-        points = {x for each in beside if len(each.cells) == period for x in each.cells}
-        known |= {f"period_{period}_point_{i}": x for i, x in enumerate(sorted(points), 1)}
-    corrected = (staying[0], *shifts, *beside)
-    return decided(Verdict.REFUTED, staying[0], corrected=corrected, known=known)
+def _another_set(one_orbit: Verdict) -> Decide:
+    """Decide by what stays in the printed interval: a full shift, or one periodic orbit.
+
+    The latter is not in Lambda, in [1.11, 1.32], if a point of it is beyond. It is an invariant
+    set, which is all that the paper's words say (G5), but not one like Lambda (G11).
+    """
+
+    def decide(of: Parameters, found: Found) -> Decision:
+        shifts, orbits = found.all(FullShift), found.all(StayingOrbit)
+        for shift in shifts:
+            if shift.interval == PRINTED:
+                return decided(Verdict.VERIFIED, shift)
+        staying = [orbit for orbit in orbits if orbit.region == (PRINTED,)]
+        if not (staying and any(cell[0] > of.interval[1] for cell in staying[0].cells)):
+            return undecided(f"no proof which orbits stay in {show_range(PRINTED)}")
+        beside = [each for each in orbits if each.bracketed]
+        known: dict[str, Range] = {}
+        for period in sorted({len(each.cells) for each in beside}):
+            points = {x for each in beside if len(each.cells) == period for x in each.cells}
+            known |= {f"period_{period}_point_{i}": x for i, x in enumerate(sorted(points), 1)}
+        corrected = (staying[0], *shifts, *beside)
+        return decided(one_orbit, staying[0], corrected=corrected, known=known)
+
+    return decide
 
 
 ROWS = (
@@ -246,9 +253,17 @@ ROWS = (
         "G5",
         "3.4",
         "This suggests the existence of another invariant set",
+        "At (eta, nu) = ({eta}, {nu}): [1.32, 1.48] holds another invariant set of f.",
+        _another_set(Verdict.VERIFIED),
+        printed_at=PAPER.place,
+    ),
+    Row(
+        "G11",
+        "3.4",
+        "",
         "At (eta, nu) = ({eta}, {nu}): [1.32, 1.48] holds another invariant set of the same kind, "
         "on which f is conjugate to the full shift on two symbols.",
-        _another_set,
+        _another_set(Verdict.REFUTED),
         printed_at=PAPER.place,
     ),
 )

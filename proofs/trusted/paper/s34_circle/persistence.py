@@ -1,4 +1,6 @@
-"""Section 3.4 with restitution: does the stable orbit persist, do transients grow? Claims G7, G8.
+"""Section 3.4 with restitution: does the stable orbit persist, do transients grow?
+
+Claims G7, G8, and G12 of our own.
 
 A bounce, here, is a launch at a phase phi with a relative velocity w >= 0 away from the table,
 where the table pushes: let a(psi) be the launch acceleration of a mass at rest on the table at
@@ -22,8 +24,8 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.parameters import PAPER, Parameters, Place
+from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 _ZERO = Fraction(0)
 
@@ -68,15 +70,18 @@ class SuperstableMotion(Conclusion):
             f"2 pi * {turns}; phi_s, phi_1 and u do not depend on epsilon. Every motion with an "
             f"impact at a phase within {near} of phi_1, with a relative speed within {near} of u, "
             "comes to rest before phi_s in the same way and is this one, exactly, from phi_s on: "
-            "it is superstable. For epsilon > 0 it is no 2-periodic orbit of the map F from one "
-            "impact to the next, and none attracts this open set of states."
+            "it is superstable. Counted as the plastic orbit (phi_1, phi_s), one landing with all "
+            "that follows until it rests and one separation, it has period 2. For epsilon > 0 it "
+            "is no 2-periodic orbit of the map F from one impact to the next, and none attracts "
+            "this open set of states."
         )
 
     @property
     def brief(self) -> str:
         return (
             f"for 0 < epsilon <= {show(self.largest)} the stable motion has infinitely many "
-            f"impacts in each period, of 2 pi * {self.arc.turns}"
+            f"impacts in each period, of 2 pi * {self.arc.turns}: period 2 only if a landing with "
+            "all that follows until rest counts as one step, and the separation as the other"
         )
 
     @property
@@ -262,19 +267,32 @@ def prove_stable_pair(context: Context, reader: Reader) -> StablePair:
 # -- the rows --------------------------------------------------------------------------------------
 
 
-def _persists(of: Parameters, found: Found) -> Decision:
-    """G7: an open set of states is attracted by no 2-periodic orbit of F, if epsilon > 0."""
-    proved = found.first(SuperstableMotion)
-    if proved is not None and of.epsilon:
-        return decided(Verdict.REFUTED, proved, corrected=(proved, *found.elsewhere(StablePair)))
-    known = "; ".join(str(each.at) for each in found.elsewhere(SuperstableMotion))
-    return undecided(f"proved for epsilon > 0, {known}, only" if known else "nothing is proved")
+def _persists(verdict: Verdict) -> Decide:
+    """G7: how impacts are counted is open, as for the plastic orbit (claim G2). G12: an open set of
+    states is attracted by no 2-periodic orbit of F, if epsilon > 0.
+    """
+
+    def decide(of: Parameters, found: Found) -> Decision:
+        proved = found.first(SuperstableMotion)
+        if proved is not None and of.epsilon:
+            return decided(verdict, proved, corrected=(proved, *found.elsewhere(StablePair)))
+        known = "; ".join(str(each.at) for each in found.elsewhere(SuperstableMotion))
+        return undecided(f"proved for epsilon > 0, {known}, only" if known else "nothing is proved")
+
+    return decide
+
+
+_OBSERVED = (
+    "an observation about simulated motions, no theorem and no certificate: medians, means and how "
+    "many do not come to rest are on the page persistence.md, which python -m proofs.persistence "
+    "makes"
+)
 
 
 def _transients(of: Parameters, found: Found) -> Decision:
     """G8: no conclusion proves anything about it."""
     del of, found
-    return Decision(Verdict.SIMULATED, missing="an observation about simulated motions, no theorem")
+    return Decision(Verdict.SIMULATED, missing=_OBSERVED)
 
 
 _AT = "At (eta, nu) = ({eta}, {nu})"
@@ -283,10 +301,17 @@ ROWS = (
         "G7",
         "3.4",
         "there is a stable 2-periodic orbit which attracts all the initial conditions chosen",
-        _AT + ", for other coefficients of restitution too (epsilon = {epsilon} among them): the "
-        "map F from one impact to the next has a stable 2-periodic orbit, and it attracts the "
-        "initial conditions.",
-        _persists,
+        _AT + ", for other coefficients of restitution too (epsilon = {epsilon} among them): there "
+        "is a stable 2-periodic orbit, and it attracts an open set of initial conditions.",
+        _persists(Verdict.CONDITIONAL),
+    ),
+    Row(
+        "G12",
+        "3.4",
+        "",
+        _AT + ", epsilon = {epsilon}: the map F from one impact to the next has a 2-periodic orbit "
+        "that attracts almost every initial condition.",
+        _persists(Verdict.REFUTED),
     ),
     Row(
         "G8",
@@ -295,5 +320,6 @@ ROWS = (
         _AT + ": trajectories take the longer to reach the stable orbit the larger the coefficient "
         "of restitution is.",
         _transients,
+        PAPER.place,
     ),
 )

@@ -1,4 +1,4 @@
-"""Section 4: solutions of (16), and which of them are orbits; six lemmas about them.
+"""Section 4: solutions of (16), and which of them are orbits; five lemmas about them.
 
 A short orbit, here, is one of the plastic impact map that leaves the table at once (its launch
 acceleration is > 0) and has its first impact, a transversal one, n table periods later.
@@ -41,12 +41,6 @@ Lemma 5 (windows in eta). On (0, 1/(2 n)) e, A(eta^2) and p_1 = eta^2 (1 + 1/c^2
 A(p_1) does while p_1 < 1. So at fixed nu > 0 the condition eta^2 < p < p_1 on the p > -e with
 A(p) = nu^2, that is A(eta^2) < nu^2 and (p_1 >= 1 or A(p_1) > nu^2), holds between two values of
 eta; and if A(eta^2) >= nu^2 at some eta in (0, 1) and n, likewise at greater eta, n < 1/(2 eta).
-
-Lemma 6 (stiff springs). If -1 < nu < 0 and eta acos |nu| >= pi, no solution with p >= -e, that is
-M <= 1, is an orbit. Proof. By lemma 4 let p = -e. If there is a solution, e/(1 + e) <= nu^2, so
-tau = eta |tan x| = sqrt(e) <= cot(acos |nu|). At t = (2 - d) pi/eta < T, d = 1 - {n eta}, the mass
-is at its highest, h/|c| > h, and (mass - table)/h > tau sin t - tau^2 (1 - cos t) =
-2 tau sin(t/2) (cos(t/2) - tau sin(t/2)) > 0, since t/2 < pi/eta <= acos |nu|.
 """
 
 from __future__ import annotations

@@ -28,24 +28,25 @@ from proofs.trusted.paper.s4_single.orbits import (
 
 _MOST_RECORDS = 10**5
 _HALF = Fraction(1, 2)
-_FINE = Fraction(1, 10**9)
-_LEAVING = (
+FINE = Fraction(1, 10**9)
+LEAVING = (
     "an orbit that leaves the table at once (launch acceleration > 0), with its first impact, a "
     "transversal one, n table periods later and |f'| < 1, exists exactly"
 )
 
 
-def _excess(eta: Fraction, nu: Fraction, n: int, end: int, bits: int = COVER_BITS) -> Enclosure:
+def excess_at(eta: Fraction, nu: Fraction, n: int, end: int, bits: int = COVER_BITS) -> Enclosure:
+    """Enclose excess at exact numbers."""
     found: Enclosure = excess(rational(eta, bits), rational(nu, bits), turn(eta, n, bits), end)
     return found
 
 
-def _bracketed(
+def bracketed(
     n: int, end: int, below: tuple[Fraction, Fraction], above: tuple[Fraction, Fraction]
 ) -> None:
     """Require that excess is < 0 at one point (eta, nu) and > 0 at another."""
     bits = bits_of(max(abs(x - y) for x, y in zip(below, above, strict=True)), n)
-    if not _excess(*below, n, end, bits).hi < 0 < _excess(*above, n, end, bits).lo:
+    if not excess_at(*below, n, end, bits).hi < 0 < excess_at(*above, n, end, bits).lo:
         raise Unproved("an end of a window is not bracketed")
 
 
@@ -63,7 +64,7 @@ class EtaWindows(Conclusion):
 
     def __post_init__(self) -> None:
         down = [end for flip, stick in self.ends for end in (stick, flip)]
-        if any(high - low > _FINE for low, high in down):
+        if any(high - low > FINE for low, high in down):
             raise Unproved("the ends of windows are not known to nine places")
         if any(later[1] >= end[0] for end, later in pairwise(down)):
             raise Unproved("the windows are not proved to be apart")
@@ -76,7 +77,7 @@ class EtaWindows(Conclusion):
         )
         return (
             f"For nu = {show(self.nu)} (p < 0), plastic impacts and eta >= {show(self.low)}, "
-            f"{_LEAVING} for n = 1, ..., {len(self.ends)} if eta is in one of as many disjoint "
+            f"{LEAVING} for n = 1, ..., {len(self.ends)} if eta is in one of as many disjoint "
             "open intervals, one for each n, from f' = -1 (flip) up to f' = 0 (sticking), or what "
             f"of it is above {show(self.low)}. Rounded inward, by less than 2e-8: {listed}."
         )
@@ -108,12 +109,12 @@ def eta_windows(context: Context, reader: Reader) -> EtaWindows:
         for end, (low, high) in ((FLIP, flip), (STICK, stick)):
             if not 0 < low < high < _HALF / n:
                 raise entry.fail("a bracket in (0, 1/(2 n)) is expected")
-            _bracketed(n, end, (low, nu), (high, nu))
+            bracketed(n, end, (low, nu), (high, nu))
         if stick_low <= least:
             raise entry.fail("a window that is not proved to reach beyond the least eta")
         ends.append((flip, stick))
     after = len(ends) + 1
-    if after * least < _HALF and _excess(least, nu, after, STICK).lo <= 0:
+    if after * least < _HALF and excess_at(least, nu, after, STICK).lo <= 0:
         raise Unproved(f"windows for n = {after} are not excluded")
     return EtaWindows(nu, least, tuple(ends))
 
@@ -150,7 +151,7 @@ class NuWindows(Conclusion):
             for windows in (self.above, self.below)
         )
         return (
-            f"For eta = {show(self.eta)}, plastic impacts and 0 < |nu| < 1, {_LEAVING} with n and "
+            f"For eta = {show(self.eta)}, plastic impacts and 0 < |nu| < 1, {LEAVING} with n and "
             f"|nu| in one of these open intervals. For nu > 0 (p < 0), from f' = 0 (sticking) to "
             f"f' = -1 (flip), or to 1: {above}. For nu < 0 (p > 0), from f' = 1 (saddle-node) to "
             f"f' = 0 (sticking), or to 1: {below}."
@@ -207,13 +208,13 @@ def _windows(
 def _end_in_nu(eta: Fraction, n: int, end: int, reader: Reader) -> Range:
     """Enclose the |nu| of a solution with M = end; (1, 1) for null if it is 1 or more."""
     if reader.is_null():
-        if _excess(eta, Fraction(1), n, end).lo <= 0:
+        if excess_at(eta, Fraction(1), n, end).lo <= 0:
             raise Unproved("an end of a window is not proved to be at |nu| >= 1")
         return Fraction(1), Fraction(1)
     low, high = reader.range()
     if low <= 0 or high > 1:
         raise reader.fail("a bracket in (0, 1] is expected")
-    _bracketed(n, end, (eta, high), (eta, low))
+    bracketed(n, end, (eta, high), (eta, low))
     return low, high
 
 

@@ -80,19 +80,21 @@ no_double = corollary(
     closed_form,
 )
 rebound = corollary(
-    "At eta = 1 the condition for the rebound at phi_1 is nu epsilon K_o > 0, K_o = epsilon "
-    "(gamma_o + nu cos phi_o). The launch from (phi_1, gamma_1) has the relative velocity epsilon "
-    "(gamma_1 + nu cos phi_1) = epsilon K_o in scaled units, with cos(phi_1) and not cos(phi_o). "
-    "As printed the expression is K_o - nu (cos phi_1 - cos phi_o). Where K_o = 0 it is 0, so that "
-    "it does not stick where it is < 0 is true, but no test; for |nu| <= 1/2 it has the sign of "
-    "K_o, as |cos phi_1 - cos phi_o| <= 2 |sin(arctan K_o)| = 2 |K_o|/sqrt(1 + K_o^2).",
+    "At eta = 1 an impact that sticks has K_o = epsilon (gamma_o + nu cos phi_o) = 0, phi_1 = "
+    "phi_o, and the displayed expression is 0, not < 0. In general it is K_o - nu (cos phi_1 - "
+    "cos phi_o); for |nu| <= 1/2 it has the sign of K_o, as |cos phi_1 - cos phi_o| <= 2 "
+    "|sin(arctan K_o)| = 2 |K_o|/sqrt(1 + K_o^2). The converse is false: at nu = -5/2, epsilon = "
+    "1/2, sin(phi_o) = 4/5, cos(phi_o) = 3/5, gamma_o = 5/6, K_o = -1/3, the mass leaves the table "
+    "and lands at phi_1 = phi_o - 2 arctan(1/3) mod 2 pi, and the expression is 17/30 > 0. With "
+    "cos(phi_1) for its last cos(phi_o) it is K_o, and epsilon K_o is in scaled units the relative "
+    "velocity of the launch at phi_1: that impact rebounds exactly if nu epsilon K_o > 0.",
     closed_form,
     *eq.TEST,
 )
 no_subharmonic = corollary(
-    "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu "
-    "(an observation, simulated by proofs.report.resonance_figure): the steady motion is a sine of "
-    "the frequency of the table (nu < 0), or rest on it (nu > 0). For epsilon = 1 all flights of a "
+    "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu: "
+    "the motion that all others tend to is a sine of the frequency of the table (nu < 0), or rest "
+    "on it (nu > 0). For epsilon = 1 all flights of a "
     "motion with c = gamma + nu cos(phi) not 0, which is constant, last T = 2 pi - 2 arctan|c| for "
     "nu < 0, T = 2 arctan|c| for nu > 0, so the displacement, table plus gap, has only the "
     "frequency of the table and multiples of 2 pi/T times it, larger ones. It repeats after n "
@@ -183,15 +185,18 @@ ROWS = (
     ),
     derived_row(
         Passage("R6", "6.2, Case 1.1", "are two impact periodic if"),
-        "Case 1.1: (phi_o, gamma_o) is two-impact periodic, not of period one, if gamma_o = -nu "
-        "cos(phi_o) and 1 - epsilon nu sin(phi_o) = 0; this is equivalent to d alpha_k/d phi_k = "
-        "0.",
-        Verdict.REFUTED,
+        "Case 1.1: (phi_o, gamma_o) is two-impact periodic, every second impact being there, if "
+        "gamma_o = -nu cos(phi_o) and d alpha_k/d phi_k = 0; the latter is equivalent to 1 - "
+        "epsilon nu sin(phi_o) = 0.",
+        Verdict.CONDITIONAL,
         corollary(
-            "At eta = 1, nu = -2, epsilon = 1/2, phi_o = 3 pi/2, gamma_o = 0 both conditions hold, "
-            "the gap after the impact is 1 - cos t, and the next touch is at phi_o with gamma_o: "
-            "period one. The derivative of alpha_k^2/2 is nu cos(phi_o) (1 - epsilon nu sin "
-            "phi_o), 0 at phi_o = pi/2 too.",
+            "At eta = 1, beta > 0, true for p > 0 (nu < 0), a touch without relative velocity "
+            "being an impact, and equivalent where cos(phi_o) is not 0. But every impact of such "
+            "an orbit is at (phi_o, gamma_o), period one, whatever d alpha_k/d phi_k is: at nu = "
+            "-2, epsilon = 1/2, phi_o = 3 pi/2, gamma_o = 0, where both conditions hold, the gap "
+            "is 1 - cos t. The derivative of alpha_k^2/2 is nu cos(phi_o) (1 - epsilon nu sin "
+            "phi_o), 0 where cos(phi_o) = 0, too. For p < 0 (nu > 0) the mass rests on the table "
+            "for ever after such an impact.",
             closed_form,
             eq.ALPHA_TURNS,
         ),
@@ -269,20 +274,13 @@ ROWS = (
     ),
     derived_row(
         Passage("R12", "6.2, end", "is not 'sticking' if"),
-        "The impact at (phi_o, gamma_o) is not sticking if the displayed expression is < 0, read "
-        "as a test: exactly then.",
-        Verdict.REFUTED,
-        corollary(
-            "At eta = 1, nu = -5/2, epsilon = 1/2, sin(phi_o) = 4/5, cos(phi_o) = 3/5, gamma_o = "
-            "5/6, epsilon (gamma_o + nu cos phi_o) = -1/3, the mass leaves the table and lands at "
-            "phi_1 = phi_o - 2 arctan(1/3) mod 2 pi, and the expression is 17/30 > 0.",
-            closed_form,
-            *eq.TEST,
-        ),
+        "The impact at (phi_o, gamma_o) is not sticking if the displayed expression is < 0.",
+        Verdict.VERIFIED,
+        rebound,
         corrected=(closed_form, rebound),
     ),
     derived_row(
-        Passage("R13", "Fig. 8", "are the unstable double impact periodic orbits"),
+        Passage("R13", "6.2, Figure 8", "are the unstable double impact periodic orbits"),
         "Figure 8: unstable double-impact periodic orbits exist.",
         Verdict.REFUTED,
         no_double,
@@ -291,7 +289,8 @@ ROWS = (
     derived_row(
         Passage("E1", "7, Fig. 10", "eighth subharmonic appearing as the amplitude is increased"),
         "Figure 10: at resonance subharmonics of the table frequency, an eighth one, appear as "
-        "the amplitude grows (an experiment).",
+        "the amplitude grows (an experiment; python -m proofs.resonance --figure draws motions of "
+        "the model beside it).",
         Verdict.SIMULATED,
         no_subharmonic,
         corrected=(iterates, no_subharmonic),

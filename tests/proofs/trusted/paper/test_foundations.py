@@ -36,7 +36,7 @@ VERDICTS = {
     "M5": "REFUTED",
     "M7": "REFUTED",
     "M8": "CONDITIONAL",
-    "M9": "REFUTED",
+    "M9": "CONDITIONAL",
     "A1": "REFUTED",
     "A2": "CONDITIONAL",
 }

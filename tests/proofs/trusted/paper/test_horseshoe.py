@@ -260,7 +260,7 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
 def test_the_figure_is_drawn_and_does_not_change(tmp_path):
     assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "a")]) == 0
     assert horseshoe.main(["--figure", "--only", "H2", "--out", str(tmp_path / "b")]) == 0
-    first, second = ((tmp_path / x / "horseshoe.svg").read_text() for x in "ab")
+    first, second = ((tmp_path / x / "figures" / "figure-2.svg").read_text() for x in "ab")
     assert first == second and first.rstrip().endswith("</svg>")
 
 
@@ -282,7 +282,7 @@ def test_a_figure_of_what_is_not_proved_is_refused(claim, status, capsys, tmp_pa
     arguments = [*sets, "--only", claim, "--figure", "--out", str(tmp_path)]
     assert horseshoe.main(arguments) == status
     assert "no figure" in capsys.readouterr().err
-    assert not (tmp_path / "horseshoe.svg").exists()
+    assert not (tmp_path / "figures").exists()
 
 
 @pytest.mark.slow

@@ -25,9 +25,9 @@ from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 
 VERDICTS = {
-    "VERIFIED": "R10",
-    "REFUTED": "R3 R4 R6 R7 R8 R9 R11 R12 R13",
-    "CONDITIONAL": "R1 R2 R5",
+    "VERIFIED": "R10 R12",
+    "REFUTED": "R3 R4 R7 R8 R9 R11 R13",
+    "CONDITIONAL": "R1 R2 R5 R6",
     "SIMULATED": "E1",
 }
 CLAIMS = GROUPS["resonance"]

@@ -15,8 +15,9 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs import single_impact
-from proofs.motion.single_orbits import earlier, eta_end, last_period, nu_end, solutions
+from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
+from proofs.motion.window_ends import earlier, eta_end, graze_end, nu_end
 from proofs.trusted.equations import Clock
 from proofs.trusted.paper.s4_single.orbits import (
     FLIP,
@@ -71,6 +72,15 @@ def test_solutions_satisfy_the_impact_equation():
             eta, nu, phi = real(of.eta), real(of.nu), middle(one.phase)
             assert abs(reference.left_side_10(eta, nu, phi, 2 * mp.pi * n)) < mpf(10) ** -28
             assert 0 <= one.phase[0] < 7 and one.phase[1] - one.phase[0] < 2**-110
+
+
+def test_an_orbit_that_sticks_need_not_solve_16():
+    """Why P1 is about masses that leave at once: (0.2121, -0.2), one impact in four periods."""
+    eta, nu = mpf("0.2121"), mpf("-0.2")
+    leave = reference.separation_phase(eta, nu)
+    time, phi = reference.first_impact(eta, nu, leave + mpf(10) ** -20)
+    assert abs((leave + time - phi) / (2 * mp.pi) - 4) < 1e-15
+    assert abs(reference.left_side_10(eta, nu, phi, 8 * mp.pi)) > 0.1
 
 
 def test_there_are_two_solutions_or_none():
@@ -191,20 +201,6 @@ def test_records_of_fractional_parts():
     assert last_period(system("0.25", "-1")) is None
 
 
-@pytest.mark.slow
-def test_stiff_springs_have_no_stable_orbit_above_the_table():
-    """Lemma 6, by scans: |nu| = 0.2 and eta > 2.2942."""
-    rng, seen = random.Random(7), 0
-    while seen < 10:
-        n = rng.randint(1, 4)
-        eta = (math.ceil(n * rng.uniform(2.3, 9)) - rng.uniform(0, 0.01)) / n
-        of = system(round(eta, 5), "-0.2")
-        for one in solutions(of, n, 80) if n * of.eta % 1 else ():
-            if abs(one.multiplier[0]) < 1:
-                assert one.admissible is False and lowest(of, n, one.phase) < 0, (of, n, one)
-                seen += 1
-
-
 # -- ends of windows -----------------------------------------------------------------------------
 
 
@@ -286,6 +282,128 @@ def test_earlier_impacts_of_long_flights():
     assert -gap < 0 < time < 42 * 3.1415
 
 
+# -- a table below: lemmas 6 to 8 ------------------------------------------------------------------
+
+
+def saddle_node(n, nu, low, high):
+    """About the eta where eta |tan(pi n eta)|, which falls, is |nu|/sqrt(1 - nu^2)."""
+    depth = math.tan(math.asin(-nu))
+    for _ in range(60):
+        middle_one = (low + high) / 2
+        above = -middle_one * math.tan(math.pi * n * middle_one) > depth
+        low, high = (middle_one, high) if above else (low, middle_one)
+    return high
+
+
+def below(n, eta, nu):
+    """D(t) for the solution with slope < 1, and its p: as functions of floats, typed again."""
+    tangent, square = math.tan(math.pi * n * eta), nu * nu
+    root = square - (1 - square) * (eta * tangent) ** 2
+    if root < 0:
+        return None, None
+    p = (math.sqrt(root) - square) / (1 - square)
+
+    def inside(t):
+        mass = np.cos(eta * t) + tangent * np.sin(eta * t)
+        return mass - 1 + p * (1 - np.cos(t)) - eta * tangent * np.sin(t)
+
+    return inside, p
+
+
+def test_lemma_6_what_decides_a_window_falls_and_is_convex():
+    for n in (1, 2, 7):
+        eta = np.linspace(0.5 / n, 1 / n, 2001)[1:]
+        e = (eta * np.tan(np.pi * n * eta)) ** 2
+        assert (np.diff(e) < 0).all()
+        assert (np.diff(e, 2)[1:-2] > 0).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
+def test_lemma_7_no_stable_orbit_with_longer_flights_but_one(nu):
+    """By scans of the gap, from just after the saddle-nodes; n = 1, 3/2 < eta < 2 has some."""
+    seen = set()
+    for n in range(1, 13):
+        times = np.linspace(0, math.tau * n, 300 * n + 1)[2:-2]
+        for m in range(1, int(2.6 * n)):
+            low, high = (m + 0.5) / n, (m + 1) / n
+            about = saddle_node(n, nu, low + 1e-9, high)
+            for share in (1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9):
+                inside, p = below(n, about + (high - about) * share, nu)
+                if inside is not None and p < about**2 and inside(times).max() < 0:
+                    seen.add((n, m))
+    assert seen == {(1, 1)}
+
+
+@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
+def test_lemma_8_the_flight_of_half_the_springs_period(nu):
+    """D < 0 away from pi; concave there, and growing with eta, while p < 0."""
+    saddle = saddle_node(1, nu, 1.5001, 2)
+    far = np.concatenate(
+        (np.linspace(0.05, math.pi - 5 / 7, 99), np.linspace(math.pi + 5 / 7, 6.2))
+    )
+    near, before = math.pi + np.linspace(-5 / 7, 5 / 7, 101), None
+    for eta in np.linspace(saddle + 1e-9, 2, 40)[:-1]:
+        inside, p = below(1, eta, nu)
+        if p >= 0:
+            assert inside(math.pi) > 0
+            continue
+        assert (inside(far) < 0).all()
+        now = inside(near)
+        assert (np.diff(now, 2) < -(1 / 5) * (near[1] - near[0]) ** 2).all()
+        assert before is None or (now > before).all()
+        before = now
+    assert before is not None
+
+
+@pytest.mark.parametrize(
+    ("n", "end", "low", "high"),
+    [
+        (1, SADDLE, "1/2", "1"),
+        (3, SADDLE, "1/6", "1/3"),
+        (3, STICK, "1/6", "1/3"),
+        (1, SADDLE, "3/2", "2"),
+    ],
+)
+def test_ends_for_a_table_below_against_mpmath(n, end, low, high):
+    bounds = eta_end(Fraction("-0.2"), n, end, 100, (Fraction(low), Fraction(high)))
+    nu = mpf("-0.2")
+
+    def equations(eta, phi):
+        last = (
+            slope_18(eta, nu, n, phi) - 1
+            if end == SADDLE
+            else reference.launch_acceleration(eta, nu, phi)
+        )
+        return [reference.left_side_10(eta, nu, phi, 2 * mp.pi * n), last]
+
+    inner = bounds[1] + Fraction(1, 10**6) if end == SADDLE else bounds[0] - Fraction(1, 10**9)
+    one = min(solutions(System(inner, Fraction("-0.2")), n, 80), key=lambda x: x.multiplier)
+    found = mp.findroot(equations, (middle(bounds), middle(one.phase)), tol=1e-50)
+    assert abs(found[0] - middle(bounds)) < mpf(10) ** -28
+
+
+def test_the_end_by_grazing_against_mpmath():
+    """Three equations: (10) after 2 pi; gap and gap' at an earlier time."""
+    saddle = eta_end(Fraction("-0.2"), 1, SADDLE, 60, (Fraction(3, 2), Fraction(2)))
+    bounds, touch = graze_end(Fraction("-0.2"), float(saddle[1]), 100)
+    nu, eta = mpf("-0.2"), middle(bounds)
+    inner = System(bounds[0] - Fraction(1, 10**9), Fraction("-0.2"))
+    one = min(solutions(inner, 1, 80), key=lambda x: x.multiplier)
+
+    def equations(eta, phi, time):
+        def gap(t):
+            return reference.left_side_10(eta, nu, phi, t)
+
+        return [gap(2 * mp.pi), gap(time), mp.diff(gap, time)]
+
+    found = mp.findroot(equations, (eta, middle(one.phase), real(touch)))
+    assert abs(found[0] - eta) < mpf(10) ** -25 and abs(found[2] - real(touch)) < mpf(10) ** -20
+    assert one.admissible and one.stable
+    outer = System(bounds[1] + Fraction(1, 10**9), Fraction("-0.2"))
+    assert not any(x.admissible for x in solutions(outer, 1, 80) if x.multiplier[1] < 1)
+
+
 # -- the command ---------------------------------------------------------------------------------
 
 
@@ -328,9 +446,72 @@ def test_bad_input_is_one_line(arguments, capsys):
     assert captured.out == "" and captured.err.count("\n") == 1
 
 
+@pytest.mark.parametrize(("eta", "nu"), [("1", "0.2"), ("1/2", "0.2"), ("13.999", "0.2")])
+def test_where_no_n_is_looked_at_that_is_said(eta, nu, capsys):
+    assert single_impact.main(["--eta", eta, "--nu", nu]) == 0
+    out = capsys.readouterr().out
+    assert "no orbit for any n" in out and "needs n eta < 1/2" in out
+    assert "no solution of (16)" not in out
+
+
+def test_what_there_is_is_summed_up_before_it_is_listed(capsys):
+    assert single_impact.main(["--eta", "0.237", "--nu", "0.3"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1] == (
+        "n = 1, ..., 2: 2 solutions of (16) where n eta is no integer, 1 orbit, 1 stable, for n = 1"
+    )
+    assert lines[2] == "for greater n no solution is an orbit"
+    assert sum(line.startswith("n = 1: ") for line in lines) == 2
+    assert single_impact.main(["--eta", "0.6", "--nu", "0.9", "--n", "1"]) == 0
+    assert "n = 1: 2 solutions of (16)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("nu", ["1", "-1"])
+def test_at_amplitude_one_a_solution_is_at_rest_and_the_other_as_elsewhere(nu):
+    """It is sin(phi) = -1/nu, cos(phi) = 0; the other one is continued from |nu| = 1 -+ 1e-12."""
+    for eta, n in (("0.3", 1), ("0.3", 2), ("0.7", 2), ("0.1", 3)):
+        *others, rest = solutions(system(eta, nu), n, 80)
+        assert rest.multiplier is None and rest.admissible is rest.stable is False
+        assert abs(mp.sin(middle(rest.phase)) * mpf(nu) + 1) < mpf(10) ** -40
+        (one,) = others
+        for near in (
+            Fraction(nu) * (1 + step) for step in (Fraction(1, 10**12), -Fraction(1, 10**12))
+        ):
+            found = solutions(System(Fraction(eta), near), n, 80)
+            match = min(found, key=lambda x: abs(middle(x.phase) - middle(one.phase)))
+            assert abs(middle(match.phase) - middle(one.phase)) < mpf(10) ** -9
+            assert abs(middle(match.multiplier) - middle(one.multiplier)) < mpf(10) ** -8
+            assert (match.admissible, match.stable) == (one.admissible, one.stable)
+    assert [x.multiplier for x in solutions(system("0.5", nu), 1, 80)] == [None]
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("1e-30", "0.2"), ("1e-30", "-0.2")])
+def test_very_soft_springs_are_decided_by_the_lemmas(eta, nu):
+    """Lemma 2: for nu < 0 there is no orbit with n eta < 1/2; lemma 3: for nu > 0 there is."""
+    found = solutions(System(Fraction(eta), Fraction(nu)), 1, 80)
+    assert [one.admissible for one in found] == [nu == "0.2", False]
+    assert found[0].stable is False
+
+
+def test_a_launch_at_rest_height_has_the_slope_of_18():
+    """eta = 1/2, n = 1, nu = -3/2: 1 + nu sin(phi) = 0, where p is infinite; (18) is 0."""
+    one, other = solutions(system("1/2", "-3/2"), 1, 80)
+    assert one.multiplier == other.multiplier == (0, 0) and one.admissible and one.stable
+    phi = middle(one.phase)
+    assert abs(slope_18(mpf(1) / 2, mpf("-1.5"), 1, phi)) < mpf(10) ** -20
+    found = reference.first_impact(mpf(1) / 2, mpf("-1.5"), phi)
+    assert abs(found[0] - 2 * mp.pi) < mpf(10) ** -15
+
+
 def test_a_saddle_node_is_undecided_and_does_not_hide_the_rest(capsys):
     assert single_impact.main(["--eta", "3/4", "--nu", "-3/5", "--json", "-"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert answer["undecided"] == [1, 3] and answer["resonant"] == [4]
     assert single_impact.main(["--eta", "3/4", "--nu", "-3/5", "--n", "1"]) == 1
     assert "n = 1: undecided" in capsys.readouterr().out
+
+
+def test_progress_is_told_for_each_n():
+    told = []
+    single_impact.answer_for(system("0.3", "0.2"), range(2, 5), 5, told.append)
+    assert told == ["n = 2 of 4", "n = 3 of 4", "n = 4 of 4"]

@@ -1,0 +1,131 @@
+"""Which theorems a certificate asks Coq for: the horseshoe, and the paper's claims as decided."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from proofs.search.repair import rounded_slopes
+from proofs.trusted.certificate import FIELDS, Malformed, parse
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, hull
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.parameters import Parameters
+from proofs.trusted.slopes import Impact, SlopeRange
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import check, premises
+
+CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
+_MOST_DIGITS = 12
+
+
+class NoTheorem(ValueError):
+    """The certificate is right, and decides nothing that is stated in Coq."""
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A horseshoe on I0 and I1: f' has these signs there, and |f'| these bounds."""
+
+    left: Range
+    right: Range
+    signs: tuple[int, int]
+    slopes: Range
+    is_corrected: bool
+
+    @property
+    def interval(self) -> Range:
+        """I, from the left end of I0 to the right end of I1."""
+        return self.left[0], self.right[1]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be stated: a horseshoe, if there is one, and what is decided of the claims.
+
+    points: the phases by which claims are refuted; roots: of Moran's equation.
+    """
+
+    of: Parameters
+    headline: Headline | None
+    verdicts: dict[str, Verdict]
+    statements: dict[str, str]
+    points: dict[str, Impact]
+    roots: tuple[MoranRoot, ...]
+
+    def holds(self, *claims: str) -> bool:
+        """Whether claims are verified."""
+        return all(self.verdicts.get(claim) is Verdict.VERIFIED for claim in claims)
+
+
+def plan(source: str) -> Plan:
+    """Check a certificate, and return what it asks for.
+
+    Raises Malformed, Rejected or Exhausted as the checker does, Malformed as well where the file
+    is about other claims, NoTheorem where nothing is decided.
+    """
+    report = check(source)
+    of = report.parameters
+    claims = {each.id: each for each in report.claims if each.id in CLAIMS}
+    if of is None or not claims:
+        raise Malformed("$.claims: no certificate of python -m proofs.horseshoe")
+    known = premises(source).known
+    proofs = {
+        str(claim["id"]): [known[name] for name in claim["proof"]]
+        for claim in parse(source).fields(*FIELDS)[4].value
+    }
+    decided: dict[str, Verdict] = {
+        name: each.verdict for name, each in claims.items() if each.verdict is not Verdict.UNDECIDED
+    }
+    points = {name: x for name in decided for x in proofs[name] if isinstance(x, Impact)}
+    found = [x for name in decided for x in proofs[name]]
+    result = Plan(
+        of,
+        _headline(of, found, decided),
+        decided,
+        {name: each.statement for name, each in claims.items()},
+        points,
+        tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
+    )
+    if result.headline is None and not decided:
+        raise NoTheorem(f"it decides none of the claims {', '.join(CLAIMS)}")
+    return result
+
+
+def _headline(
+    of: Parameters, found: list[Conclusion], verdicts: dict[str, Verdict]
+) -> Headline | None:
+    """Return the corrected theorem, or that of the given sets if H4 and H5 hold on them."""
+    for each in found:
+        if isinstance(each, Horseshoe):
+            return Headline(each.left, each.right, (1, 1), each.slopes, True)
+    if not all(verdicts.get(claim) is Verdict.VERIFIED for claim in ("H4", "H5")):
+        return None
+    ranges = [each for each in found if isinstance(each, SlopeRange)]
+    known = (_part(ranges, of.left), _part(ranges, of.right))
+    parts = [part for part in known if part is not None and part.expands]
+    if len(parts) < 2:
+        return None
+    signs = tuple(1 if part.minimum[0] > 0 else -1 for part in parts)
+    bounds = hull([_sizes(part) for part in parts])
+    low, high = of.slopes
+    if not (1 < low <= bounds[0] and bounds[1] <= high):
+        low, high = _rounded(bounds)
+    return Headline(of.left, of.right, (signs[0], signs[1]), (low, high), False)
+
+
+def _part(ranges: list[SlopeRange], domain: Range) -> SlopeRange | None:
+    """Return what is known about f' on an interval."""
+    return next((part for each in ranges if (part := each.over(domain)) is not None), None)
+
+
+def _sizes(part: SlopeRange) -> Range:
+    """Return bounds on |f'|, for f' of one sign."""
+    low, high = part.minimum[0], part.maximum[1]
+    return (low, high) if low > 0 else (-high, -low)
+
+
+def _rounded(bounds: Range) -> Range:
+    """Round bounds outward to few digits, the lower one to above 1."""
+    rounded = (rounded_slopes(bounds, digits) for digits in range(2, _MOST_DIGITS))
+    return next((each for each in rounded if each[0] > 1), bounds)

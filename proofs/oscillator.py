@@ -1,0 +1,255 @@
+"""The oscillator as a library: `from proofs import Oscillator`.
+
+Numbers go in as text (or as int or Fraction), since 0.2121 is 2121/10000 and the float is not.
+What comes out encloses the true values, prints decimals that are rounded outward, and shows itself
+in notebooks. What cannot be proved raises `intervals.Undecided`.
+
+    >>> from proofs import Oscillator
+    >>> oscillator = Oscillator("0.2121", "-0.2")
+    >>> print(oscillator.slope("1.13", digits=6))
+    [5.29635330, 5.29635331]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from html import escape
+
+from intervals import Undecided, decimal_bounds, fraction
+from proofs.motion.image import Image, PossibleImages, image
+from proofs.motion.impact import HORIZON
+from proofs.motion.rebound import Rebound, rebound
+from proofs.motion.system import System
+from proofs.search.evidence import Evidence, Proof
+from proofs.search.s33_steps import ReboundProver
+from proofs.search.steps import Prover
+from proofs.shell import groups
+from proofs.trusted.certificate import render
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import TURN, Range, show, show_range
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.verdicts import told
+
+Exact = int | Fraction | str
+Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
+_SYMBOLS = {
+    "dwell": r"t_s",
+    "flight": r"t",
+    "phase": r"\varphi_1",
+    "slope": r"f'(\varphi)",
+    "velocity": r"\gamma_1",
+    "dphase_dphi": r"\partial\varphi_1/\partial\varphi",
+    "dphase_dgamma": r"\partial\varphi_1/\partial\gamma",
+    "dgamma_dphi": r"\partial\gamma_1/\partial\varphi",
+    "dgamma_dgamma": r"\partial\gamma_1/\partial\gamma",
+}
+_DERIVATIVES = ("dphase_dphi", "dphase_dgamma", "dgamma_dphi", "dgamma_dgamma")
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """A proved enclosure: the true value lies between `lower` and `upper`, exact rationals."""
+
+    lower: Fraction
+    upper: Fraction
+    digits: int
+
+    def __contains__(self, value: Exact) -> bool:
+        return self.lower <= _exact(value) <= self.upper
+
+    def __str__(self) -> str:
+        """Write it in decimals, rounded outward."""
+        return f"[{', '.join(decimal_bounds(self.lower, self.upper, self.digits))}]"
+
+    def _repr_latex_(self) -> str:
+        return "$" + str(self).replace(", ", r",\ ") + "$"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Enclosures by name: `answer["phase"]`. sticks: whether the mass first rests on the table."""
+
+    bounds: tuple[tuple[str, Bounds], ...]
+    sticks: bool
+
+    def __getitem__(self, name: str) -> Bounds:
+        """Return the enclosure of that name; KeyError says which there are."""
+        known = dict(self.bounds)
+        if name not in known:
+            raise KeyError(f"{name}: this answer has {', '.join(known)}")
+        return known[name]
+
+    def __str__(self) -> str:
+        """Write a line for each."""
+        return "\n".join(f"{name:14} {each}" for name, each in self.bounds)
+
+    def _repr_html_(self) -> str:
+        rows = (
+            f"<tr><th>{name}</th><td>{escape(str(each))}</td></tr>" for name, each in self.bounds
+        )
+        return f"<table>{''.join(rows)}</table>"
+
+    def _repr_latex_(self) -> str:
+        rows = (
+            rf"{_SYMBOLS[name]} &\in {each._repr_latex_().strip('$')}" for name, each in self.bounds
+        )
+        return r"$\begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}$"
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """What was proved, and a certificate that `python -m proofs.check` accepts."""
+
+    conclusion: Conclusion
+    certificate: str
+
+    def __str__(self) -> str:
+        """Return it in words, with all its hypotheses."""
+        return told([self.conclusion])
+
+    def _repr_html_(self) -> str:
+        return f"<p>{escape(str(self))}</p>"
+
+
+class Oscillator:
+    """A mass on a spring above a vibrating table: eta = omega_n/omega, nu = -beta/p, epsilon.
+
+    Without epsilon impacts are plastic, and states are phases; with it (0 as well) states are
+    phases and velocities gamma = v/(omega_n p) before an impact.
+    """
+
+    def __init__(self, eta: Exact, nu: Exact, epsilon: Exact | None = None) -> None:
+        self._system = System(_exact(eta), _exact(nu))
+        self._epsilon = None if epsilon is None else _exact(epsilon)
+        if self._epsilon is not None and not 0 <= self._epsilon < 1:
+            raise ValueError(f"epsilon must be in [0, 1), not {epsilon}")
+
+    def __repr__(self) -> str:
+        """Return what makes it."""
+        numbers = (self._system.eta, self._system.nu, self._epsilon)
+        return f"Oscillator({', '.join(repr(show(x)) for x in numbers if x is not None)})"
+
+    def image(
+        self, phases: Ends, gamma: Ends | None = None, *, digits: int = 30, horizon: Exact = HORIZON
+    ) -> Answer:
+        """Enclose the next impact of all states given: flight, phase, slope or velocity and DF.
+
+        Raises Undecided where the map is not continuous on them, or nothing can be said.
+        """
+        ends, latest = _phases(phases), _exact(horizon)
+        if (gamma is None) != (self._epsilon is None):
+            raise TypeError("epsilon, of the oscillator, and gamma, of the state, go together")
+        if gamma is None or self._epsilon is None:
+            found = image(self._system, ends, digits=digits, horizon=latest)
+            if isinstance(found, PossibleImages):
+                raise Undecided(f"{found.reason}: {len(found.images)} images are possible")
+            return _answer(found, digits)
+        state = ends, _ends(gamma), self._epsilon
+        return _answer(rebound(self._system, *state, digits=digits, horizon=latest), digits)
+
+    def first_impact(
+        self, phases: Ends, gamma: Ends | None = None, *, digits: int = 30, horizon: Exact = HORIZON
+    ) -> Bounds:
+        """Enclose the time of flight until the first impact, in units of 1/omega."""
+        return self.image(phases, gamma, digits=digits, horizon=horizon)["flight"]
+
+    def slope(self, phases: Ends, *, digits: int = 30) -> Bounds:
+        """Enclose f' at all phases given; for plastic impacts."""
+        if self._epsilon is not None:
+            raise TypeError("f' is about plastic impacts; with epsilon, image gives DF")
+        return self.image(phases, digits=digits)["slope"]
+
+    def horseshoe(
+        self, left: Ends, right: Ends, gamma: Ends | None = None, *, digits: int = 30
+    ) -> Theorem:
+        """Prove that the map takes each of two sets across both: a horseshoe.
+
+        The sets are intervals of phases; with epsilon, times the interval of velocities gamma.
+        Raises Undecided with the reason where that does not succeed.
+        """
+        sets = _phases(left), _phases(right)
+        if (gamma is None) != (self._epsilon is None):
+            raise TypeError("epsilon, of the oscillator, and gamma, of the sets, go together")
+        try:
+            if gamma is None:
+                return self._plastic_horseshoe(*sets, digits)
+            return self._rectangles(*sets, _ends(gamma), digits)
+        except Unproved as failure:
+            raise Undecided(str(failure)) from None
+
+    def _plastic_horseshoe(self, left: Range, right: Range, digits: int) -> Theorem:
+        of = self._parameters(left, right)
+        prover = Prover(self._system, digits, HORIZON)
+        parts: list[tuple[str, SlopeRange]] = [prover.slopes(list(x)) for x in (left, right)]
+        gap = prover.avoids(of.gap, of.interval)
+        name, found = prover.horseshoe(parts[0], parts[1], gap, of, 2)
+        return _certified(of, prover.steps, {"H5": [*parts, gap], "H8": [(name, found)]}, digits)
+
+    def _rectangles(self, left: Range, right: Range, gamma: Range, digits: int) -> Theorem:
+        of = self._parameters(left, right, gamma)
+        epsilon = of.epsilon or Fraction(0)
+        at = Place((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
+        prover = ReboundProver(of, Prover(self._system, digits, HORIZON))
+        name = prover.horseshoe(at, (left, right))
+        found = prover.get(name, RectangleHorseshoe)
+        return _certified(of, prover.steps, {"N1": [(name, found)]}, digits)
+
+    def _parameters(self, left: Range, right: Range, gamma: Range | None = None) -> Parameters:
+        eta, nu, one = self._system.eta, self._system.nu, Fraction(1)
+        sets = left, right, (left[0], right[1])
+        return Parameters(eta, nu, *sets, (one, one), epsilon=self._epsilon, velocities=gamma)
+
+
+def _exact(value: Exact) -> Fraction:
+    """Return an exact number; a float raises with the hint to write a string."""
+    if isinstance(value, float):
+        raise TypeError(f'{value!r} is a float, and not that decimal: write it as "{value!r}"')
+    return fraction(value)
+
+
+def _ends(values: Ends) -> Range:
+    """Return both ends of an interval, equal for a number."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        return _exact(values), _exact(values)
+    if len(values) != 2:
+        raise ValueError(f"a number or two ends are expected, not {len(values)} numbers")
+    low, high = map(_exact, values)
+    if low > high:
+        raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
+    return low, high
+
+
+def _phases(values: Ends) -> Range:
+    low, high = _ends(values)
+    if low < 0 or high > TURN:
+        raise ValueError(f"phases are in [0, 2 pi), not {show_range((low, high))}")
+    return low, high
+
+
+def _answer(found: Image | Rebound, digits: int) -> Answer:
+    values: list[tuple[str, Range]] = []
+    if found.dwell is not None:
+        values.append(("dwell", found.dwell))
+    values += [("flight", found.flight), ("phase", found.phase)]
+    if isinstance(found, Rebound):
+        values.append(("velocity", found.velocity))
+        entries = (entry for row in found.jacobian for entry in row)
+        values += zip(_DERIVATIVES, entries, strict=True)
+    else:
+        values.append(("slope", found.slope))
+    return Answer(tuple((name, Bounds(*ends, digits)) for name, ends in values), found.sticking)
+
+
+def _certified(
+    of: Parameters, steps: dict[str, dict[str, object]], proofs: dict[str, Proof], digits: int
+) -> Theorem:
+    """Return the last conclusion, with a certificate of the claims that it decides."""
+    evidence = Evidence(steps, proofs)
+    entries = [groups.decide(claim, of, evidence, digits)[1] for claim in proofs]
+    *_, last = proofs.values()
+    return Theorem(last[-1][1], render(groups.certificate(of, steps, entries)))

@@ -1,0 +1,63 @@
+"""All pages of a folder of certificates: Markdown, figures, the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+
+from intervals import Undecided
+from proofs.report import graph
+from proofs.report.checker import checker
+from proofs.report.figures import Certificates
+from proofs.report.findings import findings
+from proofs.report.ledger import ledger
+from proofs.report.pictures import pictures
+
+NEEDED = ("jinja2", "latex2mathml", "matplotlib")  # for the page, by the extra `report`
+INSTALL = "pip install 'impact-proofs[report]'"
+Tell = Callable[[str], None]
+
+
+def missing() -> list[str]:
+    """Return the packages that the page needs and that are not installed."""
+    return [name for name in NEEDED if find_spec(name) is None]
+
+
+def built(
+    folder: Path,
+    tell: Tell = lambda stage: None,
+    only_text: bool = False,
+    pyodide: Path | None = None,
+) -> dict[str, str]:
+    """Return the files of the report, by their names in the folder; nothing is proved again.
+
+    only_text: without the page and the figures of matplotlib, for which packages may be missing.
+    pyodide: where it is, for a page with a checker in it, too.
+    Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
+    certificates do not prove.
+    """
+    documents = Certificates(folder)
+    tell("certificates")
+    found = findings(folder, documents)
+    shown = pictures(documents, [claim.id for claim in found.claims])
+    files = {"ledger.md": ledger(found, shown), "figures/dependencies.svg": graph.svg(found)}
+    if only_text:
+        return files
+    drawn = {}
+    for picture in shown:
+        tell(picture.title)
+        try:
+            drawn[picture.name] = picture.figure.svg(documents)
+        except Undecided:  # the certificates do not prove what it shows
+            continue
+    files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
+    tell("index.html")
+    from proofs.report.html import page  # needs what may be missing
+
+    shown = [picture for picture in shown if picture.name in drawn]
+    files["index.html"] = page(found, shown, drawn)
+    if pyodide is not None:
+        certificates = dict.fromkeys(claim.file for claim in found.claims)
+        files["checker.html"] = page(found, shown, drawn, checker(pyodide, folder, certificates))
+    return files

@@ -1,0 +1,75 @@
+"""Figure 5: the impact map on the whole circle."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from proofs.motion.system import System
+from proofs.report.figures.figure import Figure, all_of, the
+from proofs.report.figures.sampled import graph
+from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+
+def on_circle(phases: Range) -> list[tuple[float, float]]:
+    """Return the parts of an interval in [0, 2 pi)."""
+    low, high = map(float, phases)
+    if low >= 0:
+        return [(low, high)]
+    if high <= 0:
+        return [(low + math.tau, high + math.tau)]
+    return [(low + math.tau, math.tau), (0.0, high)]
+
+
+def plot(proved: Context) -> Drawing:
+    """Draw f, the sticking arc, what lands on it at once, and the orbit."""
+    arc = the(proved, Separation)
+    drawing, axes = sheet(5.2)
+    start, leaves, lands = (sum(map(float, x)) / 2 for x in (arc.start, arc.phase, arc.arrival))
+    landing = [part for step in all_of(proved, Lands) for part in on_circle(step.phases)]
+    label = "these phases land on the sticking arc at once, proved"
+    proved_boxes(axes, [(part, (start, leaves)) for part in landing], "#C6E5F7", label, lw=0)
+    label = "the mass sticks, and leaves at $\\phi_s$, proved"
+    proved_boxes(axes, [((start, leaves), arc.phase)], ORANGE, label, lw=2.5)
+    proved_boxes(axes, [((start, leaves), (-0.12, 0.0))], ORANGE)
+    for step in all_of(proved, NeverImpacts):
+        label = "no impact ever, proved"
+        proved_boxes(axes, [(step.phases, (0, math.tau))], RED, label, lw=0.8)
+    system = System(arc.at.eta[0], arc.at.nu[0])
+    dots(axes, graph(system, 0.0, math.tau, 1200), "f, sampled")
+    axes.plot([0, math.tau], [0, math.tau], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+    _orbit(axes, lands, leaves)
+    ticks = {0: "0", start: r"$\phi_a$", lands: r"$\phi_1$", leaves: r"$\phi_s$"}
+    ticks |= {1: "1", 2: "2"}
+    axes.set_xticks(list(ticks), list(ticks.values()))
+    axes.set_yticks([0, 1, 2, 3, lands, leaves], ["0", "1", "2", "3", r"$\phi_1$", r"$\phi_s$"])
+    axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]")
+    axes.set(xlim=(0, math.tau), ylim=(-0.12, math.tau))
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return drawing
+
+
+def _orbit(axes: Axes, lands: float, leaves: float) -> None:
+    """Draw the periodic orbit between the graph and the diagonal."""
+    corners = [lands, lands, leaves, leaves, lands], [lands, leaves, leaves, lands, lands]
+    axes.plot(*corners, "--", color=BLUE, lw=0.9)
+    label = r"the orbit $\phi_1 \to \phi_s \to \phi_1$, proved"
+    axes.plot([lands, leaves], [leaves, lands], "o", color=BLUE, markersize=5, label=label)
+
+
+FIGURE = Figure(
+    "figure-5",
+    "Figure 5: the impact map on the circle",
+    ("G1", "G2", "G3", "G4"),
+    "circle",
+    "Here a sticking mass is mapped to the phase at which it leaves, as the paper's orbit is "
+    "counted. Filled and blue: proved. Dots: f in floating point.",
+    plot,
+)

@@ -1,0 +1,116 @@
+"""Figure 2: the graph of f over I0 and I1, in the boxes that its slopes prove."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from proofs.motion.system import System
+from proofs.report.figures.figure import Figure, all_of, the
+from proofs.report.figures.sampled import graph
+from proofs.report.figures.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    RED,
+    dots,
+    proved_boxes,
+    proved_polygons,
+    sheet,
+)
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range, between, show, show_range
+from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.slopes import Avoids, SlopeRange
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+Corners = list[tuple[Fraction, Fraction]]
+
+
+def hulls(slopes: SlopeRange) -> list[Corners]:
+    """Return for each piece the parallelogram that holds the graph, by its ends and its slopes.
+
+    With f(a) in [p, q], f(b) in [r, s] and l <= f' <= u on [a, b], f(x) is at most q + u (x - a)
+    and s - l (b - x), and at least p + l (x - a) and r - u (b - x).
+    """
+    shapes = []
+    ends = zip(slopes.points, slopes.images, strict=True)
+    for ((a, (p, q)), (b, (r, s))), (low, up) in zip(pairwise(ends), slopes.pieces, strict=True):
+        top = (s - low * b - q + up * a) / (up - low)
+        bottom = (p - low * a - r + up * b) / (up - low)
+        upper = [(a, q), (top, q + up * (top - a)), (b, s)]
+        lower = [(b, r), (bottom, p + low * (bottom - a)), (a, p)]
+        shapes.append([*upper, *lower])
+    return shapes
+
+
+def plot(proved: Context) -> Drawing:
+    """Draw the graph, the printed and the corrected I, and where f is proved not to go."""
+    of, corrected = proved.of, the(proved, Horseshoe)
+    drawing, axes = sheet(5.0)
+    low, high = (float(x) for x in corrected.interval)
+    _gap(axes, the(proved, Avoids))
+    for colour, slopes in zip((BLUE, RED), all_of(proved, SlopeRange), strict=False):
+        label = f"graph of f on {show_range(slopes.domain)}, proved"
+        proved_polygons(axes, hulls(slopes), colour, label)
+    dots(axes, graph(System(of.eta, of.nu), low, high, 240), "f, sampled")
+    axes.plot([low, high], [low, high], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+    _square(axes, of.interval, (0, (2, 2)), f"printed $I \\times I$, I = {show_range(of.interval)}")
+    label = f"corrected $I \\times I$, I = {show_range(corrected.interval)}"
+    _square(axes, corrected.interval, "-", label)
+    _on_axis(axes, (of.left, of.right), 1.063, ORANGE, "printed")
+    _on_axis(axes, (corrected.left, corrected.right), 1.048, "0.75", "corrected")
+    _shortfall(axes, proved)
+    axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]", xlim=(1.085, 1.335))
+    axes.set_ylim(1.04, 1.42)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.6, 1.0))
+    return drawing
+
+
+def _shortfall(axes: Axes, proved: Context) -> None:
+    """Point at the image of the left end of the printed I0, above that end."""
+    end = proved.of.left[0]
+    for slopes in all_of(proved, SlopeRange):
+        if end in slopes.points:
+            low, high = slopes.images[slopes.points.index(end)]
+            text = f"f({show(end)}) is in {between((low, high), 6)}, proved"
+            arrow = {"arrowstyle": "->", "lw": 0.6, "shrinkB": 2}
+            place = float(end), float(low)
+            axes.annotate(text, place, (1.115, 1.08), fontsize=7, va="center", arrowprops=arrow)
+
+
+def _gap(axes: Axes, avoids: Avoids) -> None:
+    """Fill what f is proved to miss."""
+    label = f"f has no value in here, for $\\phi$ in {show_range(avoids.phases)}, proved"
+    proved_boxes(axes, [(avoids.phases, avoids.target)], "0.9", label)
+
+
+def _square(axes: Axes, interval: Range, style: object, label: str) -> None:
+    low, high = (float(x) for x in interval)
+    corners = [low, high, high, low, low], [low, low, high, high, low]
+    axes.plot(*corners, linestyle=style, color=BLACK, lw=0.7, label=label)
+
+
+def _on_axis(axes: Axes, sets: tuple[Range, Range], y: float, colour: str, name: str) -> None:
+    """Mark I0 and I1 above the axis."""
+    for index, ends in enumerate(sets):
+        low, high = (float(x) for x in ends)
+        axes.plot([low, high], [y, y], color=colour, lw=7, solid_capstyle="butt")
+        axes.text((low + high) / 2, y, rf"$I_{index}$", ha="center", va="center", fontsize=7)
+    axes.text(1.21, y, name, ha="center", va="center", fontsize=7)
+
+
+FIGURE = Figure(
+    "figure-2",
+    "Figure 2: the impact map on I0 and I1, printed and corrected",
+    ("H1", "H2", "H3", "H4", "H5", "H6"),
+    "horseshoe",
+    "Filled: what the values and slopes in the certificate prove of the graph of f, and where f is "
+    "proved to have no value. Dots: f in floating point.",
+    plot,
+)

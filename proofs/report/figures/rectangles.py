@@ -1,0 +1,112 @@
+"""Figure 4: rectangles and their images under F, printed and corrected."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from intervals import Undecided
+from proofs.report.figures.figure import Figure, all_of, the
+from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sheet
+from proofs.search.s33_rectangles import state_after
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range, show_range
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.words import GoldenMean
+from proofs.trusted.parameters import Place
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+_EDGE = 40  # samples of a side
+
+
+def plot(proved: Context) -> Drawing:
+    """Draw the printed rectangles and the corrected ones, each with their images."""
+    printed = the(proved, GoldenMean)
+    corrected = next((x for x in all_of(proved, RectangleHorseshoe) if x.at == printed.at), None)
+    if corrected is None:
+        raise Undecided("no horseshoe is proved at the printed epsilon")
+    drawing, both = sheet(3.6, 1, 2, sharey=True)
+    for axes, found, name in ((both[0], printed, "printed"), (both[1], corrected, "corrected")):
+        _strips(axes, proved, found.at, found.strips)
+        left, right = show_range(found.strips.left), show_range(found.strips.right)
+        axes.set_title(f"{name}: phases {left} and {right}")
+        axes.set_ylim(-0.48, 0.06)
+        axes.set_xlabel(r"phase $\phi$ [rad]")
+    both[0].set_ylabel(r"velocity $\gamma$ before the impact")
+    handles, labels = both[0].get_legend_handles_labels()
+    drawing.legend(handles, labels, loc="outside lower center", ncols=2)
+    return drawing
+
+
+def images(proved: Context, at: Place, phases: Range, velocities: Range) -> list[Rebound]:
+    """Return the parts of a rectangle whose images are enclosed, those of the edges included."""
+    return [
+        part
+        for part in all_of(proved, Rebound)
+        if not isinstance(part, RectangleMap)
+        and (part.at, part.velocities) == (at, velocities)
+        and phases[0] <= part.phases[0]
+        and part.phases[1] <= phases[1]
+    ]
+
+
+def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
+    """Draw V1 and V2, boxes around their images, and images of their sides in floating point."""
+    points = []
+    for index, (phases, light, dark) in enumerate(
+        ((strips.left, "#A6CDE8", BLUE), (strips.right, "#F2BE97", RED)), start=1
+    ):
+        parts = images(proved, at, phases, strips.velocities)
+        whole: list[tuple[Range, Range]] = []
+        edges: list[tuple[Range, Range]] = []
+        for part in parts:
+            boxes = edges if part.phases[0] in phases and part.phases[1] in phases else whole
+            boxes.append((part.phase, part.velocity))
+        proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
+        label = "those of its left and right sides in here, proved"
+        proved_boxes(axes, edges, dark, label, lw=0)
+        _outline(axes, phases, strips.velocities, f"V{index}")
+        points += _boundary(at, phases, strips.velocities)
+    dots(axes, points, "images of the sides, sampled", 0.9)
+
+
+def _outline(axes: Axes, phases: Range, velocities: Range, name: str) -> None:
+    (left, right), (low, high) = (tuple(map(float, ends)) for ends in (phases, velocities))
+    label = "V1 and V2" if name == "V1" else "_"
+    corners = [left, right, right, left, left], [low, low, high, high, low]
+    axes.plot(*corners, color=BLACK, lw=0.8, label=label)
+    axes.text((left + right) / 2, high + 0.01, name, ha="center", va="bottom")
+
+
+def _boundary(at: Place, phases: Range, velocities: Range) -> list[tuple[float, float]]:
+    """Return the images of points on the sides of a rectangle, in floating point."""
+    (left, right), (low, high) = (tuple(map(float, ends)) for ends in (phases, velocities))
+    edges: Sequence[tuple[float, float, float, float]] = (
+        (left, low, right, low),
+        (left, high, right, high),
+        (left, low, left, high),
+        (right, low, right, high),
+    )
+    states = [
+        (a + (c - a) * k / _EDGE, b + (d - b) * k / _EDGE)
+        for a, b, c, d in edges
+        for k in range(_EDGE + 1)
+    ]
+    eta, nu, epsilon = (float(low) for low, _ in sides(at))
+    after = (state_after(eta, nu, epsilon, state) for state in states)
+    return [image for image in after if image is not None]
+
+
+FIGURE = Figure(
+    "figure-4",
+    "Figure 4: the rectangles V1 and V2 and their images under F, printed and corrected",
+    ("N1", "N2"),
+    "horseshoe",
+    "Filled: boxes that are proved to hold the images. Dots: images of points on the sides, in "
+    "floating point.",
+    plot,
+)

@@ -1,0 +1,41 @@
+"""The impact map in floating point, for the dots of figures: it proves nothing."""
+
+from __future__ import annotations
+
+import math
+
+from proofs.motion.simulate import next_impact
+from proofs.motion.system import System
+from proofs.trusted.equations import launch, launch_acceleration
+
+_HORIZON = 7000.0
+
+
+def image(system: System, phase: float) -> float | None:
+    """Return f(phase), the separation phase where the mass sticks; None if there is no impact."""
+    start = launch(system.side, float(system.eta), float(system.nu), phase)
+    if launch_acceleration(start) < 0:
+        return separation(system)
+    found = next_impact(system, phase, 0.0, _HORIZON)
+    return None if found is None else (phase + found[0]) % math.tau
+
+
+def separation(system: System) -> float:
+    """Return the phase at which a sticking mass leaves the table."""
+    root = math.asin(float(system.separation_sine or 0))
+    return (root if system.eta < 1 else math.pi - root) % math.tau
+
+
+def graph(system: System, first: float, last: float, count: int) -> list[tuple[float, float]]:
+    """Return phases, evenly spaced, with their images, where there are some."""
+    phases = [first + (last - first) * (k + 0.5) / count for k in range(count)]
+    return [(phase, y) for phase in phases if (y := image(system, phase)) is not None]
+
+
+def preimage(system: System, target: float, first: float, last: float) -> float:
+    """Return the phase in [first, last], on which f increases, that f takes to the target."""
+    for _ in range(50):
+        middle = (first + last) / 2
+        below = (image(system, middle) or 0.0) < target
+        first, last = (middle, last) if below else (first, middle)
+    return (first + last) / 2

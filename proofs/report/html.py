@@ -1,0 +1,318 @@
+"""The report as one page that needs nothing else: `page(findings, figures)`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from proofs.report import graph
+from proofs.report.checker import Checker
+from proofs.report.dependencies import RESTS
+from proofs.report.differences import marked
+from proofs.report.findings import Finding, Findings, Statement, Step
+from proofs.report.formulas import lines, mathml
+from proofs.report.inline import inlined
+from proofs.report.names import (
+    DEFINITIONS,
+    MEANINGS,
+    PAPER_TITLE,
+    quantity_name,
+    rule_theorem,
+    summary,
+    tally,
+    verdict_name,
+)
+from proofs.report.pictures import Picture
+from proofs.report.typeset import begun, html
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import ceil_text, floor_text
+from proofs.trusted.verdicts import Verdict
+
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
+_POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
+_TEMPLATES = Path(__file__).parent / "templates"
+_LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
+_MANY = 6  # steps of one rule that are shown behind a line of their own
+
+
+@dataclass(frozen=True)
+class Block:
+    """A sentence of a statement, or a list with what introduces it."""
+
+    text: Markup
+    items: tuple[Markup, ...] = ()
+    style: str = ""
+
+
+def page(
+    findings: Findings,
+    figures: Sequence[Picture],
+    drawn: Mapping[str, str],
+    checker: Checker | None = None,
+) -> str:
+    """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs."""
+    environment = Environment(
+        loader=FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    view = View(findings, figures, inlined(drawn))
+    environment.globals.update(view=view, RESTS=RESTS)
+    environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
+    return environment.get_template("page.html").render(
+        title=PAPER_TITLE,
+        policy=_POLICY_OF_CHECKER if checker else POLICY,
+        summary=summary(findings),
+        sections=list(findings.sections()),
+        style=Markup((_TEMPLATES / "style.css").read_text(encoding="utf-8")),
+        script=Markup((_TEMPLATES / "page.js").read_text(encoding="utf-8")),
+        graph=Markup(graph.svg(findings)),
+        falling=graph.falling(findings),
+        figures=figures,
+        checker=checker,
+        checker_script=Markup((_TEMPLATES / "checker.js").read_text(encoding="utf-8")),
+    )
+
+
+@dataclass(frozen=True)
+class View:
+    """What the templates ask for."""
+
+    findings: Findings
+    figures: Sequence[Picture]
+    drawn: Mapping[str, str]
+
+    @cached_property
+    def tally(self) -> list[tuple[Verdict, int]]:
+        """How many of the paper's claims have which verdict."""
+        return tally(self.findings)
+
+    @property
+    def own(self) -> int:
+        """How many claims are the project's."""
+        return sum(claim.row.own for claim in self.findings.claims)
+
+    @property
+    def headline(self) -> Statement | None:
+        """The theorem beside the paper's main one: what it corrects, if that is decided."""
+        for claim in self.findings.claims:
+            if claim.row.where.endswith("Theorem 2") and claim.decision.corrected:
+                return self.findings.statements[claim.decision.corrected[0]]
+        return None
+
+    @cached_property
+    def first(self) -> Mapping[tuple[str, str], str]:
+        """The claim at which a step of a certificate is shown."""
+        shown: dict[tuple[str, str], str] = {}
+        for claim in self.findings.claims:
+            for step in claim.steps:
+                shown.setdefault((claim.file, step.name), claim.id)
+        return shown
+
+    def mark(self, verdict: Verdict) -> str:
+        """Return the sign of a verdict."""
+        return graph.MARKS[verdict]
+
+    def name(self, verdict: Verdict) -> str:
+        """Return a verdict as a word."""
+        return verdict_name(verdict)
+
+    def meaning(self, verdict: Verdict) -> str:
+        """Return what a verdict says of a claim, in a few words."""
+        return MEANINGS[verdict]
+
+    def definition(self, verdict: Verdict) -> str:
+        """Return what a verdict means."""
+        return DEFINITIONS[verdict]
+
+    @property
+    def lead(self) -> Markup:
+        """The headline theorem in a line."""
+        statement = self.headline
+        return (
+            Markup("")
+            if statement is None
+            else Markup(html(begun(statement.conclusion.brief)) + ".")
+        )
+
+    def words(self, claim: Finding) -> Markup:
+        """Return the paper's own words, a formula between dollars as one."""
+        texts = claim.row.words.split("$")
+        parts = [mathml(text) if k % 2 else html(text) for k, text in enumerate(texts)]
+        return Markup("".join(parts))
+
+    def more(self, claim: Finding) -> list[Conclusion]:
+        """Return what is proved beside a true claim, beyond what decides it."""
+        return [each for each in claim.decision.corrected if each not in claim.decision.because]
+
+    def count(self, claim: Finding) -> str:
+        """Return how many steps the proof has."""
+        number = len(claim.steps)
+        return f"{number} step{'s' if number > 1 else ''}"
+
+    def statements(self, conclusions: Iterable[Conclusion]) -> list[Statement]:
+        """Return where conclusions stand, each once."""
+        return [self.findings.statements[each] for each in dict.fromkeys(conclusions)]
+
+    def blocks(self, statement: Statement, printed: str = "") -> list[Block]:
+        """Return a statement sentence by sentence, values marked that are printed otherwise."""
+        blocks = []
+        for part in self.findings.parts(statement):
+            if isinstance(part, Statement):
+                blocks.append(Block(self.link(part) + "; moreover:"))
+            else:
+                blocks += [_block(sentence, printed) for sentence in sentences(part)]
+        return blocks
+
+    def link(self, statement: Statement) -> Markup:
+        """Return a link to where a statement stands."""
+        return Markup('<a href="#{0}">{1} {0}</a>').format(statement.label, statement.kind)
+
+    def printed(self, claim: Finding) -> Markup:
+        """Return the claim as printed, the values marked that the correction changes."""
+        proved = " ".join(each.sentence for each in claim.decision.corrected)
+        return Markup(marked(claim.reading, proved))
+
+    def brief(self, statement: Statement, printed: str = "") -> Markup:
+        """Return a statement in a line."""
+        return Markup(marked(statement.conclusion.brief, printed))
+
+    def groups(self, claim: Finding) -> list[tuple[str, list[Step]]]:
+        """Return the steps that the proof rests on, by rule."""
+        rules: dict[str, list[Step]] = {}
+        for step in claim.other_steps:
+            rules.setdefault(step.rule, []).append(step)
+        return list(rules.items())
+
+    def seen(self, claim: Finding, step: Step) -> str:
+        """Return the claim at which a step is shown, "" where that is here."""
+        at = self.first[claim.file, step.name]
+        return "" if at == claim.id else at
+
+    def step_id(self, claim: Finding, step: Step) -> str:
+        """Return the anchor of a step."""
+        return f"{claim.file.removesuffix('.json')}-{step.name}"
+
+    def step_text(self, step: Step) -> Markup:
+        """Return what a step concludes: a link to where that stands, a formula, or a sentence."""
+        stands = self.findings.statements.get(step.conclusion)
+        if stands is not None:
+            return self.link(stands) + ": " + Markup(html(stands.conclusion.brief))
+        return formula(step.conclusion) or Markup(html(step.conclusion.sentence))
+
+    def rests(self, claim: Finding) -> list[str]:
+        """Return the claims of this page that one rests on, in the paper."""
+        present = {each.id for each in self.findings.claims}
+        return [each for each in RESTS[claim.id].on if each in present] if claim.id in RESTS else []
+
+    def uses(self, claim: Finding) -> list[str]:
+        """Return the claims of this page that the paper derives from one."""
+        return [
+            each.id
+            for each in self.findings.claims
+            if each.id in RESTS and claim.id in RESTS[each.id].on
+        ]
+
+    def figures_of(self, claim: Finding) -> list[Picture]:
+        """Return the figures that belong to a claim."""
+        return [figure for figure in self.figures if claim.id in figure.claims]
+
+    def quantity(self, name: str) -> Markup:
+        """Return the name of a number."""
+        return Markup(html(quantity_name(name)))
+
+    def enclosure(self, bounds: tuple[str, str]) -> Markup:
+        """Return two bounds: the digits that they share, then those that they do not."""
+        return Markup(html(enclosure(*bounds)))
+
+    def margin(self, claim: Finding) -> str:
+        """Return by how much a printed bound holds, rounded down."""
+        margin = claim.decision.margin
+        return "" if margin is None else f"at least {floor_text(margin)}"
+
+    @cached_property
+    def rules(self) -> list[tuple[str, list[str]]]:
+        """The rules that the proofs use, with their theorems."""
+        steps = (
+            s for claim in self.findings.claims for s in (*claim.own_steps, *claim.other_steps)
+        )
+        return [(rule, rule_theorem(rule)) for rule in dict.fromkeys(step.rule for step in steps)]
+
+    @property
+    def main(self) -> Picture | None:
+        """The figure for the first screen: of the headline theorem."""
+        for figure in self.figures:
+            if self.headline is not None and self.headline.claim in figure.claims:
+                return figure
+        return None
+
+    def figures_in(self, section: str) -> list[Picture]:
+        """Return the figures of a section, but for the one on the first screen."""
+        return [x for x in self.figures if x.section == section and x != self.main]
+
+    def chips(self, figure: Picture) -> list[Finding]:
+        """Return the claims of a figure."""
+        return [claim for claim in self.findings.claims if claim.id in figure.claims]
+
+    def picture(self, figure: Picture) -> Markup:
+        """Return a figure as SVG."""
+        return Markup(self.drawn[figure.name])
+
+
+def formula(conclusion: Conclusion) -> Markup:
+    """Return a conclusion as formulas, "" where it has none."""
+    parts = lines(conclusion)
+    if any(len(latex) > _LONGEST for latex in parts):
+        return Markup("<code>{}</code>").format(conclusion.sentence)
+    return Markup("").join(Markup('<span class="line">{}</span>').format(_math(x)) for x in parts)
+
+
+def _math(latex: str) -> Markup:
+    return Markup(mathml(latex))
+
+
+def sentences(text: str) -> list[str]:
+    """Divide a text after each full stop that a capital or a symbol in brackets follows."""
+    return re.split(r"(?<=\.) (?=[A-Z(|])", text)
+
+
+def _block(sentence: str, printed: str) -> Block:
+    """Return a sentence, enumerations as a list: (1) ...; (2) ..., or many parts after a colon."""
+    head, *numbered = re.split(r"[;:] \(\d\) ", sentence)
+    if len(numbered) > 1:
+        return Block(Markup(marked(head + ":", printed)), _items(numbered, printed), "parts")
+    head, colon, rest = sentence.rpartition(": n = 1: ")
+    parts = f"n = 1: {rest}".split("; ")
+    if colon and len(parts) > _MANY:
+        return Block(Markup(marked(head + ":", printed)), _items(parts, printed), "narrow")
+    return Block(Markup(marked(sentence, printed)))
+
+
+def _items(parts: Sequence[str], printed: str) -> tuple[Markup, ...]:
+    return tuple(Markup(marked(part, printed)) for part in parts)
+
+
+def enclosure(lower: str, upper: str) -> str:
+    """Write two decimals as one: 1.23[45, 46]; wide ones as a range, rounded outward."""
+    if lower == upper:
+        return lower
+    places = max(len(text.partition(".")[2]) for text in (lower, upper))
+    low, high = (_padded(text, places) for text in (lower, upper))
+    shared = next((k for k, (a, b) in enumerate(zip(low, high, strict=False)) if a != b), 0)
+    if len(low) == len(high) and shared > len(low.partition(".")[0]) + 4:
+        return f"{low[:shared]}[{low[shared:]}, {high[shared:]}]"
+    return f"[{floor_text(Fraction(lower), 8)}, {ceil_text(Fraction(upper), 8)}]"
+
+
+def _padded(text: str, places: int) -> str:
+    whole, _, digits = text.partition(".")
+    return f"{whole}.{digits.ljust(places, '0')}" if places else whole

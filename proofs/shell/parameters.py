@@ -1,0 +1,108 @@
+"""The numbers of a statement as options: a command takes those that its claims depend on."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any
+
+from proofs.shell.cli import Parser, number
+from proofs.trusted.numbers import show
+from proofs.trusted.parameters import PAPER, Parameters
+
+Box = tuple[Fraction, Fraction, Fraction]
+_OSCILLATOR, _SETS = ("eta", "nu"), ("left", "right")
+HEEDED = MappingProxyType(  # by which parameters what a certificate says changes
+    {
+        "horseshoe": (*_OSCILLATOR, *_SETS, "interval", "slopes", "epsilon", "velocities"),
+        "foundations": _OSCILLATOR,
+        "nonplastic": (*_OSCILLATOR, *_SETS, "epsilon", "velocities", "reach"),
+        "sets": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
+        "dimension": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
+        "chaos": _OSCILLATOR,
+        "circle": _OSCILLATOR,
+        "persistence": (*_OSCILLATOR, "epsilon"),
+        "single": _OSCILLATOR,
+        "soft": (),
+        "resonance": (),
+        "explore": _OSCILLATOR,
+    }
+)
+_MEANING = {
+    "eta": "frequency ratio",
+    "nu": "amplitude -beta/p",
+    "left": "I0",
+    "right": "I1",
+    "interval": "I (default: from the left end of I0 to the right end of I1)",
+    "slopes": "bounds of f'",
+    "epsilon": "of restitution",
+    "velocities": "range of velocities gamma",
+    "reach": "box around eta, nu, epsilon, less if need be to stay in the model",
+}
+
+
+def add_parameters(parser: Parser, heeded: Iterable[str]) -> None:
+    """Add the options for those numbers of a statement that are heeded, by default the paper's."""
+    for name in heeded:
+        value, meaning = getattr(PAPER, name), _MEANING[name]
+        several: dict[str, Any] = {}
+        if isinstance(value, tuple):
+            several = {"nargs": len(value), "metavar": ("A", "B", "C")[: len(value)]}
+        if name != "interval":
+            numbers = value if several else (value,)
+            meaning += f" (default {' '.join(map(show, numbers))})"
+        parser.add_argument(f"--{name}", type=number, help=meaning, **several)
+
+
+def refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
+    """Say why options are not taken: at times as nothing here depends on them."""
+    names = [option.partition("=")[0] for option in unknown]
+    if not any(name.removeprefix("--") in _MEANING for name in names):
+        return f"unrecognized arguments: {' '.join(unknown)}"
+    taken = ", ".join(f"--{name}" for name in heeded) or "no numbers"
+    return f"{names[0]} would change nothing here: what is proved depends on {taken}"
+
+
+def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
+    """Return the statement's numbers; those printed for s_0 go with the printed slopes only.
+
+    At another oscillator than the paper's, I0, I1 and the slopes that are not given are found, if
+    there is an increasing horseshoe: `own_sets`.
+    """
+    given = {name: value for name in heeded if (value := getattr(options, name)) is not None}
+    given = {name: tuple(x) if isinstance(x, list) else x for name, x in given.items()}
+    reach = given.pop("reach", None)
+    of = _with_sets(replace(PAPER, **given, reach=None), given, "slopes" in heeded)
+    if of.slopes != PAPER.slopes:
+        of = replace(of, ratios=None, printed_s0=None)
+    return replace(of, reach=_reach(of, reach, "reach" in heeded))
+
+
+def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
+    """Return the numbers with I, from I0 to I1, unless it is given; with sets found if they are."""
+    elsewhere = (of.eta, of.nu) != (PAPER.eta, PAPER.nu)
+    if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
+        from proofs.search.shifts import own_sets
+
+        found = own_sets(of)
+        return of if found is None else replace(found, slopes=given.get("slopes", found.slopes))
+    return of if "interval" in given else replace(of, interval=(of.left[0], of.right[1]))
+
+
+def _reach(of: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
+    """Return the box asked for, else the paper's, narrowed where the numbers leave less room.
+
+    Where it is not heeded, there is none rather than a narrower one.
+    """
+    epsilon = of.epsilon or Fraction(0)
+    if given is None:
+        room = of.eta / 2, abs(of.nu) / 2, min(epsilon, (1 - epsilon) / 2)
+        first, second, third = map(min, PAPER.reach or room, room)
+        narrowed = first, second, third
+        return narrowed if is_heeded or narrowed == PAPER.reach else None
+    if given[2] > epsilon:
+        raise ValueError("reach: epsilon must stay in [0, 1)")
+    return given

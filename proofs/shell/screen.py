@@ -1,0 +1,156 @@
+"""What people read: words never broken, verdicts in a table, the gist of a theorem.
+
+Importing this takes the standard library alone.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from collections.abc import Iterator, Sequence
+from textwrap import wrap
+from typing import IO, Any, NamedTuple, NoReturn
+
+from proofs import __version__
+from proofs.shell.entry import USAGE_ERROR
+from proofs.trusted.verdicts import Verdict
+
+_SENTENCE = re.compile(r"(?<=[^.]\.) ")
+_COLOURS = {
+    Verdict.VERIFIED: "green",
+    Verdict.REFUTED: "red",
+    Verdict.CONDITIONAL: "cyan",
+    Verdict.UNDECIDED: "yellow",
+    Verdict.SIMULATED: "magenta",
+}
+
+
+class Arguments(ArgumentParser):
+    """A parser of a command's arguments whose errors are one line."""
+
+    def __init__(self, prog: str, description: str | None, epilog: str) -> None:
+        super().__init__(
+            f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
+        )
+        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
+        (file or sys.stderr).write(message)
+
+    def error(self, message: str) -> NoReturn:
+        """Print one line and leave with status 2."""
+        self.exit(USAGE_ERROR, fitted(f"{self.prog}: {message}", sys.stderr) + "\n")
+
+
+class _Help(RawDescriptionHelpFormatter):
+    """Keeps the lines of descriptions and examples, unless the terminal is narrower."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return flowing(text)
+
+
+class Decided(NamedTuple):
+    """A claim as the screen shows it."""
+
+    id: str
+    verdict: Verdict
+    statement: str
+    why: str
+
+
+def columns() -> int:
+    """Return the width of the terminal."""
+    from shutil import get_terminal_size  # takes longer to import than all the rest here
+
+    return get_terminal_size().columns
+
+
+def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
+    """Return a text whose lines fit a terminal, broken between words; elsewhere it stays.
+
+    hanging: by how much the rest of a broken line is indented more than its beginning.
+    """
+    if not stream.isatty():
+        return text
+    width, lines = columns(), []
+    for line in _unfolded(text.split("\n"), width):
+        indent = " " * (len(line) - len(line.lstrip()) + hanging)
+        lines += wrap(
+            line,
+            width,
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        ) or [""]
+    return "\n".join(lines)
+
+
+def flowing(text: str) -> str:
+    """Return prose fitted to standard output, its lines joined to paragraphs if they are too long.
+
+    Indented lines stay lines.
+    """
+    if sys.stdout.isatty() and max(map(len, text.split("\n"))) > columns():
+        text = re.sub(r"(?<=[^\n])\n(?=[^\s])", " ", text)
+    return fitted(text, sys.stdout)
+
+
+def _unfolded(lines: Sequence[str], width: int) -> Iterator[str]:
+    """Yield lines; the rows of a table that is too wide with the names of their columns."""
+    names: list[str] = []
+    for line in lines:
+        cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
+        if not line.startswith("|") or len(line) <= width:
+            names = []
+            yield line
+        elif not names:
+            names = cells
+        elif not set(line) <= set("|-"):
+            values = zip(names[1:], cells[1:], strict=False)
+            yield f"{cells[0]}: " + ", ".join(f"{name} {value}" for name, value in values)
+
+
+def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:
+    """Print a text to standard output, or another stream, fitted to the terminal."""
+    stream = stream or sys.stdout
+    print(fitted(text, stream, hanging), file=stream)
+
+
+def show_verdicts(rows: Sequence[Decided]) -> None:
+    """Print a table on a terminal that has room for its words, else two lines a claim."""
+    longest = max(len(word) for row in rows for word in f"{row.statement} {row.why}".split())
+    if sys.stdout.isatty() and longest <= columns() - len("claim  CONDITIONAL  "):
+        _show_table(rows)
+        return
+    for row in rows:
+        say(f"{row.id:4} {row.verdict.value:11} {row.statement}\n     {row.why}")
+
+
+def _show_table(rows: Sequence[Decided]) -> None:
+    """Print the rows by `rich`, which knows widths and colours of terminals."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
+    for name in ("claim", "verdict", "statement, and why"):
+        table.add_column(name, no_wrap=name != "statement, and why")
+    for row in rows:
+        words = Text.assemble(row.statement, "\n", (row.why, "dim"))
+        table.add_row(row.id, Text(row.verdict.value, _COLOURS[row.verdict]), words)
+    Console().print(table)
+
+
+def gist(theorem: str) -> str:
+    """Return the first two assertions of a theorem, with the definitions before them.
+
+    What is left out only asserts more: a hypothesis stands before what it is needed for.
+    """
+    kept: list[str] = []
+    left = _SENTENCE.split(theorem)
+    while left and sum(not sentence.startswith("Let ") for sentence in kept) < 2:
+        kept.append(left.pop(0))
+    return " ".join([*kept, "..."] if left else kept)

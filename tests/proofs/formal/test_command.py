@@ -1,0 +1,116 @@
+"""`python -m proofs.formal`: what it writes, prints, refuses, and the status it leaves with."""
+
+import json
+
+import pytest
+
+from proofs.formal import __main__ as formal
+from proofs.formal import coqc
+from proofs.formal.cases import Case, Theorem
+from tests.proofs.formal.coq import PAPER, ROOT, needs_coqc, printed_by_coq
+
+CERTIFICATES = ROOT / "tests" / "certificates"
+REALS = {
+    "ClassicalDedekindReals.sig_not_dec",
+    "ClassicalDedekindReals.sig_forall_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+}
+
+
+@needs_coqc
+@pytest.mark.slow
+def test_the_paper_s_theorems_with_floats(proved):
+    shown = (proved.parent / "shown").read_text()
+    answer = json.loads((proved.parent / "answer.json").read_text())
+    names = [each["name"] for each in answer["theorems"]]
+    assert names[:4] == ["model", "corrected_theorem", "theorem_3", "theorem_4"]
+    assert {"measure_zero", "H1_verified", "H2_refuted", "H3_verified"} < set(names)
+    assert {"H4_verified", "H5_refuted", "no_word_000", "H6_verified"} < set(names)
+    assert {"H11_verified", "H16_verified"} < set(names)
+    assert set(answer["axioms"]) - coqc.MACHINE == set() and set(answer["axioms"]) > REALS
+    assert all(name in shown for name in names) and "on machine integers and floats" in shown
+
+
+@needs_coqc
+@pytest.mark.slow
+def test_what_coq_has_proved_is_what_is_meant(proved):
+    """Asked of coqc itself: the theorem's numbers, and that f' is one number."""
+    said = printed_by_coq(
+        proved, "Check corrected_theorem.", "Check (slope_at_unique side eta nu)."
+    )
+    numbers = "(11 / 10) (23 / 20) (127 / 100) (33 / 25) 1 1 (43 / 10) (619 / 100)"
+    assert (
+        f"horseshoe next {numbers}" in said and "slope_at phi d -> slope_at phi e -> d = e" in said
+    )
+
+
+@needs_coqc
+@pytest.mark.long
+def test_the_paper_s_theorems_with_coq_s_integers(capsys, tmp_path):
+    assert formal.main([str(PAPER), "--out", str(tmp_path), "--json", "-"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert set(answer["axioms"]) == REALS and len(answer["axioms"]) == 4
+    assert answer["other_axioms"] == [] and int(answer["seconds"]) < 900
+    assert int(answer["megabytes"]) < 1500
+
+
+@needs_coqc
+def test_an_axiom_of_one_s_own_is_told_with_status_3(capsys, tmp_path, monkeypatch):
+    cheat = "Axiom easy : False.\nTheorem corrected_theorem : 1 = 2.\nProof. destruct easy. Qed.\n"
+    text = cheat + "Definition all := corrected_theorem.\nPrint Assumptions all.\n"
+    made = Case(text, [Theorem("corrected_theorem", "one is two")])
+    monkeypatch.setattr(formal, "case", lambda *of, **more: made)
+    assert formal.main([str(PAPER), "--out", str(tmp_path)]) == 3
+    assert "axioms not expected: easy" in capsys.readouterr().err
+
+
+@needs_coqc
+def test_what_coqc_refuses_is_a_bug_with_status_3(capsys, tmp_path, monkeypatch):
+    text = "Theorem corrected_theorem : 1 = 2.\nProof. reflexivity. Qed.\n"
+    made = Case(text, [Theorem("corrected_theorem", "one is two")])
+    monkeypatch.setattr(formal, "case", lambda *of, **more: made)
+    assert formal.main([str(PAPER), "--out", str(tmp_path)]) == 3
+    error = capsys.readouterr().err
+    assert "coqc REFUSES" in error and "corrected_theorem" in error and error.count("\n") == 1
+
+
+def test_without_coqc_the_files_are_written_and_a_line_says_how_to_get_it(
+    capsys, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert formal.main([str(PAPER), "--out", str(tmp_path / "out")]) == 1
+    said = capsys.readouterr()
+    assert "apt-get install coq" in said.err and said.err.count("\n") == 1 and not said.out
+    written = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"Impact.v", "Flight.v", "Shift.v", "Corrected.v", "Horseshoe.v"} <= written
+
+
+@pytest.mark.parametrize("kind", ["rejected", "malformed"])
+def test_a_wrong_certificate_is_one_line_and_nothing_is_written(capsys, tmp_path, kind):
+    out = tmp_path / "out"
+    paths = sorted((CERTIFICATES / kind).glob("*.json"))
+    assert len(paths) > 10
+    for path in paths:
+        with pytest.raises(SystemExit) as left:
+            formal.main([str(path), "--out", str(out)])
+        said = capsys.readouterr()
+        assert left.value.code == 2, path
+        assert said.err.count("\n") == 1 and path.name in said.err and not said.out
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("name", ["chaos.json", "nothing.json", "MANIFEST.json"])
+def test_what_is_no_certificate_of_a_horseshoe(capsys, tmp_path, name):
+    out = tmp_path / "out"
+    with pytest.raises(SystemExit) as left:
+        formal.main([str(ROOT / "reports" / name), "--out", str(out)])
+    assert left.value.code == 2 and capsys.readouterr().err.count("\n") == 1 and not out.exists()
+
+
+def test_a_folder_that_cannot_be_written(capsys, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(SystemExit) as left:
+        formal.main([str(PAPER), "--out", str(tmp_path / "file" / "out")])
+    assert left.value.code == 2 and "cannot write" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]

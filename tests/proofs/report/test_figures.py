@@ -1,0 +1,301 @@
+"""Figures: what they draw as proved is what the certificates say, and no more."""
+
+import json
+import math
+import random
+import re
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from mpmath import mpf
+
+from intervals import Undecided
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.parameters import PAPER
+from tests.proofs.trusted.paper import reference
+
+pytest.importorskip("matplotlib")
+
+from proofs.report.figures import FIGURES, Certificates
+from proofs.report.figures.__main__ import main
+from proofs.report.figures.style import PROVED, style, svg_of
+
+pytestmark = pytest.mark.slow
+
+REPORTS = Path(__file__).parents[3] / "reports"
+BY_NAME = {figure.name: figure for figure in FIGURES}
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+
+
+@pytest.fixture(scope="module")
+def documents():
+    return Certificates(REPORTS)
+
+
+@pytest.fixture(scope="module")
+def ledger():
+    rows = json.loads((REPORTS / "ledger.json").read_text())["claims"]
+    return {row["id"]: row for row in rows}
+
+
+def step(file, name):
+    return json.loads((REPORTS / f"{file}.json").read_text())["steps"][name]["witness"]
+
+
+def numbers(values):
+    return [numbers(x) if isinstance(x, list) else float(Fraction(x)) for x in values]
+
+
+@pytest.fixture(scope="module")
+def drawings(documents):
+    """Every figure, drawn once."""
+    from matplotlib import pyplot as plt
+
+    found = {}
+    for name, figure in BY_NAME.items():
+        with style(name):
+            found[name] = figure.plot(documents[figure.certificate])
+    yield found
+    plt.close("all")
+
+
+def shapes(drawing):
+    """Return for each of its axes what a drawing shows as proved: polygons, by their labels."""
+    found = []
+    for axes in drawing.axes:
+        labelled = {}
+        for patch in axes.patches:
+            if patch.get_gid() == PROVED:
+                path = patch.get_patch_transform().transform_path(patch.get_path())
+                labelled.setdefault(patch.get_label(), []).extend(map(points, path.to_polygons()))
+        found.append(labelled)
+    return found
+
+
+def points(polygon):
+    return [tuple(map(float, point)) for point in polygon]
+
+
+def box(polygon):
+    xs, ys = zip(*polygon, strict=True)
+    return (min(xs), max(xs)), (min(ys), max(ys))
+
+
+def inside(polygon, x, y):
+    """Whether a point is in a convex polygon, to rounding."""
+    turns = [
+        (bx - ax) * (y - ay) - (by - ay) * (x - ax) for (ax, ay), (bx, by) in pairwise(polygon)
+    ]
+    return all(t <= 1e-12 for t in turns) or all(t >= -1e-12 for t in turns)
+
+
+def on_circle(low, high):
+    """The interval's parts in [0, 2 pi], for ends above -2 pi."""
+    whole = [(low + turn, high + turn) for turn in (math.tau, 0.0)]
+    parts = [(max(a, 0.0), min(b, math.tau)) for a, b in whole]
+    return [(a, b) for a, b in parts if a < b]
+
+
+def image(phase):
+    time, _ = reference.first_impact(ETA, NU, mpf(phase))
+    return float((phase + time) % (2 * mpf(math.pi)))
+
+
+# -- all of them -----------------------------------------------------------------------------------
+
+
+def test_each_is_small_and_whole_and_names_nothing_twice(drawings):
+    names, ids = set(), set()
+    for figure in FIGURES:
+        text = svg_of(drawings[figure.name], figure.name, figure.title)
+        root = ElementTree.fromstring(text)
+        assert root.find("{http://www.w3.org/2000/svg}title").text == figure.title
+        assert len(text) < 150_000 and "<image" not in text and "date" not in text
+        own = re.findall(r' id="([^"]+)"', text)
+        assert len(own) == len(set(own)) and not ids.intersection(own)
+        used = {name[1:] for name in re.findall(r'(?<=href=")#[^"]+|(?<=url\()#[^)]+', text)}
+        assert used <= set(own)
+        ids.update(own)
+        assert figure.name not in names
+        names.add(figure.name)
+
+
+def test_each_belongs_to_claims_the_first_decided_by_its_certificate(ledger):
+    for figure in FIGURES:
+        assert figure.claims and figure.shows.endswith(".")
+        document = json.loads((REPORTS / f"{figure.certificate}.json").read_text())
+        assert figure.claims[0] in {claim["id"] for claim in document["claims"]}
+        assert set(figure.claims) <= set(ledger)
+
+
+@pytest.mark.parametrize("name", sorted(BY_NAME.keys() - {"figure-1", "figure-10", "restitution"}))
+def test_what_is_not_proved_is_not_drawn(name):
+    with style(name), pytest.raises(Undecided):
+        BY_NAME[name].plot(Context(PAPER))
+
+
+def test_the_command_writes_them(tmp_path, documents):
+    (tmp_path / "single.json").write_text((REPORTS / "single.json").read_text())
+    assert main(["--only", "figure-7b", "--out", str(tmp_path)]) == 0
+    drawn = tmp_path / "figures" / "figure-7b.svg"
+    assert drawn.read_text() == BY_NAME["figure-7b"].svg(documents)  # the same again
+
+
+# -- one by one ------------------------------------------------------------------------------------
+
+
+def test_2_the_graph_lies_in_the_shapes_and_the_gap_is_the_certificate_s(drawings):
+    (found,) = shapes(drawings["figure-2"])
+    graph = {label: polygons for label, polygons in found.items() if label.startswith("graph")}
+    assert len(graph) == 2
+    for polygons in graph.values():
+        for polygon in polygons:
+            xs = [x for x, _ in polygon]
+            low, high = min(xs), max(xs)
+            for share in (0.1, 0.5, 0.9):
+                x = low + (high - low) * share
+                assert inside(polygon, x, image(x))
+                assert not inside(polygon, x, image(x) + (high - low))
+    (label,) = set(found) - set(graph)
+    target = numbers(step("horseshoe", "avoids-1")["target"])
+    assert [box(each) for each in found[label]] == [((1.15, 1.27), tuple(target))]
+
+
+def test_3_the_first_levels_are_the_sets(drawings):
+    for axes, name in zip(
+        shapes(drawings["figure-3"]), ("dimension-2", "dimension-1"), strict=True
+    ):
+        witness = step("dimension", name)
+        drawn = {label: [box(each)[0] for each in polygons] for label, polygons in axes.items()}
+        assert drawn["I, exact"] == [tuple(numbers(witness["hull"]))]
+        assert drawn["I0 and I1, exact"] == [tuple(x) for x in numbers(witness["domains"])]
+
+
+def test_4_every_state_has_its_image_in_a_box(drawings):
+    rng = random.Random(4)
+    sets = (((1.11, 1.15), (1.27, 1.32)), ((1.11, 1.16), (1.27, 1.33)))
+    for found, strips in zip(shapes(drawings["figure-4"]), sets, strict=True):
+        for index, (low, high) in enumerate(strips, start=1):
+            boxes = [box(x) for x in found[f"image of V{index} lies in here, proved"]]
+            for phase in (low, rng.uniform(low, high), rng.uniform(low, high), high):
+                gamma = rng.uniform(-0.45, 0)
+                time, y = reference.rebound(ETA, NU, mpf("0.01"), mpf(phase), mpf(gamma), 0.01)
+                x = float(phase + time) % math.tau
+                assert any(a <= x <= b and c <= y <= d for (a, b), (c, d) in boxes)
+
+
+def test_5_arc_landing_and_silence(drawings, ledger):
+    (found,) = shapes(drawings["figure-5"])
+    ends = {name: float(x["lower"]) for name, x in ledger["G2"]["quantities"].items()}
+    arc = ends["arc_start"], ends["separation_phase"]
+    landing = [box(x) for label, each in found.items() if "land" in label for x in each]
+    assert all(y == pytest.approx(arc, abs=1e-12) for _, y in landing)
+    for (low, high), (first, last) in landing:
+        assert first < image(0.3 * low + 0.7 * high) < last
+    cuts = [numbers(step("circle", name)["cuts"]) for name in ("lands-1", "lands-2")]
+    assert [x for x, _ in landing] == [part for x in cuts for part in on_circle(x[0], x[-1])]
+    (silent,) = (box(x) for label, each in found.items() if "ever" in label for x in each)
+    assert silent[0] == tuple(numbers(step("circle", "never-impacts-1")["phases"]))
+    sticks = [box(x) for label, each in found.items() if "sticks" in label for x in each]
+    assert sticks[0][0] == pytest.approx(arc, abs=1e-12)
+
+
+def test_6_bars_are_the_certificate_s(drawings):
+    within = numbers(step("circle", "absorption-1")["within"])
+    for found in shapes(drawings["figure-6"]):
+        bars = [box(x) for x in found["within n impacts, proved"]]
+        wanted = [(part, n) for low, high, n in within for part in on_circle(low, high)]
+        assert [(x, y[1]) for x, y in bars] == wanted
+        assert sum(high - low for (low, high), _ in bars) < math.tau - 2.6
+
+
+def test_7_windows_end_where_the_ledger_says(drawings, ledger):
+    for name, claim in (("figure-7a", "P5"), ("figure-7b", "P6")):
+        ends = sorted(float(x["lower"]) for x in ledger[claim]["quantities"].values())
+        lines = [x for axes in drawings[name].axes for x in axes.get_lines()]
+        lines = [x for x in lines if x.get_gid() == PROVED]
+        drawn = sorted(abs(line.get_xdata()[k]) for line in lines for k in (0, -1))
+        assert len(drawn) == len(ends) > 5 and drawn == pytest.approx(ends, abs=1e-8)
+
+
+def test_section_5_colours_are_the_eigenvalues(drawings):
+    import numpy as np
+
+    regions = {}
+    for artist in drawings["section-5"].axes[0].collections:
+        colour = tuple(artist.get_facecolor()[0])
+        regions.setdefault(colour, []).extend(artist.get_paths())
+        if not artist.get_label().startswith("_"):
+            regions[artist.get_label()] = regions[colour]
+    seen = set()
+    rng = random.Random(5)
+    for _ in range(300):
+        epsilon, rho = rng.uniform(0.02, 0.97), rng.uniform(0.1, 8.9)
+        square = (1 + epsilon) ** 2 * rho**2 - (1 - epsilon) ** 2 * (2 * math.pi) ** 2
+        kinds = [
+            label
+            for label, paths in regions.items()
+            if isinstance(label, str) and any(path.contains_point((epsilon, rho)) for path in paths)
+        ]
+        if square <= 0:
+            wanted = "no fixed points"
+        else:
+            alpha = math.sqrt(square)
+            matrix = [
+                [1 - (1 + epsilon) / 2 * alpha, -epsilon * (1 + epsilon) / 2],
+                [epsilon * alpha, epsilon**2],
+            ]
+            values = np.linalg.eigvals(matrix)
+            wanted = "a saddle of the second kind"
+            if max(abs(values)) < 1:
+                kind = "complex eigenvalues" if abs(values[0].imag) > 1e-9 else "real eigenvalues"
+                wanted = f"a sink with {kind}"
+        assert len(kinds) == 1 and kinds[0].startswith(wanted)
+        seen.add(wanted)
+    assert len(seen) == 4
+
+
+def test_section_5_orbits_are_those_whose_flights_stay_above_the_table(drawings):
+    import numpy as np
+
+    lines = {line.get_label(): line for line in drawings["section-5"].axes[0].get_lines()}
+    (green,) = (line for label, line in lines.items() if label.startswith("above it"))
+    (purple,) = (line for label, line in lines.items() if label.startswith("below it"))
+    times = np.linspace(1e-4, 2 * np.pi - 1e-4, 4000)
+    rng, seen = random.Random(6), set()
+    for k in range(400):
+        epsilon = rng.uniform(0.0005, 0.019) if k % 2 else rng.uniform(0.03, 0.97)
+        r = (1 - epsilon) / (1 + epsilon)
+        rho = rng.uniform(r * 2 * np.pi, 6.7 if k % 2 else 8.9)
+        height = math.sqrt(rho**2 - (r * 2 * np.pi) ** 2)
+        stays = []
+        for sine in (height, -height):  # rho sin psi
+            gap = times * (2 * np.pi - times) + sine * (1 - np.cos(times))
+            stays.append(bool((gap - r * 2 * np.pi * np.sin(times)).min() > 0))
+        bounds = [np.interp(epsilon, *line.get_data()) for line in (green, purple)]
+        if min(abs(rho - bound) for bound in bounds) < 0.03:
+            continue
+        low = epsilon < green.get_xdata().max()
+        assert stays == [not low or rho > bounds[0], not low and rho < bounds[1]]
+        seen.add(tuple(stays))
+    assert seen == {(True, False), (False, False), (True, True)}
+
+
+def test_three_sets_and_restitution(drawings):
+    (found,) = shapes(drawings["three-sets"])
+    polygons = found["graph of f, proved"]
+    low = min(x for polygon in polygons for x, _ in polygon)
+    high = max(x for polygon in polygons for x, _ in polygon)
+    region = numbers(step("chaos", "full-shift-2")["region"])
+    assert [low, high] == region[0]
+    for polygon in polygons:
+        xs = [x for x, _ in polygon]
+        middle = (min(xs) + max(xs)) / 2
+        assert inside(polygon, middle, image(middle))
+    (found,) = shapes(drawings["restitution"])
+    ((polygon,),) = found.values()
+    cells = step("persistence", "superstable-motion-1")["cells"]
+    assert max(x for x, _ in polygon) == max(float(Fraction(cell["epsilon"])) for cell in cells)

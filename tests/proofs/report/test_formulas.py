@@ -1,0 +1,82 @@
+"""Formulas set as LaTeX have the value of the text that they are made of."""
+
+import math
+import re
+from fractions import Fraction
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from proofs.report.formulas import latex, lines, mathml
+from proofs.trusted.kernel.values import Equal, Series, Value
+from tests.proofs.report.read_latex import Reader
+
+NAMES = {"x": 0.7, "omega_n": 1.3, "epsilon": 0.21, "phi1": 2.1, "t0": -0.4, "beta": 3.7}
+VALUES = {re.sub(r"(?<=[a-z])(\d)", r"_\1", name): value for name, value in NAMES.items()}
+SAFE = {"sin": math.sin, "cos": math.cos, "exp": math.exp, "pi": math.pi, "sqrt": math.sqrt}
+
+
+@st.composite
+def formulas(draw, depth=4):
+    if depth == 0 or draw(st.integers(0, 5)) == 0:
+        return draw(st.sampled_from([*NAMES, "2", "10", "pi"]))
+    one, two = draw(formulas(depth=depth - 1)), draw(formulas(depth=depth - 1))
+    forms = [f"({one}) + {two}", f"{one} - ({two})", f"({one})*({two})", f"({one})/({two})"]
+    forms += [f"-({one})", f"({one})**2", f"sin({one})**2", f"cos({one})", f"exp({one})"]
+    forms += [f"sqrt(({one})**2)", f"{one}*-({two})", f"{one}/({two})/3", f"-({one})*({two})"]
+    return draw(st.sampled_from(forms))
+
+
+@given(formulas())
+def test_the_value_is_that_of_the_text(text):
+    try:
+        expected = eval(text, {**SAFE, **NAMES})
+        if not abs(expected) < 1e100:
+            return
+    except (ArithmeticError, ValueError):
+        return
+    found = Reader(latex(text), VALUES).whole()
+    assert math.isclose(found, expected, rel_tol=1e-6, abs_tol=1e-9), latex(text)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("-x**2", "-x^2"),
+        ("a/b*c", r"\frac{a}{b} c"),
+        ("a/b/c", r"\frac{a}{b c}"),
+        ("a - (b - c)", "a - (b - c)"),
+        ("x*2", r"x \cdot 2"),
+        ("D(f, x, x)", r"\partial_{xx}(f)"),
+        ("at(x*y, x=0, y=t)", r"{[x y]}_{x = 0,\,y = t}"),
+        ("omega_n*x0", r"\omega_n x_0"),
+        ("lam*big", r"\lambda \mathrm{big}"),
+    ],
+)
+def test_cases(text, expected):
+    assert latex(text) == expected
+
+
+def test_conclusions_say_all_that_they_hold():
+    half, third = Fraction(1, 2), Fraction(1, 4)
+    value = Value("x*y", (("x", (half, half)), ("y", (third, half))), (-half, half))
+    text = " ".join(lines(value))
+    assert text == r"x y \in [-0.5, 0.5] \text{for } x = 0.5,\ y \in [0.25, 0.5]"
+    series = Series("sin(x)", "x", ("0", "1 + a", "0", "-1"), ("a",))
+    text = " ".join(lines(series))
+    assert (
+        text == r"\sin(x) = (1 + a) x + (-1) x^3 + O(x^4) \text{as } x \to 0,\ "
+        r"\text{where } a \ne 0"
+    )
+    assert lines(Equal("a", "b")) == ["a", "= b"]
+
+
+@given(formulas())
+def test_mathml_is_well_formed_and_names_every_symbol(text):
+    tree = ElementTree.fromstring(mathml(latex(text)))
+    assert tree.tag == "math"
+    shown = "".join(tree.itertext())
+    for digits in re.findall(r"(?<![a-z\d])\d+", text):
+        assert digits in shown

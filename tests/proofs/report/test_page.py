@@ -1,0 +1,232 @@
+"""The page as a reader's parser sees it: anchors, links, theorems once, nothing from elsewhere."""
+
+import re
+from collections import Counter
+from html.parser import HTMLParser
+
+import pytest
+
+from proofs.report import __main__ as command
+from proofs.report.differences import facts, marked
+from proofs.report.html import enclosure, sentences
+from proofs.report.inline import inlined, shortened
+from proofs.report.ledger import ledger
+from proofs.report.typeset import html, markdown
+from tests.proofs.report.conftest import REPORTS
+
+VOID = {"meta", "link", "input", "br", "hr", "img", "mspace"}
+
+
+class Page(HTMLParser):
+    """Ids, links, text, and that every tag is closed in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.links, self.sources, self.open, self.text = [], [], [], [], []
+        self.feed(text)
+        self.close()
+        assert not self.open
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        self.ids += [attrs["id"]] if "id" in attrs else []
+        for name in ("href", "xlink:href"):
+            self.links += [attrs[name]] if name in attrs else []
+        self.sources += [attrs[name] for name in ("src", "srcset", "action") if name in attrs]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+@pytest.fixture(scope="module")
+def parsed(page):
+    return Page(page)
+
+
+@pytest.mark.slow
+def test_every_claim_and_statement_is_an_anchor_and_none_is_there_twice(found, parsed):
+    twice = [each for each, count in Counter(parsed.ids).items() if count > 1]
+    assert not twice
+    labels = [statement.label for statement in found.statements.values()]
+    assert {*labels, *(claim.id for claim in found.claims)} <= set(parsed.ids)
+
+
+@pytest.mark.slow
+def test_every_link_leads_somewhere_and_nothing_is_loaded(page, parsed):
+    for link in parsed.links:
+        if link.startswith("#"):
+            assert link[1:] in parsed.ids, link
+        elif not link.startswith("data:,"):
+            assert (REPORTS / link).is_file(), link
+    assert not parsed.sources and "@import" not in page and 'http-equiv="refresh' not in page
+    assert not re.search(r"url\((?!#)", page)
+    addresses = set(re.findall(r"https?://[^\s\"'<>)]+", page))
+    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
+    assert len(page.encode()) < 2_000_000
+    for claim in parsed.links:
+        assert "://" not in claim
+
+
+@pytest.mark.slow
+def test_each_statement_stands_once_in_full_at_its_claim(found, page):
+    for statement in found.statements.values():
+        start = page.index(f'id="{statement.label}"')
+        assert page.count(f'id="{statement.label}"') == 1
+        assert page.rindex('<details class="claim" id="', 0, start) == page.index(
+            f'<details class="claim" id="{statement.claim}"'
+        )
+        parts = [part for part in found.parts(statement) if isinstance(part, str)]
+        shown = [html(sentence) for part in parts for sentence in sentences(part)]
+        assert min(map(page.count, shown)) <= 1 or max(map(len, shown)) < 150, statement.label
+
+
+@pytest.mark.slow
+def test_the_texts_of_every_claim_are_there(found, parsed):
+    text = " ".join("".join(parsed.text).split())
+    for claim in found.claims:
+        assert claim.made in text and claim.checked in text
+        for sentence in (claim.reading, claim.decision.why):
+            shown = "".join(Page(f"<p>{html(sentence)}</p>").text)
+            assert " ".join(shown.split()) in text, claim.id
+
+
+@pytest.mark.slow
+def test_what_is_committed_is_this_page(found, shown, page):
+    assert (REPORTS / "index.html").read_text(encoding="utf-8") == page
+    assert (REPORTS / "ledger.md").read_text(encoding="utf-8") == ledger(found, shown)
+
+
+@pytest.mark.slow
+def test_markdown_has_every_statement_once_and_no_broken_link(found):
+    text = (REPORTS / "ledger.md").read_text(encoding="utf-8")
+    anchors = re.findall(r'<a id="([^"]*)"></a>', text)
+    assert len(set(anchors)) == len(anchors)
+    for _, link in re.findall(r"(!?)\[[^\]]*\]\(([^)\s]*)\)", text):
+        assert link[1:] in anchors if link.startswith("#") else (REPORTS / link).is_file(), link
+    for statement in found.statements.values():
+        assert text.count(f"**{statement.kind} {statement.label}.** ") == 1
+        for part in found.parts(statement):
+            assert not isinstance(part, str) or markdown(part) in text
+
+
+def test_a_small_folder_makes_a_page_of_its_own(small, capsys):
+    assert command.main(["--out", str(small)]) == 0
+    parsed = Page((small / "index.html").read_text())
+    assert {"H2", "H5", "H11", "H2.1"} <= set(parsed.ids) and "H1" not in parsed.ids
+    assert all(x[1:] in parsed.ids for x in parsed.links if x.startswith("#"))
+    assert (small / "ledger.md").is_file() and (small / "figures" / "dependencies.svg").is_file()
+    before = {path: path.read_bytes() for path in small.rglob("*") if path.is_file()}
+    assert command.main(["--out", str(small), "--quiet"]) == 0
+    assert before == {path: path.read_bytes() for path in small.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize(
+    "name, old, new, status",
+    [
+        ("ledger.json", '"REFUTED"', '"VERIFIED"', 3),
+        ("ledger.json", '"H5"', '"H99"', 2),
+        ("ledger.json", '"H5"', '"M5"', 2),
+        ("ledger.json", "horseshoe.json", "circle.json", 2),
+        ("ledger.json", "impact-proofs.ledger", "impact-proofs.other", 2),
+        ("ledger.json", "{", "", 2),
+        ("horseshoe.json", "2121/10000", "2123/10000", 3),
+    ],
+)
+def test_what_is_not_proved_is_not_printed(small, name, old, new, status, capsys):
+    path = small / name
+    text = path.read_text()
+    path.write_text(text.replace(old, new) if "json" in old else text.replace(old, new, 1))
+    try:
+        assert command.main(["--out", str(small)]) == status
+    except SystemExit as leaving:
+        assert leaving.code == status
+    told = capsys.readouterr()
+    assert (told.out + told.err).count("\n") == 1
+    assert not (small / "index.html").exists() and not (small / "ledger.md").exists()
+
+
+def test_without_the_packages_the_markdown_is_written_and_the_rest_said(small, monkeypatch, capsys):
+    monkeypatch.setattr(command, "missing", lambda: ["jinja2"])
+    assert command.main(["--out", str(small)]) == 1
+    assert "jinja2 missing" in capsys.readouterr().out
+    assert (small / "ledger.md").is_file() and not (small / "index.html").exists()
+
+
+@pytest.mark.parametrize(
+    "path, short",
+    [
+        ("M 1 2\nL 3.5 -4\nL 5 6\nz\nM 0 0\nL 1 1", "M1 2 3.5 -4 5 6zM0 0 1 1"),
+        ("M 1 2\nL 3 4\nC 1 1 2 2 3 3\nL 9 9", "M1 2L3 4C1 1 2 2 3 3L9 9"),
+    ],
+)
+def test_shorter_paths_are_the_same(path, short):
+    assert shortened(path) == short
+
+
+@pytest.mark.slow
+def test_drawings_in_the_page_keep_their_numbers_and_find_their_letters(shown):
+    files = {x.name: (REPORTS / "figures" / f"{x.name}.svg").read_text() for x in shown}
+    inside = inlined(files)
+    whole = "".join(inside.values())
+    ids = re.findall(r' id="([^"]*)"', whole)
+    assert len(set(ids)) == len(ids)
+    assert set(re.findall(r'href="#([^"]*)"|url\(#([^)]*)\)', whole)) <= {
+        pair for each in ids for pair in ((each, ""), ("", each))
+    }
+    for name, text in files.items():
+        for old, new in zip(
+            re.findall(r'<path d="([^"]*)" (?:clip|style)', text),
+            re.findall(r'<path d="([^"]*)" (?:clip|style)', inside[name]),
+            strict=True,
+        ):
+            assert re.findall(r"-?[\d.]+", old) == re.findall(r"-?[\d.]+", new)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("x = 1, y <= 2.5", [("x", "=", "1"), ("y", "<=", "2.5")]),
+        ("4.3 <= f' <= 6.19", [("f'", "<=", "6.19"), ("f'", ">=", "4.3")]),
+        ("I0 = [1.1, 1.15].", [("I0", "=", "[1.1, 1.15]")]),
+        ("V1 = [1, 2] x [-1, 0]", [("V1", "=", "[1, 2] x [-1, 0]")]),
+        ("rho_o = sqrt(4 + (2 pi m)^2)", [("rho_o", "=", "sqrt(4 + (2 pi m)^2)")]),
+        ("f(x) <= 2, x = 2 pi, x = 4/3 y", []),
+    ],
+)
+def test_facts(text, expected):
+    found = [fact[:3] for fact in facts(text)]
+    assert [fact for fact in found if fact in expected] == expected
+    assert not [fact for fact in found if expected and fact not in expected]
+
+
+def test_what_differs_is_marked_on_both_sides_and_nothing_else():
+    printed, proved = "f' <= 5.25 on I0 = [1.11, 1.15]", "4.3 <= f' <= 6.19, I0 = [1.1, 1.15]"
+    assert re.findall("<mark>(.*?)</mark>", marked(printed, proved)) == ["5.25", "[1.11, 1.15]"]
+    assert re.findall("<mark>(.*?)</mark>", marked(proved, printed)) == ["6.19", "[1.1, 1.15]"]
+    assert "<mark>" not in marked(printed, printed) + marked(printed, "g <= 7")
+
+
+@pytest.mark.parametrize(
+    "bounds, shown",
+    [
+        (("1.2345678", "1.2345679"), "1.234567[8, 9]"),
+        (("1.5", "1.5"), "1.5"),
+        (("0.1234599", "0.12346"), "0.1234[599, 600]"),
+        (("-2.00001", "-2"), "-2.0000[1, 0]"),
+        (("-1", "2"), "[-1, 2]"),
+        (("0.1", "0.2000000001"), "[0.1, 0.20000001]"),
+        (("9.99999", "10.00001"), "[9.99999, 10.00001]"),
+    ],
+)
+def test_enclosures(bounds, shown):
+    assert enclosure(*bounds) == shown

@@ -1,0 +1,192 @@
+"""On a terminal of any width: words stay whole; in a pipe: plain lines, the same each time."""
+
+import json
+import re
+import sys
+from io import StringIO
+from time import sleep
+
+import pytest
+
+from proofs import check, horseshoe
+from proofs.shell.cli import progress
+from proofs.shell.screen import Decided, fitted, gist, show_verdicts
+from proofs.trusted.verdicts import Verdict
+from tests.proofs.shell.processes import (
+    COMMANDS,
+    ROOT,
+    arguments_of,
+    on_terminal,
+    started,
+)
+
+WIDTHS = (60, 80, 120)
+
+
+def fits(lines, width):
+    """Whether every line fits, but for a word that is longer than the terminal."""
+    return all(len(line) <= width or " " not in line.strip() for line in lines)
+
+
+def words(lines):
+    return " ".join(lines).split()
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_fits(name, tmp_path):
+    width = WIDTHS[COMMANDS.index(name) % 2]
+    status, lines, _ = on_terminal(name, ["--help"], width)
+    assert status == 0 and fits(lines, width), [line for line in lines if len(line) > width]
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_the_main_job_fits_and_says_the_same_as_in_a_pipe(width, tmp_path):
+    arguments = arguments_of("horseshoe", tmp_path)
+    status, lines, raw = on_terminal("horseshoe", arguments, width)
+    assert status == 0 and fits(lines, width) and "\x1b[32m" in raw
+    with started("horseshoe", arguments) as process:
+        out, err = process.communicate()
+    plain = out.decode()
+    assert err == b"" and "\x1b" not in plain
+    table = {"claim", "verdict", "statement,", "and", "why"}
+    shown = [word for word in words(lines) if not set(word) <= {"─"} and word not in table]
+    timed = re.compile(r"\d+ ms")
+    assert sorted(timed.sub("", " ".join(shown)).split()) == sorted(
+        word for word in timed.sub("", plain).split() if word not in table
+    )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_fits(name, width, tmp_path):
+    for arguments in (arguments_of(name, tmp_path), ["--bogus"]):
+        status, lines, _ = on_terminal(name, arguments, width)
+        assert status == (2 if "--bogus" in arguments else 0)
+        assert fits(lines, width), [line for line in lines if len(line) > width]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_pipe_has_plain_lines_the_same_each_time(name, tmp_path):
+    said = set()
+    for _ in range(2):
+        with started(name, arguments_of(name, tmp_path)) as process:
+            out, err = process.communicate()
+        assert "\x1b" not in out.decode() and err == b"" and process.returncode == 0
+        said.add(re.sub(r"[0-9.e+-]+ +m?s\b|.*\| +[0-9.e+|]+.*", "", out.decode()))
+    assert len(said) == 1
+
+
+@pytest.mark.long
+def test_long_work_shows_that_it_goes_on():
+    status, _, raw = on_terminal("orbits", ["--period", "12"], 80)
+    assert status == 0 and re.search(r"\r\x1b\[K[12] s: [0-9a-z]", raw)
+    assert raw.rindex("\x1b[K") < raw.rindex("\n")  # wiped
+
+
+# -- by themselves ---------------------------------------------------------------------------------
+
+
+class Terminal(StringIO):
+    """Takes text, and says that it is a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def shown(monkeypatch, width, rows):
+    screen = Terminal()
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(sys, "stdout", screen)
+    show_verdicts(rows)
+    return re.sub(r"\x1b\[[0-9;]*m", "", screen.getvalue()).splitlines()
+
+
+@pytest.mark.parametrize("width", [20, 40, 60, 79, 120, 300])
+def test_no_word_is_broken_or_lost(width, monkeypatch):
+    text = "f([1.11, 1.15]) is short, 0.36746531978244912204348910692934 is not [bold]so[/bold]"
+    rows = [Decided(f"H{k}", verdict, text, f"{text} {k}") for k, verdict in enumerate(Verdict)]
+    lines = shown(monkeypatch, width, rows)
+    assert fits(lines, width)
+    for word in text.split():
+        assert sum(word in line.split() for line in lines) >= len(rows), word
+
+
+def test_progress_is_one_line_that_is_wiped(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setenv("COLUMNS", "30")
+    with progress(after=10) as tell:
+        tell("too short to be shown")
+    assert screen.getvalue() == ""
+    with progress(after=0.02) as tell:
+        tell("the first of several parts, at length")
+        sleep(0.2)
+        tell("")
+        assert screen.getvalue() == "\r\x1b[K0 s: the first of several ...\r\x1b[K"
+        sleep(0.1)
+    assert screen.getvalue().endswith("...\r\x1b[K")
+    with progress(after=0.02) as tell, progress(after=0.02) as inner:
+        assert inner is tell
+    monkeypatch.setattr(sys, "stderr", StringIO())
+    with progress(after=0.01) as tell:
+        tell("nobody sees it")
+        sleep(0.05)
+    assert sys.stderr.getvalue() == ""
+
+
+def test_no_colour_where_it_is_not_wanted(monkeypatch):
+    monkeypatch.setenv("NO_COLOR", "1")
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stdout", screen)
+    show_verdicts([Decided("H1", Verdict.REFUTED, "all", "none")])
+    assert "REFUTED" in screen.getvalue() and "\x1b[3" not in screen.getvalue()
+
+
+def test_a_text_is_broken_between_words_and_elsewhere_stays(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "30")
+    text = "one two three four five six seven\n  a: " + "word " * 12 + "\n\n" + "x" * 50 + "\n"
+    lines = fitted(text, Terminal()).split("\n")
+    assert fits(lines, 30) and words(lines) == text.split()
+    assert lines[1] == "  seven" and lines[3].startswith("    word") and lines[-1] == ""
+    assert fitted(text, StringIO()) == text
+
+
+def test_a_table_that_is_too_wide_becomes_lines(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "30")
+    text = "| what | first number | second |\n|------|--------------|--------|\n| a | 1 | 2 |"
+    text = text.replace("| a | 1 | 2 |", "| a    | 1            | 2      |")
+    assert fitted(text, Terminal()) == "a: first number 1, second 2"
+    monkeypatch.setenv("COLUMNS", "40")
+    assert fitted(text, Terminal()) == text
+
+
+def test_the_gist_of_a_theorem_is_its_beginning():
+    text = "Let m >= 1. At p: let I = [1, 2]. Let K be I. f maps I to K. It is onto."
+    assert gist(text) == "Let m >= 1. At p: let I = [1, 2]. Let K be I. f maps I to K. ..."
+    assert gist("One. Two.") == "One. Two." and gist("One, e.g. w_1 ... w_n.").endswith("w_n.")
+
+
+def test_digits_are_as_many_as_asked(tmp_path, capsys):
+    for digits in (5, 30, 70):
+        ask = ["--only", "H1", "--digits", str(digits), "--out", str(tmp_path)]
+        assert horseshoe.main(ask) == 0
+        found = re.findall(r"slope_min_I0 in \[([0-9.]+), ([0-9.]+)\]", capsys.readouterr().out)
+        assert all(digits <= len(number) - 1 <= digits + 4 for number in found[0])
+
+
+def test_every_theorem_of_the_ledger_has_a_gist_of_two_assertions():
+    """None is cut within a sentence, and none begins with what refers to something before it."""
+    claims = json.loads((ROOT / "reports/ledger.json").read_text())["claims"]
+    for text in {claim["corrected"] for claim in claims} - {None}:
+        short = gist(text)
+        assert text.startswith(short.removesuffix(" ...")) and short.count(". ") <= 5
+        assert short == text or short.endswith(". ...")
+
+
+def test_quiet_is_quiet(tmp_path, capsys):
+    assert horseshoe.main(["--only", "H1", "--quiet", "--out", str(tmp_path)]) == 0
+    assert check.main(["--quiet", str(tmp_path / "horseshoe.json")]) == 0
+    said = capsys.readouterr()
+    assert said.out == said.err == ""

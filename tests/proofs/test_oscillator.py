@@ -1,0 +1,135 @@
+"""The oscillator as a library: exact in, enclosures out, theorems with certificates."""
+
+import doctest
+import subprocess
+import sys
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mpf
+
+import proofs
+from intervals import Undecided
+from proofs import Oscillator, oscillator
+from proofs.motion.impact import NoImpact
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.verify import Rejected, check
+from tests.proofs.trusted.paper import reference
+
+PLASTIC = Oscillator("0.2121", "-0.2")
+RESTITUTING = Oscillator("0.2121", "-0.2", "0.01")
+LEFT, RIGHT = ["1.1", "1.15"], ["1.27", "1.32"]
+
+
+def test_the_docstring_runs():
+    assert doctest.testmod(oscillator).failed == 0 < doctest.testmod(oscillator).attempted
+
+
+@given(st.integers(111, 114))
+@settings(max_examples=4, deadline=None)
+def test_the_image_of_an_interval_holds_that_of_a_phase(hundredths):
+    whole = PLASTIC.image(LEFT, digits=8)
+    phase = Fraction(hundredths, 100)
+    time, image = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(hundredths) / 100)
+    point = PLASTIC.image(phase, digits=12)
+    for name, true in (("flight", time), ("phase", image)):
+        assert abs(float(point[name].lower) - float(true)) < 1e-9
+        assert whole[name].lower <= point[name].lower <= point[name].upper <= whole[name].upper
+    assert point["slope"].lower in PLASTIC.slope(LEFT)
+    assert point["flight"] == PLASTIC.first_impact(phase, digits=12)
+
+
+def test_what_is_printed_encloses_what_is_proved():
+    bounds = PLASTIC.slope("1.13", digits=5)
+    low, high = (Fraction(x) for x in str(bounds).strip("[]").split(", "))
+    assert low <= bounds.lower < bounds.upper <= high and high - low < Fraction(1, 10**4)
+    assert bounds._repr_latex_() == "$" + str(bounds).replace(", ", r",\ ") + "$"
+
+
+def test_answers_show_themselves():
+    found = RESTITUTING.image("1.12", "-0.2", digits=8)
+    time, velocity = reference.rebound(
+        mpf("0.2121"), mpf("-0.2"), mpf("0.01"), mpf("1.12"), mpf("-0.2"), 0.01
+    )
+    assert abs(float(found["flight"].lower) - float(time)) < 1e-7
+    assert abs(float(found["velocity"].lower) - float(velocity)) < 1e-7
+    assert [line.split()[0] for line in str(found).splitlines()][:3] == [
+        "flight",
+        "phase",
+        "velocity",
+    ]
+    html = found._repr_html_()
+    assert html.startswith("<table>") and html.count("<tr>") == 7
+    assert r"\gamma_1" in found._repr_latex_()
+    assert PLASTIC.image("4", digits=8).sticks and "dwell" in str(PLASTIC.image("4", digits=8))
+    with pytest.raises(KeyError, match="flight, phase, velocity"):
+        found["slope"]
+
+
+@pytest.mark.parametrize(
+    ("theorem", "verdicts"),
+    [
+        (lambda: PLASTIC.horseshoe(LEFT, RIGHT), {"H5": "VERIFIED", "H8": "VERIFIED"}),
+        (
+            lambda: RESTITUTING.horseshoe(["1.11", "1.16"], ["1.27", "1.33"], ["-0.45", "0"]),
+            {"N1": "VERIFIED"},
+        ),
+    ],
+)
+def test_a_horseshoe_comes_with_a_certificate(theorem, verdicts):
+    proved = theorem()
+    report = check(proved.certificate)
+    assert {claim.id: claim.verdict.value for claim in report.claims} == verdicts
+    assert str(proved).startswith("At ") and proved.conclusion.sentence in str(proved)
+    assert "&lt;=" in proved._repr_html_() and "<=" not in proved._repr_html_()
+    forged = proved.certificate.replace('"33/25"', '"4/3"').replace('"133/100"', '"4/3"')
+    assert forged != proved.certificate
+    with pytest.raises((Rejected, Malformed)):
+        check(forged)
+
+
+def test_what_is_not_proved_is_undecided():
+    with pytest.raises(Undecided, match="I is not covered"):
+        PLASTIC.horseshoe(["1.11", "1.15"], RIGHT)
+    with pytest.raises(Undecided, match="fall short"):
+        RESTITUTING.horseshoe(["1.11", "1.15"], RIGHT, ["-0.45", "0"])
+    with pytest.raises(Undecided, match="2 images are possible"):
+        PLASTIC.image(["1.1", "1.3"])
+    with pytest.raises(NoImpact):
+        PLASTIC.image("1.5707", horizon="100")
+
+
+@pytest.mark.parametrize(
+    ("ask", "error", "hint"),
+    [
+        (lambda: Oscillator(0.2121, "-0.2"), TypeError, 'write it as "0.2121"'),
+        (lambda: PLASTIC.image([1.1, "1.15"]), TypeError, 'write it as "1.1"'),
+        (lambda: PLASTIC.slope("1.1x"), ValueError, "1.1x"),
+        (lambda: PLASTIC.image(["1.15", "1.1"]), ValueError, "reversed: 1.15 > 1.1"),
+        (lambda: PLASTIC.image(["1.1"]), ValueError, "not 1 numbers"),
+        (lambda: PLASTIC.image("6.5"), ValueError, "6.5"),
+        (lambda: PLASTIC.image("1.1", "0"), TypeError, "go together"),
+        (lambda: RESTITUTING.image("1.1"), TypeError, "go together"),
+        (lambda: RESTITUTING.slope("1.1"), TypeError, "plastic"),
+        (lambda: Oscillator("0.2121", "-0.2", "1"), ValueError, "epsilon"),
+        (lambda: Oscillator("0", "-0.2"), ValueError, "eta"),
+        (lambda: PLASTIC.horseshoe(RIGHT, LEFT), ValueError, "reversed"),
+    ],
+)
+def test_bad_input_says_what_to_write(ask, error, hint):
+    with pytest.raises(error, match=hint):
+        ask()
+
+
+def test_the_package_stays_light_until_it_is_asked():
+    code = (
+        "import sys, proofs.trusted.verify as v; from proofs import __version__;"
+        "assert not {'numpy', 'mpmath', 'intervals', 'proofs.oscillator'} & set(sys.modules);"
+        "import proofs; print(proofs.Oscillator('1/5', '-1/5'))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "Oscillator('0.2', '-0.2')\n"
+    with pytest.raises(AttributeError, match="Oscilator"):
+        proofs.Oscilator  # noqa: B018

@@ -1,0 +1,95 @@
+"""The documentation and the README: examples run, commands exist, numbers are the ledger's."""
+
+import doctest
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = [
+    ROOT / "README.md",
+    *sorted(path for path in (ROOT / "docs").glob("*.md") if not path.is_symlink()),
+]
+TEXTS = {page.name: page.read_text() for page in PAGES}
+COMMAND = re.compile(r"python (?:-[SO] )*-m (proofs[\w.]*)([^`\n|#]*)")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_examples_run(page):
+    outcome = doctest.testfile(str(page), module_relative=False)
+    assert not outcome.failed
+    assert outcome.attempted or ">>>" not in TEXTS[page.name]
+
+
+def test_there_are_examples():
+    assert "Oscillator" in TEXTS["guide.md"] and ">>>" in TEXTS["guide.md"]
+
+
+@pytest.mark.slow
+def test_commands_and_their_options_exist():
+    used = {}
+    for text in TEXTS.values():
+        for module, rest in COMMAND.findall(text):
+            used.setdefault(module.rstrip("."), set()).update(re.findall(r"--[a-z][a-z-]*", rest))
+    assert len(used) > 8
+    for module, options in used.items():
+        if options - {"--help"}:
+            told = help_of(module)
+            if module == "proofs" and importlib.util.find_spec("proofs.ledger"):
+                told += help_of("proofs.ledger")  # which options without a command go to
+            assert not {option for option in options if option not in told}, module
+        else:
+            importlib.import_module(module)
+
+
+def help_of(module):
+    call = [sys.executable, "-m", module, "--help"]
+    done = subprocess.run(call, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_files_that_are_named_exist():
+    for name, text in TEXTS.items():
+        paths = re.findall(r"`((?:proofs|intervals|tests|reports|docs)/[\w./-]*)`", text)
+        paths += re.findall(r"\]\(([\w./-]+\.(?:svg|md|html|json))\)", text)
+        for path in paths:
+            assert (ROOT / path).exists() or (ROOT / "docs" / path).exists(), f"{name}: {path}"
+
+
+def test_long_decimals_are_those_of_the_ledger():
+    ledger = (ROOT / "reports" / "ledger.json").read_text() + TEXTS["README.md"]
+    for name in ("index.md", "proof.md"):
+        for number in re.findall(r"\d\.\d{5,}", TEXTS[name]):
+            assert number in ledger, f"{name}: {number}"
+
+
+def test_the_readme_shows_what_the_screen_shows():
+    rows = json.loads((ROOT / "reports" / "ledger.json").read_text())["claims"]
+    screen = {f"{row['id']} {row['verdict']} {row['statement']}" for row in rows}
+    screen |= {row["why"] for row in rows}
+    shown = TEXTS["README.md"].partition("```text\n")[2].partition("\n```")[0].splitlines()
+    assert {" ".join(line.split()) for line in shown[: shown.index("...")]} <= screen
+    assert any(
+        shown[-1].removesuffix(" ...").split(": ", 1)[1] in (x["corrected"] or "") for x in rows
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["horseshoe", "figures"])
+def test_notebooks_run(name):
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    pytest.importorskip("ipykernel")
+    notebook = ROOT / "docs" / "notebooks" / f"{name}.ipynb"
+    read = nbformat.read(notebook, as_version=4)
+    assert not any(cell.get("outputs") for cell in read.cells)
+    where = {"metadata": {"path": str(notebook.parent)}}
+    client = nbclient.NotebookClient(read, timeout=120, resources=where)
+    client.execute(env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert all(cell.outputs for cell in read.cells if cell.cell_type == "code")

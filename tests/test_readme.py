@@ -1,0 +1,70 @@
+"""What the README counts and quotes is what the ledger says."""
+
+import json
+import re
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+from proofs.shell.groups import row_of
+from proofs.shell.ledger import CLAIMS
+from proofs.trusted.verdicts import Verdict, tally
+
+ROOT = Path(__file__).parents[1]
+README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+ROWS = json.loads((ROOT / "reports" / "ledger.json").read_text(encoding="utf-8"))["claims"]
+WORDS = {2: "two", 10: "ten", 11: "eleven", 12: "twelve", 13: "thirteen"}
+
+
+def count(rows):
+    return Counter(row["verdict"] for row in rows)
+
+
+def test_the_ledger_is_whole():
+    assert [row["id"] for row in ROWS] == list(CLAIMS)
+
+
+def test_claims_are_counted_by_the_ledger_and_ours_apart():
+    paper = [row for row in ROWS if row_of(row["id"]).words]
+    own = [row["id"] for row in ROWS if not row_of(row["id"]).words]
+    verdicts = count(paper)
+    assert verdicts["UNDECIDED"] == 0
+    assert (
+        f"All {len(paper)} claims of the paper that we count are decided: {verdicts['VERIFIED']} "
+        f"true as printed, {verdicts['REFUTED']} false, {verdicts['CONDITIONAL']} true under "
+        f"conditions that the paper leaves out, {verdicts['SIMULATED']} simulations; "
+        f"{', '.join(own[:-1])} and {own[-1]} are questions of our own"
+    ) in README
+    simulated = [row["id"] for row in paper if row["verdict"] == "SIMULATED"]
+    assert f"SIMULATED, the fate of {WORDS[len(simulated)]} claims ({', '.join(simulated)})" in (
+        README
+    )
+
+
+def test_screen_and_checker_count_alike():
+    paper, own = (Verdict.REFUTED, False), (Verdict.VERIFIED, True)
+    assert tally([paper, own, paper]) == "2 REFUTED; of our own 1 VERIFIED"
+    assert tally([paper]) == "1 REFUTED" and tally([own]) == "of our own 1 VERIFIED"
+
+
+def test_section_5_is_counted_by_the_ledger():
+    soft = count(row for row in ROWS if row["id"].startswith("S"))
+    assert f"{WORDS[soft['REFUTED']]} of {soft.total()} claims are false" in README
+
+
+def test_numbers_are_those_of_the_ledger():
+    quantities = {name: x for row in ROWS for name, x in row["quantities"].items()}
+    (share,) = re.findall(r"([\d.]+) % of the circle at least", README)
+    bounds = [Fraction(quantities["basin_fraction"][end]) for end in ("lower", "upper")]
+    assert bounds[0] - Fraction(1, 10**5) < Fraction(share) / 100 <= bounds[0] <= bounds[1] < 1
+    (largest,) = re.findall(r"yes for epsilon <= ([\d.]+),", README)
+    assert Fraction(largest) == Fraction(quantities["epsilon_max"]["lower"])
+    (entropy,) = re.findall(r"entropy >= ([\d.]+) \(G9\)", README)
+    assert any(f">= {entropy}" in row["why"] for row in ROWS if row["id"] == "G9")
+    dimensions = re.findall(r"\| (0\.\d+)\.\.\., and (0\.\d+)\.\.\. for", README)[0]
+    texts = next(row["corrected"] for row in ROWS if row["id"] == "H13")
+    assert all(f"between {digits}" in texts for digits in dimensions)
+
+
+def test_claims_named_in_a_row_of_the_table_exist():
+    assert set(re.findall(r"\b[MHNGPSREA]\d+\b", README)) <= set(CLAIMS)
