@@ -13,6 +13,7 @@ from html import unescape
 
 from proofs.report.typeset import GREEK
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import show
 
@@ -31,6 +32,8 @@ def lines(conclusion: Conclusion) -> list[str]:
         return [latex(conclusion.function), *_series(conclusion)]
     if isinstance(conclusion, Value):
         return [latex(conclusion.function), *_bounds(conclusion)]
+    if isinstance(conclusion, Expressions):
+        return [f"{latex(name)} = {latex(text)}" for name, text in conclusion.expressions]
     return conclusion.latex.split(r",\quad ") if conclusion.latex else []
 
 

@@ -15,7 +15,7 @@ Neimark-Sacker: the multipliers are e^(+- i theta), t = 2 cos(theta); H(u, v) ha
 with J P = P A, A = [[t, -1], [1, 0]], and no u^3; N(w) = A (w + Q(w) (a w + b (A - t/2) w)), with
 Q(u, v) = u^2 - t u v + v^2, which A preserves. There is one such H, if no power of e^(i theta) from
 the first to the fourth is 1 (the operator H -> J H - H A on cubic terms has the kernel spanned by
-Q P w and Q P A w, of which the terms u^3 are independent).
+Q P w and Q P A w, of which the terms u^3 are independent). In formulas u, v are h1, h2.
 
 What is reported, with the names of Kuznetsov, Elements of Applied Bifurcation Theory, chapters 4
 and 5 (Theorems 4.1, 4.3, 4.5, equations (5.40) to (5.47)), for the eigenvector q given here:
@@ -50,8 +50,8 @@ class NormalForm:
     def __post_init__(self) -> None:
         if self.kind == "neimark_sacker" and len(self.map.state) == 1:
             raise ValueError("a map of one variable has no Neimark-Sacker bifurcation")
-        own = {*self.coordinates, *self.coefficients, *self.unknowns} - {*self.map.state}
-        if taken := sorted(own & {*self.map.parameters, *self.map.images}):
+        own = {"h", *self.coordinates, *self.coefficients, *self.unknowns}
+        if taken := sorted(own & {*self.map.state, *self.map.images, *self.map.parameters}):
             raise ValueError(f"a name that is used for something else: {taken[0]}")
 
     @property
@@ -62,7 +62,7 @@ class NormalForm:
     @property
     def coordinates(self) -> tuple[str, ...]:
         """The coordinates of the chart."""
-        return ("u", "v") if self.kind == "neimark_sacker" else ("h",)
+        return ("h1", "h2") if self.kind == "neimark_sacker" else ("h",)
 
     @property
     def coefficients(self) -> tuple[str, ...]:
@@ -133,10 +133,10 @@ class NormalForm:
             return ["h + b2*h**2"]
         if self.kind == "flip":
             return ["-h + b2*h**2 + b3*h**3"]
-        size = _SCALED.format("u", "v")
+        size = _SCALED.format("h1", "h2")
         turned = (  # w + Q(w) (a w + b (A - t/2) w), to which A is applied
-            f"(u + {size}*(a3*u + b3*(t*u/2 - v)))",
-            f"(v + {size}*(a3*v + b3*(u - t*v/2)))",
+            f"(h1 + {size}*(a3*h1 + b3*(t*h1/2 - h2)))",
+            f"(h2 + {size}*(a3*h2 + b3*(h1 - t*h2/2)))",
         )
         return [f"t*{turned[0]} - {turned[1]}", turned[0]]
 

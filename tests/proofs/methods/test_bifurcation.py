@@ -276,6 +276,14 @@ def test_what_is_no_map(lines, message):
 def test_names_that_are_taken():
     with pytest.raises(ValueError, match="something else: b2"):
         NormalForm(Map.read("x1 = b2*x*(1 - x)"), "flip")
+    with pytest.raises(ValueError, match="something else: h"):
+        NormalForm(Map.read("h1 = r*h*(1 - h)"), "flip")
+
+
+def test_the_coordinates_are_none_of_the_variables():
+    """The delayed logistic map in variables u and v."""
+    found = in_closed_form("neimark_sacker", ("u", "v", "r"), "u1 = r*u*(1 - v)", "v1 = u")
+    assert (found[0]["r"], found[0]["critical"]) == (2, -2)
 
 
 def test_what_people_type():

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from proofs.report.formulas import latex, lines, mathml
+from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
 from tests.proofs.report.read_latex import Reader
 
@@ -80,3 +81,11 @@ def test_mathml_is_well_formed_and_names_every_symbol(text):
     shown = "".join(tree.itertext())
     for digits in re.findall(r"(?<![a-z\d])\d+", text):
         assert digits in shown
+
+
+def test_expressions_stand_below_each_other():
+    found = Expressions((("j11", "-(a*epsilon + 2)/2"), ("lam", "-c")), (Equal("lam + c", "0"),))
+    assert lines(found) == [
+        r"j_{11} = \frac{-(a \varepsilon + 2)}{2}",
+        rf"{latex('lam')} = -c",
+    ]
