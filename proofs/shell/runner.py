@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
@@ -127,17 +127,21 @@ def _run(
     with counting(options.stats) as counts, progress() as tell:
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **more)
     seconds = perf_counter() - began
-    drawn: dict[str, str] = {}
-    try:
-        if options.figure:
-            documents = {file: premises(made.certificate)}
-            drawn = {f"{each.name}.svg": each.svg(documents) for each in _figures(file)}
-    except (Undecided, OverflowError) as failure:
-        say(f"{parser.prog}: no figure: {failure}", sys.stderr)
+    drawn = dict(_drawn(parser, file, made)) if options.figure else {}
     with refusing(parser, options.out):
         write(options.out, file, made)
         write_files(options.out / "figures", drawn)
     return finish(parser, options, made, file, seconds=seconds, counts=counts)
+
+
+def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
+    """Draw the figures for which the certificate proves enough; say why another is not drawn."""
+    documents = {file: premises(made.certificate)}
+    for figure in _figures(file):
+        try:
+            yield f"{figure.name}.svg", figure.svg(documents)
+        except (Undecided, OverflowError) as failure:
+            say(f"{parser.prog}: no {figure.name}: {failure}", sys.stderr)
 
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:

@@ -341,7 +341,7 @@ def test_json_goes_to_the_screen_alone_and_makes_the_case_again(capsys):
     assert judge(case, kernel_of()).outcome.value == given["outcome"]
 
 
-BAD = ["--nonsense", "--cases 0", "--cases many", "--seed -1", "--json x", "--family circles"]
+BAD = ["--nonsense", "--cases 0", "--cases many", "--seed -1", "--json {0}", "--family circles"]
 
 
 @pytest.mark.parametrize("arguments", [*BAD, "--kernel numpy", "--out {0}/file/absent"])
