@@ -96,6 +96,7 @@ def test_every_mutation_changes_something(document):
                 assert mutation.kind in {"truncated", "not a certificate"}, mutation
 
 
+@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.usefixtures("remembered_clock")
 def test_all_mutations(document, original):
