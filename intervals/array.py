@@ -320,13 +320,14 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
-        number = int(other) if isinstance(other, int | np.integer) else 3  # numpy's abs would wrap
-        if abs(number) & (abs(number) - 1) == 0:
-            if number == 1:
+        if isinstance(other, np.integer):
+            other = int(other)  # numpy's abs would wrap
+        if isinstance(other, int) and abs(other) & (abs(other) - 1) == 0:
+            if other == 1:
                 return self
-            rows = self._rows if number >= 0 else self._rows[::-1]
+            rows = self._rows if other >= 0 else self._rows[::-1]
             with _quiet():
-                return _make(bounded(rows * float(abs(number))))
+                return _make(bounded(rows * float(abs(other))))
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented

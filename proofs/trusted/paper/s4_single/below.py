@@ -51,7 +51,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock
@@ -61,7 +60,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import sqrt
 from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
 from proofs.trusted.paper.s4_single.orbits import SADDLE, STICK, bits_of, distance, turn
-from proofs.trusted.paper.s4_single.windows import FINE, LEAVING, bracketed, excess_at
+from proofs.trusted.paper.s4_single.windows import LEAVING, bracketed, excess_at, require_apart
 
 _MOST_NU = Fraction(3, 10)
 _HALF = Fraction(1, 2)
@@ -83,11 +82,7 @@ class BelowWindows(Conclusion):
     late: tuple[Range, Range]
 
     def __post_init__(self) -> None:
-        down = [end for pair in (self.late, *self.ends) for end in reversed(pair)]
-        if any(high - low > FINE for low, high in down):
-            raise Unproved("the ends of windows are not known to nine places")
-        if any(later[1] >= end[0] for end, later in pairwise(down)):
-            raise Unproved("the windows are not proved to be apart")
+        require_apart([end for pair in (self.late, *self.ends) for end in reversed(pair)])
 
     @property
     def sentence(self) -> str:

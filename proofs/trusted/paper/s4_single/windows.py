@@ -50,6 +50,14 @@ def bracketed(
         raise Unproved("an end of a window is not bracketed")
 
 
+def require_apart(down: Sequence[Range]) -> None:
+    """Raise Unproved unless the ends of windows, the greatest first, are narrow and apart."""
+    if any(high - low > FINE for low, high in down):
+        raise Unproved("the ends of windows are not known to nine places")
+    if any(later[1] >= end[0] for end, later in pairwise(down)):
+        raise Unproved("the windows are not proved to be apart")
+
+
 @dataclass(frozen=True)
 class EtaWindows(Conclusion):
     """Where stable short orbits are at fixed nu in (0, 1), for all eta >= low.
@@ -63,11 +71,7 @@ class EtaWindows(Conclusion):
     ends: tuple[tuple[Range, Range], ...]
 
     def __post_init__(self) -> None:
-        down = [end for flip, stick in self.ends for end in (stick, flip)]
-        if any(high - low > FINE for low, high in down):
-            raise Unproved("the ends of windows are not known to nine places")
-        if any(later[1] >= end[0] for end, later in pairwise(down)):
-            raise Unproved("the windows are not proved to be apart")
+        require_apart([end for flip, stick in self.ends for end in (stick, flip)])
 
     @property
     def sentence(self) -> str:
