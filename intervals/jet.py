@@ -13,12 +13,26 @@ from fractions import Fraction
 from math import factorial
 from typing import Any
 
+from intervals.errors import DomainError
+from intervals.functions import Elementary
+from intervals.generic import where
 
-class Jet:
-    """Taylor coefficients (c_0, ..., c_n); operations truncate to the shorter order."""
+_NEAR = Fraction(1, 2**1000)
+
+
+class Jet(Elementary):
+    """Taylor coefficients (c_0, ..., c_n); operations truncate to the shorter order.
+
+    A function is at least as often differentiable as the order says on all numbers that c_0 holds;
+    else DomainError.
+    """
 
     __slots__ = ("coefficients",)
-    __array_ufunc__ = None
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        from intervals.numpy_protocol import jet_ufunc
+
+        return jet_ufunc(self, ufunc, method, inputs, options)
 
     def __init__(self, *coefficients: Any) -> None:
         self.coefficients = coefficients
@@ -94,18 +108,21 @@ class Jet:
             quotient.append(_over(-_convolution(b, quotient, k, 1), b[0]))
         return Jet(*quotient)
 
-    def __pow__(self, n: int) -> Jet:
-        """Return the n-th power, n >= 0 by repeated squaring."""
-        if not isinstance(n, int):
-            return NotImplemented
-        if n < 0:
-            return 1 / self**-n
-        if n == 0:
-            return Jet(self.value**0, *(0 * c for c in self.coefficients[1:]))
-        half = self ** (n // 2) if n > 1 else None
-        if half is None:
-            return self
-        return half.sqr() * self if n % 2 else half.sqr()
+    def __pow__(self, exponent: Any) -> Jet:
+        """Return u^n, for an int n also where u <= 0: y' = n u^(n-1) u'; else see `pow`."""
+        if not isinstance(exponent, int):
+            return self.pow(exponent)
+        if exponent < 0:
+            return 1 / self**-exponent
+        if exponent == 0:
+            return 0 * self + 1
+        if exponent < 3:
+            return self if exponent == 1 else self.sqr()
+        power = self.value**exponent
+        return self._primitive(power, lambda u: exponent * u ** (exponent - 1))
+
+    def __rpow__(self, base: Any) -> Jet:
+        return self._constant(base).pow(self)
 
     def sqr(self) -> Jet:
         """Return the square; its value has no dependency where the number type has `sqr`."""
@@ -118,6 +135,14 @@ class Jet:
 
     # -- elementary functions: each is the solution of a differential equation --------------------
 
+    def _constant(self, value: Any) -> Jet:
+        """Return the jet of a constant; a jet as it is."""
+        return value if isinstance(value, Jet) else 0 * self + value
+
+    def _with_value(self, value: Any) -> Jet:
+        """Return this jet with another enclosure of its value."""
+        return Jet(value, *self.coefficients[1:])
+
     def _slopes(self) -> list[Any]:
         """Return k u_k, the coefficients of t u'."""
         return [k * u for k, u in enumerate(self.coefficients)]
@@ -129,6 +154,39 @@ class Jet:
         slopes, g = self._slopes(), slope(Jet(*self.coefficients[:-1])).coefficients
         rest = (_over(_convolution(slopes, g, k, 1), k) for k in range(1, len(slopes)))
         return Jet(value, *rest)
+
+    def _monotone(self, name: str) -> Jet:
+        """Return the jet of the function of this name, from its slope, or of a step."""
+        value = getattr(self.value, name)()
+        return self._primitive(value, SLOPES[name]) if name in SLOPES else self._step(name, value)
+
+    def _step(self, name: str, value: Any) -> Jet:
+        """Return the jet of a function that is constant between its jumps.
+
+        Theorem. Where the step over a neighbourhood of X is one number, all derivatives vanish on
+        X. Elsewhere X may hold a jump, and DomainError is raised.
+        """
+        if self.order:
+            near = getattr(self.value.widen(_NEAR), name)()
+            if not _everywhere(near.inf == near.sup):
+                raise DomainError(f"{name} may jump where its derivatives are asked")
+        return (0 * self)._with_value(value)
+
+    def __abs__(self) -> Jet:
+        """Return the jet of |u| = sign(u) u; DomainError where u may be 0, unless of order 0."""
+        return (self.sign() * self)._with_value(abs(self.value))
+
+    def maximum(self, other: Any) -> Jet:
+        """Return the jet of max(u, v); DomainError where u - v may be 0, unless of order 0."""
+        v = self._constant(other)
+        largest = self.value.maximum(v.value)
+        left = (self - v).sign().value.inf > 0
+        pairs = list(zip(*(self._pairs(v) or ()), strict=True))[1:]
+        return Jet(largest, *(where(left, a, b) for a, b in pairs))
+
+    def minimum(self, other: Any) -> Jet:
+        """Return the jet of min(u, v); DomainError where u - v may be 0, unless of order 0."""
+        return -(-self).maximum(-self._constant(other))
 
     def _circle(self, first: Any, second: Any, sign: int) -> tuple[Jet, Jet]:
         """Return (s, c) with s' = c u', c' = sign s u'."""
@@ -153,8 +211,8 @@ class Jet:
         return self.sincos()[1]
 
     def tan(self) -> Jet:
-        """Return the jet of tan u: y' = u' / cos(u)^2."""
-        return self._primitive(self.value.tan(), lambda u: 1 / u.cos().sqr())
+        """Return the jet of tan u."""
+        return self._monotone("tan")
 
     def sinh(self) -> Jet:
         """Return the jet of sinh u: s' = c u'."""
@@ -163,10 +221,6 @@ class Jet:
     def cosh(self) -> Jet:
         """Return the jet of cosh u: c' = s u'."""
         return self._circle(self.value.sinh(), self.value.cosh(), 1)[1]
-
-    def tanh(self) -> Jet:
-        """Return the jet of tanh u: y' = u' / cosh(u)^2."""
-        return self._primitive(self.value.tanh(), lambda u: 1 / u.cosh().sqr())
 
     def exp(self) -> Jet:
         """Return the jet of exp u: y' = y u'."""
@@ -177,39 +231,23 @@ class Jet:
 
     def expm1(self) -> Jet:
         """Return the jet of exp(u) - 1."""
-        return Jet(self.value.expm1(), *self.exp().coefficients[1:])
+        return self.exp()._with_value(self.value.expm1())
 
-    def log(self) -> Jet:
-        """Return the jet of log u: y' = u' / u."""
-        return self._primitive(self.value.log(), Jet.recip)
+    def exp2(self) -> Jet:
+        """Return the jet of 2^u = exp(u log 2)."""
+        return (self * self._constant(2).log()).exp()._with_value(self.value.exp2())
 
-    def log1p(self) -> Jet:
-        """Return the jet of log(1 + u)."""
-        return self._primitive(self.value.log1p(), lambda u: 1 / (1 + u))
+    def exp10(self) -> Jet:
+        """Return the jet of 10^u = exp(u log 10)."""
+        return (self * self._constant(10).log()).exp()._with_value(self.value.exp10())
 
-    def atan(self) -> Jet:
-        """Return the jet of atan u: y' = u' / (1 + u^2)."""
-        return self._primitive(self.value.atan(), lambda u: 1 / (1 + u.sqr()))
+    def log2(self) -> Jet:
+        """Return the jet of log u / log 2."""
+        return (self.log() / self._constant(2).log())._with_value(self.value.log2())
 
-    def asin(self) -> Jet:
-        """Return the jet of asin u, |u| < 1: y' = u' / sqrt(1 - u^2)."""
-        return self._primitive(self.value.asin(), lambda u: 1 / (1 - u.sqr()).sqrt())
-
-    def acos(self) -> Jet:
-        """Return the jet of acos u, |u| < 1: y' = -u' / sqrt(1 - u^2)."""
-        return self._primitive(self.value.acos(), lambda u: -1 / (1 - u.sqr()).sqrt())
-
-    def asinh(self) -> Jet:
-        """Return the jet of asinh u: y' = u' / sqrt(1 + u^2)."""
-        return self._primitive(self.value.asinh(), lambda u: 1 / (1 + u.sqr()).sqrt())
-
-    def acosh(self) -> Jet:
-        """Return the jet of acosh u, u > 1: y' = u' / sqrt(u^2 - 1)."""
-        return self._primitive(self.value.acosh(), lambda u: 1 / (u.sqr() - 1).sqrt())
-
-    def atanh(self) -> Jet:
-        """Return the jet of atanh u: y' = u' / (1 - u^2)."""
-        return self._primitive(self.value.atanh(), lambda u: 1 / (1 - u.sqr()))
+    def log10(self) -> Jet:
+        """Return the jet of log u / log 10."""
+        return (self.log() / self._constant(10).log())._with_value(self.value.log10())
 
     def sqrt(self) -> Jet:
         """Return the jet of sqrt u, u > 0: y y = u."""
@@ -219,8 +257,61 @@ class Jet:
             y.append(rest / (2 * y[0]))
         return Jet(*y)
 
+    def pow(self, exponent: Any) -> Jet:
+        """Return the jet of u^v = exp(v log u), u > 0; for a constant v: u y' = v y u'."""
+        if isinstance(exponent, Jet):
+            value = self.value.pow(exponent.value)
+            return (exponent * self.log()).exp()._with_value(value)
+        value = self.value.pow(exponent)
+        u, y = self.coefficients, [value]
+        for k in range(1, len(u)):
+            terms = ((exponent * j - (k - j)) * u[j] * y[k - j] for j in range(1, k + 1))
+            y.append(sum(terms, 0 * value) / (k * u[0]))
+        return Jet(*y)
+
+    def hypot(self, other: Any) -> Jet:
+        """Return the jet of sqrt(u^2 + v^2), where it is not 0."""
+        v = self._constant(other)
+        return (self.sqr() + v.sqr()).sqrt()._with_value(self.value.hypot(v.value))
+
+    def atan2(self, x: Any) -> Jet:
+        """Return the jet of the angle of the points (x, y): (x y' - y x') / (x^2 + y^2).
+
+        DomainError where the box meets the cut y = 0, x <= 0, unless of order 0.
+        """
+        v = self._constant(x)
+        value = self.value.atan2(v.value)
+        if not (self.order and v.order):
+            return Jet(value)
+        if not _everywhere((v.value.inf > 0) | (self.value.mig > 0)):
+            raise DomainError("atan2 may jump where its derivatives are asked")
+        turn = (v * Jet(*self._slopes()[1:]) - self * Jet(*v._slopes()[1:])) / (
+            self.sqr() + v.sqr()
+        )
+        return Jet(value, *(_over(g, k) for k, g in enumerate(turn.coefficients, 1)))
+
     def __repr__(self) -> str:
         return f"Jet({', '.join(map(repr, self.coefficients))})"
+
+
+SLOPES: dict[str, Callable[[Jet], Jet]] = {  # g where y' = g(u) u'
+    "log": lambda u: 1 / u,
+    "log1p": lambda u: 1 / (1 + u),
+    "cbrt": lambda u: 1 / (3 * u.cbrt().sqr()),
+    "tan": lambda u: 1 / u.cos().sqr(),
+    "asin": lambda u: 1 / (1 - u.sqr()).sqrt(),
+    "acos": lambda u: -1 / (1 - u.sqr()).sqrt(),
+    "atan": lambda u: 1 / (1 + u.sqr()),
+    "tanh": lambda u: 1 / u.cosh().sqr(),
+    "asinh": lambda u: 1 / (1 + u.sqr()).sqrt(),
+    "acosh": lambda u: 1 / (u.sqr() - 1).sqrt(),
+    "atanh": lambda u: 1 / (1 - u.sqr()),
+}
+
+
+def _everywhere(mask: Any) -> bool:
+    """Whether a truth, of one number or of an array, holds everywhere."""
+    return mask if isinstance(mask, bool) else bool(mask.all())
 
 
 def _over(a: Any, b: Any) -> Any:

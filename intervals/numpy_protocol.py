@@ -19,17 +19,19 @@ _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says t
 Kind: TypeAlias = Any  # the class IntervalArray, whose module imports this one
 
 
-_OPERATORS: dict[Any, Callable[..., Any]] = {
+_ARITHMETIC: dict[Any, Callable[..., Any]] = {
     np.add: operator.add,
     np.subtract: operator.sub,
     np.multiply: operator.mul,
     np.divide: operator.truediv,
-    np.matmul: operator.matmul,
     np.power: operator.pow,
     np.negative: operator.neg,
     np.positive: operator.pos,
     np.absolute: operator.abs,
     np.fabs: operator.abs,
+}
+_OPERATORS: dict[Any, Callable[..., Any]] = _ARITHMETIC | {
+    np.matmul: operator.matmul,
     np.equal: operator.eq,
     np.not_equal: operator.ne,
     np.less: operator.lt,
@@ -70,6 +72,18 @@ def apply_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], op
     if ufunc in _OPERATORS:
         return _OPERATORS[ufunc](first, *others)
     return getattr(first if isinstance(first, kind) else kind(first), _METHODS[ufunc])(*others)
+
+
+def jet_ufunc(jet: Any, ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any) -> Any:
+    """Do what `__array_ufunc__` is asked for by a jet; TypeError for what jets do not do."""
+    if method != "__call__" or options or not (ufunc in _ARITHMETIC or ufunc in _METHODS):
+        raise TypeError(f"numpy.{ufunc.__name__} is not defined so for jets")
+    first, *others = inputs
+    if type(first) is not type(jet):  # an array, whose own operators would ask here again
+        first = 0 * jet + first
+    if ufunc in _ARITHMETIC:
+        return _ARITHMETIC[ufunc](first, *others)
+    return getattr(first, _METHODS[ufunc])(*others)
 
 
 def _exact(kind: Kind, x: Any) -> Any:

@@ -5,13 +5,14 @@ from fractions import Fraction
 from math import comb, factorial
 
 import flint
+import numpy as np
 import pytest
 import sympy
 from hypothesis import assume
 from hypothesis import strategies as st
 
 import intervals
-from intervals import Interval, Jet
+from intervals import DomainError, Interval, Jet
 from intervals.array import IntervalArray
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all, inside
@@ -135,6 +136,11 @@ def half(x, sign):
     return (x.exp() + sign * (-x).exp()) / 2
 
 
+def raised(x, exponent):
+    """x to the power, for x > 0."""
+    return (x.log() * exponent).exp()
+
+
 OURS = {
     "sinh": lambda x: x.sinh(),
     "cosh": lambda x: x.cosh(),
@@ -145,6 +151,25 @@ OURS = {
     "acosh": lambda x: (x * x + 2).acosh(),
     "atanh": lambda x: (x / 5).atanh(),
     "quotient of powers": lambda x: (x + 5) ** -2,
+    "cube": lambda x: (x + 1) ** 3,
+    "seventh power": lambda x: (x / 2) ** 7,
+    "cbrt": lambda x: (x * x + 1).cbrt(),
+    "cbrt below 0": lambda x: (-1 - x * x).cbrt(),
+    "exp2": lambda x: x.exp2(),
+    "exp10": lambda x: x.exp10(),
+    "log2": lambda x: (x * x + 1).log2(),
+    "log10": lambda x: (x * x + 1).log10(),
+    "rational power": lambda x: (x * x + 2) ** Fraction(-3, 2),
+    "real power": lambda x: (x * x + 2).pow(x),
+    "exponential": lambda x: 3**x,
+    "hypot": lambda x: np.hypot(3, x),
+    "atan2": lambda x: x.atan2(x * x + 1),
+    "atan2 of y > 0": lambda x: np.arctan2(x + 5, x),
+    "atan2 of y < 0": lambda x: intervals.atan2(-5, x),
+    "abs": lambda x: abs(x + 5) + np.abs(x - 5),
+    "maximum": lambda x: x.maximum(x - 1).maximum(-9),
+    "minimum": lambda x: np.minimum(7, intervals.minimum(x, x + 1)),
+    "steps": lambda x: (x / 100 + Fraction(1, 4)).floor() + np.rint(x / 100) + np.sign(x - 9),
 }
 THEIRS = FUNCTIONS | {  # the same from functions that Arb's series have
     "sinh": lambda x: half(x, -1),
@@ -156,6 +181,25 @@ THEIRS = FUNCTIONS | {  # the same from functions that Arb's series have
     "acosh": lambda x: (x * x + 2 + ((x * x + 2) ** 2 - 1).sqrt()).log(),
     "atanh": lambda x: ((5 + x) / (5 - x)).log() / 2,
     "quotient of powers": lambda x: 1 / ((x + 5) * (x + 5)),
+    "cube": lambda x: (x + 1) * (x + 1) * (x + 1),
+    "seventh power": lambda x: x * x * x * x * x * x * x / 128,
+    "cbrt": lambda x: raised(x * x + 1, flint.fmpq(1, 3)),
+    "cbrt below 0": lambda x: -raised(x * x + 1, flint.fmpq(1, 3)),
+    "exp2": lambda x: (x * flint.arb(2).log()).exp(),
+    "exp10": lambda x: (x * flint.arb(10).log()).exp(),
+    "log2": lambda x: (x * x + 1).log() / flint.arb(2).log(),
+    "log10": lambda x: (x * x + 1).log() / flint.arb(10).log(),
+    "rational power": lambda x: raised(x * x + 2, flint.fmpq(-3, 2)),
+    "real power": lambda x: raised(x * x + 2, x),
+    "exponential": lambda x: (x * flint.arb(3).log()).exp(),
+    "hypot": lambda x: (x * x + 9).sqrt(),
+    "atan2": lambda x: (x / (x * x + 1)).atan(),
+    "atan2 of y > 0": lambda x: flint.arb.pi() / 2 - (x / (x + 5)).atan(),
+    "atan2 of y < 0": lambda x: -flint.arb.pi() / 2 + (x / 5).atan(),
+    "abs": lambda x: 0 * x + 10,
+    "maximum": lambda x: x,
+    "minimum": lambda x: x,
+    "steps": lambda x: 0 * x - 1,
 }
 FUNCTIONS |= OURS
 
@@ -244,6 +288,65 @@ def test_functions_keep_the_order():
     for name in ("sin", "cos", "exp", "log", "sqrt", "tan", "atan", "sinh", "tanh", "acosh"):
         for order in range(ORDER + 1):
             assert getattr(Jet(*[Interval(2)] * (order + 1)), name)().order == order
+
+
+KINKS = {
+    "abs": (abs, 0),
+    "floor": (Jet.floor, 3),
+    "ceil": (np.ceil, -2),
+    "trunc": (np.trunc, 1),
+    "round_ties_to_even": (np.rint, Fraction(5, 2)),
+    "round_ties_to_away": (Jet.round_ties_to_away, Fraction(-1, 2)),
+    "sign": (np.sign, 0),
+    "maximum": (lambda x: x.maximum(2 - x), 1),
+    "minimum": (lambda x: x.minimum(1), 1),
+    "atan2": (lambda x: x.atan2(-1), 0),
+    "sqrt": (Jet.sqrt, 0),
+    "cbrt": (Jet.cbrt, 0),
+    "pow": (lambda x: x.pow(Fraction(1, 2)), 0),
+    "hypot": (lambda x: x.hypot(0), 0),
+}
+
+
+@pytest.mark.parametrize("name", KINKS)
+@pytest.mark.parametrize("kind", [Interval, lambda low, high: IntervalArray(["5.25", (low, high)])])
+def test_no_derivative_where_the_function_has_none(name, kind):
+    """Nor at a point at the end of the interval: a derivative is one from both sides."""
+    function, kink = KINKS[name]
+    far = Fraction(1, 10**6)
+    for low, high in ((kink, kink), (kink, kink + far), (kink, kink + Fraction(1, 4))):
+        assert function(Jet(kind(low, high))).order == 0
+        with pytest.raises(DomainError):
+            function(variable(kind(low, high), 1))
+        function(variable(kind(low + far, high + far), 1))
+
+
+def test_roots_of_what_crosses_0_have_no_value():
+    for function in (
+        Jet.sqrt,
+        Jet.log,
+        lambda x: x.pow(Fraction(1, 2)),
+        lambda x: x ** Interval(3),
+    ):
+        with pytest.raises(DomainError):
+            function(Jet(Interval(-1, 1)))
+
+
+def test_what_numpy_asks_of_jets():
+    x = variable(IntervalArray([1, 2]), 2)
+    for jet in (np.array([3, 4]) * x, np.multiply(np.array([3, 4]), x)):
+        assert jet.order == 2 and jet.value.contains(IntervalArray([3, 8])).all()
+    for wrong in (
+        lambda: np.array([0.5, 1.5]) + x,
+        lambda: np.add.reduce(x),
+        lambda: np.less(x, 1),
+        lambda: np.matmul(x, x),
+        lambda: np.add(x, x, out=np.zeros(2)),
+        lambda: np.isnan(x),
+        lambda: x.maximum("1"),
+    ):
+        with pytest.raises(TypeError):
+            wrong()
 
 
 # -- over IntervalArrays ---------------------------------------------------------------------------
