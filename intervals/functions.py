@@ -7,6 +7,7 @@ real number; else DomainError, since f(X) would then describe only a part of X.
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any, NamedTuple, Self, TypeVar
 
 _N = TypeVar("_N")
@@ -54,6 +55,12 @@ class Elementary:
     def __abs__(self) -> Self:
         raise NotImplementedError
 
+    def __neg__(self) -> Self:
+        raise NotImplementedError
+
+    def __sub__(self, other: Any) -> Self:
+        raise NotImplementedError
+
     def sqrt(self) -> Self:
         """Return the square root; the domain is x >= 0."""
         return self._monotone("sqrt")
@@ -61,6 +68,14 @@ class Elementary:
     def cbrt(self) -> Self:
         """Return the real cube root."""
         return self._monotone("cbrt")
+
+    def rootn(self, n: int) -> Self:
+        """Return the real n-th root, n >= 1; the domain is x >= 0 for even n."""
+        if n < 1:
+            raise ValueError("a root has a degree of at least 1")
+        if n % 2 == 0:
+            return self.pow(Fraction(1, n))
+        return self.maximum(0).pow(Fraction(1, n)) - (-self).maximum(0).pow(Fraction(1, n))
 
     def exp(self) -> Self:
         """Return e^x; OverflowError where it is beyond the range of the number type."""
@@ -255,3 +270,10 @@ hypot = _function_of_two("hypot")
 pow = _function_of_two("pow")
 minimum = _function_of_two("minimum")
 maximum = _function_of_two("maximum")
+
+
+def rootn(x: _N, n: int) -> _N:
+    """Enclose the real n-th root over x: see Elementary.rootn."""
+    if not isinstance(x, Elementary):
+        raise TypeError(f"rootn takes an Interval, an IntervalArray or a Jet, not {x!r}")
+    return x.rootn(n)

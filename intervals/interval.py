@@ -342,6 +342,15 @@ class Interval(Relations[bool], Elementary):
         p = self.precision
         return _make(mpf_sqrt(self._lo, p, DOWN), mpf_sqrt(self._hi, p, UP), p)
 
+    def rootn(self, n: int) -> Interval:
+        """Return the real n-th root, n >= 1; the domain is x >= 0 for even n."""
+        if n < 1:
+            raise ValueError("a root has a degree of at least 1")
+        if n % 2 == 0 and self._lo[0]:
+            raise DomainError("an even root of an interval that leaves x >= 0")
+        low, _ = tightest.root(self._lo, n, self.precision)
+        return _make(low, tightest.root(self._hi, n, self.precision)[1], self.precision)
+
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""
         p = self.precision

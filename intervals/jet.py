@@ -269,6 +269,10 @@ class Jet(Elementary):
             y.append(sum(terms, 0 * value) / (k * u[0]))
         return Jet(*y)
 
+    def rootn(self, n: int) -> Jet:
+        """Return the jet of the real n-th root of u != 0; u > 0 for even n."""
+        return abs(self).pow(Fraction(1, n)) * (1 if n % 2 == 0 else self.sign())
+
     def hypot(self, other: Any) -> Jet:
         """Return the jet of sqrt(u^2 + v^2), where it is not 0."""
         v = self._constant(other)
@@ -285,9 +289,8 @@ class Jet(Elementary):
             return Jet(value)
         if not _everywhere((v.value.inf > 0) | (self.value.mig > 0)):
             raise DomainError("atan2 may jump where its derivatives are asked")
-        turn = (v * Jet(*self._slopes()[1:]) - self * Jet(*v._slopes()[1:])) / (
-            self.sqr() + v.sqr()
-        )
+        turn = v * Jet(*self._slopes()[1:]) - self * Jet(*v._slopes()[1:])
+        turn = turn / (self.sqr() + v.sqr())
         return Jet(value, *(_over(g, k) for k, g in enumerate(turn.coefficients, 1)))
 
     def __repr__(self) -> str:

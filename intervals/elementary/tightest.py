@@ -14,7 +14,7 @@ the inequalities that each function names.
 
 from collections.abc import Callable
 
-from intervals.elementary.algebraic import cbrt, hypot, sqrt
+from intervals.elementary.algebraic import cbrt, hypot, root, sqrt
 from intervals.elementary.circular import acos, asin, atan, atan2, sincos, tan
 from intervals.elementary.exponential import cosh, exp, exp2, exp10, expm1, sinh, tanh
 from intervals.elementary.logarithm import acosh, asinh, atanh, log, log1p, log2, log10
@@ -33,6 +33,7 @@ __all__ = [
     "integer_power",
     "log",
     "power",
+    "root",
     "sincos",
 ]
 

@@ -200,6 +200,33 @@ def test_real_powers_need_a_positive_base(box):
             x.pow(y)
 
 
+@for_all(
+    st.fractions(-50, 50, max_denominator=1000),
+    st.fractions(0, 3, max_denominator=50),
+    st.integers(1, 9),
+    st.sampled_from([10, 53, 200]),
+)
+def test_roots_are_the_tightest(low, width, n, precision):
+    """y^n increases on y >= 0, and everywhere for odd n: it tells bounds of the root."""
+    low = low if n % 2 else abs(low)
+    for x in both(low, low + width, precision):
+        y = intervals.rootn(x, n)
+        (bottom, top), (low, high) = ends(y), ends(x)
+        assert bottom**n <= low and high <= top**n
+        inward = Fraction(1, 2 ** (precision - 1) if isinstance(x, Interval) else 2**49)
+        assert (bottom + abs(bottom) * inward) ** n > low or low == bottom == 0
+        assert (top - abs(top) * inward) ** n < high or high == top == 0
+
+
+def test_even_roots_of_negatives_and_roots_of_no_degree():
+    for x in (Interval(-1, 1), IntervalArray([-1, 1])):
+        with pytest.raises(DomainError):
+            x.rootn(4)
+        for degree in (0, -1):
+            with pytest.raises(ValueError, match="degree"):
+                x.rootn(degree)
+
+
 def test_exact_powers():
     assert Interval(0, 4).pow(Interval("1/2")) == Interval(0, 2)
     assert Interval(4) ** Fraction(-3, 2) == Interval("1/8")

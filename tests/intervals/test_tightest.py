@@ -318,19 +318,20 @@ def test_roots_of_powers_are_exact(data, precision):
     x = data.draw(numbers(precision))
     assert exact(FUNCTIONS["sqrt"](raw(x * x), precision)) == (x, x)
     assert exact(FUNCTIONS["cbrt"](raw(-(x**3)), precision)) == (-x, -x)
+    assert exact(tightest.root(raw(-(x**5)), 5, precision)) == (-x, -x)
     assert exact(tightest.hypot(raw(3 * x), raw(-4 * x), precision + 3)) == (5 * x, 5 * x)
 
 
-@for_all(st.integers(1, 2**64) | st.integers(1, 2**700))
-@example(7)
-@example(8)
-@example(63)
-@example(64)
-@example(10**300 - 1)
-@example(10**300)
-def test_the_integer_cube_root(n):
-    r = algebraic.integer_cbrt(n)
-    assert r**3 <= n < (r + 1) ** 3
+@for_all(st.integers(1, 2**64) | st.integers(1, 2**700), st.sampled_from([1, 2, 3, 5, 64]))
+@example(7, 3)
+@example(8, 3)
+@example(63, 3)
+@example(64, 3)
+@example(10**300 - 1, 3)
+@example(10**300, 3)
+def test_the_integer_root(m, n):
+    r = algebraic.integer_root(m, n)
+    assert r**n <= m < (r + 1) ** n
 
 
 @for_all(st.data(), precisions, tries=60)

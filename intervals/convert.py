@@ -1,0 +1,71 @@
+"""Numbers of other libraries: exact on the way in, enclosed on the way out.
+
+Each says by its type that it is meant as the number that it holds, unlike a float that was typed.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import TYPE_CHECKING, Any
+
+from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
+
+from intervals.elementary.tightest import DOWN, UP, Raw
+from intervals.exact import decimal_down, decimal_up, fraction
+from intervals.interval import Interval, _make
+
+if TYPE_CHECKING:
+    import flint
+
+
+def interval(value: Any, *, precision: int | None = None) -> Interval:
+    """Enclose a Decimal, an mpf or interval of mpmath, an arb of python-flint.
+
+    At `precision` bits it is the tightest enclosure. Without, it has 53, or as many as the number
+    has itself: a point then stays what it is, unless it is a Decimal. Infinities and NaN raise
+    ValueError, other types TypeError.
+    """
+    if isinstance(value, Decimal):
+        return Interval(fraction(str(value)), precision=precision or 53)
+    middle, low, high = _parts(value)
+    bits = precision or max(53, *(raw[3] for raw in (middle, low, high)))
+    return _make(mpf_add(middle, low, bits, DOWN), mpf_add(middle, high, bits, UP), bits)
+
+
+def _parts(value: Any) -> tuple[Raw, Raw, Raw]:
+    """Return m, a, b with [m + a, m + b] the number, or interval, of mpmath or python-flint."""
+    if hasattr(value, "mid_rad_10exp"):  # an arb, which has an _mpf_, too: its midpoint
+        if not value.is_finite():
+            raise ValueError(f"not a bounded interval: {value}")
+        middle, radius = (
+            from_man_exp(*map(int, part.man_exp())) for part in (value.mid(), value.rad())
+        )
+        return middle, mpf_neg(radius), radius
+    point = getattr(value, "_mpf_", None)
+    bounds = getattr(value, "_mpi_", point and (point, point))
+    if not bounds:
+        raise TypeError(f"not a Decimal, an mpf, an mpi or an arb: {value!r}")
+    low, high = bounds
+    if any(exponent and not mantissa for _, mantissa, exponent, _ in bounds):
+        raise ValueError(f"not a bounded interval: {value}")
+    return fzero, low, high
+
+
+def arb(x: Interval) -> flint.arb:
+    """Return a ball of python-flint that contains x; a point is its own."""
+    import flint
+
+    middle, radius = ((q.numerator, 1 - q.denominator.bit_length()) for q in (x.mid, x.rad))
+    return flint.arb(middle, radius)
+
+
+def mpi(x: Interval) -> Any:
+    """Return the same interval as mpmath's iv.mpf, whose own operations are not rigorous."""
+    from mpmath import iv
+
+    return iv.make_mpf((x._lo, x._hi))
+
+
+def decimals(x: Interval, digits: int) -> tuple[Decimal, Decimal]:
+    """Return the tightest decimals of so many significant digits around x."""
+    return Decimal(decimal_down(x.inf, digits)), Decimal(decimal_up(x.sup, digits))
