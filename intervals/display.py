@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from html import escape
 from typing import Any
 
-from intervals.exact import decimal_down, decimal_up
+from intervals.exact import decimal_down, decimal_places, decimal_up
 
 _DIGITS = 17  # significant digits, enough to tell binary64 numbers apart
 _ROWS = 20
@@ -18,6 +19,24 @@ _DOWN, _UP = (Context(prec=_DIGITS, rounding=mode) for mode in (ROUND_FLOOR, ROU
 def text(low: Fraction, high: Fraction, digits: int) -> str:
     """Return [low, high] in decimals of so many significant digits, rounded outward."""
     return f"[{decimal_down(low, digits)}, {decimal_up(high, digits)}]"
+
+
+def formatted(low: Fraction, high: Fraction, spec: str) -> str:
+    """Return [low, high] by a format specification, each end rounded outward.
+
+    "20" and ".20g" ask for 20 significant digits, ".20f" for as many after the point, ".20e" for a
+    power of ten behind 21 significant digits; other specifications raise ValueError.
+    """
+    asked = re.fullmatch(r"(\d+)|\.(\d+)([efg])", spec)
+    if asked is None:
+        raise ValueError(f"not a number of digits, nor .digits and e, f or g: {spec!r}")
+    digits, kind = int(asked[1] or asked[2]), asked[3]
+    if kind == "f":
+        return f"[{decimal_places(low, digits)}, {decimal_places(high, digits, up=True)}]"
+    if kind == "e":
+        first, last = map(Decimal, (decimal_down(low, digits + 1), decimal_up(high, digits + 1)))
+        return f"[{first or 0.0:.{digits}e}, {last or 0.0:.{digits}e}]"
+    return text(low, high, digits)
 
 
 def latex(low: Fraction, high: Fraction, digits: int) -> str:

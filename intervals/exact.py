@@ -77,6 +77,11 @@ def _decimal(integer: int, shift: int, digits: int) -> str:
     """Write integer * 10^-shift, where |integer| <= 10^digits, with `digits` significant digits."""
     if abs(integer) == 10**digits:
         integer, shift = integer // 10, shift - 1
+    return _placed(integer, shift)
+
+
+def _placed(integer: int, shift: int) -> str:
+    """Write integer * 10^-shift."""
     sign, text = "-" if integer < 0 else "", str(Decimal(abs(integer)))
     if shift <= 0:
         return sign + text + "0" * -shift
@@ -98,6 +103,12 @@ def decimal_up(value: Fraction, digits: int) -> str:
         return "0"
     scaled, shift = _scaled(value, digits)
     return _decimal(-(-scaled.numerator // scaled.denominator), shift, digits)
+
+
+def decimal_places(value: Fraction, places: int, *, up: bool = False) -> str:
+    """Return the next decimal of so many places after the point that is <= value, or >= value."""
+    scaled = value * 10**places
+    return _placed(-(-scaled // 1) if up else scaled // 1, places)
 
 
 def decimal_bounds(low: Fraction, high: Fraction, digits: int) -> tuple[str, str]:

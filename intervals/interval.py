@@ -522,13 +522,9 @@ class Interval(Relations[bool], Elementary):
         """Return decimals that enclose, about as many digits as the precision is worth."""
         return display.text(self.inf, self.sup, self._digits)
 
-    def __format__(self, digits: str) -> str:
-        """Return decimals that enclose: f"{x:20}" has 20 significant digits."""
-        if not digits:
-            return str(self)
-        if not digits.isdecimal():
-            raise ValueError(f"not a number of digits: {digits!r}")
-        return display.text(self.inf, self.sup, int(digits))
+    def __format__(self, spec: str) -> str:
+        """Return decimals that enclose: f"{x:20}" has 20 significant digits; also .6f, .6e, .6g."""
+        return display.formatted(self.inf, self.sup, spec) if spec else str(self)
 
     def _repr_latex_(self) -> str:
         return display.latex(self.inf, self.sup, self._digits)

@@ -23,6 +23,7 @@ from intervals.branch import (
     select,
     split,
 )
+from intervals.contractor import Formula, contracted, record
 from intervals.errors import DomainError
 from intervals.generic import meet
 from intervals.krawczyk import SystemResult, contract, krawczyk
@@ -40,19 +41,24 @@ def zeros(
     exactly one zero in the given box, and two such boxes different ones; AT_LEAST_ONE and UNDECIDED
     are as in `krawczyk`, and may also be about a zero of another box. No box: no zero.
 
-    Proof. Each sub-box X is replaced by its common part with the Krawczyk image of a larger X',
-    which has all zeros of X' and thus of X. Where there is exactly one in X', X is done, and so is
-    each sub-box within X'. A zero on the common face of two sub-boxes is inside the larger boxes of
-    both, and may be found twice: if the box of one zero is within the larger box of another, the
-    two are the same. Sub-boxes whose sides are below `tolerance` times those of the given box, and
-    those left after `limit` ones, are joined where they meet and examined by `krawczyk`.
+    Proof. Each sub-box X is cut by `contracted`, and replaced by its common part with the Krawczyk
+    image of a larger X', which has all zeros of X' and thus of X. Where there is exactly one in X',
+    X is done, and so is each sub-box within X'. A zero on the common face of two sub-boxes is
+    inside the larger boxes of both, and may be found twice: if the box of one zero is within the
+    larger box of another, the two are the same. Sub-boxes whose sides are below `tolerance` times
+    those of the given box, and those left after `limit` ones, are joined where they meet and
+    examined by `krawczyk`.
     """
     given = one_box(box)
     nothing = select(given, slice(0))
     found, small = [nothing], [nothing]
     waiting = given
+    formula = record(f, len(given))
     while len(waiting[0]):
         limit -= len(waiting[0])
+        waiting = _cut(formula, waiting) if formula else waiting
+        if not len(waiting[0]):
+            break
         more, waiting = _round(f, waiting)
         found += more
         for around in found[1:]:
@@ -65,6 +71,16 @@ def zeros(
     results = [r for one in _each(zero) for r in _in_given(f, one, given)]
     results += _examined(f, join(small), zero)
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
+
+
+def _cut(formula: Formula, boxes: Boxes) -> Boxes:
+    """Return parts of the boxes with all their zeros, by the forward-backward contractor."""
+    targets = [IntervalArray([0])] * len(formula.outputs)
+    rest = []
+    for part, answer in evaluated(lambda x: contracted(formula, x, targets), boxes):
+        smaller, empty = answer or (select(boxes, part), np.zeros(1, dtype=bool))
+        rest.append(select(smaller, ~empty))
+    return join(rest)
 
 
 def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:

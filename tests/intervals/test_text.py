@@ -57,9 +57,32 @@ def test_texts_that_are_no_intervals(text):
         Interval(text)
 
 
-@pytest.mark.parametrize("digits", ["x", "-3", ".5", "3f"])
+@for_all(boxes(53, ("grid", "power", "near one")), st.integers(0, 30))
+def test_formats_with_a_point_or_an_exponent_enclose(ends, digits):
+    x = Interval(*ends)
+    for kind, worth in (
+        ("f", lambda _: Fraction(10) ** -digits),
+        ("e", lambda e: abs(e) * Fraction(10) ** -digits),
+        ("g", lambda e: abs(e) * Fraction(10) ** (1 - digits)),
+    ):
+        if kind == "g" and not digits:
+            continue
+        low, high = (Fraction(end) for end in f"{x:.{digits}{kind}}".strip("[]").split(", "))
+        assert low <= x.inf and x.sup <= high
+        assert x.inf - low < worth(x.inf) or low == x.inf
+        assert high - x.sup < worth(x.sup) or high == x.sup
+
+
+def test_formats():
+    x = Interval("-0.00012345", "123456.789")
+    assert f"{x:.2f} {x:.0f}" == "[-0.01, 123456.79] [-1, 123457]"
+    assert f"{x:.3e} {x:.3g}" == "[-1.235e-4, 1.235e+5] [-0.000124, 124000]"
+    assert f"{Interval(0):.2e} {Interval(0, 1):.2f}" == "[0.00e+00, 0.00e+00] [0.00, 1.00]"
+
+
+@pytest.mark.parametrize("digits", ["x", "-3", ".5", "3f", ".f", ".3d", "10.3f", ".0g"])
 def test_formats_that_are_no_digits(digits):
-    with pytest.raises(ValueError, match="digits"):
+    with pytest.raises(ValueError, match="digit"):
         format(Interval(1), digits)
 
 
