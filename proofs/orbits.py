@@ -20,8 +20,10 @@ import csv
 import io
 import sys
 from argparse import ArgumentTypeError, Namespace
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from time import perf_counter
 
 from intervals import Interval, IntervalError, Undecided
@@ -43,6 +45,8 @@ from proofs.trusted.verdicts import Verdict
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
 _BOXES = 16  # of each branch, for the proof that f is C^1 there
 _LONGEST_PERIOD = 16
+_LONGEST_ORBITS = 20
+_AT_ONCE = 4000  # orbits
 _LONGEST_WORD = 256
 _SHOWN = 16  # rows on the screen
 _FAST_DIGITS = 14
@@ -58,6 +62,7 @@ exit status: 0 all points are proved and enclosed, 1 undecided: the horseshoe is
 examples:
   python -m proofs.orbits --period 3
   python -m proofs.orbits --word 0010 --digits 50
+  python -m proofs.orbits --cycles 20 --fast --csv orbits.csv
   python -m proofs.orbits --period 12 --csv orbits.csv
   python -m proofs.orbits --period 16 --fast --json - > orbits.json
 """
@@ -110,7 +115,8 @@ def main(arguments: list[str] | None = None) -> int:
         of = _parameters(options)
     except ValueError as error:
         parser.error(str(error))
-    asked = f"word {options.word}" if options.word else f"period {options.period}"
+    names = ("word", "period", "cycles")
+    asked = next(f"{name} {x}" for name in names if (x := getattr(options, name)))
     asked += ", binary64" if options.fast else f", {options.digits} digits"
     with answering(parser, options, asked, options.csv):
         return _answer(parser, of, options)
@@ -118,12 +124,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     """Print or write the periodic points; return the exit status."""
-    words = Words.rotations(options.word) if options.word else Words.of_length(options.period)
     places = None if options.fast else options.digits
     began = perf_counter()
     try:
         options.tell("the horseshoe")
-        found = periodic_points(horseshoe(of), words, places, options.tell)
+        found = _found(horseshoe(of), options, places)
     except (Undecided, IntervalError, OverflowError) as failure:
         print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
         return 1
@@ -133,8 +138,27 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     rows = [_row(point, shown) for point in found]
     write_target(parser, options.csv, lambda: _csv(rows))
     answer = {"parameters": _machine_form(of, places), "orbits": rows}
-    give(parser, options, answer, lambda _: _text(of, rows, len(words.cycles), seconds))
+    give(parser, options, answer, lambda _: _text(of, rows, bool(options.cycles), seconds))
     return 0
+
+
+def _found(of: ImpactMap, options: Namespace, places: int | None) -> list[PeriodicPoint]:
+    """Return the points of the words asked for, or one of each orbit, some orbits at a time."""
+    if not options.cycles:
+        word, period = options.word, options.period
+        words = Words.rotations(word) if word else Words.of_length(period)
+        return periodic_points(of, words, places, options.tell)
+    rows: list[PeriodicPoint] = []
+    for words in Words.of_orbits(options.cycles, _AT_ONCE):
+        tell = partial(_after, len(rows), options.tell)
+        points = periodic_points(of, words, places, tell)
+        rows += [points[cycle[0]] for cycle in words.cycles]
+    return rows
+
+
+def _after(orbits: int, tell: Callable[[str], None], stage: str) -> None:
+    """Tell a stage, and how many orbits are done."""
+    tell(f"{orbits} orbits; {stage}")
 
 
 def _parser() -> Parser:
@@ -142,6 +166,8 @@ def _parser() -> Parser:
     which = parser.add_mutually_exclusive_group(required=True)
     add, period = which.add_argument, whole("a period", _LONGEST_PERIOD)
     add("--period", type=period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}")
+    help_text = f"all orbits of least period N, 1 to {_LONGEST_ORBITS}, a row each"
+    add("--cycles", type=whole("a period", _LONGEST_ORBITS), metavar="N", help=help_text)
     add("--word", type=_word, metavar="W", help="one word of 0 and 1, with its rotations")
     add = parser.add_argument
     add("--fast", action="store_true", help="binary64 only, some 12 digits")
@@ -210,16 +236,24 @@ def _csv(rows: list[Answer]) -> str:
     return target.getvalue()
 
 
-def _text(of: Parameters, rows: list[Answer], orbits: int, seconds: float) -> str:
+def _text(of: Parameters, rows: list[Answer], by_orbit: bool, seconds: float) -> str:
     said = []
     for row in rows[:_SHOWN]:
         said.append(f"{row['word']}  period {row['period']}")
         said += [*lines("phase", row["phase"], 10), *lines("multiplier", row["multiplier"], 10)]
     if len(rows) > _SHOWN:
         said.append(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
-    said.append(
-        f"\n{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved to "
-        f"exist and to be the only one of its word in I0 = {show_range(of.left)}, "
-        f"I1 = {show_range(of.right)}; orbits: {orbits}, in {seconds:.2f} s"
-    )
+    sets = f"in I0 = {show_range(of.left)}, I1 = {show_range(of.right)}"
+    if by_orbit:
+        what = (
+            f"{len(rows)} orbits of least period {rows[0]['period']} {sets}, all that there are, "
+            "each with the phase of the first of its words"
+        )
+    else:
+        orbits = sum(Fraction(1, row["period"]) for row in rows)
+        what = (
+            f"{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved "
+            f"to exist and to be the only one of its word {sets}; orbits: {orbits}"
+        )
+    said.append(f"\n{what}, in {seconds:.2f} s")
     return "\n".join(said)

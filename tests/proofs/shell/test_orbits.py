@@ -7,7 +7,8 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +17,11 @@ from mpmath import mp, mpf
 from intervals import Interval, IntervalArray, Undecided
 from proofs import orbits
 from proofs.methods.orbits import periodic_points
-from proofs.methods.words import Words
+from proofs.methods.words import Words, lyndon
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
+ROOT = Path(__file__).parents[3]
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 EXACT = replace(
     PAPER,
@@ -129,6 +131,50 @@ def test_shorter_words_are_among_the_longer_ones():
         square = (row.multiplier[0] ** 2, row.multiplier[1] ** 2)
         assert square[0] <= twice.multiplier[1] and twice.multiplier[0] <= square[1]
         assert row.period == twice.period
+
+
+def determinant(exponent, longest):
+    """det(1 - L) of the operator L g = sum of |h'|^s g(h) over inverse branches h, from its traces.
+
+    The trace of L^n is the sum of m^-s / (1 - 1/m) over the multipliers m of the words of length n
+    (Ruelle 1976), and det(1 - z L) = exp(-sum of z^n/n tr L^n), here at z = 1 from its first terms.
+    """
+    series, terms = [mpf(1)], []
+    for n in range(1, longest + 1):
+        multipliers = [as_mpf(sum(row.multiplier) / 2) for row in points(n, None)]
+        terms.append(-sum(m**-exponent / (1 - 1 / m) for m in multipliers))
+        series.append(sum(terms[k] * series[n - 1 - k] for k in range(n)) / n)
+    return sum(series)
+
+
+def test_the_cycles_give_the_dimension_of_their_closure():
+    """det(1 - L_s) = 0 at the dimension s, which a certificate encloses by another method."""
+    claims = json.loads((ROOT / "reports" / "dimension.json").read_text())["claims"]
+    low, high = map(mpf, claims[0]["quantities"]["dimension"].values())
+    below, above = (determinant(x, 7) for x in (low - mpf(10) ** -13, high + mpf(10) ** -13))
+    assert below * above < 0
+
+
+def test_the_words_that_come_before_their_rotations():
+    """Against all words, sorted: the least of each orbit that is no power of a shorter one."""
+    for length, alphabet in ((1, "01"), (6, "01"), (4, "012")):
+        words = ["".join(letters) for letters in product(alphabet, repeat=length)]
+        turned = {w: [w[i:] + w[:i] for i in range(1, length)] for w in words}
+        assert list(lyndon(length, alphabet)) == [w for w in words if all(w < x for x in turned[w])]
+    counts = [1, 2, 3, 6, 9, 18, 30, 56, 99, 186, 335, 630, 1161]  # OEIS A001037
+    assert [sum(1 for _ in lyndon(n)) for n in range(2, 15)] == counts
+
+
+def test_orbits_one_by_one_are_those_of_all_words(capsys, monkeypatch):
+    monkeypatch.setattr(orbits, "_AT_ONCE", 4)
+    rows = answer(capsys, "--cycles", "7", "--fast")["orbits"]
+    every = {row.word: row for row in points(7, None)}
+    assert [row["word"] for row in rows] == list(lyndon(7)) and len(rows) == 18
+    for row in rows:
+        low, high = map(Fraction, row["phase"].values())
+        known = every[row["word"]]
+        assert low <= known.point[1] and known.point[0] <= high and high - low < 1e-11
+        assert row["period"] == 7
 
 
 @pytest.mark.slow
