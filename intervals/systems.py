@@ -28,13 +28,29 @@ def components(value: Any) -> list[Any]:
 
 
 def jacobian(f: Function, box: Box) -> tuple[list[Any], Matrix]:
-    """Enclose f_i and J_ij = d f_i / d x_j over a box, by a jet of order 1 for each j."""
+    """Enclose f_i and J_ij = d f_i / d x_j over a box, by jets of order 1.
+
+    Of arrays one evaluation has all derivatives, along a first axis; of Intervals each has its own.
+    """
+    if isinstance(box[0], IntervalArray):
+        return _all_at_once(f, box)
     columns = []
     for j in range(len(box)):
         jets = (Jet(x, 0 * x + int(i == j)) for i, x in enumerate(box))
         columns.append(components(f(*jets)))
     values = [jet.value for jet in columns[0]]
     return values, [[jet.derivative() for jet in row] for row in zip(*columns, strict=True)]
+
+
+def _all_at_once(f: Function, box: Box) -> tuple[list[Any], Matrix]:
+    directions = np.eye(len(box)).reshape(len(box), len(box), *(1 for _ in box[0].shape))
+    zero = np.zeros((1, *box[0].shape))
+    jets = (
+        Jet(x, IntervalArray.from_floats(row + zero))
+        for x, row in zip(box, directions, strict=True)
+    )
+    found = components(f(*jets))
+    return [jet.value for jet in found], [list(jet.derivative()) for jet in found]
 
 
 def approximate_inverse(matrix: Matrix) -> Matrix:
@@ -62,7 +78,15 @@ def dot(row: Iterable[Any], column: Iterable[Any]) -> Any:
 
 def matrix_product(a: Matrix, b: Matrix) -> Matrix:
     """Return the product of two matrices."""
+    if isinstance(a[0][0], IntervalArray):
+        product = _stacked(a) @ _stacked(b)
+        return [[product[..., i, j] for j in range(len(b[0]))] for i in range(len(a))]
     return [[dot(row, column) for column in zip(*b, strict=True)] for row in a]
+
+
+def _stacked(matrix: Matrix) -> Any:
+    """Return an array of matrices as one with the two axes of the matrix behind the others."""
+    return np.stack([np.stack(row, -1) for row in matrix], -2)
 
 
 def spread(row: list[Any], box: Box, i: int) -> Any:
