@@ -74,7 +74,9 @@ class Elementary:
         if n < 1:
             raise ValueError("a root has a degree of at least 1")
         if n % 2 == 0:
-            return self.pow(Fraction(1, n))
+            return self.sqrt().rootn(n // 2)
+        if n in (1, 3):
+            return self if n == 1 else self.cbrt()
         return self.maximum(0).pow(Fraction(1, n)) - (-self).maximum(0).pow(Fraction(1, n))
 
     def exp(self) -> Self:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 from math import inf
+from typing import TypeAlias
 
 import numpy as np
 
@@ -31,11 +32,21 @@ from intervals.newton import Roots
 from intervals.rounding import MAX
 from intervals.systems import Function, components
 
+Demand: TypeAlias = "tuple[Formula, list[IntervalArray]]"
+
 
 def zeros(
-    f: Function, box: Given, *, tolerance: float = 2.0**-30, limit: int = 100_000
+    f: Function,
+    box: Given,
+    *,
+    where: Function | None = None,
+    tolerance: float = 2.0**-30,
+    limit: int = 100_000,
 ) -> list[SystemResult]:
     """Return boxes that together contain all zeros of f in the given box, sorted.
+
+    where: a formula g; only zeros with g >= 0, in all components, are asked for, and others may or
+    may not be in the list.
 
     Theorem. The rest of the given box is free of zeros. A box with the outcome UNIQUE contains
     exactly one zero in the given box, and two such boxes different ones; AT_LEAST_ONE and UNDECIDED
@@ -53,10 +64,11 @@ def zeros(
     nothing = select(given, slice(0))
     found, small = [nothing], [nothing]
     waiting = given
-    formula = record(f, len(given))
+    formulas = _formulas(f, where, len(given))
     while len(waiting[0]):
         limit -= len(waiting[0])
-        waiting = _cut(formula, waiting) if formula else waiting
+        for formula in formulas:
+            waiting = _cut(formula, waiting)
         if not len(waiting[0]):
             break
         more, waiting = _round(f, waiting)
@@ -73,11 +85,17 @@ def zeros(
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
 
 
-def _cut(formula: Formula, boxes: Boxes) -> Boxes:
-    """Return parts of the boxes with all their zeros, by the forward-backward contractor."""
-    targets = [IntervalArray([0])] * len(formula.outputs)
-    rest = []
-    for part, answer in evaluated(lambda x: contracted(formula, x, targets), boxes):
+def _formulas(f: Function, where: Function | None, count: int) -> list[Demand]:
+    """Return f = 0 and g >= 0 as far as they can be recorded."""
+    demands = ((f, IntervalArray([0])), (where, IntervalArray.from_floats([0.0], [MAX])))
+    recorded = ((g and record(g, count), target) for g, target in demands)
+    return [(formula, [target] * len(formula.outputs)) for formula, target in recorded if formula]
+
+
+def _cut(demand: Demand, boxes: Boxes) -> Boxes:
+    """Return parts of the boxes with all that fulfil the demand."""
+    rest = [select(boxes, slice(0))]
+    for part, answer in evaluated(lambda x: contracted(demand[0], x, demand[1]), boxes):
         smaller, empty = answer or (select(boxes, part), np.zeros(1, dtype=bool))
         rest.append(select(smaller, ~empty))
     return join(rest)

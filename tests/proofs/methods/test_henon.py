@@ -26,7 +26,7 @@ from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
 HENON = henon("7/5", "3/10")
 CORNERS = [("-1.33", "0.42"), ("-1.06", "-0.5"), ("1.245", "-0.14"), ("1.32", "0.133")]
-CYCLES = {1: 1, 2: 1, 3: 0, 4: 1, 5: 0, 6: 2, 7: 4, 8: 7, 9: 6, 10: 10}
+CYCLES = dict(enumerate([1, 1, 0, 1, 0, 2, 4, 7, 6, 10, 14, 19, 32, 44, 72, 102, 166, 233], 1))
 
 
 @cache
@@ -143,6 +143,12 @@ def test_all_cycles_up_to_period_six():
 @pytest.mark.slow
 def test_all_cycles_of_the_periods_seven_to_ten():
     check_cycles(range(7, 11))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("period", [12, 13, 18])
+def test_all_cycles_of_long_periods(period):
+    check_cycles([period])
 
 
 def test_the_other_fixed_point_is_outside_the_quadrilateral():
