@@ -19,8 +19,9 @@ from proofs.trusted.verify import Rejected
 
 EPILOG = """\
 Reads DIR/ledger.json and the certificates beside it, and writes DIR/index.html, a page that needs
-nothing else and opens from the disk; DIR/ledger.md, the same as Markdown; DIR/figures/*.svg. What
-the certificates conclude is derived again; nothing is proved anew.
+nothing else and opens from the disk; DIR/ledger.md, the same as Markdown; DIR/theorem.md, what is
+proved of the motion at the paper's parameters; DIR/figures/*.svg. What the certificates conclude is
+derived again; nothing is proved anew.
 
 exit status: 0 written, 1 a package of the extra `report`, or pyodide, is missing,
              2 bad input (nothing is written), 3 the ledger says what its certificates do not prove

@@ -13,6 +13,7 @@ from proofs.report.figures import Certificates
 from proofs.report.findings import findings
 from proofs.report.ledger import ledger
 from proofs.report.pictures import pictures
+from proofs.report.theorem import theorem
 
 NEEDED = ("jinja2", "latex2mathml", "matplotlib")  # for the page, by the extra `report`
 INSTALL = "pip install 'impact-proofs[report]'"
@@ -41,7 +42,8 @@ def built(
     tell("certificates")
     found = findings(folder, documents)
     shown = pictures(documents, [claim.id for claim in found.claims])
-    files = {"ledger.md": ledger(found, shown), "figures/dependencies.svg": graph.svg(found)}
+    files = {"ledger.md": ledger(found, shown), "theorem.md": theorem(found)}
+    files["figures/dependencies.svg"] = graph.svg(found)
     if only_text:
         return files
     drawn = {}

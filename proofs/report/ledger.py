@@ -21,7 +21,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         f"# {PAPER_TITLE}: the claims, decided",
         summary(findings),
         "The same with proofs, search and formulas is [index.html](index.html), to be opened in a "
-        "browser.",
+        "browser; what is proved of the motion, on one page, is [theorem.md](theorem.md).",
         _table(
             ("verdict", "claims of the paper", "means"),
             [(_verdict(v), str(count), DEFINITIONS[v]) for v, count in tally(findings)],
@@ -74,7 +74,7 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
     for each in _statements(findings, (*decision.because, *decision.corrected)):
         label = f"{each.kind} {each.label}"
         if each.label in here:
-            parts.append(f'<a id="{each.label}"></a>**{label}.** {_text(findings, each)}')
+            parts.append(f'<a id="{each.label}"></a>**{label}.** {statement_text(findings, each)}')
         else:
             parts.append(f"See [{label}](#{each.label}): {markdown(each.conclusion.brief)}.")
     rest = RESTS.get(claim.id)
@@ -83,12 +83,12 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
     return parts
 
 
-def _text(findings: Findings, statement: Statement) -> str:
-    """Return a statement in full, what of it stands elsewhere as a link."""
+def statement_text(findings: Findings, statement: Statement, page: str = "") -> str:
+    """Return a statement in full, what of it stands elsewhere as a link, into a page or here."""
     return " ".join(
         markdown(part)
         if isinstance(part, str)
-        else f"[{part.kind} {part.label}](#{part.label}); moreover:"
+        else f"[{part.kind} {part.label}]({page}#{part.label}); moreover:"
         for part in findings.parts(statement)
     )
 

@@ -10,7 +10,8 @@ from proofs.report import __main__ as command
 from proofs.report.differences import facts, marked
 from proofs.report.inline import inlined, shortened
 from proofs.report.layout import enclosure, sentences
-from proofs.report.ledger import ledger
+from proofs.report.ledger import ledger, statement_text
+from proofs.report.theorem import CLAUSES, theorem
 from proofs.report.typeset import html, markdown
 from tests.proofs.report.conftest import REPORTS
 
@@ -104,6 +105,7 @@ def test_the_texts_of_every_claim_are_there(found, parsed):
 def test_what_is_committed_is_this_page(found, shown, page):
     assert (REPORTS / "index.html").read_text(encoding="utf-8") == page
     assert (REPORTS / "ledger.md").read_text(encoding="utf-8") == ledger(found, shown)
+    assert (REPORTS / "theorem.md").read_text(encoding="utf-8") == theorem(found)
 
 
 @pytest.mark.slow
@@ -117,6 +119,21 @@ def test_markdown_has_every_statement_once_and_no_broken_link(found):
         assert text.count(f"**{statement.kind} {statement.label}.** ") == 1
         for part in found.parts(statement):
             assert not isinstance(part, str) or markdown(part) in text
+
+
+@pytest.mark.slow
+def test_the_theorem_has_what_its_claims_prove_and_leads_to_the_ledger(found):
+    text, whole = theorem(found), (REPORTS / "ledger.md").read_text(encoding="utf-8")
+    asked = {each for _, ids in CLAUSES for each in ids}
+    assert asked <= {claim.id for claim in found.claims}
+    for _, link in re.findall(r"(!?)\[[^\]]*\]\(([^)\s]*)\)", text):
+        anchor = link.removeprefix("ledger.md#")
+        assert link == "ledger.md" or f'<a id="{anchor}"></a>' in whole, link
+    proved = [each for each in found.statements.values() if each.claim in asked]
+    assert len([each for each in proved if each.kind == "Theorem"]) == text.count("\n**")
+    for statement in proved:
+        shown = f"**{statement.label}.** {statement_text(found, statement, 'ledger.md')}" in text
+        assert shown == (statement.kind == "Theorem")
 
 
 def test_a_small_folder_makes_a_page_of_its_own(small, capsys):
