@@ -276,7 +276,7 @@ FAMILIES: tuple[tuple[str, Callable[..., Any], tuple[int, ...], int, int, Any], 
     ("economics", economics, (3, 4, 5, 6), -100, 100, {}),
     ("redeco", redeco, (4, 5, 6, 7, 8), -WIDE, WIDE, {6: 4, 7: 4, 8: 8}),
     ("Katsura", katsura, (3, 4, 5, 6), 0, 1, {}),
-)  # name, f, numbers of variables, ends of the box, number of zeros: of all, or by size  # fmt: skip
+)  # name, f, numbers of variables, ends of the box, number of zeros (by size)  # fmt: skip
 
 
 def systems() -> Iterator[System]:
