@@ -20,12 +20,14 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.landing import prove_never, prove_separation
 from proofs.motion.system import System
+from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.circle import (
     LONG,
     FixedPoint,
@@ -56,6 +58,9 @@ def prove(
         return found.evidence
     arc = found.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
     found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+    if "M6" in claims:
+        lemmas = Steps(digits, steps=prover.steps)
+        found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
         found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc).prove)
     found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))

@@ -15,6 +15,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
+from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
@@ -101,12 +102,15 @@ def fixed_point(context: Context, reader: Reader) -> FixedPoint:
 
 
 def _determined(of: Parameters, found: Found) -> Decision:
-    """M6: the gap has a first zero after every phase; after some it is but a touch."""
+    """M6: eta being rational, the gap has a first zero after every phase; after some but a touch.
+
+    Numbers are exact, so that no statement has an irrational eta: `unending` is beside it.
+    """
     del of
-    never = found.first(NeverImpacts)
+    never, irrational = found.first(NeverImpacts), unending.prove(found)
     if never is None:
         return undecided("no phase is proved to have no next impact, and none to have one")
-    return decided(Verdict.CONDITIONAL, never, corrected=[never])
+    return decided(Verdict.CONDITIONAL, never, corrected=filter(None, (never, irrational)))
 
 
 def _by_the_arc(verdict: Verdict, holds: Callable[[Separation], bool]) -> Decide:
