@@ -33,7 +33,7 @@ from proofs.trusted.paper.s34_circle.circle import (
     FixedPoint,
     repelling_fixed_point,
 )
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import Parameters
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10"}  # what rests on where the mass sticks
@@ -57,12 +57,12 @@ def prove(
     if not -1 < of.nu < 0 < of.eta < 1:
         return found.evidence
     arc = found.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
-    found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+    never = found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
     if "M6" in claims:
         lemmas = Steps(digits, steps=prover.steps)
         found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
-        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc).prove)
+        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
     found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))
     return found.evidence
 
@@ -98,12 +98,12 @@ def prove_arc(prover: Prover) -> tuple[str, Separation]:
     return prover.add("separation", witness), found
 
 
-def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
-    """Prove an interval around pi/2 without a next impact, to nine places the longest."""
-    low, high, centre, unit = 0, 10**9, Fraction(math.pi / 2), Fraction(1, 10**9)
+def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
+    """Prove an interval around pi/2 without a next impact, to twelve places the longest."""
+    low, high, centre, unit = 0, 10**12, Fraction(math.pi / 2), Fraction(1, 10**12)
 
     def around(reach: int) -> tuple[Fraction, Fraction]:
-        return round(centre - reach * unit, 9), round(centre + reach * unit, 9)
+        return round(centre - reach * unit, 12), round(centre + reach * unit, 12)
 
     while high - low > 1:
         middle = (low + high) // 2
