@@ -38,6 +38,10 @@ class Cutting(NamedTuple):
     images: Floats
     turns: Whole
 
+    def at(self, which: Whole) -> Cutting:
+        """Return some of the cuts."""
+        return Cutting(self[0][which], self[1][which], self[2][which], self[3][which])
+
 
 class Density(NamedTuple):
     """Bounds of |X'| at the ends of cells, lower phases first, and of its derivative between."""
@@ -63,7 +67,9 @@ class Links(NamedTuple):
             self.sparse * np.maximum(0, held[self.target] + inner),
             self.dense * np.minimum((width - held)[self.target], self.common),
         )
-        first, second, third = (np.bincount(self.source, x, minlength=count) for x in measures)
+        first, second, third = (
+            np.bincount(self.source, x, minlength=count).astype(float) for x in measures
+        )
         return first, second, third
 
 
@@ -84,12 +90,20 @@ class Mesh:
     sink: float | None
     parents: Whole = field(default_factory=lambda: np.zeros(0, np.int64))
     made: Cutting = field(
-        default_factory=lambda: Cutting(*(np.zeros(0, t) for t in (float, int, float, int)))
+        default_factory=lambda: Cutting(
+            np.zeros(0), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64)
+        )
     )
 
     def add(self, new: Cutting, parents: Whole) -> None:
         """Add cuts; parents: the cuts that are their images, as they were made, -1 if none."""
-        self.made = Cutting(*map(np.concatenate, zip(self.made, new, strict=True)))
+        old = self.made
+        self.made = Cutting(
+            np.concatenate([old.phases, new.phases]),
+            np.concatenate([old.branch, new.branch]),
+            np.concatenate([old.images, new.images]),
+            np.concatenate([old.turns, new.turns]),
+        )
         self.parents = np.concatenate([self.parents, parents])
 
     def add_preimages(self, branch: int, lifted: Floats, parents: Whole) -> None:
@@ -179,7 +193,7 @@ class Followed:
     def of(cls, mesh: Mesh, steps: int) -> Followed:
         """Follow the cells for so many steps."""
         order = np.argsort(mesh.made.phases)
-        cutting = Cutting(*(each[order] for each in mesh.made))
+        cutting = mesh.made.at(order)
         x = cutting.phases
         marks = np.concatenate([x, x + math.tau])
         on = (cutting.branch[1:] == cutting.branch[:-1]) & (cutting.branch[1:] >= 0)
@@ -189,10 +203,10 @@ class Followed:
         high = low + abs(np.diff(lifted))
         low, high = (_snapped(np.where(on, each, x[:-1]), marks) for each in (low, high))
         on &= high - low < math.tau - 1e-3
-        links = _links(marks, low, high, on, rising, mesh.density(cutting))
+        links = _links(marks, (low, high), on, _rising(mesh.density(cutting), rising))
         count = len(x)
         width = np.diff(marks[: count + 1])
-        landed, sink = (np.isin(x, each) for each in (mesh.landed, [mesh.sink]))
+        landed, sink = np.isin(x, list(mesh.landed)), x == mesh.sink
         moving = np.append(on, False) & ~landed
         left, held = np.where(landed, 0.0, width), np.where(sink, width, 0.0)
         for _ in range(steps):
@@ -248,15 +262,17 @@ def _snapped(values: Floats, marks: Floats) -> Floats:
     return np.where(abs(nearest - values) < _NEAR, nearest, values)
 
 
+def _rising(density: Density, rising: NDArray[np.bool_]) -> Density:
+    """Put the lower ends of the images first."""
+    below, above = (np.where(rising, *pair) for pair in (density.ends, density.ends[::-1]))
+    return Density((below, above), density.bend)
+
+
 def _links(
-    marks: Floats,
-    low: Floats,
-    high: Floats,
-    on: NDArray[np.bool_],
-    rising: NDArray[np.bool_],
-    density: Density,
+    marks: Floats, images: tuple[Floats, Floats], on: NDArray[np.bool_], density: Density
 ) -> Links:
     """Find the cells that images meet, and bound |X'| there by the mean value theorem."""
+    low, high = images
     first = np.searchsorted(marks, low, "right") - 1
     last = np.searchsorted(marks, np.where(on, high, low), "left")
     count = np.where(on, np.maximum(last - first, 1), 0)
@@ -264,7 +280,7 @@ def _links(
     target = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count) + first[source]
     begin = np.maximum(marks[target], low[source])
     end = np.minimum(marks[target + 1], high[source])
-    below, above = (np.where(rising, *pair) for pair in (density.ends, density.ends[::-1]))
+    below, above = density.ends
     down, up = (bend[source] for bend in density.bend)
     from_low = begin - low[source], end - low[source]
     to_high = high[source] - end, high[source] - begin

@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals import Interval, IntervalArray, Jet, Undecided
+from intervals import Interval, IntervalArray, Undecided
 from proofs.motion.covering import halves
 from proofs.motion.flight import Flight
 from proofs.motion.image import separation_phase
@@ -20,7 +19,13 @@ from proofs.motion.impact import impact_time, locate
 from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
-from proofs.trusted.equations import clock, gap, launch, launch_acceleration
+from proofs.trusted.equations import (
+    clock,
+    inverse_bend,
+    inverse_slope,
+    launch,
+    launch_acceleration,
+)
 from proofs.trusted.numbers import Phase, Phases, Range, within
 from proofs.trusted.paper.s34_circle.absorption import BRACKET
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse
@@ -105,12 +110,12 @@ class Cutting:
 def impact_before(system: System, phase: Fraction, about: Fraction) -> Fraction:
     """Return a time from which on the gap falls through 0 within `BRACKET`, or Undecided."""
     flight = Flight(system, (phase, phase), BITS)
-    for _ in range(3):
-        about -= flight.gap(about).mid / flight.gap(about, order=1).mid
+    for _ in range(4):
         time = short(about, 48) - BRACKET / 2
-        if flight.gap(time).certainly_positive():
-            if flight.gap(time + BRACKET).certainly_negative():
-                return time
+        height = flight.gap(time)
+        if height.certainly_positive() and flight.gap(time + BRACKET).certainly_negative():
+            return time
+        about = time - height.mid / flight.gap(time, order=1).mid
     raise Undecided("a time bracket at a cut is not proved")
 
 
@@ -159,14 +164,10 @@ def _up(system: System, phases: Range, time: Fraction, halvings: int) -> bool:
 def inverse_slopes(
     system: System, phases: IntervalArray, times: IntervalArray
 ) -> tuple[IntervalArray, IntervalArray]:
-    """Enclose 1/f' and its derivative in the image, as in rule `absorption`."""
-
-    def ratio(phi: IntervalArray | Jet, t: IntervalArray | Jet) -> Any:
-        start, now = launch(system.side, system.eta, system.nu, phi), clock(system.eta, t)
-        return gap(start, now, 1) / (now.mass_sin / system.eta * launch_acceleration(start))
-
-    first: IntervalArray = ratio(phases, times)
-    return first, ratio(Jet(phases, first), Jet(times, 1 - first)).derivative()
+    """Enclose 1/f' and its derivative in the image, for launches and impact times in boxes."""
+    start, now = launch(system.side, system.eta, system.nu, phases), clock(system.eta, times)
+    first: IntervalArray = inverse_slope(start, now)
+    return first, inverse_bend(start, now, first)
 
 
 def _floats(values: Sequence[Fraction]) -> NDArray[np.float64]:
@@ -183,7 +184,7 @@ def _ranges(values: IntervalArray) -> list[Range]:
     ]
 
 
-def reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:
+def reduced(image: Sequence[Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:
     """Yield the brackets of an image's ends, less multiples of 2 pi, of all parts on the line."""
     whole = turn(BITS)
     if image[1][1] - image[0][0] >= whole.inf:

@@ -17,20 +17,24 @@ from typing import Any
 
 import numpy as np
 
-from intervals import IntervalArray
-from proofs.methods.basin import Cutting, Density, Floats, Followed, Mesh, Piece, Whole
+from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
 from proofs.motion import landing
 from proofs.motion.kernel import float_clock, float_launch
-from proofs.motion.landing import impact_before, inverse_slopes, prove_cells, prove_lands, short
-from proofs.motion.phase import lifted
+from proofs.motion.landing import impact_before, prove_cells, prove_lands, short
+from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, Candidates
 from proofs.search.evidence import FAILED
 from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import Clock, gap, launch_acceleration
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.equations import (
+    Clock,
+    gap,
+    inverse_bend,
+    inverse_slope,
+    launch_acceleration,
+)
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
@@ -42,6 +46,7 @@ _PIECES = 16
 _EDGES = (5e-10, 8e-10, 1e-8, 1e-6)  # how far from grazing phases cells end
 _OUTSIDE = 1e-5  # how far outside of the line branches are looked for
 _MOST_TURNS = 10_000
+_WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
 _NAMED = Fraction(1, 10**4)  # the shortest intervals whose numbers of impacts are told
 _SPARE = Fraction(1, 10**9)  # what bounds are rounded by
@@ -60,10 +65,10 @@ class Partition:
     prover: Prover
     arc: tuple[str, Separation]
     never: tuple[str, NeverImpacts] | None = None
-    goal: float = 4e-6
+    goal: float = 5.9e-6
     most: int = 12_000
     turns: int = _MOST_TURNS
-    impacts: int = 100
+    impacts: int = 90
     cells: list[Cell] = field(default_factory=list)
     entries: dict[str, list[Any]] = field(default_factory=dict)
 
@@ -96,7 +101,7 @@ class Partition:
         self.entries["cells"] = []
         for index, branch in enumerate(branches.branches):
             at = np.flatnonzero(cuts.branch == index)
-            self._prove_cells(branches.names[index], branch, Cutting(*(x[at] for x in cuts)))
+            self._prove_cells(branches.names[index], branch, cuts.at(at))
         return self._conclude()
 
     def _mesh(self, pieces: _Pieces, between: Range) -> Mesh:
@@ -109,7 +114,8 @@ class Partition:
         mesh = Mesh(first, pieces.parts, pieces.inverse, pieces.density, landed, sink)
         none = np.full(len(fixed), -1)
         mesh.add(Cutting(fixed, none, fixed, np.zeros(len(fixed), np.int64)), none)
-        mesh.add(pieces.orbits(), np.full(len(pieces.orbits().phases), -1))
+        orbits = pieces.orbits()
+        mesh.add(orbits, np.full(len(orbits.phases), -1))
         mesh.seed()
         return mesh
 
@@ -139,12 +145,15 @@ class Partition:
 
     def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
         """Prove the cells of one branch between cuts."""
+        rows = zip(
+            *(column.tolist() for column in (cuts.phases, cuts.images, cuts.turns)), strict=True
+        )
         phases = [Fraction(x) for x in cuts.phases.tolist()]
-        lifted_ones = cuts.images + math.tau * cuts.turns
+        whole = turn(BITS).mid
         try:
             times = [
-                impact_before(self.system, x, Fraction(y) - x)
-                for x, y in zip(phases, lifted_ones.tolist(), strict=True)
+                impact_before(self.system, Fraction(x), Fraction(y) - Fraction(x) + n * whole)
+                for x, y, n in rows
             ]
             cutting = landing.Cutting(phases, times, _after(self.system, branch))
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
@@ -168,7 +177,7 @@ class Partition:
         sink = None
         if never is not None and place is not None:
             ends = [cells[i].phases for i in (place - 1, place + 1)]
-            sink = Sink(never, (ends[0], ends[1]), sunk, self.impacts)
+            sink = Sink(never, (ends[0], ends[1]), sunk)
         witness = {
             "separation": self.arc[0],
             "never": [] if self.never is None else [self.never[0]],
@@ -264,31 +273,14 @@ class _Pieces:
         return low
 
     def density(self, cuts: Cutting) -> Density:
-        """Bound 1/|f'| on the cells between cuts: nearly as it will be proved."""
+        """Guess bounds of 1/|f'| on the cells between cuts, from the values at their ends."""
+        start = float_launch(self.system, cuts.phases)
         now = self._now(cuts.phases, cuts.images, cuts.turns)
         with np.errstate(all="ignore"):
-            thin = abs(
-                gap(float_launch(self.system, cuts.phases), now, 1) / self._along(cuts.phases, now)
-            )
-        count = len(cuts.phases) - 1
-        down, up = np.full(count, np.nan), np.full(count, np.nan)
-        times = cuts.images + math.tau * cuts.turns - cuts.phases
-        for index, branch in enumerate(self.branches.branches):
-            at = np.flatnonzero((cuts.branch[1:] == index) & (cuts.branch[:-1] == index))
-            if not len(at):
-                continue
-            window = float(_after(self.system, branch)), float(max(branch.ends))
-            first, second = times[at], times[at + 1]
-            width = np.diff(cuts.phases)[at]
-            # the time of the launch at one end to the image at the other
-            early = np.clip(np.minimum(first - width, second), *window)
-            late = np.clip(np.maximum(first, second + width), *window)
-            low, high = cuts.phases[at], cuts.phases[at + 1]
-            phases = IntervalArray.from_floats(low, high)
-            _, bent = inverse_slopes(self.system, phases, IntervalArray.from_floats(early, late))
-            rising = self.parts[index].images[0] < self.parts[index].images[1]
-            down[at], up[at] = (bent.inf, bent.sup) if rising else (-bent.sup, -bent.inf)
-        return Density((thin[:-1], thin[1:]), (down, up))
+            first = inverse_slope(start, now)
+            bent = inverse_bend(start, now, first) * np.sign(first)
+        middle, spread = (bent[1:] + bent[:-1]) / 2, _WIDER * abs(np.diff(bent)) / 2
+        return Density((abs(first[:-1]), abs(first[1:])), (middle - spread, middle + spread))
 
     def orbits(self) -> Cutting:
         """Return the ends of the branches, and some of their images, with their images."""

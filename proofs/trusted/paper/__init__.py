@@ -21,7 +21,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
         "dimension": ("H13",),
         "chaos": ("G5", "G9", "G11"),
-        "circle": ("M6", "G1", "G2", "G3", "G4", "G6", "G10"),
+        "circle": ("M6", "G1", "G2", "G3", "G4", "G6", "G10", "G13"),
         "persistence": ("G7", "G8", "G12"),
         "single": ("P1", "P2", "P3", "P4", "P5", "P6"),
         "soft": tuple(f"S{number}" for number in range(1, 24)),

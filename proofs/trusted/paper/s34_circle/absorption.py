@@ -1,4 +1,4 @@
-"""Where phases end up (section 3.4): on the arc where the mass sticks, or off the table for ever."""
+"""Where phases end up (section 3.4): on the arc where the mass sticks, or off the table."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.flights import Motion, lifted, whole_turns
-from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, rational
+from proofs.trusted.equations import gap, inverse_bend, inverse_slope
+from proofs.trusted.flights import lifted, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
@@ -26,6 +25,7 @@ from proofs.trusted.numbers import (
     hull,
     increasing,
     show_range,
+    within,
 )
 from proofs.trusted.paper.s34_circle.cells import Absorbed, Cell, Inverse, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
@@ -44,15 +44,14 @@ _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 class Sink(Conclusion):
     """So much of the circle, at least, comes to phases that never impact again.
 
-    measure: of the phases with an iterate, the phase itself or one after so many `steps`, in
-    never.phases. ends: brackets of the ends of the longest interval of phases around it that never
-    impact again: at the outer end of each bracket there is an impact.
+    measure: of the phases with an iterate, the phase itself included, in never.phases. ends:
+    brackets of the ends of the longest interval of phases around it that never impact again: at
+    the outer end of each there is an impact.
     """
 
     never: NeverImpacts
     ends: tuple[Range, Range]
     measure: Fraction
-    steps: int
 
     def __post_init__(self) -> None:
         (low, first), (last, high) = self.ends
@@ -70,18 +69,23 @@ class Sink(Conclusion):
         return self.measure / TURN_AT_MOST
 
     @property
+    def quantities(self) -> dict[str, Range]:
+        first, last = self.ends
+        return {"never_impacts_from": first, "never_impacts_to": last}
+
+    @property
     def sentence(self) -> str:
         first, last = (between(end, 12) for end in self.ends)
         return (
-            f"{self.brief}, within {self.steps} impacts. The longest interval of such phases around "
+            f"{self.brief}. The longest interval of such phases around "
             f"{show_range(self.never.phases)} begins in {first} and ends in {last}."
         )
 
     @property
     def brief(self) -> str:
         return (
-            f"at least {floor_text(100 * self.share, 5)} percent of the circle come to phases after "
-            "which there is no impact, only touches without relative velocity, if any"
+            f"at least {floor_text(100 * self.share, 5)} percent of the circle come to phases after"
+            " which there is no impact, only touches without relative velocity, if any"
         )
 
 
@@ -152,10 +156,11 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     of cells between the cuts of each branch do not overlap, and lie on a line that reaches from
     before the separation phase, less 2 pi, to beyond the start of the sticking arc; at each cut the
     gap is > 0 at the time given and < 0 by 2^-40 later, both in the window of the branch, which
-    begins at `after` if gap > 0 then; sin(eta t) has one sign there. rest: bounds of what `absorbed`
-    leaves after 0, 1, ... steps; within: [low, high, n] such that all cells in [low, high] are
-    absorbed within n; sunk: a lower bound of what comes to the phases of the `never-impacts` step,
-    which have cells of branches no further than other cells on both sides. Conclusion: `Absorption`.
+    begins at `after` if gap > 0 then; sin(eta t) has one sign there. rest: bounds of what is left
+    after 0, 1, ... steps, by `absorbed`; within: [low, high, n] such that all cells in [low, high]
+    are absorbed within n; sunk: a lower bound of what comes to the phases of the `never-impacts`
+    step, between which and those of branches, on both sides, there is one cell. Conclusion:
+    `Absorption`.
 
     Proof. f' = (sin(eta t) / eta) A / gap' has one sign on a branch, so that f is monotone there
     and a cell's image lies between those of its ends, and has an inverse. Phases between cells form
@@ -170,12 +175,12 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     if origin > lifted(arc.phase, -1, BITS)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
     never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
-    cells += [Cell(tuple(each.phases)) for each in never]
+    cells += [Cell((each.phases[0], each.phases[1])) for each in never]
     for entry in cells_of.items():
         cells += _cells(context, entry, origin)
     cells = in_order([*cells, Cell((end, origin + whole_turns(1, BITS)[1]), ())])
     phases = [cell.phases for cell in cells]
-    if phases[0][0] < origin or phases[-1][0] < end:
+    if phases[0][0] < origin or phases[-1][0] != end:
         raise Unproved("cells lie beyond the line")
     place = phases.index(never[0].phases) if never else None
     rest, sunk = rest_of.numbers(1, _MOST_STEPS), sunk_of.number()
@@ -188,7 +193,7 @@ def absorption(context: Context, reader: Reader) -> Absorption:
         ends = phases[place - 1], phases[place + 1]
         if not all(cells[i].inverses for i in (place - 2, place + 2)):
             raise Unproved("no impact is proved near phases that never impact")
-        sink = Sink(never[0], ends, sunk, len(rest) - 1)
+        sink = Sink(never[0], ends, sunk)
     return Absorption(arc, rest, tuple(within), sink)
 
 
@@ -222,26 +227,41 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]
     if along.lo <= 0 <= along.hi:
         raise Unproved("f' is not proved to have one sign on a branch")
     sign = -1 if along.lo > 0 else 1
-    brackets = [(t, t + BRACKET) for t in times]
-    images = [branch.image(x, time) for x, time in zip(cuts, brackets, strict=True)]
-    ends = [
-        inverse_slope(branch.motion((x, x)), time).value
-        for x, time in zip(cuts, brackets, strict=True)
-    ]
+    known = [_impact(branch, x, t) for x, t in zip(cuts, times, strict=True)]
     for i, phases in enumerate(pairwise(cuts)):
-        low, high = (i, i + 1) if sign > 0 else (i + 1, i)
-        flight = (
-            max(window[0], images[low][0] - phases[1]),
-            min(window[1], images[high][1] - phases[0]),
-        )
-        bend = (sign * inverse_slope(branch.motion(phases), flight).derivative).range
-        slopes = [(sign * ends[j]).range for j in (low, high)]
-        turned = [*_reduced((images[low], images[high]), origin)]
+        (low, first), (high, last) = known[i : i + 2][::sign]
+        flight = max(window[0], low[0] - phases[1]), min(window[1], high[1] - phases[0])
+        motion = branch.motion(phases)
+        start, now = motion.start(), motion.clock(flight)
+        bend = inverse_bend(start, now, inverse_slope(start, now)) * sign
+        slopes = (first * sign).range, (last * sign).range
+        turned = [*_reduced((low, high), origin)]
         yield Cell(
             phases,
-            tuple((first[0], last[1]) for first, last in turned),
-            tuple(Inverse.of(pair, slopes, bend) for pair in turned),
+            tuple((begin[0], end[1]) for begin, end in turned),
+            tuple(Inverse.of(pair, slopes, bend.range) for pair in turned),
         )
+
+
+def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enclosure]:
+    """Enclose the image of a phase, not reduced, and 1/f': an impact within 2^-40 of a time.
+
+    Hypotheses: gap > 0 at the time, and by Taylor's formula with |gap''| <= |nu| + eta |nu| + eta^2
+    (1 + |nu|) gap < 0 by 2^-40 later, in the window of the branch.
+    """
+    window = branch.window(phase)
+    if not within((time, time + BRACKET), window):
+        raise Unproved("a bracket leaves the window of the first impact")
+    motion = branch.motion((phase, phase))
+    start, now = motion.start(), motion.clock((time, time))
+    eta, size = motion.eta, abs(motion.nu)
+    most, bits = BRACKET * (size + eta * size + eta * eta * (1 + size)), motion.bits
+    height, fall = motion.gap(start, (time, time)), gap(start, now, 1)
+    if height.lo <= 0 or height.range[1] + BRACKET * (fall.range[1] + most) >= 0:
+        raise Unproved("a bracket does not have the signs +, - at its ends")
+    fall, swing = fall + Enclosure.of(-most, most, bits), BRACKET * eta
+    near = now._replace(mass_sin=now.mass_sin + Enclosure.of(-swing, swing, bits))
+    return (phase + time, phase + time + BRACKET), inverse_slope(start, near, fall)
 
 
 def _up(branch: Branch, phases: Range, time: Fraction, halvings: int) -> bool:
@@ -251,24 +271,6 @@ def _up(branch: Branch, phases: Range, time: Fraction, halvings: int) -> bool:
     middle = (phases[0] + phases[1]) / 2
     halves = (phases[0], middle), (middle, phases[1])
     return halvings > 0 and all(_up(branch, half, time, halvings - 1) for half in halves)
-
-
-def inverse_slope(motion: Motion, time: Range) -> Dual:
-    """Enclose 1/f', for impacts at times in `time`, and its derivative in the image f(phi).
-
-    1/f' = gap' / ((sin(eta t) / eta) A). As the image y moves by dy, the phase moves by dy / f', and
-    the time by the rest.
-    """
-    eta, one = rational(motion.eta, motion.bits), rational(Fraction(1), motion.bits)
-
-    def ratio(phi: Enclosure | Dual, t: Range | Dual) -> Any:
-        start, now = motion.launch(phi), motion.clock(t)
-        return gap(start, now, 1) / (now.mass_sin / eta * launch_acceleration(start))
-
-    phi, t = Enclosure.of(*motion.phases, motion.bits), Enclosure.of(*time, motion.bits)
-    first: Enclosure = ratio(phi, time)
-    both: Dual = ratio(Dual(phi, first), Dual(t, one - first))
-    return both
 
 
 def _reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:

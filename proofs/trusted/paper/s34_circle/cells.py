@@ -21,6 +21,7 @@ from proofs.trusted.numbers import Range
 
 _BITS = 64
 _UNIT = 1 << _BITS
+_LEAST_GAIN = _UNIT >> 24  # of a sweep that is followed by another one
 _Units = tuple[int, int]
 
 
@@ -93,8 +94,8 @@ def in_order(cells: Sequence[Cell]) -> list[Cell]:
 
 
 class _Links(NamedTuple):
-    """The cells first, ..., last - 1 that an image meets; of the part in common with each one bounds
-    of |X'|, above and below, and its length, at most; and the length of the rest of that cell.
+    """The cells first, ..., last - 1 that an image meets: of the part in common with each bounds of
+    |X'|, above and below, and of its length; and of the length of the rest of that cell.
     """
 
     first: int
@@ -123,8 +124,10 @@ def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Lin
     first = max(0, bisect_left(marks, low) - 1)
     last = min(len(marks) - 1, bisect_right(marks, high))
     found = _Links(first, last, [], [], [], [])
-    METER.get().spend(4 + 16 * (last - first))
-    for j in range(first, last) if inverse else ():
+    METER.get().spend(4 + 12 * (last - first))
+    if inverse is None:
+        return found
+    for j in range(first, last):
         begin, end = max(low, marks[j]), min(high, marks[j + 1])
         least, most = inverse.density(begin, end)
         inner = max(begin, inverse.images[0][1]), min(end, inverse.images[1][0])
@@ -138,7 +141,7 @@ def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Lin
 class Absorbed(NamedTuple):
     """For each cell the number of steps within which all of it is absorbed, None if unknown; for
     n = 0, 1, ... a bound of the measure of all phases that are not absorbed within n; and a lower
-    bound of the measure of those that come to the sink within as many steps.
+    bound of the measure of those that come to the sink, sooner or later.
     """
 
     steps: Sequence[int | None]
@@ -158,40 +161,64 @@ def absorbed(
     one-to-one, with the inverse X, the phases of N_n are sent into N_(n-1): so their measure is
     the integral of |X'| over N_(n-1) in the image; over what is there of a cell j that is at most
     the maximum of |X'| times the bound for cell j, and times the common length. And it is at most
-    the cell's length. (3) So is the measure of the phases that do not come to the sink within n
-    steps, if the image lies in cells; and of those that do, those in cell j are in the image but
-    for the part of cell j that is not: the integral of |X'| over them is bounded from below.
+    the cell's length. (3) See `_sunk`.
     """
     ends = [cell.phases[0] for cell in cells] + [cells[-1].phases[1]]
     marks = [_outward((end, end))[0] for end in ends]
     lengths = [high - low + 1 for low, high in pairwise(marks)]
     links = [_links_of(marks, cell) for cell in cells]
     steps: list[int | None] = [None] * len(cells)
-    left, held = list(lengths), [0] * len(cells)
+    left = list(lengths)
     if arc is not None:
         steps[arc], left[arc] = 0, 0
-    if sink is not None:
-        held[sink] = lengths[sink] - 2
     rest, settled = [sum(left)], -1
     moving = [i for i, cell in enumerate(cells) if cell.inverses and i not in (arc, sink)]
     for n in range(1, count + 1):
-        METER.get().spend(sum(1 + len(link.dense) for i in moving for link in links[i]))
+        METER.get().spend(_work(links, moving))
         if settled != (settled := steps.count(None)):
             steps = [
                 n if known is None and _all_known(steps, met, cell) else known
                 for known, met, cell in zip(steps, links, cells, strict=True)
             ]
-        before, away, held_before = list(left), list(map(sub, lengths, held)), list(held)
+        before = list(left)
         for i in moving:
             left[i] = min(left[i], 1 + (sum(link.most(before) for link in links[i]) >> _BITS))
-            if sink is not None:
-                inside = sum(link.least(held_before) for link in links[i]) >> _BITS
-                outside = sum(link.most(away) for link in links[i]) >> _BITS
-                held[i] = max(held[i], inside, lengths[i] - 3 - outside)
         left = [bound if known is None else 0 for known, bound in zip(steps, left, strict=True)]
         moving = [i for i in moving if left[i]]
         rest.append(sum(left))
-    return Absorbed(steps, [Fraction(total, _UNIT) for total in rest], Fraction(sum(held), _UNIT))
+    sunk = 0 if sink is None else _sunk(lengths, links, moving, sink)
+    return Absorbed(steps, [Fraction(total, _UNIT) for total in rest], Fraction(sunk, _UNIT))
+
+
+def _sunk(
+    lengths: Sequence[int], links: Sequence[Sequence[_Links]], moving: Sequence[int], sink: int
+) -> int:
+    """Bound from below how much comes to a sink, from cells that f maps one-to-one.
+
+    Theorem. Let S be the set of phases that come to the sink. What is in a cell of S is what is
+    sent into S: its measure is the integral of |X'| over S in the image; and what is in cell j of
+    S is in the image, but for the part of cell j that is not. Nor is more of the cell outside of S
+    than is sent into the complement. Both hold with lower bounds of S, whatever their order.
+    """
+    held = [0] * len(lengths)
+    held[sink] = lengths[sink] - 2
+    away = list(map(sub, lengths, held))
+    gained = _UNIT
+    while gained > _LEAST_GAIN:
+        METER.get().spend(2 * _work(links, moving))
+        before = sum(held)
+        for i in moving:
+            inside = sum(link.least(held) for link in links[i]) >> _BITS
+            outside = sum(link.most(away) for link in links[i]) >> _BITS
+            held[i] = max(held[i], inside, lengths[i] - 3 - outside)
+            away[i] = lengths[i] - held[i]
+        gained = sum(held) - before
+    return sum(held)
+
+
+def _work(links: Sequence[Sequence[_Links]], moving: Sequence[int]) -> int:
+    """Return the work to follow cells one step."""
+    return sum(4 + (len(link.dense) >> 2) for i in moving for link in links[i])
 
 
 def _links_of(marks: Sequence[int], cell: Cell) -> list[_Links]:

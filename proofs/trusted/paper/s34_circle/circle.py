@@ -1,4 +1,4 @@
-"""The plastic map on the whole circle: M6 of section 2, G1 to G4, G6 and G10 of section 3.4.
+"""The plastic map on the whole circle: M6 of section 2, G1 to G4, G6, G10, G13 of section 3.4.
 
 Impacts can be counted in two ways after sticking: in section 2 f takes a sticking phase to the
 next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separation phase.
@@ -6,7 +6,7 @@ next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separ
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -16,7 +16,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
 from proofs.trusted.paper.s2_foundations import unending
-from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_arc
@@ -27,6 +27,8 @@ ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printe
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
 _MAJORITY = Fraction(1, 2)  # more than it is most of the circle
+_OPEN_SHARE = Fraction(1, 10**6)  # of the circle, of which G13 says nothing
+_END = Fraction(1, 10**9)  # how narrowly G13 brackets the ends of an interval
 _OPEN = Verdict.UNDECIDED
 _NOT_FOLLOWED = "no proof which phases reach the sticking arc"
 
@@ -134,39 +136,49 @@ def _is_the_printed_orbit(arc: Separation) -> bool:
     return arc.returns and all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
 
 
-def _basin(decide: Callable[[Absorption, NeverImpacts | None], Verdict]) -> Decide:
-    """Decide by how much of the circle is proved to come to the orbit, and how much not to."""
+def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Decide:
+    """Decide by how much of the circle is proved to come to the orbit, and what not to."""
 
     def decision(of: Parameters, found: Found) -> Decision:
         del of
-        known, never = found.first(Absorption), found.first(NeverImpacts)
+        known = found.first(Absorption)
         if known is None or not known.arc.returns:
             return undecided(_NOT_FOLLOWED)
-        most = Fraction(1) if never is None else 1 - never.share
-        basin = {"basin_fraction": (known.share, most)}
-        rest = [] if never is None else [never]
+        rest: list[Sink | NeverImpacts] = [known.sink] if known.sink else []
+        rest += found.all(NeverImpacts)[:1]
+        lost = max((each.share for each in rest), default=Fraction(0))
+        basin = {"basin_fraction": (known.share, 1 - lost)}
         nearby = (known.arc, known, *rest, *found.all(FixedPoint)[:1])
-        verdict = decide(known, never) if _is_the_printed_orbit(known.arc) else _OPEN
+        verdict = decide(known, rest) if _is_the_printed_orbit(known.arc) else _OPEN
         if verdict is _OPEN:
-            missing = f"{known.brief}; of the rest nothing is known"
+            missing = f"{known.brief}; of the rest not enough is known"
             return Decision(_OPEN, (), nearby, missing=missing, quantities=basin)
         return decided(verdict, known, *rest, corrected=nearby, known=basin)
 
     return decision
 
 
-def _most(known: Absorption, never: NeverImpacts | None) -> Verdict:
+def _most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G4: "all the initial conditions chosen", "most of the initial conditions": the latter says
     what of the circle; which ones were chosen the paper does not say.
     """
-    del never
+    del rest
     return Verdict.VERIFIED if known.share > _MAJORITY else _OPEN
 
 
-def _almost_every(known: Absorption, never: NeverImpacts | None) -> Verdict:
+def _almost_every(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G10: an interval of phases that never impact again refutes it."""
     del known
-    return _OPEN if never is None else Verdict.REFUTED
+    return Verdict.REFUTED if rest else _OPEN
+
+
+def _two_basins(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
+    """G13: by both basins, and the ends of the interval that ends one of them."""
+    del rest
+    if known.sink is None or known.share + known.sink.share < 1 - _OPEN_SHARE:
+        return _OPEN
+    widest = max(high - low for low, high in known.sink.ends)
+    return Verdict.VERIFIED if widest <= _END else _OPEN
 
 
 def _transient(of: Parameters, found: Found) -> Decision:
@@ -241,6 +253,16 @@ ROWS = (
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
         "every phase.",
         _basin(_almost_every),
+        PAPER.place,
+    ),
+    Row(
+        "G13",
+        "3.4",
+        "",
+        _AT + "all of the circle but for at most a millionth part of it comes either to the "
+        "periodic orbit that sticks, (4.64, 6.05) to the places printed, or to an interval of "
+        "phases, known to 10^-9 at both ends, after which there is no impact.",
+        _basin(_two_basins),
         PAPER.place,
     ),
 )
