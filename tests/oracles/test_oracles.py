@@ -199,6 +199,9 @@ FALSE = {
     "Absorption": [
         put("rest", lambda old: tuple(x / 100 for x in old)),
         put("within", (((F("1.57"), F("1.58")), 3),)),
+        _of("sink", put("measure", F(2))),
+        _of("sink", put("ends", lambda old: ((old[0][0] + F(1, 10**5), old[0][1]), old[1]))),
+        _of("sink", put("ends", lambda old: (old[0], (old[1][0], old[1][1] - F(1, 10**5))))),
     ],
     "SuperstableMotion": [
         *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),
