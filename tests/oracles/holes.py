@@ -135,7 +135,7 @@ def no_linear_set():
         },
         "more": {
             "rule": "excess",
-            "witness": {"root": "lone", "epsilon": "1/10", "word": "11"},
+            "witness": {"root": "lone", "level": "1"},
         },
     }
     return {**made, "proofs": {"H14": ["more"]}}

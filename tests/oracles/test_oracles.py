@@ -173,7 +173,7 @@ FALSE = {
     "Digits": [put("readings", (False, True)), put("printed", "0.46"), offs("value")],
     "ExactMeasure": LINEAR,
     "LinearDimension": [*LINEAR, offs("measure"), offs("root")],
-    "Excess": [*LINEAR, offs("excess"), put("epsilon", F(1))],
+    "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
     "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
     "Uncovered": LINEAR,
     "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
