@@ -23,10 +23,11 @@ from proofs.motion.system import System
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_absorbing import Partition
+from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, hull
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.circle import (
     LONG,
@@ -34,13 +35,15 @@ from proofs.trusted.paper.s34_circle.circle import (
     repelling_fixed_point,
 )
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6", "G10", "G13"}  # what rests on phases that never impact again
 _FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
-_REPELLED = {"G4", "G6", "G10"}  # what rests on a fixed point
+_REPELLED = {"G4", "G10"}  # what rests on a fixed point
 _NARROW = 12  # decimal places
+_SYMBOLS = 3  # of the full shift around all invariant sets of section 3
 _Found = TypeVar("_Found", bound=Conclusion)
 
 
@@ -64,6 +67,8 @@ def prove(
     if arc is not None:
         found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
     found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))
+    around = hull([of.interval, PRINTED])
+    found.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
     return found.evidence
 
 

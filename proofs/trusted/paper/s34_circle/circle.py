@@ -14,10 +14,21 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
+from proofs.trusted.numbers import (
+    Phase,
+    Phases,
+    Range,
+    between,
+    floor_text,
+    hull,
+    show_range,
+    within,
+)
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
+from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_arc
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
@@ -182,16 +193,16 @@ def _two_basins(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
 
 
 def _transient(of: Parameters, found: Found) -> Decision:
-    """G6: by a fixed point in [1.1, 1.5] and what surrounds it."""
-    del of
-    known = found.first(Absorption)
+    """G6: near all phases whose orbits stay in an interval, around the sets of H7 and of G5."""
+    known, never = found.first(Absorption), found.all(NeverImpacts)[:1]
     if known is None:
         return undecided(_NOT_FOLLOWED)
-    for fixed in found.all(FixedPoint):
-        if within(fixed.domain, LONG) and known.reaches((fixed.first[0], fixed.domain[0])):
-            never = found.all(NeverImpacts)[:1]
-            return decided(Verdict.VERIFIED, fixed, *never, corrected=[fixed, known, *never])
-    return undecided("no fixed point in [1.1, 1.5] beside phases that reach the sticking arc")
+    for shift in found.all(FullShift):
+        sets = hull([of.interval, PRINTED])
+        if within(shift.interval, LONG) and within(sets, shift.interval):
+            near = long_transients(shift, known)
+            return decided(Verdict.VERIFIED, near, *never, corrected=[near, shift, known, *never])
+    return undecided("no full shift in [1.1, 1.5] around the invariant sets")
 
 
 _AT = "At (eta, nu) = ({eta}, {nu}): "
@@ -242,7 +253,7 @@ ROWS = (
         "3.4, Figure 6",
         "very high near the invariant sets (in [1.1, 1.5])",
         _AT + "the number of impacts before the periodic orbit that sticks is reached is high, "
-        "without bound, near the invariant sets, in [1.1, 1.5].",
+        "without bound, near every phase of the invariant sets, in [1.1, 1.5].",
         _transient,
         PAPER.place,
     ),
