@@ -1,8 +1,8 @@
 """Sections 2 and 3.4: where the mass sticks, and how much of the circle ends up sticking.
 
-Claims M6, G1-G4, G6, G10 and G13: the sticking arc and the orbit through it, an interval of phases
-that never impact again, and a partition of the circle into cells whose images are followed until
-they stick, or never impact again.
+Claims M6, G1-G4, G6, G10, G13 and G14: the sticking arc and the orbit through it, an interval of
+phases that never impact again, and a partition of the circle into cells whose images are followed
+until they stick, or never impact again.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
-_NEVER = {"M6", "G4", "G6", "G10", "G13"}  # what rests on phases that never impact again
+_NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
 _FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
 _REPELLED = {"G4", "G10"}  # what rests on a fixed point
 _NARROW = 12  # decimal places

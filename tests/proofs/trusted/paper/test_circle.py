@@ -763,7 +763,7 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
     impact, leave = (lines["G3"].quantities[f"{x}_phase"] for x in ("impact", "separation"))
     assert Fraction("5.1728") < impact[0] < Fraction("5.1729")
     assert Fraction("6.2196") < leave[0] < Fraction("6.2197")
-    assert wanted("circle", of) == {"circle": ("M6",)}
+    assert wanted("circle", of) == {"circle": ("M6", "G14")}
     assert wanted("circle", of, ["G3"]) == {"circle": ("G3",)}
     assert wanted("circle", PAPER)["circle"] == CLAIMS
 
@@ -826,3 +826,40 @@ def _flight_times(phases):
         times[active] += np.where(flying, step, 0)
         active = active[flying]
     return times
+
+
+# -- touching for ever ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("epsilon", ["0.01", "0.5", "0.95"])
+@pytest.mark.parametrize("phase", ["1.5706", "1.5708", "1.571"])
+def test_weak_rebounds_after_ten_thousand_turns(epsilon, phase):
+    """Impacts by (14) at 50 digits: a little before a whole period, at about the launch's speed."""
+    epsilon, x, speed = mpf(epsilon), mpf(phase), mpf("1e-7")
+    period, drift, start = 20000 * mp.pi, mpf(0), x
+    for _ in range(5):
+        gamma = (-speed - NU * mp.cos(x)) / ETA  # -gap' = -(eta gamma + nu cos(phi))
+
+        def gap(t, x=x, gamma=gamma):
+            return -reference.left_side_14(ETA, NU, epsilon, x, gamma, t)
+
+        kick = epsilon * speed
+        tau = 2 * kick / reference.launch_acceleration(ETA, NU, x)
+        assert gap(period - 2 * tau) > 0 > gap(period - tau / 2)  # and > 0 before, but for launch
+        assert all(gap(mpf(t)) > 0 for t in (tau, "0.001", "0.1", "3", "30000", "62831"))
+        time = mp.findroot(gap, (period - 2 * tau, period - tau / 2), solver="anderson", tol=1e-60)
+        assert abs(time - (period - tau)) < 1e-3 * tau
+        speed = -mp.diff(gap, time)
+        assert abs(speed / kick - 1) < 1e-5
+        x, drift = x + time - period, drift + tau
+    assert abs(start - x - drift) < 1e-3 * drift
+    assert drift < 3 * mpf("1e-7") / (1 - epsilon) / mpf("0.2")
+
+
+def test_touching_needs_an_interval_without_impacts(never):
+    assert find("G14").decide(PAPER, []).verdict is Verdict.UNDECIDED
+    decision = find("G14").decide(PAPER, [never[1]])
+    assert decision.verdict is Verdict.VERIFIED
+    assert "after 10000 turns" in decision.theorem and "1.570570441202" in decision.theorem
+    elsewhere = replace(never[1], at=replace(PAPER, nu=Fraction("-0.3")).place)
+    assert find("G14").decide(PAPER, [elsewhere]).verdict is Verdict.UNDECIDED
