@@ -765,7 +765,7 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
     assert Fraction("6.2196") < leave[0] < Fraction("6.2197")
     assert wanted("circle", of) == {"circle": ("M6", "G14")}
     assert wanted("circle", of, ["G3"]) == {"circle": ("G3",)}
-    assert wanted("circle", PAPER)["circle"] == CLAIMS
+    assert wanted("circle", PAPER)["circle"] == (*CLAIMS, "G14")
 
 
 # -- the command's own numbers -------------------------------------------------------------------
