@@ -149,7 +149,7 @@ def sink(view, kept, counts, rng):
     if (first, last) != tuple(kept.never.phases):
         told.append("the brackets are not at the ends of the interval")
     for phase in (low, high):
-        found = flight(view.eta, view.nu, phase)
+        found = flight(view.eta, view.nu, phase, latest=_LONGEST)
         if found and not isinstance(found, Impact):
             told.append(f"after {float(phase):.12g}: {found}")
     share = sum(n <= min(len(view.rest) - 1, 12) for n in counts) / max(1, len(counts))
