@@ -12,16 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Interval, IntervalArray, Undecided
+from proofs.motion.covering import halves
 from proofs.motion.flight import Flight
 from proofs.motion.image import separation_phase
 from proofs.motion.impact import impact_time, locate
-from proofs.motion.kernel import Launches
 from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, level, prove_clear
-from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.numbers import Phase, Phases, Range
-from proofs.trusted.paper.s34_circle.absorption import BRACKET, Cell
+from proofs.trusted.equations import (
+    clock,
+    inverse_bend,
+    inverse_slope,
+    launch,
+    launch_acceleration,
+)
+from proofs.trusted.numbers import Phase, Phases, Range, within
+from proofs.trusted.paper.s34_circle.absorption import BRACKET
+from proofs.trusted.paper.s34_circle.cells import Cell, Inverse
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import (
     Lands,
@@ -30,6 +37,8 @@ from proofs.trusted.paper.s34_circle.landing import (
     closest_approach,
 )
 from proofs.trusted.parameters import Place
+
+_HALVINGS = 12
 
 
 def prove_separation(system: System, bits: int) -> tuple[Separation, list[Fraction]]:
@@ -98,67 +107,92 @@ class Cutting:
     after: Fraction
 
 
+def impact_before(system: System, phase: Fraction, about: Fraction) -> Fraction:
+    """Return a time from which on the gap falls through 0 within `BRACKET`, or Undecided."""
+    flight = Flight(system, (phase, phase), BITS)
+    for _ in range(4):
+        time = short(about, 48) - BRACKET / 2
+        height = flight.gap(time)
+        if height.certainly_positive() and flight.gap(time + BRACKET).certainly_negative():
+            return time
+        about = time - height.mid / flight.gap(time, order=1).mid
+    raise Undecided("a time bracket at a cut is not proved")
+
+
 def prove_cells(system: System, branch: Branch, at: Cutting, origin: Fraction) -> list[Cell]:
-    """Prove the time brackets; return the cells between the cuts."""
-    phases, early = _floats(at.cuts), _floats(at.times)
-    late = early + float(BRACKET)
-    heights = Launches(system, IntervalArray.from_floats(phases)).heights(np.stack((early, late)))
-    signs = heights[0].certainly_positive() & heights[1].certainly_negative()
-    pieces = np.maximum(0, np.searchsorted(_floats(branch.cuts), phases) - 1)
-    ends = _floats(branch.ends)[pieces]
-    if not (signs & (early >= float(at.after)) & (late <= ends)).all():
-        raise Undecided("a time bracket at a cut is not proved")
-    cells = list(pairwise(at.cuts))
-    for cell in cells if at.after > branch.begin else ():
-        if level(Flight(system, cell, BITS), at.after)[0] <= 0:
-            raise Undecided("an impact before the time given is not excluded")
-    last = max(branch.ends)
-    along = Flight(system, (at.cuts[0], at.cuts[-1]), BITS).clock(at.after, last)
-    if along.mass_sin.contains_zero():
+    """Prove the cells between the cuts, at which the times are those of `impact_before`."""
+    if not within((at.cuts[0], at.cuts[-1]), branch.phases):
+        raise Undecided("a phase outside the branch")
+    pieces = np.maximum(0, np.searchsorted(_floats(branch.cuts), _floats(at.cuts)) - 1)
+    ends = [branch.ends[piece] for piece in pieces.tolist()]
+    if any(t < at.after or t + BRACKET > end for t, end in zip(at.times, ends, strict=True)):
+        raise Undecided("a bracket leaves the window of the first impact")
+    if at.after > branch.begin and not _up(system, (at.cuts[0], at.cuts[-1]), at.after, _HALVINGS):
+        raise Undecided("an impact before the time given is not excluded")
+    window = at.after, max(branch.ends)
+    along = Flight(system, (at.cuts[0], at.cuts[-1]), BITS).clock(*window).mass_sin
+    if along.contains_zero():
         raise Undecided("f' is not proved to have one sign on a branch")
+    sign = -1 if along.certainly_positive() else 1
     arrivals = [(x + t, x + t + BRACKET) for x, t in zip(at.cuts, at.times, strict=True)]
-    images = [(min(u[0], v[0]), max(u[1], v[1])) for u, v in pairwise(arrivals)]
+    cells = list(pairwise(at.cuts))
+    pairs = [pair[::sign] for pair in pairwise(arrivals)]
     flights = [
-        (max(at.after, low - b), min(last, high - a))
-        for (a, b), (low, high) in zip(cells, images, strict=True)
+        (max(window[0], low[0] - b), min(window[1], high[1] - a))
+        for (a, b), (low, high) in zip(cells, pairs, strict=True)
     ]
-    rows = zip(cells, images, _stretches(system, cells, flights), strict=True)
-    return [Cell(cell, tuple(reduced(image, origin)), factor) for cell, image, factor in rows]
+    brackets = [(t, t + BRACKET) for t in at.times]
+    thin, _ = inverse_slopes(system, _array([(x, x) for x in at.cuts]), _array(brackets))
+    _, bent = inverse_slopes(system, _array(cells), _array(flights))
+    slopes, bends = (_ranges(values * sign) for values in (thin, bent))
+    found = []
+    for cell, pair, ends_of, bend in zip(cells, pairs, pairwise(slopes), bends, strict=True):
+        turned = list(reduced(pair, origin))
+        images = tuple((first[0], last[1]) for first, last in turned)
+        inverses = tuple(Inverse.of(each, ends_of[::sign], bend) for each in turned)
+        found.append(Cell(cell, images, inverses))
+    return found
+
+
+def _up(system: System, phases: Range, time: Fraction, halvings: int) -> bool:
+    """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
+    if level(Flight(system, phases, BITS), time)[0] > 0:
+        return True
+    return halvings > 0 and all(_up(system, half, time, halvings - 1) for half in halves(phases))
+
+
+def inverse_slopes(
+    system: System, phases: IntervalArray, times: IntervalArray
+) -> tuple[IntervalArray, IntervalArray]:
+    """Enclose 1/f' and its derivative in the image, for launches and impact times in boxes."""
+    start, now = launch(system.side, system.eta, system.nu, phases), clock(system.eta, times)
+    first: IntervalArray = inverse_slope(start, now)
+    return first, inverse_bend(start, now, first)
 
 
 def _floats(values: Sequence[Fraction]) -> NDArray[np.float64]:
     return np.array([float(value) for value in values])
 
 
-def _stretches(
-    system: System, phases: Sequence[Range], flights: Sequence[Range]
-) -> list[Fraction | None]:
-    """Bound 1/|f'| over the cells."""
-    launches = Launches(system, _array(phases))
-    now = launches.clock(_array(flights))
-    along = now.mass_sin / system.eta * launch_acceleration(launches.start)
-    speeds: IntervalArray = gap(launches.start, now, 1)
-    known = along.certainly_positive() | along.certainly_negative()
-    bounds: list[Fraction | None] = [None] * len(phases)
-    found = (speeds[known] / along[known]).mag
-    for index, value in zip(np.flatnonzero(known).tolist(), found.tolist(), strict=True):
-        bounds[index] = Fraction(value)
-    return bounds
-
-
 def _array(ranges: Sequence[Range]) -> IntervalArray:
     return IntervalArray([Interval(low, high, precision=100) for low, high in ranges])
 
 
-def reduced(image: Range, origin: Fraction) -> Iterator[Range]:
-    """Yield the images, less multiples of 2 pi, that meet [origin, origin + 2 pi]."""
+def _ranges(values: IntervalArray) -> list[Range]:
+    return [
+        *zip(map(Fraction, values.inf.tolist()), map(Fraction, values.sup.tolist()), strict=True)
+    ]
+
+
+def reduced(image: Sequence[Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:
+    """Yield the brackets of an image's ends, less multiples of 2 pi, of all parts on the line."""
     whole = turn(BITS)
-    if image[1] - image[0] >= whole.inf:
+    if image[1][1] - image[0][0] >= whole.inf:
         raise Undecided("a cell's image is longer than the circle")
-    count = int((image[0] - origin) // whole.sup) - 1
+    count = int((image[0][0] - origin) // whole.sup) - 1
     for turns in range(count, count + 4):
-        low, high = lifted(image, -turns, BITS)
-        if high >= origin and low <= origin + whole.sup:
+        low, high = (lifted(end, -turns, BITS) for end in image)
+        if high[1] >= origin and low[0] <= origin + whole.sup:
             yield low, high
 
 

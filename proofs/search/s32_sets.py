@@ -19,9 +19,16 @@ from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets, places
 from proofs.search.steps import Prover
-from proofs.trusted.numbers import Range, decimal_between, within
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range, within
 from proofs.trusted.paper.s32_sets.invariant import follow
-from proofs.trusted.paper.s32_sets.linear import Excess, LinearDimension, LinearSet, linear_sets
+from proofs.trusted.paper.s32_sets.linear import (
+    LEVELS,
+    Excess,
+    LinearDimension,
+    LinearSet,
+    linear_sets,
+)
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
@@ -99,18 +106,16 @@ class _Linear:
         return [(self.prover.add("linear-set", {"root": name}), found)]
 
     def excesses(self) -> Proof:
-        """Compare |L'|^s with |L|^s + epsilon / 4 at n = 1, L = I_11 and a large epsilon."""
+        """Find the least n from which on (11) fails for every epsilon."""
         proof: Proof = []
         for given in linear_sets(self.of):
             name, root = self.root(given.ratios)
-            longest, (low, high) = given.ratios[1], given.interval
-            most, size = longest - longest**2, longest**2 * (high - low)
-            epsilon = decimal_between(most * Fraction(9, 10), most)
-            larger = self._power(size + epsilon / 4, root.root)
-            excess = larger - self._power(size, root.root) - epsilon / 4
-            found = Excess(given.ratios, given.interval, epsilon, "11", (excess.inf, excess.sup))
-            witness = {"root": name, "epsilon": str(epsilon), "word": "11"}
-            proof.append((self.prover.add("excess", witness), found))
+            for level in range(1, LEVELS):
+                with suppress(Unproved):
+                    found = Excess(given.ratios, given.interval, root.root, level)
+                    witness = {"root": name, "level": str(level)}
+                    proof.append((self.prover.add("excess", witness), found))
+                    break
         return proof
 
     def _power(self, base: Fraction, exponent: Range) -> Interval:

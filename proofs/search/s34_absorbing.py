@@ -1,8 +1,8 @@
-"""A partition of the circle into cells, and what a map sends into the sticking arc: the search.
+"""A partition of the circle into cells, and what a map sends where: the search.
 
 On the line from the separation phase, less 2 pi, to the start of the sticking arc: phases that land
-on the arc at once, on both sides; between them branches of f, cut into cells; and grazing phases,
-where f jumps, in narrow cells of their own. The theorem is rule `absorption`.
+on the arc at once, on both sides; between them branches of f, cut into cells; between branches
+grazing phases, where f jumps, and the phases that never impact. The theorem is rule `absorption`.
 """
 
 from __future__ import annotations
@@ -12,50 +12,44 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import groupby, pairwise
+from itertools import groupby
 from typing import Any
 
 import numpy as np
 
-from intervals import Undecided
-from proofs.methods.basin import Cuts, Sampled
-from proofs.motion.flight import Flight
-from proofs.motion.impact import first_impact
+from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
+from proofs.motion import landing
 from proofs.motion.kernel import float_clock, float_launch
-from proofs.motion.landing import (
-    Cutting,
-    prove_cells,
-    prove_lands,
-    reduced,
-    short,
-)
-from proofs.motion.phase import lifted
+from proofs.motion.landing import impact_before, prove_cells, prove_lands, short
+from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, Candidates
 from proofs.search.evidence import FAILED
 from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import gap, launch_acceleration
-from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import (
-    BRACKET,
-    Absorption,
-    Cell,
-    absorbed,
-    in_order,
+from proofs.trusted.equations import (
+    Clock,
+    gap,
+    inverse_bend,
+    inverse_slope,
+    launch_acceleration,
 )
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
+from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 
 _GRID = 2000
-_SAMPLES = 40
 _PIECES = 16
-_EDGE = Fraction(1, 2**22)  # how far from grazing phases cells end
-_LEAN = 2e-8  # more than the brackets of images are wide
-_SHORT_FLIGHTS = Fraction(150)
-_CLOSE = Fraction(1, 2**40)
+_EDGES = (5e-10, 8e-10, 1e-8, 1e-6)  # how far from grazing phases cells end
 _OUTSIDE = 1e-5  # how far outside of the line branches are looked for
+_MOST_TURNS = 10_000
+_WIDER = 6  # than between its ends what is proved of the derivative may be
+_ONWARD = 60  # images of the ends of branches that are cuts
+_NAMED = Fraction(1, 10**4)  # the shortest intervals whose numbers of impacts are told
+_SPARE = Fraction(1, 10**9)  # what bounds are rounded by
 Turn = int | None
 
 
@@ -63,15 +57,18 @@ Turn = int | None
 class Partition:
     """The cells, and the steps that prove them; `arc`: the step `separation`.
 
-    Cells are not made narrower than `finest`, flights over more than `turns` turns of the table
-    are left out, and `impacts` impacts are followed.
+    never: the step `never-impacts`, if there is one. Cells are made finer until `goal`, a measure,
+    is all that this is thought to gain, or there are `most` cuts; flights over more than `turns`
+    turns of the table are left out, and `impacts` impacts are followed.
     """
 
     prover: Prover
     arc: tuple[str, Separation]
-    finest: float = 1e-4
-    turns: int = 3000
-    impacts: int = 100
+    never: tuple[str, NeverImpacts] | None = None
+    goal: float = 5.9e-6
+    most: int = 12_000
+    turns: int = _MOST_TURNS
+    impacts: int = 90
     cells: list[Cell] = field(default_factory=list)
     entries: dict[str, list[Any]] = field(default_factory=dict)
 
@@ -87,34 +84,40 @@ class Partition:
         return short(lifted(arc.phase, -1, BITS)[0], 24), short(arc.start[1], 24) + unit
 
     def prove(self) -> tuple[str, Absorption]:
-        """Prove how much of the circle is absorbed by the sticking arc (rule absorption)."""
+        """Prove how much of the circle ends up where (rule absorption)."""
         between = self._prove_lands()
-        branches = Branches(self.system, Candidates(self.system, self.turns))
+        turns = min(self.turns, self.system.eta.denominator)
+        branches = Branches(self.system, Candidates(self.system, turns), _EDGES)
         first, last = float(between[0]) - _OUTSIDE, float(between[1]) + _OUTSIDE
         for low, high in branches.candidates.runs(first, last, _GRID):
             try:
                 branches.prove(self.prover, low, high)
             except FAILED:
                 continue  # nothing is known there
-        pieces = [
-            (
-                max(short(one.phases[0], 40) + _EDGE, between[0]),
-                min(short(one.phases[1], 40) - _EDGE, between[1]),
-            )
-            for one in branches.branches
-        ]
-        self._prove_grazing(pieces)
-        samples = [_sampled(branches.candidates, *piece) for piece in pieces]
-        seeds = {*self.line, *between, *(end for piece in pieces for end in piece)}
-        cuts = Cuts(samples, lambda i, x, y: self._refine(samples[i], x, y), self.finest)
-        cuts.grow(map(float, seeds), [float(self.arc[1].phase[0])])
-        moved = cuts.lean(self._sides(cuts))
+        pieces = _Pieces(self.system, branches, between, float(self.line[0]))
+        mesh = self._mesh(pieces, between)
+        found = mesh.grow(self.goal, self.most, self.impacts)
+        cuts = mesh.leaning(found.absorbed)
         self.entries["cells"] = []
-        for index, piece in enumerate(pieces):
-            inside = [moved[x] for x in cuts.cuts if x in moved and piece[0] < x < piece[1]]
-            ends = zip(map(float, piece), samples[index].images[[0, -1]], strict=True)
-            self._prove_cells(branches, index, sorted([*ends, *inside]))
+        for index, branch in enumerate(branches.branches):
+            at = np.flatnonzero(cuts.branch == index)
+            self._prove_cells(branches.names[index], branch, cuts.at(at))
         return self._conclude()
+
+    def _mesh(self, pieces: _Pieces, between: Range) -> Mesh:
+        """Return the mesh with its first cuts: ends, some of their images, and preimages."""
+        first, last = map(float, self.line)
+        never = () if self.never is None else map(float, self.never[1].phases)
+        fixed = np.array([first, last, *never])
+        landed = [first, float(between[1]), last]
+        sink = fixed[2] if self.never else None
+        mesh = Mesh(first, pieces.parts, pieces.inverse, pieces.density, landed, sink)
+        none = np.full(len(fixed), -1)
+        mesh.add(Cutting(fixed, none, fixed, np.zeros(len(fixed), np.int64)), none)
+        orbits = pieces.orbits()
+        mesh.add(orbits, np.full(len(orbits.phases), -1))
+        mesh.seed()
+        return mesh
 
     def _prove_lands(self) -> Range:
         """Prove which phases on both sides land on the arc; return the ends of those between."""
@@ -140,114 +143,179 @@ class Partition:
         start = float_launch(self.system, np.array(phase))
         return float(gap(start, float_clock(self.system, np.array(image - phase))))
 
-    def _prove_grazing(self, pieces: Sequence[Range]) -> None:
-        """Enclose the images of the phases between branches, where the flights are short."""
-        names = []
-        for (_, low), (high, _) in pairwise(pieces):
-            flight = Flight(self.system, (low, high))
-            try:
-                found = first_impact(flight, _SHORT_FLIGHTS, Fraction(1, 2**8))
-            except Undecided:
-                continue
-            names.append(self.prover.add_impact(found))
-            arrivals = [(low + t, high + u) for t, u in found.windows]
-            images = (image for one in arrivals for image in reduced(one, self.line[0]))
-            self.cells.append(Cell((low, high), tuple(images)))
-        self.entries["impacts"] = names
-
-    def _prove_cells(
-        self, branches: Branches, index: int, ends: Sequence[tuple[float, float]]
-    ) -> None:
-        """Prove the cells of one branch between phases, each given with about its image."""
-        branch = branches.branches[index]
-        cuts = [Fraction(phase) for phase, _ in ends]
-        times = [short(Fraction(y - x) - BRACKET / 2, 32) for x, y in ends]
-        cutting = Cutting(cuts, times, self._after(branch))
+    def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
+        """Prove the cells of one branch between cuts."""
+        rows = zip(
+            *(column.tolist() for column in (cuts.phases, cuts.images, cuts.turns)), strict=True
+        )
+        phases = [Fraction(x) for x in cuts.phases.tolist()]
+        whole = turn(BITS).mid
         try:
+            times = [
+                impact_before(self.system, Fraction(x), Fraction(y) - Fraction(x) + n * whole)
+                for x, y, n in rows
+            ]
+            cutting = landing.Cutting(phases, times, _after(self.system, branch))
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
         except FAILED:
             return
-        witness = {"cuts": texts(cuts), "times": texts(times), "after": str(cutting.after)}
-        self.entries["cells"].append({"branch": branches.names[index], **witness})
-
-    def _after(self, branch: Branch) -> Fraction:
-        """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
-        half = math.pi / float(self.system.eta)
-        zero = math.floor(float(min(branch.ends)) / half) * half
-        return max(branch.begin, short(Fraction(zero + 1e-3), 20))
-
-    def _refine(self, branch: Sampled, phase: float, image: float) -> float:
-        """Return the phase near the given one with this image, by Newton's method.
-
-        At a fixed image the gap has the derivative -(sin(eta t) / eta) A, see `slope`.
-        """
-        for _ in range(6):
-            start = float_launch(self.system, np.array(phase))
-            now = float_clock(self.system, np.array(image - phase))
-            along = -now.mass_sin / start.eta * launch_acceleration(start)
-            phase = float(np.clip(phase - gap(start, now) / along, *branch.phases[[0, -1]]))
-        return float(short(Fraction(phase), 40))
-
-    def _sides(self, cuts: Cuts) -> Callable[[float], float]:
-        """Return to which side of a cut images should lean: to the one absorbed sooner."""
-        images = {cut: image + shift for cut, (_, image, shift) in cuts.origins.items()}
-        for sample in cuts.branches:
-            images |= zip(sample.phases[[0, -1]].tolist(), sample.images[[0, -1]], strict=True)
-        landed = {cell.phases for cell in self.cells}
-        cells = []
-        for low, high in pairwise(cuts.cuts):
-            phases = Fraction(low), Fraction(high)
-            first, last = images.get(low, 0.0), images.get(high, math.inf)
-            seen: tuple[Range, ...] | None = () if phases in landed else None
-            if seen is None and abs(first - last) < 6.0:
-                slack = min(2.5 * _LEAN, abs(first - last) / 4)
-                ends = Fraction(min(first, last) + slack), Fraction(max(first, last) - slack)
-                seen = tuple(reduced(ends, self.line[0]))
-            cells.append(Cell(phases, seen))
-        found = absorbed(cells, self.impacts)
-        steps = [self.impacts if n is None else n for n in found.steps]
-        after = dict(zip(cuts.cuts, steps, strict=False))
-        before = dict(zip(cuts.cuts[1:], steps, strict=True))
-
-        def side(cut: float) -> float:
-            difference = before.get(cut, 0) - after.get(cut, 1)
-            return math.copysign(_LEAN, difference) if difference else 0.0
-
-        return side
+        witness = {"cuts": texts(phases), "times": texts(times), "after": str(cutting.after)}
+        self.entries["cells"].append({"branch": name, **witness})
 
     def _conclude(self) -> tuple[str, Absorption]:
-        """Follow all cells, and record what is found, a little rounded up."""
-        cells = in_order(self.cells)
-        found = absorbed(cells, self.impacts)
-        rest = tuple(Fraction(math.ceil(bound * 10**7) + 1, 10**7) for bound in found.rest)
+        """Follow all cells, and record what is found, a little rounded."""
+        never = None if self.never is None else self.never[1]
+        ends = [cell.phases for cell in self.cells]
+        arc = Cell((self.line[1], lifted(self.line, 1, BITS)[1]), ())
+        own = [] if never is None else [Cell((never.phases[0], never.phases[1]))]
+        cells = in_order([*self.cells, *own, arc])
+        place = None if never is None else [cell.phases for cell in cells].index(never.phases)
+        found = absorbed(cells, self.impacts, len(cells) - 1, place)
+        rest = tuple(_rounded(bound * (1 + _SPARE) + _SPARE) for bound in found.rest)
+        sunk = max(Fraction(0), _rounded(found.sunk * (1 - _SPARE)) - _SPARE)
         within = tuple(_runs_of_equal(cells, found.steps))
+        sink = None
+        if never is not None and place is not None:
+            ends = [cells[i].phases for i in (place - 1, place + 1)]
+            sink = Sink(never, (ends[0], ends[1]), sunk)
         witness = {
             "separation": self.arc[0],
+            "never": [] if self.never is None else [self.never[0]],
             **self.entries,
             "rest": texts(rest),
             "within": [texts([*phases, Fraction(steps)]) for phases, steps in within],
+            "sunk": str(sunk),
         }
-        return self.prover.add("absorption", witness), Absorption(self.arc[1], rest, within)
+        return self.prover.add("absorption", witness), Absorption(self.arc[1], rest, within, sink)
+
+
+def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
+    """Round an interval inward."""
+    first, last = float(low), float(high)
+    first = first if first >= low else math.nextafter(first, math.inf)
+    return first, last if last <= high else math.nextafter(last, -math.inf)
+
+
+def _rounded(value: Fraction) -> Fraction:
+    """Round up to twelve decimal places."""
+    return Fraction(math.ceil(value * 10**12), 10**12)
+
+
+def _after(system: System, branch: Branch) -> Fraction:
+    """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
+    half = math.pi / float(system.eta)
+    zero = math.floor(float(min(branch.ends)) / half) * half
+    return max(branch.begin, short(Fraction(zero + 1e-3), 20))
 
 
 def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tuple[Range, int]]:
     """Join neighbouring cells that are absorbed within the same number of steps."""
     for count, group in groupby(zip(steps, cells, strict=True), key=lambda pair: pair[0]):
-        if count is not None:
-            members = [cell.phases for _, cell in group]
-            yield (members[0][0], members[-1][1]), count
+        members = [cell.phases for _, cell in group]
+        low, high = members[0][0], members[-1][1]
+        if count and high - low >= _NAMED:
+            yield (low, high), count
 
 
 # -- in floating point ---------------------------------------------------------------------------
 
 
-def _sampled(candidates: Candidates, low: Fraction, high: Fraction) -> Sampled:
-    """Sample f on an interval, more densely at the ends."""
-    share = (1 - np.cos(np.linspace(0, np.pi, _SAMPLES))) / 2
-    phases = float(low) + float(high - low) * share
-    phases[-1] = float(high)
-    flights = [found.time for x in phases if (found := candidates.impact(float(x)))]
-    return Sampled(phases, phases + np.array(flights))
+@dataclass(frozen=True)
+class _Pieces:
+    """The branches between two phases, and their inverses: candidates, never evidence.
+
+    An image is a number on the line from `origin` and a number of turns, so that long flights lose
+    no digits: eta times 2 pi turns is reduced exactly.
+    """
+
+    system: System
+    branches: Branches
+    between: Range
+    origin: float
+
+    @cached_property
+    def parts(self) -> list[Piece]:
+        """The parts of the branches, with the images of their ends."""
+        parts = []
+        for branch in self.branches.branches:
+            low, high = max(branch.cuts[0], self.between[0]), min(branch.cuts[-1], self.between[1])
+            ends = _inside(low, high)
+            images = [x + self.branches.impact(x).time for x in ends]
+            parts.append(Piece(ends, (images[0], images[1])))
+        return parts
+
+    def _now(self, phases: Floats, images: Floats, turns: Whole) -> Clock:
+        eta, time = self.system.eta, images - phases
+        share = (turns * eta.numerator % eta.denominator) / eta.denominator
+        mass = float(eta) * time + math.tau * share
+        return Clock(np.sin(mass), np.cos(mass), np.sin(time), np.cos(time))
+
+    def _along(self, phases: Floats, now: Clock) -> Floats:
+        """Return about minus the derivative of the gap in the phase at a fixed image."""
+        start = float_launch(self.system, phases)
+        along: Floats = now.mass_sin / start.eta * launch_acceleration(start)
+        return along
+
+    def inverse(self, index: int, images: Floats, turns: Whole) -> Floats:
+        """Return about the phases of a branch with these images: there the gap is monotone."""
+        low, high = (np.full(len(images), end) for end in self.parts[index].phases)
+        sign = -1 if self.parts[index].images[0] < self.parts[index].images[1] else 1
+        for count in range(40):
+            middle = (low + high) / 2
+            now = self._now(middle, images, turns)
+            height = gap(float_launch(self.system, middle), now)
+            if count >= 34:  # close: by Newton's method
+                step = height / self._along(middle, now)
+                low = high = np.clip(middle + step, low.min(initial=9), high.max(initial=-9))
+                continue
+            below = sign * height > 0
+            low, high = np.where(below, middle, low), np.where(below, high, middle)
+        return low
+
+    def density(self, cuts: Cutting) -> Density:
+        """Guess bounds of 1/|f'| on the cells between cuts, from the values at their ends."""
+        start = float_launch(self.system, cuts.phases)
+        now = self._now(cuts.phases, cuts.images, cuts.turns)
+        with np.errstate(all="ignore"):
+            first = inverse_slope(start, now)
+            bent = inverse_bend(start, now, first) * np.sign(first)
+        middle, spread = (bent[1:] + bent[:-1]) / 2, _WIDER * abs(np.diff(bent)) / 2
+        return Density((abs(first[:-1]), abs(first[1:])), (middle - spread, middle + spread))
+
+    def orbits(self) -> Cutting:
+        """Return the ends of the branches, and some of their images, with their images."""
+        starts = [end for part in self.parts for end in part.phases]
+        rows: dict[float, tuple[int, float, int]] = {}
+        for _ in range(_ONWARD + 1):
+            onward = []
+            for x in starts:
+                index = next(
+                    (
+                        i
+                        for i, each in enumerate(self.parts)
+                        if each.phases[0] <= x <= each.phases[1]
+                    ),
+                    None,
+                )
+                if index is None or x in rows:
+                    continue
+                lifted_one = x + self.branches.impact(x).time
+                turns = math.floor((lifted_one - self.origin) / math.tau)
+                image = self._polished(x, lifted_one - math.tau * turns, turns)
+                rows[x] = index, image, turns
+                onward.append(image)
+            starts = onward
+        phases = np.array(list(rows))
+        columns = [np.array(column) for column in zip(*rows.values(), strict=True)]
+        return Cutting(phases, columns[0], columns[1], columns[2])
+
+    def _polished(self, phase: float, image: float, turns: int) -> float:
+        """Return the image of a phase by Newton's method, near the given one."""
+        start = float_launch(self.system, np.array(phase))
+        for _ in range(3):
+            now = self._now(np.array(phase), np.array(image), np.array(turns))
+            image = float(image - gap(start, now) / gap(start, now, 1))
+        return image
 
 
 def _last(function: Callable[[float], float], low: float, high: float) -> float:

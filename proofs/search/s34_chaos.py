@@ -114,10 +114,14 @@ def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, E
 
 @dataclass
 class Branches:
-    """Branches of f: intervals of phases with the first impact in one window of time."""
+    """Branches of f: intervals of phases with the first impact in one window of time.
+
+    edges: how far from grazing they may end, the shortest tried first; none: relative to lengths.
+    """
 
     system: System
     candidates: Candidates
+    edges: Sequence[float] = ()
     branches: list[Branch] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
     times: dict[tuple[int, Fraction], Range] = field(default_factory=dict)
@@ -125,8 +129,8 @@ class Branches:
 
     def prove(self, prover: Prover, low: float, high: float) -> None:
         """Prove a branch, a little inside where f jumps, and record the step `branch`."""
-        for margin in _MARGINS:
-            inside = low + margin * (high - low), high - margin * (high - low)
+        for edge in self.edges or [margin * (high - low) for margin in _MARGINS]:
+            inside = low + edge, high - edge
             try:
                 cuts, turn, ends = self._parts(*inside)
                 branch = prove_branch(self.system, cuts, turn, ends)

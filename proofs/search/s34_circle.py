@@ -1,8 +1,8 @@
 """Sections 2 and 3.4: where the mass sticks, and how much of the circle ends up sticking.
 
-Claims M6, G1-G4, G6 and G10: the sticking arc and the orbit through it, an interval of phases that
-never impact again, and a partition of the circle into cells whose images are followed until they
-stick.
+Claims M6, G1-G4, G6, G10, G13 and G14: the sticking arc and the orbit through it, an interval of
+phases that never impact again, and a partition of the circle into cells whose images are followed
+until they stick, or never impact again.
 """
 
 from __future__ import annotations
@@ -20,25 +20,30 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.landing import prove_never, prove_separation
 from proofs.motion.system import System
+from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_absorbing import Partition
+from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, hull
+from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.circle import (
     LONG,
     FixedPoint,
     repelling_fixed_point,
 )
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
 
-_STICKS = {"G1", "G2", "G3", "G4", "G6", "G10"}  # what rests on where the mass sticks
-_NEVER = {"M6", "G4", "G6", "G10"}  # what rests on phases that never impact again
-_FOLLOWED = {"G4", "G6", "G10"}  # what rests on where all others lead
-_REPELLED = _FOLLOWED  # what rests on a fixed point
+_STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
+_NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
+_FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
+_REPELLED = {"G4", "G10"}  # what rests on a fixed point
 _NARROW = 12  # decimal places
+_SYMBOLS = 3  # of the full shift around all invariant sets of section 3
 _Found = TypeVar("_Found", bound=Conclusion)
 
 
@@ -55,10 +60,15 @@ def prove(
     if not -1 < of.nu < 0 < of.eta < 1:
         return found.evidence
     arc = found.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
-    found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+    never = found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+    if "M6" in claims:
+        lemmas = Steps(digits, steps=prover.steps)
+        found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
-        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc).prove)
+        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
     found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))
+    around = hull([of.interval, PRINTED])
+    found.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
     return found.evidence
 
 
@@ -93,12 +103,12 @@ def prove_arc(prover: Prover) -> tuple[str, Separation]:
     return prover.add("separation", witness), found
 
 
-def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
-    """Prove an interval around pi/2 without a next impact, to nine places the longest."""
-    low, high, centre, unit = 0, 10**9, Fraction(math.pi / 2), Fraction(1, 10**9)
+def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
+    """Prove an interval around pi/2 without a next impact, to twelve places the longest."""
+    low, high, centre, unit = 0, 10**12, Fraction(math.pi / 2), Fraction(1, 10**12)
 
     def around(reach: int) -> tuple[Fraction, Fraction]:
-        return round(centre - reach * unit, 9), round(centre + reach * unit, 9)
+        return round(centre - reach * unit, 12), round(centre + reach * unit, 12)
 
     while high - low > 1:
         middle = (low + high) // 2

@@ -19,6 +19,7 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range, within
 from proofs.trusted.paper.s34_circle.other_sets import (
+    FullShift,
     StayingOrbit,
     StayingSet,
     full_shift,
@@ -158,6 +159,14 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
                 found.append((name, orbit))
                 known.append(orbit.cells)
     return found
+
+
+def prove_shift(prover: Prover, around: Range, symbols: int) -> tuple[str, FullShift]:
+    """Prove a full shift on the least interval around the given one that looks like one."""
+    sketch = Sketcher(prover).full_shift(around, symbols)
+    if sketch is None:
+        raise Undecided("no full shift is seen")
+    return Pieces(prover, [sketch]).prove(sketch, "full-shift", full_shift)
 
 
 @dataclass

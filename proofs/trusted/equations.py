@@ -137,6 +137,31 @@ def slope(start: Launch, now: Clock, fall: Number | None = None) -> Number:
     return now.mass_sin / start.eta * launch_acceleration(start) / fall
 
 
+def inverse_slope(start: Launch, now: Clock, fall: Number | None = None) -> Number:
+    """Return 1 / f', which is 0 where the impact grazes: `slope` upside down.
+
+    Its sign is that of -sin(eta t), where the mass leaves and the impact is transversal.
+    """
+    if fall is None:
+        fall = gap(start, now, 1)
+    return fall / (now.mass_sin / start.eta * launch_acceleration(start))
+
+
+def inverse_bend(start: Launch, now: Clock, first: Number) -> Number:
+    """Return the derivative of 1 / f' in the image y = f(phi); first: 1 / f' there.
+
+    Theorem. Let X be an inverse branch of f, G(x, y) = g(x, y - x) the plastic gap at the phase y
+    after a launch at x, and A, S, C the launch acceleration, sin(eta t), cos(eta t). By `slope`
+    G_x = -(S / eta) A, so that G_xx = C A - (S / eta) A' and G_xy = -C A; G_yy = g_tt; and at
+    launch A' = g_ttt. From G(X(y), y) = 0: X'' = -(G_yy + 2 G_xy X' + G_xx X'^2) / G_x.
+    """
+    push, sine = launch_acceleration(start), now.mass_sin / start.eta
+    turn = now.mass_cos * push
+    change = gap(start._replace(kick=None), AT_LAUNCH, 3)
+    bent = gap(start, now, 2) + first * (first * (turn - sine * change) - 2 * turn)
+    return bent / (sine * push)
+
+
 def arrival(start: Launch, now: Clock) -> tuple[Number, Number]:
     """Return the mass's position X and velocity gamma = -X' / eta at a time of its flight.
 

@@ -121,17 +121,3 @@ def hull(ranges: Sequence[Range]) -> Range:
 def agree(bounds: Range, digits: int) -> bool:
     """Whether two bounds are equal to `digits` significant digits."""
     return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
-
-
-def decimal_between(low: Fraction, high: Fraction, most: int = 60) -> Fraction:
-    """Return a decimal strictly between two numbers, of the fewest places, at most so many.
-
-    Raises Unproved where there is none.
-    """
-    unit = Fraction(1)
-    for _ in range(most + 1):
-        value = (low // unit + 1) * unit
-        if low < value < high:
-            return value
-        unit /= 10
-    raise Unproved(f"no decimal of {most} places lies between")

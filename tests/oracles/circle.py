@@ -137,6 +137,25 @@ def absorption(view, rng):
             found = impacts_before_rest(view.eta, view.nu, phase, steps)
             if found is not None and found > steps:
                 told.append(f"{phase:.12g} is not absorbed within {steps} impacts")
+    return told + (sink(view, view.sink, counts, rng) if view.sink else [])
+
+
+def sink(view, kept, counts, rng):
+    """No impact after phases of an interval, one at the outer ends; what comes there is not too
+    much: not absorbed, but for chance.
+    """
+    told = never_impacts(kept.never, rng, 1)
+    (low, first), (last, high) = kept.ends
+    if (first, last) != tuple(kept.never.phases):
+        told.append("the brackets are not at the ends of the interval")
+    for phase in (low, high):
+        found = flight(view.eta, view.nu, phase, latest=_LONGEST)
+        if found and not isinstance(found, Impact):
+            told.append(f"after {float(phase):.12g}: {found}")
+    share = sum(n <= min(len(view.rest) - 1, 12) for n in counts) / max(1, len(counts))
+    error = 0.02 + 4 * sqrt(share * (1 - share) / max(1, len(counts)))
+    if not kept.measure <= TURN * (1 - share + error):
+        told.append(f"about {share:.3g} of the circle is absorbed")
     return told
 
 

@@ -105,9 +105,8 @@ def _straddling(made, phases):
         "rule": "fixed-point",
         "witness": {"slopes": "straddling"},
     }
-    for claim in ("G6", "G10"):
-        proof = [name for name in made["proofs"][claim] if not name.startswith("fixed-point")]
-        made["proofs"][claim] = [*proof, "false-point"]
+    proof = [name for name in made["proofs"]["G10"] if not name.startswith("fixed-point")]
+    made["proofs"]["G10"] = [*proof, "false-point"]
     return made
 
 
@@ -135,7 +134,7 @@ def no_linear_set():
         },
         "more": {
             "rule": "excess",
-            "witness": {"root": "lone", "epsilon": "1/10", "word": "11"},
+            "witness": {"root": "lone", "level": "1"},
         },
     }
     return {**made, "proofs": {"H14": ["more"]}}
@@ -195,14 +194,6 @@ POINT = (
 )
 HOLES = (
     Hole("swapped cells of a full shift", "G5", "VERIFIED", swapped_cells, "order", ORDER),
-    Hole(
-        "an image that straddles 2 pi, G6",
-        "G6",
-        "VERIFIED",
-        lambda: _straddling(proved("circle", "5/22", "-0.95"), ("1.228", "1.236")),
-        "fixed point",
-        (STRADDLE, ASKED),
-    ),
     Hole(
         "an image that straddles 2 pi, G10",
         "G10",

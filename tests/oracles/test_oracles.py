@@ -173,7 +173,7 @@ FALSE = {
     "Digits": [put("readings", (False, True)), put("printed", "0.46"), offs("value")],
     "ExactMeasure": LINEAR,
     "LinearDimension": [*LINEAR, offs("measure"), offs("root")],
-    "Excess": [*LINEAR, offs("excess"), put("epsilon", F(1))],
+    "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
     "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
     "Uncovered": LINEAR,
     "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
@@ -199,6 +199,9 @@ FALSE = {
     "Absorption": [
         put("rest", lambda old: tuple(x / 100 for x in old)),
         put("within", (((F("1.57"), F("1.58")), 3),)),
+        _of("sink", put("measure", F(2))),
+        _of("sink", put("ends", lambda old: ((old[0][0] + F(1, 10**5), old[0][1]), old[1]))),
+        _of("sink", put("ends", lambda old: (old[0], (old[1][0], old[1][1] - F(1, 10**5))))),
     ],
     "SuperstableMotion": [
         *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),

@@ -92,6 +92,13 @@ _TWICE = Equal(
     " - (4 + 3*nu*sin(psi))*cos(t/2)**2)",
 )
 
+# At psi = pi/2 the first two terms vanish, and the last two are >= 0 if -1 < nu < 0.
+_TOP = Equal(
+    f"-({PLASTIC})",
+    "nu*(1 - sin(psi))*(cos(eta*t) - cos(t)) - nu*cos(psi)*(sin(eta*t)/eta - sin(t))"
+    " + (-nu)*(1 - cos(t)) + (1 + nu)*(1 - cos(eta*t))",
+)
+
 # -- separation: s = sin(omega t_s) ----------------------------------------------------------------
 
 _PULL = "-beta*omega**2*s"  # the acceleration of the table
@@ -192,6 +199,22 @@ def rest() -> str:
         "that is so exactly if eta^2 >= nu/(1 + nu): for nu = 0.2 (figure 7a) if eta^2 >= 1/6, "
         "that is for all eta >= 0.4083; for eta = 0.237 (figure 7b) if 0 < nu <= 56169/943831, "
         "that is up to nu = 0.0595."
+    )
+
+
+@theorem(_TOP, tex=r"|\nu| (1 - \cos t) + (1 - |\nu|) (1 - \cos \eta t)")
+def unending() -> str:
+    """Proof. For nu < 0 the gap is minus the left side of (10), in units of |p|: by _TOP it is at
+    psi = pi/2 a sum of two terms >= 0, as -nu > 0 and 1 + nu > 0, and 0 only where both are: where
+    t = 2 pi k and eta t = 2 pi m with whole k, m. For k not 0 then eta = m/k.
+    """
+    return (
+        "For -1 < nu < 0 and every irrational eta > 0 there is no impact after a launch at the "
+        "phase pi/2, and no touch: f is not defined there, whatever counts as an impact, and does "
+        "not map [0, 2 pi) into itself. For -1 < nu < 0 and eta > 0 the gap at the time t after "
+        "that launch is |nu| (1 - cos t) + (1 - |nu|) (1 - cos(eta t)), in units of |p|, and > 0 "
+        "but for the t at which t and eta t are both multiples of 2 pi: for irrational eta that is "
+        "t = 0 alone, for eta = p/q in lowest terms the multiples of 2 pi q."
     )
 
 

@@ -1,5 +1,6 @@
 """The shared equations against the paper's, typed by hand, by exact symbolic identities."""
 
+import pytest
 import sympy
 from mpmath import mpf
 
@@ -7,6 +8,8 @@ from intervals import Jet
 from proofs.trusted.equations import (
     clock,
     gap,
+    inverse_bend,
+    inverse_slope,
     launch,
     launch_acceleration,
     launch_with_restitution,
@@ -97,6 +100,30 @@ def test_slope_formula_is_implicit_differentiation():
         assert vanishes(ours * g_t - (g_t - g_phi)) or vanishes(
             sympy.together(ours - (g_t - g_phi) / g_t)
         )
+
+
+@pytest.mark.parametrize(("nu", "phase"), [("-0.2", "1.15"), ("-0.2", "1.8"), ("0.3", "2.4")])
+def test_slopes_of_the_inverse_are_those_of_the_equation_solved_for_the_phase(nu, phase):
+    """X(y) from (10) by Newton's method at fixed y, differenced at 50 digits."""
+    eta, nu, x = mpf("0.2121"), mpf(nu), mpf(phase)
+    mp = reference.mp
+
+    def gap_at(x, y):
+        return mp.sign(nu) * reference.left_side_10(eta, nu, x, y - x)
+
+    times = (mpf(k) / 20 for k in range(10, 2000))
+    begin = next(t for t in times if gap_at(x, x + t) > 0 > gap_at(x, x + t + mpf("0.05")))
+    time = mp.findroot(lambda t: gap_at(x, x + t), (begin, begin + mpf("0.05")), solver="anderson")
+
+    def inverse(y):
+        return mp.findroot(lambda z: gap_at(z, y), x)
+
+    start, now = launch(int(mp.sign(nu)), eta, nu, x), clock(eta, time)
+    first = inverse_slope(start, now)
+    assert abs(first - mp.diff(inverse, x + time)) < 1e-15 * abs(first)
+    assert abs(1 / first - slope(start, now)) < 1e-40
+    second = inverse_bend(start, now, first)
+    assert abs(second - mp.diff(inverse, x + time, 2)) < 1e-12 * abs(second)
 
 
 def test_jets_of_the_gap_agree_with_its_time_derivatives():

@@ -12,7 +12,6 @@ from proofs.trusted.numbers import (
     Phases,
     agree,
     ceil_text,
-    decimal_between,
     floor_text,
     show,
     show_range,
@@ -471,20 +470,6 @@ def test_show(value, text):
 def test_printed_bounds_are_rounded_outward(value, floor, ceiling):
     assert floor_text(Fraction(value)) == floor
     assert ceil_text(Fraction(value)) == ceiling
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "value"),
-    [("0.1", "0.2", "0.11"), ("1/3", "1/2", "0.4"), ("-0.5", "0.5", "0"), ("0.99", "1.01", "1")],
-)
-def test_decimal_between(low, high, value):
-    assert decimal_between(Fraction(low), Fraction(high)) == Fraction(value)
-
-
-def test_no_decimal_between():
-    for low, high in ((Fraction(1), Fraction(1)), (Fraction(0), Fraction(1, 10**390))):
-        with pytest.raises(Unproved, match="no decimal"):
-            decimal_between(low, high)
 
 
 def test_agree_counts_digits():

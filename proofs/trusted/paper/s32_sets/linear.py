@@ -9,15 +9,16 @@ from itertools import product
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, floor_text, show, show_range
+from proofs.trusted.numbers import Range, show, show_range
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST_WORD = 12
+LEVELS = 13
 
 
 @dataclass(frozen=True)
@@ -124,53 +125,59 @@ def linear_set(context: Context, reader: Reader) -> LinearDimension:
 
 @dataclass(frozen=True)
 class Excess(LinearSet):
-    """(11) fails for L = I_w, w of n + 1 >= 2 ones, the longest of its level, and |L'| = |L| + d.
+    """Theorem. (11) fails for all n >= level >= 1 and all epsilon that it admits: as the sentence.
 
-    d = epsilon / 2^(n+1). excess: bounds on |L'|^s - |L|^s - d, positive. It decreases in |L|, as
-    0 < s < 1.
+    root: bounds of s < 1. Proof. Let d = epsilon/2^(n+1), l = |L| <= eta1^(n+1) |I|. As t^s is
+    concave, (l + d)^s - l^s >= s (l + d)^(s-1) d, which is > d if (l + d)^(1-s) < s. And l + d is
+    less than u = eta1^(n+1) |I| + (eta1^n - eta1^(n+1))/2^(n+1), which decreases in n: u^(1-s) < s
+    at n = level is enough. The longest L' has the length eta1^(n+1) |I| + d.
     """
 
-    epsilon: Fraction
-    word: str
-    excess: Range
+    root: Range
+    level: int
 
     def __post_init__(self) -> None:
         """Raise Unproved unless it refutes (11)."""
         super().__post_init__()
-        n, longest = len(self.word) - 1, self.ratios[1]
-        if n < 1 or set(self.word) != {"1"} or self.excess[0] <= 0:
-            raise Unproved("(11) is not refuted by this interval")
-        if not 0 < self.epsilon < longest**n - longest ** (n + 1):
-            raise Unproved(f"(11) is not about epsilon = {show(self.epsilon)}")
+        if not (self.level >= 1 and 0 < self.root[0] <= self.root[1] < 1):
+            raise Unproved("a level >= 1 and a root between 0 and 1 are expected")
+        n, longest, (low, high) = self.level, self.ratios[1], self.interval
+        most = longest ** (n + 1) * (high - low) + longest**n * (1 - longest) / 2 ** (n + 1)
+        if power(most, (1 - self.root[1], 1 - self.root[0])).range[1] >= self.root[0]:
+            raise Unproved(f"(11) is not refuted from n = {n} on")
 
     @property
     def sentence(self) -> str:
-        n, longest = len(self.word) - 1, self.ratios[1]
-        most = longest**n * (self.interval[1] - self.interval[0])
-        beyond = longest * most + self.epsilon / 2 ** (n + 1) > most
-        outside = "; |L'| > eta1^n |I|, so that L' is not in T_n" if beyond else ""
-        return (
-            f"|L'|^s - |L|^s - epsilon/2^(n+1) >= {floor_text(self.excess[0])} for the linear set "
-            f"{self.named}, n = {n}, epsilon = {show(self.epsilon)} < eta1^n - eta1^(n+1), |L'| = "
-            f"|L| + epsilon/2^(n+1) and L = I_{self.word}, the longest of its level: so for all L "
-            f"of the level, and for their sum{outside}."
+        length, last = self.interval[1] - self.interval[0], 0
+        while 2 ** (last + 2) * length < 1:
+            last += 1
+        outside = (
+            "the longest L' is not in T_n exactly if epsilon > 2^(n+1) |I| (eta1^n - eta1^(n+1)), "
+            f"which this allows for n <= {last} only"
         )
+        inside = "every L' is in T_n"
+        return (
+            f"{self.brief}, every epsilon with 0 < epsilon < eta1^n - eta1^(n+1) and every L of "
+            "level n + 1: if |L'| = |L| + epsilon/2^(n+1), as (11) allows, then |L'|^s > |L|^s + "
+            "epsilon/2^(n+1), and so for their sum; "
+            f"{outside if last else inside}."
+        )
+
+    @property
+    def brief(self) -> str:
+        return f"(11) fails for the linear set {self.named}, every n >= {self.level}"
 
 
 def excess(context: Context, reader: Reader) -> Excess:
-    """Rule `excess`: {root: name of a moran-root step, epsilon > 0, word of 2 to 12 ones}.
+    """Rule `excess`: {root: name of a moran-root step, level: from 1 to 12}.
 
     Conclusion: `Excess`, r0 + r1 < 1.
     """
-    root_of, epsilon_of, word_of = reader.fields("root", "epsilon", "word")
-    step, epsilon, word = context.step(root_of, MoranRoot), epsilon_of.number(), word_of.string()
-    if epsilon <= 0 or word not in ("1" * letters for letters in range(2, _LONGEST_WORD + 1)):
-        raise reader.fail("a positive number and a word of ones are expected")
-    (low, high), delta = context.of.interval, epsilon / 2 ** len(word)
-    size = step.ratios[1] ** len(word) * (high - low)
-    bounds = power(size + delta, step.root) - power(size, step.root)
-    above = (bounds - rational(delta, bounds.bits)).range
-    return Excess(step.ratios, (low, high), epsilon, word, above)
+    root_of, level_of = reader.fields("root", "level")
+    step, level = context.step(root_of, MoranRoot), level_of.number()
+    if level not in range(1, LEVELS):
+        raise level_of.fail("a whole number from 1 to 12 is expected")
+    return Excess(step.ratios, context.of.interval, step.root, int(level))
 
 
 @dataclass(frozen=True)
@@ -243,12 +250,12 @@ def _linear_dimension(of: Parameters, found: Found) -> Decision:
 
 
 def _covering_sum(of: Parameters, found: Found) -> Decision:
-    """H14: by one L for both pairs of ratios."""
+    """H14: for both pairs of ratios."""
     sets = linear_sets(of)
     known = {(each.ratios, each.interval): each for each in found.all(Excess)}
     refuted = [known.get((each.ratios, each.interval)) for each in sets]
     if None in refuted:
-        return undecided("no L is examined for one of the pairs of ratios")
+        return undecided("(11) is not examined for one of the pairs of ratios")
     return decided(Verdict.REFUTED, *filter(None, refuted), corrected=sets[-1:])
 
 

@@ -207,7 +207,8 @@ class RectangleHorseshoe(Conclusion):
             text += (
                 " Each two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of "
                 "F in V1 and V2; the states of these orbits are a compact set, on which F is "
-                f"{self.rates}. For epsilon > 0 F is one-to-one on V1 and V2, and on this set "
+                f"{self.rates}. All of them lie in the open rectangles: the same is true of those. "
+                "For epsilon > 0 F is one-to-one on V1 and V2, and on this set "
                 "conjugate to the two-sided full shift on two symbols, of entropy log 2."
             )
         if least == 0:
@@ -237,21 +238,23 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     contraction < 1.
 
     Conclusion: let A be the compact set of states whose full orbits x_(n+1) = F(x_n) exist and
-    follow the arrows. Each two-sided path of arrows is the itinerary of exactly one full orbit in
-    A, which is hyperbolic. If epsilon > 0, F is one-to-one, and F on A is conjugate to the
-    two-sided shift on paths. If epsilon = 0, phases alone are a map f, and each one-sided path is
-    the itinerary of exactly one phase.
+    follow the arrows. It lies in the interiors of the N_i. Each two-sided path of arrows is the
+    itinerary of exactly one full orbit in A, which is hyperbolic. If epsilon > 0, F is one-to-one,
+    and F on A is conjugate to the two-sided shift on paths. If epsilon = 0, phases alone are a map
+    f, and each one-sided path is the itinerary of exactly one phase.
 
     Proof. 1. Call the graph of a function gamma(phi) over the phases of N_i, with Lipschitz
     constant 2, a curve. By 3 the image of a curve is such a graph, over an interval that contains
     N_j's phases, with velocities in G: it contains a curve of N_j. So finite paths are followed, by
     compactness all. 2. The difference of the images of two states of N_i is D times theirs, D a
     mean of DF. So along two orbits of one itinerary Q(z_n) increases and is bounded, z_n -> 0 at
-    both ends, Q(z_n) = 0 and z = 0. 3. F is one-to-one for epsilon > 0: from the state before an
-    impact the flight is run back to its launch, the last zero of the gap before; phase and velocity
-    there determine gamma, as epsilon != 0. The itinerary is then a continuous bijection of compact
-    sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See Gidea and Zgliczynski, Covering
-    relations for multidimensional dynamical systems, J. Differential Equations 202 (2004).
+    both ends, Q(z_n) = 0 and z = 0. No arrow leads from an edge, and the velocity of a state of A
+    is that of an image: by hypothesis 2 it is in the interior. 3. F is one-to-one for epsilon > 0:
+    from the state before an impact the flight is run back to its launch, the last zero of the gap
+    before; phase and velocity there determine gamma, as epsilon != 0. The itinerary is then a
+    continuous bijection of compact sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See
+    Gidea and Zgliczynski, Covering relations for multidimensional dynamical systems, J.
+    Differential Equations 202 (2004).
     """
     maps = read_maps(context, *reader.fields("rectangles"))
     margin = crossing(maps, ((0, 1), (0, 1)))

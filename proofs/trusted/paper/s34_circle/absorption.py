@@ -1,137 +1,92 @@
-"""How much of the circle ends up on the arc where the mass sticks (section 3.4): cells, followed.
-
-A phase is absorbed within n steps if one of its images under f^0, ..., f^n is in the arc. Special,
-beside the covering graphs of the kernel: what counts is the measure of what is sent on, so the
-lengths of the common parts of images and thousands of cells, followed over a hundred steps; in
-whole numbers, since enclosures would take minutes.
-"""
+"""Where phases end up (section 3.4): on the arc where the mass sticks, or off the table."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import FirstImpact, Motion, lifted, whole_turns
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.equations import gap, inverse_bend, inverse_slope
+from proofs.trusted.flights import lifted, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import TURN, Range, ceil_text, covered, floor_text, hull, increasing
+from proofs.trusted.numbers import (
+    TURN,
+    Range,
+    between,
+    ceil_text,
+    covered,
+    floor_text,
+    hull,
+    increasing,
+    show_range,
+    within,
+)
+from proofs.trusted.paper.s34_circle.cells import Absorbed, Cell, Inverse, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.landing import Lands, Separation
+from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, NeverImpacts, Separation
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, level
 
-BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `absorption`
-_UNIT = 1 << 64
+BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
 _MOST_STEPS = 400
+_HALVINGS = 12
 _LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 
 
-# -- cells -----------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
-class Cell:
-    """A closed interval of phases, and what is known of f there.
+class Sink(Conclusion):
+    """So much of the circle, at least, comes to phases that never impact again.
 
-    images: closed intervals that hold all images, None where nothing is known. stretch: a bound
-    of 1/|f'| where f is differentiable and one-to-one on the cell, None elsewhere. The cells,
-    with the arc, cover the circle; they lie on one line on which each image is an interval.
+    measure: of the phases with an iterate, the phase itself included, in never.phases. ends:
+    brackets of the ends of the longest interval of phases around it that never impact again: at
+    the outer end of each there is an impact.
     """
 
-    phases: Range
-    images: tuple[Range, ...] | None = None
-    stretch: Fraction | None = None
+    never: NeverImpacts
+    ends: tuple[Range, Range]
+    measure: Fraction
 
+    def __post_init__(self) -> None:
+        (low, first), (last, high) = self.ends
+        if (first, last) != tuple(self.never.phases) or not low < first or not last < high:
+            raise Unproved("the ends of an interval of phases that never impact are not bracketed")
 
-def in_order(cells: Sequence[Cell]) -> list[Cell]:
-    """Sort cells, and add one of which nothing is known between two that do not adjoin.
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.never.at
 
-    Raises Unproved where cells share more than an end.
-    """
-    result: list[Cell] = []
-    for cell in sorted(cells, key=lambda cell: cell.phases):
-        end = result[-1].phases[1] if result else cell.phases[0]
-        if end > cell.phases[0]:
-            raise Unproved("cells overlap")
-        if end < cell.phases[0]:
-            result.append(Cell((end, cell.phases[0])))
-        result.append(cell)
-    return result
+    @property
+    def share(self) -> Fraction:
+        """The least share of the circle."""
+        return self.measure / TURN_AT_MOST
 
+    @property
+    def quantities(self) -> dict[str, Range]:
+        first, last = self.ends
+        return {"never_impacts_from": first, "never_impacts_to": last}
 
-def cells_met(cells: Sequence[Cell], image: Range) -> list[tuple[int, Fraction]]:
-    """Return which of the ordered cells an interval meets, and the lengths in common."""
-    met = []
-    index = max(0, bisect_right(cells, image[0], key=lambda cell: cell.phases[0]) - 1)
-    while index < len(cells) and cells[index].phases[0] <= image[1]:
-        low, high = cells[index].phases
-        if high >= image[0]:
-            met.append((index, min(high, image[1]) - max(low, image[0])))
-        index += 1
-    METER.get().spend(8 * len(met))
-    return met
+    @property
+    def sentence(self) -> str:
+        first, last = (between(end, 12) for end in self.ends)
+        return (
+            f"{self.brief}. The longest interval of such phases around "
+            f"{show_range(self.never.phases)} begins in {first} and ends in {last}."
+        )
 
-
-class Absorbed(NamedTuple):
-    """For each cell the number of steps within which all of it is absorbed, None if unknown;
-    and for n = 0, 1, ... a bound of the measure of all phases that are not absorbed within n.
-    """
-
-    steps: Sequence[int | None]
-    rest: Sequence[Fraction]
-
-
-def absorbed(cells: Sequence[Cell], count: int) -> Absorbed:
-    """Bound what is not absorbed within n <= count steps, for cells that are `in_order`.
-
-    Theorem. (1) A cell whose images meet only cells that are absorbed within n - 1 steps (and the
-    arc) is absorbed within n. (2) Let N_n be the phases not absorbed within n steps. In a cell
-    that f maps one-to-one, with 1/|f'| <= s, the phases of N_n are sent into N_(n-1); so their
-    measure is at most s times that of N_(n-1) in the image: of each cell j that this meets, at
-    most the bound for cell j and at most the common length. And it is at most the cell's length.
-    """
-    links = [
-        None
-        if cell.images is None
-        else [(j, _up(common)) for image in cell.images for j, common in cells_met(cells, image)]
-        for cell in cells
-    ]
-    factors = [
-        None if cell.images is None or cell.stretch is None else _up(cell.stretch) for cell in cells
-    ]
-    lengths = [_up(cell.phases[1] - cell.phases[0]) for cell in cells]
-    steps: list[int | None] = [None] * len(cells)
-    bounds, rest = lengths, [sum(lengths)]
-    for n in range(1, count + 1):
-        METER.get().spend(sum(1 + len(met or ()) for met in links) >> 2)
-        steps = [
-            old or (n if met is not None and all(steps[j] for j, _ in met) else None)
-            for old, met in zip(steps, links, strict=True)
-        ]
-        sent = [sum(min(bounds[j], common) for j, common in met or ()) for met in links]
-        bounds = [
-            0 if done else length if factor is None else min(length, (total * factor >> 64) + 1)
-            for done, length, factor, total in zip(steps, lengths, factors, sent, strict=True)
-        ]
-        rest.append(sum(bounds))
-    return Absorbed(steps, [Fraction(total, _UNIT) for total in rest])
-
-
-def _up(value: Fraction) -> int:
-    """Round up, in units of 2^-64."""
-    return -(-value.numerator * _UNIT // value.denominator)
-
-
-# -- cells of f ------------------------------------------------------------------------------------
+    @property
+    def brief(self) -> str:
+        return (
+            f"at least {floor_text(100 * self.share, 5)} percent of the circle come to phases after"
+            " which there is no impact, only touches without relative velocity, if any"
+        )
 
 
 @dataclass(frozen=True)
@@ -139,12 +94,14 @@ class Absorption(Conclusion):
     """Phases that reach the sticking arc.
 
     The phases that do not within n impacts have a measure of at most rest[n]. within: intervals
-    of phases, mod 2 pi, in order, all of which do within that number of impacts.
+    of phases, mod 2 pi, in order, all of which do within that number of impacts. sink: the other
+    ones, where they are known.
     """
 
     arc: Separation
     rest: tuple[Fraction, ...]
     within: tuple[tuple[Range, int], ...]
+    sink: Sink | None = None
 
     def __post_init__(self) -> None:
         ends = [end for phases, _ in self.within for end in phases]
@@ -186,58 +143,75 @@ class Absorption(Conclusion):
     @property
     def brief(self) -> str:
         return (
-            f"at least {floor_text(100 * self.share, 3)} percent of the circle come to the arc "
+            f"at least {floor_text(100 * self.share, 5)} percent of the circle come to the arc "
             f"where the mass sticks, within {len(self.rest) - 1} impacts"
         )
 
 
 def absorption(context: Context, reader: Reader) -> Absorption:
-    """Rule `absorption`: {separation, lands, impacts, cells: [{branch, cuts, times, after}], rest,
-    within}.
+    """Rule `absorption`: {separation, lands, never, cells: [{branch, cuts, times, after}], rest,
+    within, sunk}.
 
-    Hypotheses: the phases of the `lands` steps, of the `first-impact` steps, and of cells between
-    the cuts of each branch do not overlap, and lie on a line that reaches from before the
-    separation phase, less 2 pi, to beyond the start of the sticking arc; at each cut the gap is
-    > 0 at the time given and < 0 by 2^-26 later, both in the window of the branch, which begins at
-    `after` if gap > 0 then; sin(eta t) has one sign there. rest: bounds of what `absorbed` leaves
-    after 0, 1, ... steps; within: [low, high, n] such that all cells in [low, high] are absorbed
-    within n. Conclusion: `Absorption`.
+    Hypotheses: the phases of the `lands` steps, of the `never-impacts` step, if there is one, and
+    of cells between the cuts of each branch do not overlap, and lie on a line that reaches from
+    before the separation phase, less 2 pi, to beyond the start of the sticking arc; at each cut the
+    gap is > 0 at the time given and < 0 by 2^-40 later, both in the window of the branch, which
+    begins at `after` if gap > 0 then; sin(eta t) has one sign there. rest: bounds of what is left
+    after 0, 1, ... steps, by `absorbed`; within: [low, high, n] such that all cells in [low, high]
+    are absorbed within n; sunk: a lower bound of what comes to the phases of the `never-impacts`
+    step, between which and those of branches, on both sides, there is one cell. Conclusion:
+    `Absorption`.
 
     Proof. f' = (sin(eta t) / eta) A / gap' has one sign on a branch, so that f is monotone there
-    and a cell's images lie between those of its ends; those of a `first-impact` step are in its
-    windows. Phases between cells form cells of which nothing is known. Then `absorbed` applies.
+    and a cell's image lies between those of its ends, and has an inverse. Phases between cells form
+    cells of which nothing is known, the arc one more cell. Then `absorbed` applies.
     """
-    separation_of, lands_of, impacts_of, cells_of, rest_of, within_of = reader.fields(
-        "separation", "lands", "impacts", "cells", "rest", "within"
+    separation_of, lands_of, never_of, cells_of, rest_of, within_of, sunk_of = reader.fields(
+        "separation", "lands", "never", "cells", "rest", "within", "sunk"
     )
     arc = context.step(separation_of, Separation)
     cells = [Cell(context.step(name, Lands).phases, ()) for name in lands_of.items(least=2)]
     origin, end = hull([cell.phases for cell in cells])
     if origin > lifted(arc.phase, -1, BITS)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
-    for name in impacts_of.items():
-        step = context.step(name, FirstImpact)
-        first, last = step.motion.phases
-        images = [_reduced((first + t, last + u), origin) for t, u in step.windows]
-        cells.append(Cell((first, last), tuple(image for pair in images for image in pair)))
+    never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
+    cells += [Cell((each.phases[0], each.phases[1])) for each in never]
     for entry in cells_of.items():
         cells += _cells(context, entry, origin)
-    cells = in_order(cells)
-    rest = rest_of.numbers(1, _MOST_STEPS)
-    found = absorbed(cells, len(rest) - 1)
-    if any(own > given for own, given in zip(found.rest, rest, strict=True)):
-        raise Unproved("more may be left than is said")
-    within = []
-    for item in within_of.items():
-        low, high, steps = item.numbers(3, 3)
-        counts = [found.steps[i] for i, common in cells_met(cells, (low, high)) if common > 0]
-        if not origin <= low < high <= end or any(n is None or n > steps for n in counts):
-            raise Unproved("a phase is not proved to be absorbed so soon")
-        within.append(((low, high), int(steps)))
-    return Absorption(arc, rest, tuple(within))
+    cells = in_order([*cells, Cell((end, origin + whole_turns(1, BITS)[1]), ())])
+    phases = [cell.phases for cell in cells]
+    if phases[0][0] < origin or phases[-1][0] != end:
+        raise Unproved("cells lie beyond the line")
+    place = phases.index(never[0].phases) if never else None
+    rest, sunk = rest_of.numbers(1, _MOST_STEPS), sunk_of.number()
+    found = absorbed(cells, len(rest) - 1, len(cells) - 1, place)
+    if any(own > given for own, given in zip(found.rest, rest, strict=True)) or found.sunk < sunk:
+        raise Unproved("more may be left than is said, or less come to the sink")
+    within = [_within(item, cells, found) for item in within_of.items()]
+    sink = None
+    if place is not None:
+        ends = phases[place - 1], phases[place + 1]
+        if not all(cells[i].inverses for i in (place - 2, place + 2)):
+            raise Unproved("no impact is proved near phases that never impact")
+        sink = Sink(never[0], ends, sunk)
+    return Absorption(arc, rest, tuple(within), sink)
 
 
-def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
+def _within(reader: Reader, cells: Sequence[Cell], found: Absorbed) -> tuple[Range, int]:
+    """Read [low, high, n], all cells between being absorbed within n."""
+    low, high, steps = reader.numbers(3, 3)
+    first = bisect_right(cells, low, key=lambda cell: cell.phases[1])
+    last = bisect_left(cells, high, key=lambda cell: cell.phases[0])
+    METER.get().spend(last - first)
+    known = found.steps[first:last]
+    if not cells[0].phases[0] <= low < high <= cells[-1].phases[1]:
+        raise reader.fail("an interval of the line is expected")
+    if any(n is None or n > steps for n in known):
+        raise Unproved("a phase is not proved to be absorbed so soon")
+    return (low, high), int(steps)
+
+
+def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
     branch, cuts, after = context.step(branch_of, Branch), cuts_of.numbers(2), after_of.number()
@@ -246,40 +220,66 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
         raise cuts_of.fail("phases must increase")
     if not branch.begin <= after < min(branch.ends):
         raise Unproved("the window of the first impact begins later, or ends before")
-    images = [branch.image(x, (t, t + BRACKET)) for x, t in zip(cuts, times, strict=True)]
-    for phases in pairwise(cuts) if after > branch.begin else ():
-        if level(branch.motion(phases), after)[0] <= 0:
-            raise Unproved("an impact before the time given is not excluded")
+    if after > branch.begin and not _up(branch, (cuts[0], cuts[-1]), after, _HALVINGS):
+        raise Unproved("an impact before the time given is not excluded")
     window = after, max(branch.ends)
     along = branch.motion((cuts[0], cuts[-1])).clock(window).mass_sin
     if along.lo <= 0 <= along.hi:
         raise Unproved("f' is not proved to have one sign on a branch")
-    cells = []
-    for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
-        low, high = hull(ends)
-        flight = max(window[0], low - phases[1]), min(window[1], high - phases[0])
-        stretch = _stretch(branch.motion(phases), flight)
-        cells.append(Cell(phases, tuple(_reduced((low, high), origin)), stretch))
-    return cells
+    sign = -1 if along.lo > 0 else 1
+    known = [_impact(branch, x, t) for x, t in zip(cuts, times, strict=True)]
+    for i, phases in enumerate(pairwise(cuts)):
+        (low, first), (high, last) = known[i : i + 2][::sign]
+        flight = max(window[0], low[0] - phases[1]), min(window[1], high[1] - phases[0])
+        motion = branch.motion(phases)
+        start, now = motion.start(), motion.clock(flight)
+        bend = inverse_bend(start, now, inverse_slope(start, now)) * sign
+        slopes = (first * sign).range, (last * sign).range
+        turned = [*_reduced((low, high), origin)]
+        yield Cell(
+            phases,
+            tuple((begin[0], end[1]) for begin, end in turned),
+            tuple(Inverse.of(pair, slopes, bend.range) for pair in turned),
+        )
 
 
-def _stretch(motion: Motion, time: Range) -> Fraction | None:
-    """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
-    sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
-    along = sin / rational(motion.eta, motion.bits) * push
-    if along.lo <= 0 <= along.hi:
-        return None
-    ratio: Enclosure = motion.gap_of(time, 1) / along
-    return max(-ratio.range[0], ratio.range[1])
+def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enclosure]:
+    """Enclose the image of a phase, not reduced, and 1/f': an impact within 2^-40 of a time.
+
+    Hypotheses: gap > 0 at the time, and by Taylor's formula with |gap''| <= |nu| + eta |nu| + eta^2
+    (1 + |nu|) gap < 0 by 2^-40 later, in the window of the branch.
+    """
+    window = branch.window(phase)
+    if not within((time, time + BRACKET), window):
+        raise Unproved("a bracket leaves the window of the first impact")
+    motion = branch.motion((phase, phase))
+    start, now = motion.start(), motion.clock((time, time))
+    eta, size = motion.eta, abs(motion.nu)
+    most, bits = BRACKET * (size + eta * size + eta * eta * (1 + size)), motion.bits
+    height, fall = motion.gap(start, (time, time)), gap(start, now, 1)
+    if height.lo <= 0 or height.range[1] + BRACKET * (fall.range[1] + most) >= 0:
+        raise Unproved("a bracket does not have the signs +, - at its ends")
+    fall, swing = fall + Enclosure.of(-most, most, bits), BRACKET * eta
+    near = now._replace(mass_sin=now.mass_sin + Enclosure.of(-swing, swing, bits))
+    return (phase + time, phase + time + BRACKET), inverse_slope(start, near, fall)
 
 
-def _reduced(image: Range, origin: Fraction) -> Iterator[Range]:
-    """Yield the images, less multiples of 2 pi, that meet [origin, origin + 2 pi]."""
+def _up(branch: Branch, phases: Range, time: Fraction, halvings: int) -> bool:
+    """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
+    if level(branch.motion(phases), time)[0] > 0:
+        return True
+    middle = (phases[0] + phases[1]) / 2
+    halves = (phases[0], middle), (middle, phases[1])
+    return halvings > 0 and all(_up(branch, half, time, halvings - 1) for half in halves)
+
+
+def _reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:
+    """Yield the brackets of an image's ends, less multiples of 2 pi, of all parts on the line."""
     turn = whole_turns(1, BITS)
-    if image[1] - image[0] >= turn[0]:
+    if image[1][1] - image[0][0] >= turn[0]:
         raise Unproved("a cell's image is longer than the circle")
-    count = int((image[0] - origin) // turn[1]) - 1
+    count = int((image[0][0] - origin) // turn[1]) - 1
     for turns in range(count, count + 4):
-        low, high = lifted(image, -turns, BITS)
-        if high >= origin and low <= origin + turn[1]:
+        low, high = (lifted(end, -turns, BITS) for end in image)
+        if high[1] >= origin and low[0] <= origin + turn[1]:
             yield low, high

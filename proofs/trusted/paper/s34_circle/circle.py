@@ -1,4 +1,4 @@
-"""The plastic map on the whole circle: M6 of section 2, G1 to G4, G6 and G10 of section 3.4.
+"""The plastic map on the whole circle: M6 of section 2, G1 to G4, G6, G10, G13 of section 3.4.
 
 Impacts can be counted in two ways after sticking: in section 2 f takes a sticking phase to the
 next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separation phase.
@@ -6,7 +6,7 @@ next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separ
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -14,9 +14,21 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phase, Phases, Range, between, floor_text, show_range, within
-from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.numbers import (
+    Phase,
+    Phases,
+    Range,
+    between,
+    floor_text,
+    hull,
+    show_range,
+    within,
+)
+from proofs.trusted.paper.s2_foundations import unending
+from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
+from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_arc
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
@@ -26,6 +38,8 @@ ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printe
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
 _MAJORITY = Fraction(1, 2)  # more than it is most of the circle
+_OPEN_SHARE = Fraction(1, 10**6)  # of the circle, of which G13 says nothing
+_END = Fraction(1, 10**9)  # how narrowly G13 brackets the ends of an interval
 _OPEN = Verdict.UNDECIDED
 _NOT_FOLLOWED = "no proof which phases reach the sticking arc"
 
@@ -101,12 +115,15 @@ def fixed_point(context: Context, reader: Reader) -> FixedPoint:
 
 
 def _determined(of: Parameters, found: Found) -> Decision:
-    """M6: the gap has a first zero after every phase; after some it is but a touch."""
+    """M6: eta being rational, the gap has a first zero after every phase; after some but a touch.
+
+    Numbers are exact, so that no statement has an irrational eta: `unending` is beside it.
+    """
     del of
-    never = found.first(NeverImpacts)
+    never, irrational = found.first(NeverImpacts), unending.prove(found)
     if never is None:
         return undecided("no phase is proved to have no next impact, and none to have one")
-    return decided(Verdict.CONDITIONAL, never, corrected=[never])
+    return decided(Verdict.CONDITIONAL, never, corrected=filter(None, (never, irrational)))
 
 
 def _by_the_arc(verdict: Verdict, holds: Callable[[Separation], bool]) -> Decide:
@@ -130,52 +147,62 @@ def _is_the_printed_orbit(arc: Separation) -> bool:
     return arc.returns and all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
 
 
-def _basin(decide: Callable[[Absorption, NeverImpacts | None], Verdict]) -> Decide:
-    """Decide by how much of the circle is proved to come to the orbit, and how much not to."""
+def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Decide:
+    """Decide by how much of the circle is proved to come to the orbit, and what not to."""
 
     def decision(of: Parameters, found: Found) -> Decision:
         del of
-        known, never = found.first(Absorption), found.first(NeverImpacts)
+        known = found.first(Absorption)
         if known is None or not known.arc.returns:
             return undecided(_NOT_FOLLOWED)
-        most = Fraction(1) if never is None else 1 - never.share
-        basin = {"basin_fraction": (known.share, most)}
-        rest = [] if never is None else [never]
+        rest: list[Sink | NeverImpacts] = [known.sink] if known.sink else []
+        rest += found.all(NeverImpacts)[:1]
+        lost = max((each.share for each in rest), default=Fraction(0))
+        basin = {"basin_fraction": (known.share, 1 - lost)}
         nearby = (known.arc, known, *rest, *found.all(FixedPoint)[:1])
-        verdict = decide(known, never) if _is_the_printed_orbit(known.arc) else _OPEN
+        verdict = decide(known, rest) if _is_the_printed_orbit(known.arc) else _OPEN
         if verdict is _OPEN:
-            missing = f"{known.brief}; of the rest nothing is known"
+            missing = f"{known.brief}; of the rest not enough is known"
             return Decision(_OPEN, (), nearby, missing=missing, quantities=basin)
         return decided(verdict, known, *rest, corrected=nearby, known=basin)
 
     return decision
 
 
-def _most(known: Absorption, never: NeverImpacts | None) -> Verdict:
+def _most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G4: "all the initial conditions chosen", "most of the initial conditions": the latter says
     what of the circle; which ones were chosen the paper does not say.
     """
-    del never
+    del rest
     return Verdict.VERIFIED if known.share > _MAJORITY else _OPEN
 
 
-def _almost_every(known: Absorption, never: NeverImpacts | None) -> Verdict:
+def _almost_every(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G10: an interval of phases that never impact again refutes it."""
     del known
-    return _OPEN if never is None else Verdict.REFUTED
+    return Verdict.REFUTED if rest else _OPEN
+
+
+def _two_basins(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
+    """G13: by both basins, and the ends of the interval that ends one of them."""
+    del rest
+    if known.sink is None or known.share + known.sink.share < 1 - _OPEN_SHARE:
+        return _OPEN
+    widest = max(high - low for low, high in known.sink.ends)
+    return Verdict.VERIFIED if widest <= _END else _OPEN
 
 
 def _transient(of: Parameters, found: Found) -> Decision:
-    """G6: by a fixed point in [1.1, 1.5] and what surrounds it."""
-    del of
-    known = found.first(Absorption)
+    """G6: near all phases whose orbits stay in an interval, around the sets of H7 and of G5."""
+    known, never = found.first(Absorption), found.all(NeverImpacts)[:1]
     if known is None:
         return undecided(_NOT_FOLLOWED)
-    for fixed in found.all(FixedPoint):
-        if within(fixed.domain, LONG) and known.reaches((fixed.first[0], fixed.domain[0])):
-            never = found.all(NeverImpacts)[:1]
-            return decided(Verdict.VERIFIED, fixed, *never, corrected=[fixed, known, *never])
-    return undecided("no fixed point in [1.1, 1.5] beside phases that reach the sticking arc")
+    for shift in found.all(FullShift):
+        sets = hull([of.interval, PRINTED])
+        if within(shift.interval, LONG) and within(sets, shift.interval):
+            near = long_transients(shift, known)
+            return decided(Verdict.VERIFIED, near, *never, corrected=[near, shift, known, *never])
+    return undecided("no full shift in [1.1, 1.5] around the invariant sets")
 
 
 _AT = "At (eta, nu) = ({eta}, {nu}): "
@@ -226,7 +253,7 @@ ROWS = (
         "3.4, Figure 6",
         "very high near the invariant sets (in [1.1, 1.5])",
         _AT + "the number of impacts before the periodic orbit that sticks is reached is high, "
-        "without bound, near the invariant sets, in [1.1, 1.5].",
+        "without bound, near every phase of the invariant sets, in [1.1, 1.5].",
         _transient,
         PAPER.place,
     ),
@@ -237,6 +264,16 @@ ROWS = (
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
         "every phase.",
         _basin(_almost_every),
+        PAPER.place,
+    ),
+    Row(
+        "G13",
+        "3.4",
+        "",
+        _AT + "all of the circle but for at most a millionth part of it comes either to the "
+        "periodic orbit that sticks, (4.64, 6.05) to the places printed, or to an interval of "
+        "phases, known to 10^-9 at both ends, after which there is no impact.",
+        _basin(_two_basins),
         PAPER.place,
     ),
 )

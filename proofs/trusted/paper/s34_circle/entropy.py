@@ -67,15 +67,18 @@ class Branch(Conclusion):
         """Return the flights from some of the phases."""
         return Motion(self.at.eta[0], self.at.nu[0], phases, BITS)
 
+    def window(self, phase: Fraction) -> Range:
+        """Return the times between which the first impact after a launch at a phase comes."""
+        if not within((phase, phase), self.phases):
+            raise Unproved("a phase outside the branch")
+        return self.begin, self.ends[max(0, bisect_left(self.cuts, phase) - 1)]
+
     def image(self, phase: Fraction, time: Range) -> Range:
         """Enclose phase + the time of the first impact, which is proved to be in `time`.
 
         On its branch the gap has one zero, falling: gap > 0 and gap < 0 at the ends bracket it.
         """
-        if not within((phase, phase), self.phases):
-            raise Unproved("a phase outside the branch")
-        piece = max(0, bisect_left(self.cuts, phase) - 1)
-        if not within(time, (self.begin, self.ends[piece])):
+        if not within(time, self.window(phase)):
             raise Unproved("a bracket leaves the window of the first impact")
         if not brackets(self.motion((phase, phase)).gap_of, time):
             raise Unproved("a bracket does not have the signs +, - at its ends")

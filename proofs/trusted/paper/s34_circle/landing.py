@@ -36,7 +36,7 @@ from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, clear, level
 
 Number = Any
-_TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
+TURN_AT_MOST = TURN + Fraction(1, 10**9)  # a little more than 2 pi
 _THREE = 3  # less than pi
 
 
@@ -214,7 +214,7 @@ class NeverImpacts(Conclusion):
     @property
     def share(self) -> Fraction:
         """The least share of the circle that these phases are."""
-        return (self.phases[1] - self.phases[0]) / _TURN_AT_MOST
+        return (self.phases[1] - self.phases[0]) / TURN_AT_MOST
 
     @property
     def sentence(self) -> str:

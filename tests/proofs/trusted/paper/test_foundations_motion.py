@@ -5,6 +5,7 @@ Expected values come from `reference` (the equations typed by hand) at 50 digits
 
 import math
 import random
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -12,16 +13,52 @@ from mpmath import mp, mpf
 
 from proofs.motion.marching import march
 from proofs.motion.system import System
+from proofs.trusted.numbers import Phases
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s2_foundations import unending
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
 HALF = System(Fraction(1, 2), Fraction(-1, 2))
 
 
-# -- M5: closed forms --------------------------------------------------------------------------
-
-
 def gap(eta, nu, psi, t, epsilon=mpf(0), gamma=mpf(0)):
     return mp.sign(nu) * reference.left_side_14(eta, nu, epsilon, psi, gamma, t)
+
+
+# -- M6: no impact at all ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "never"),
+    [
+        (mp.sqrt(2) / 7, "-0.2", True),
+        (mp.sqrt(3), "-0.9", True),
+        (mpf("0.2121"), "-0.2", True),  # a touch after 10000 turns, not before
+        (mp.sqrt(2) / 7, "-1", False),  # nu <= -1: it touches after one turn, or is below the table
+        (mp.sqrt(2) / 7, "-1.5", False),
+        (mp.sqrt(2) / 7, "0.2", False),  # nu > 0: the mass sticks
+        (mpf(2) / 7, "-0.2", False),  # rational: a touch after 7 turns
+    ],
+)
+def test_launched_at_the_top_the_mass_never_touches_the_table_again(eta, nu, never):
+    """The hypotheses of `unending`: -1 < nu < 0, and t, eta t never both multiples of 2 pi."""
+    turns = [2 * mp.pi * k for k in range(1, 2000)]
+    times = [*turns, *(t / eta for t in turns), *(mpf(k) / 97 for k in range(1, 3000))]
+    least = min(gap(eta, mpf(nu), mp.pi / 2, t) for t in times)
+    assert (least > 1e-12) == never
+
+
+def test_the_sentence_about_irrational_frequencies_needs_its_lemma():
+    lemma, of = unending.needs[0], replace(PAPER, nu=Fraction("-0.3"))
+    never = NeverImpacts(of.place, Phases(Fraction("1.57"), Fraction("1.571")))
+    told = [find("M6").decide(of, known).theorem for known in ([never, lemma], [never])]
+    assert "every irrational eta > 0 there is no impact" in told[0]
+    assert "For -1 < nu < 0 and" in told[0] and "irrational" not in told[1]
+
+
+# -- M5: closed forms --------------------------------------------------------------------------
 
 
 def first_zero(function, begin, end, pieces=300):

@@ -103,6 +103,22 @@ def test_barred_words_are_not_seen_and_others_are():
     assert not seen & {(1, 1, 1, 1, 1), (0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1)}
 
 
+@pytest.mark.parametrize("edge", [1.11, 1.15, 1.27, 1.32])
+def test_full_orbits_without_22_have_no_state_on_an_edge(edge):
+    """So Lambda_2 is in the open rectangles: V2 is followed by V1 there, V1 by either; velocities
+    before impacts are in (-0.45, 0).
+    """
+    for gamma in (-0.45, -0.3, -0.15, 0.0):
+        state, word = (edge, gamma), []
+        for _ in range(2):
+            state = image((0.2121, -0.2, 0.01), state, 24.0 if state[0] < 1.2 else 56.0)
+            word.append(symbol(state))
+            assert -0.45 < state[1] < 0
+            if word[-1] is None:
+                break
+        assert word[0] != 0 if edge > 1.2 else word in ([None], [1, None], [1, 1])
+
+
 def other(**change):
     """Other numbers, with an I that holds all sets of phases."""
     return replace(PAPER, interval=pair_of("1.1", "1.4"), **change)
