@@ -112,6 +112,16 @@ def _of(field, change):
     return lambda record: change(getattr(record, field))
 
 
+def _narrow(record):
+    """Cut velocities of rectangles, so that images leave them."""
+    sets = record.strips
+    if hasattr(sets, "velocities"):
+        sets.velocities = F(-9, 20), F(-2, 5)
+    else:
+        (phases, (low, high)), second = sets.after_first
+        sets.after_first = (phases, (low, low + (high - low) / 8)), second
+
+
 def _much_growth(record):
     record.growth = F(5000)
     middle = F(float(ball(record.growth).log()))
@@ -230,18 +240,26 @@ FALSE = {
     "BarredWord": [put("word", (0, 0)), put("short", lambda old: old + 1)],
     "RectangleHorseshoe": [
         put("margin", F(1, 2)),
-        put("rates", lambda old: (F(9), old[1])),
-        put("rates", lambda old: (old[0], F(1, 10**9))),
-        _of("strips", put("velocities", (F(-9, 20), F(-2, 5)))),
+        put("rates", lambda old: (F(99), *old[1:])),
+        put("rates", lambda old: (old[0], F(1, 10**9), old[2])),
+        put("rates", lambda old: (*old[:2], (F(3), F(1)))),
+        _narrow,
+    ],
+    "HorseshoeFamily": [
+        put("shoes", lambda old: old[1:]),
+        put("shoes", lambda old: (old[0], *old[2:])),
+        put("box", lambda old: (*old[:2], (F(0), F(1, 2)))),
+        lambda record: [put("margin", F(1, 2))(shoe) for shoe in record.shoes],
+        lambda record: [_narrow(shoe) for shoe in record.shoes],
     ],
     "GoldenMean": [
-        put("rates", (F(9), F(1, 99))),
+        put("rates", lambda old: (F(9), F(1, 99), old[2])),
         _of("strips", put("right", (F("1.2"), F("1.22")))),
     ],
     "Hyperbolic": [
         put("grow", F(9)),
         put("shrink", F(1, 999)),
-        put("rates", (F(9), F(1, 99))),
+        put("rates", lambda old: (F(9), F(1, 99), old[2])),
     ],
     "EdgeImage": [offs("image"), put("phase", F("1.2"))],
     "Equal": [

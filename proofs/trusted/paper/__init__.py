@@ -17,7 +17,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "horseshoe": ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16"),
         "foundations": ("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9", "A1", "A2"),
-        "nonplastic": ("N1", "N2", "N3", "N4"),
+        "nonplastic": ("N1", "N2", "N3", "N4", "N5"),
         "sets": ("H7", "H8", "H9", "H10", "H12", "H14", "H15", "H17"),
         "dimension": ("H13",),
         "chaos": ("G5", "G9", "G11"),
