@@ -156,10 +156,10 @@ def _boxes(strips):
     return [*strips.after_first, *strips.after_second]
 
 
-def _impacts(view, rng):
+def _impacts(view, rng, count=5):
     """States of the rectangles, which of them, and the next impacts."""
     for index, (phases, velocities) in enumerate(_boxes(view.strips)):
-        for state in _states(view.box, phases, velocities, rng):
+        for state in _states(view.box, phases, velocities, rng, count):
             found = _launched(state)
             if found is not None:
                 yield state, index, found
@@ -171,7 +171,7 @@ def rectangle_horseshoe(view, rng):
     """
     told, boxes = [], _boxes(view.strips)
     low, high = (min(box[0][0] for box in boxes), max(box[0][1] for box in boxes))
-    for state, index, found in _impacts(view, rng):
+    for state, index, found in _impacts(view, rng, 12):
         following = boxes[2:] if len(boxes) == 4 and index % 2 else boxes[:2]
         edges = [_launched((*state[:3], edge, state[4])) for edge in boxes[index][0]]
         if not all(isinstance(one, Impact) for one in (found, *edges)):
