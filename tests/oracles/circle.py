@@ -195,7 +195,40 @@ def stable_pair(view, rng):
     return told
 
 
+def bounces_end(view, rng):
+    """How the bounces after the flight from phi_s end: in rest, or in flight at phi_s."""
+    told, arc = separation_arc(view.arc, rng), view.arc
+    phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
+    side = 1 if view.nu > 0 else -1
+    for count in range(80):
+        if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**10):
+            return told if view.rests else [*told, "it comes to rest"]
+        gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
+        found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
+        if not isinstance(found, Impact) or found.lifted > ball(arc.phase[1]):
+            if view.rests:
+                told.append(f"it is in flight at phi_s after {count} bounces")
+            return told if count == view.bounces else [*told, f"{count} bounces"]
+        phase, speed = found.lifted, found.speed
+    return [*told, "bounces have no end"]
+
+
+def border(view, rng):
+    """The motion rests up to one epsilon, and at another, not at a third."""
+    told = [
+        *superstable_motion(view.motion, rng),
+        *bounces_end(view.rests, rng),
+        *bounces_end(view.passes, rng),
+    ]
+    epsilons = view.motion.largest, view.rests.epsilon, view.passes.epsilon
+    if not epsilons[0] <= epsilons[1] < epsilons[2] or view.passes.rests or not view.rests.rests:
+        told.append("no border")
+    return told
+
+
 JUDGES = {
+    "BouncesEnd": bounces_end,
+    "Border": border,
     "Separation": separation_arc,
     "Lands": lands,
     "NeverImpacts": never_impacts,

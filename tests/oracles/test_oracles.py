@@ -216,6 +216,17 @@ FALSE = {
         put("spread", F(1)),
         put("largest", F(9, 10)),
     ],
+    "BouncesEnd": [
+        put("rests", lambda old: not old),
+        put("epsilon", lambda old: 1 - old),
+        _of("arc", offs("speed")),
+    ],
+    "Border": [
+        put("rests", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(2, 5)})),
+        put("passes", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(9, 25)})),
+        put("passes", lambda old: SimpleNamespace(**{**vars(old), "bounces": old.bounces + 1})),
+        _of("motion", put("largest", F(9, 10))),
+    ],
     "StablePair": [put("first", lambda old: (off(old[0]), old[1])), put("epsilon", F(1, 2))],
     "Solution": [
         offs("multiplier"),
