@@ -198,18 +198,20 @@ def stable_pair(view, rng):
 def bounces_end(view, rng):
     """How the bounces after the flight from phi_s end: in rest, or in flight at phi_s."""
     told, arc = separation_arc(view.arc, rng), view.arc
-    phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
     side = 1 if view.nu > 0 else -1
-    for count in range(80):
-        if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**10):
-            return told if view.rests else [*told, "it comes to rest"]
-        gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
-        found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
-        if not isinstance(found, Impact) or found.lifted > ball(arc.phase[1]):
-            if view.rests:
-                told.append(f"it is in flight at phi_s after {count} bounces")
-            return told if count == view.bounces else [*told, f"{count} bounces"]
-        phase, speed = found.lifted, found.speed
+    with flint.ctx.workprec(240):
+        phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
+        for count in range(80):
+            if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**8):
+                return told if view.rests else [*told, "it comes to rest"]
+            gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
+            found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
+            if found is None:
+                return told
+            if not isinstance(found, Impact) or found.lifted > ball(arc.phase[1]):
+                end = f"it is in flight at phi_s after {count} bounces"
+                return [*told, end] if view.rests or count != view.bounces else told
+            phase, speed = found.lifted.mid(), found.speed.mid()
     return [*told, "bounces have no end"]
 
 
