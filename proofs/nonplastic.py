@@ -1,4 +1,4 @@
-"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1 to N4.
+"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1 to N5.
 
 Candidates by floating point; every impact, rectangle and barred word is proved by interval
 arithmetic and recorded for the checker.

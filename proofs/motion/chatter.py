@@ -48,7 +48,7 @@ class Pushing:
         bounces: list[Range] = []
         kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
         while len(bounces) < _MOST_BOUNCES:
-            ending = self._ending(epsilon[1], phases, kicks[1])
+            ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
                 return Settled(tuple(bounces), *ending)
             time, speeds = self.bounce(phases, kicks)
@@ -66,7 +66,7 @@ class Pushing:
         eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))
         return launch(self.system.side, eta, nu, Interval(*phases, precision=_PRECISION))
 
-    def _ending(
+    def ending(
         self, epsilon: Fraction, phases: Range, kick: Fraction
     ) -> tuple[Fraction, Fraction] | None:
         """Return (ratio, rest) that satisfy the hypotheses of Lemma 2, None if none is found.
@@ -99,7 +99,7 @@ class Pushing:
             raise Undecided("a bounce as weak as one likes is no bounce that can be bracketed")
         kick = Interval(*kicks, precision=_PRECISION) * self.system.side
         start = self._launches(phases)._replace(kick=kick)
-        about = [self._candidate(float(phi), float(w)) for phi in phases for w in kicks]
+        about = [self.candidate(float(phi), float(w)) for phi in phases for w in kicks]
         opening = Fraction(max(about) - min(about)) / 8 + Fraction(1, 2**16)
         low, high = _down(Fraction(min(about)), _GRID), _up(Fraction(max(about)), _GRID)
         for _ in range(_WIDENINGS):
@@ -121,7 +121,7 @@ class Pushing:
         speeds = max(speed.inf, kicks[0] / change), min(speed.sup, kicks[1] * change)
         return (low, high), speeds
 
-    def _candidate(self, phase: float, kick: float) -> float:
+    def candidate(self, phase: float, kick: float) -> float:
         """Return about the time of the next impact, by Newton's method from the parabola's."""
         eta, nu = float(self.system.eta), float(self.system.nu)
         start = launch(self.system.side, eta, nu, phase)._replace(kick=self.system.side * kick)

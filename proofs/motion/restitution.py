@@ -14,6 +14,9 @@ from proofs.trusted.equations import (
     Launch,
     arrival,
     closing,
+    flight_derivative,
+    gap,
+    launch,
     launch_with_restitution,
     return_map_derivative,
 )
@@ -105,6 +108,30 @@ class Rebounds(Flight):
         value: Interval = arrival(self.start, self.clock(*time))[1]
         return value
 
+    def centred(self, time: Range) -> tuple[Interval, Interval]:
+        """Enclose phases, on the line, and velocities of all impacts, whose times are in `time`.
+
+        By the mean value theorem in (phi, kick), from the flight in the middle of the box, and
+        that flight's time by the interval Newton method.
+        """
+        kick: Interval = self.restitution * closing(self.start, self.gamma)
+        phi = Interval(*self.phases, precision=self.precision)
+        centre, push = (Interval(x.mid, precision=self.precision) for x in (phi, kick))
+        nu = self._around(self.system.nu, self.nu_reach)
+        middle = launch(self.system.side, self.eta, nu, centre)._replace(kick=push)
+        fall, arrived = self.gap(*time, order=1), Interval(*time, precision=self.precision)
+        for _ in range(2):
+            guess = arrived.mid
+            height = gap(middle, self.clock(guess))
+            arrived = _common(arrived, guess - height / fall)
+        values = centre + arrived, arrival(middle, self.clock(arrived.inf, arrived.sup))[1]
+        rows = flight_derivative(self.start, self.clock(*time))
+        phase, velocity = (
+            value + row[0] * (phi - centre) + row[1] * (kick - push)
+            for value, row in zip(values, rows, strict=True)
+        )
+        return phase, velocity
+
     def derivative(self, time: Range) -> Matrix:
         """Enclose DF over all states, impact times in `time`: rows (phase, velocity)."""
         value: Matrix = return_map_derivative(self.start, self.clock(*time), self.restitution)
@@ -120,7 +147,7 @@ def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
         return impact_time(found, flight.phases, bits)
     low, high = found.window
     # until what bisection may still gain is small beside the narrowest side of the box
-    halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
+    halvings = 7 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
     return bisected(flight, found.window, halvings)
 
 
@@ -153,10 +180,20 @@ def next_impact(flight: Rebounds, *, bits: int = 64, horizon: Fraction = HORIZON
         precise = replace(flight, precision=bits + 30 + found.loss)
     arrival = flight.phases[0] + time[0], flight.phases[1] + time[1]
     turns = int(arrival[0] // turn(precise.precision).sup)
-    phase = lifted(arrival, -turns, precise.precision)
-    velocity = precise.arrival_velocity(time)
+    on_line, velocity = precise.centred(time)
+    on_line = _common(Interval(*arrival, precision=precise.precision), on_line)
+    phase = lifted((on_line.inf, on_line.sup), -turns, precise.precision)
+    velocity = _common(precise.arrival_velocity(time), velocity)
     (p, q), (r, s) = ([(entry.inf, entry.sup) for entry in row] for row in precise.derivative(time))
     return Arrival(found, time, turns, phase, (velocity.inf, velocity.sup), ((p, q), (r, s)))
+
+
+def _common(one: Interval, two: Interval) -> Interval:
+    """Return what two enclosures of the same have in common."""
+    both = one.intersection(two)
+    if both is None:
+        raise ArithmeticError("two enclosures exclude each other")
+    return both
 
 
 def _locate(flight: Rebounds, horizon: Fraction) -> FirstImpact:

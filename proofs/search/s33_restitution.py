@@ -1,4 +1,4 @@
-"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1 to N4.
+"""Section 3.3: the impact map with restitution on the printed rectangles. Claims N1 to N5.
 
 Candidates by floating point; every impact, rectangle and barred word is proved by interval
 arithmetic and recorded for the checker.
@@ -17,6 +17,7 @@ from proofs.motion.system import System
 from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
 from proofs.search.s33_boxes import on_box
+from proofs.search.s33_family import along_epsilon
 from proofs.search.s33_rectangles import (
     Images,
     Sets,
@@ -51,11 +52,14 @@ def prove(
         return Evidence()
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
     at = Place((of.eta, of.eta), (of.nu, of.nu), (of.epsilon, of.epsilon))
-    exact = [claim for claim in claims if claim != "N4"]
+    exact = [claim for claim in claims if claim not in ("N4", "N5")]
     named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
     if "N4" in claims:
         tell("the box of parameters")
         named["N4"], notes["N4"] = on_box(prover, Place(*of.box))
+    if "N5" in claims:
+        tell("larger epsilon")
+        named["N5"], notes["N5"] = along_epsilon(prover)
     proofs = {
         claim: [(name, prover.known[name]) for name in dict.fromkeys(names)]
         for claim, names in named.items()

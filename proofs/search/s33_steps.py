@@ -6,7 +6,7 @@ Impacts are proved by interval arithmetic; what follows from them, by the theore
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -24,11 +24,14 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s33_restitution.cones import PLAIN
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.rules import find_rule
 
 C = TypeVar("C", bound=Conclusion)
+Box = tuple[Range, Range]  # phases x velocities
+Fits = Callable[[Rebound], bool]
 _WIDEST = Fraction(1, 32)  # of a part of a rectangle, in phase
 _NARROWEST = Fraction(1, 256)
 _LONGEST = 8  # symbols of a barred word
@@ -126,9 +129,18 @@ class ReboundProver:
         for name, known in self.all(RectangleMap, at):
             if known.phases == phases:
                 return name
-        edges = [self.rebound(at, (end, end), self.velocities)[0] for end in phases]
-        inner = (cut for cut in cuts if phases[0] < cut < phases[1])
-        parts = self._chain(at, phases) or self._parts(at, [phases[0], *inner, phases[1]])
+        if parts := self._chain(at, phases):
+            return self._joined(at, (phases, self.velocities), parts)
+        return self.cut_rectangle(at, (phases, self.velocities), cuts, self._stays)
+
+    def cut_rectangle(self, at: Place, box: Box, cuts: Sequence[Fraction], fits: Fits) -> str:
+        """Prove what F does on a rectangle, in parts that fit, between the cuts or finer."""
+        low, high = box[0]
+        inner = (cut for cut in cuts if low < cut < high)
+        return self._joined(at, box, self._parts(at, [low, *inner, high], box[1], fits))
+
+    def _joined(self, at: Place, box: Box, parts: list[str]) -> str:
+        edges = [self.rebound(at, (end, end), box[1])[0] for end in box[0]]
         return self.derive("rectangle", parts=parts, edges=edges)
 
     def _chain(self, at: Place, phases: Range) -> list[str]:
@@ -143,7 +155,9 @@ class ReboundProver:
             names.append(name)
         return names
 
-    def _parts(self, at: Place, cuts: Sequence[Fraction]) -> list[str]:
+    def _parts(
+        self, at: Place, cuts: Sequence[Fraction], velocities: Range, fits: Fits
+    ) -> list[str]:
         """Prove impacts on parts between cuts, in order, each halved while it must be."""
         names, rest = [], list(reversed(list(pairwise(cuts))))
         while rest:
@@ -152,7 +166,10 @@ class ReboundProver:
                 if high - low > _WIDEST:
                     raise Undecided("wider than it is worth to try")
                 with self.attempt():
-                    names.append(self._part(at, (low, high)))
+                    name, found = self.rebound(at, (low, high), velocities)
+                    if not fits(found):
+                        raise Undecided("images or derivatives do not fit")
+                    names.append(name)
             except FAILED:
                 if high - low <= _NARROWEST:
                     raise
@@ -160,12 +177,10 @@ class ReboundProver:
                 rest += [(middle, high), (low, middle)]
         return names
 
-    def _part(self, at: Place, phases: Range) -> str:
-        """Prove the impacts of a part; Undecided also where its images leave the velocities."""
-        name, found = self.rebound(at, phases, self.velocities)
-        if not self.velocities[0] < found.velocity[0] <= found.velocity[1] < self.velocities[1]:
-            raise Undecided("an image velocity may leave the rectangles")
-        return name
+    def _stays(self, found: Rebound) -> bool:
+        """Whether image velocities stay in the rectangles."""
+        low, high = self.velocities
+        return low < found.velocity[0] <= found.velocity[1] < high
 
     def pair(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> list[str]:
         """Prove what F does on two rectangles."""
@@ -180,7 +195,8 @@ class ReboundProver:
                 short = max(low[1] - sets[0][0], sets[1][1] - high[0])
                 if short >= 0:
                     raise Unproved(f"an edge may fall short by up to {float(short):.6g}")
-            return self.derive("rectangle-horseshoe", rectangles=self.pair(at, sets, cuts))
+            pair = self.pair(at, sets, cuts)
+            return self.derive("rectangle-horseshoe", rectangles=pair, cone=texts(PLAIN))
 
     # -- words ---------------------------------------------------------------------------------
 

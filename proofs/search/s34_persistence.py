@@ -1,7 +1,7 @@
 """Section 3.4 with restitution: the stable orbit persists, with infinitely many impacts a period.
 
-Claims G7, G8 and G12. The flight from the separation phase does not depend on epsilon; after it,
-for ever larger epsilon, the bounces are enclosed until they are proved to end before that phase.
+Claims G7, G8, G12 and G15. The flight from the separation phase does not depend on epsilon; after
+it, for ever larger epsilon, bounces are enclosed until they are proved to end before that phase.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from proofs.motion.simulate import INITIAL_STATES, TURNS, Summary, late_state, t
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_border import border
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -51,13 +52,18 @@ def prove(
 ) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
     prover, found = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
-    if asked := {"G7", "G12"}.intersection(claims):
+    if {"G7", "G12", "G15"}.intersection(claims):
         with suppress(*FAILED):  # what is not proved the claims do not say
             tell("the flight from the separation phase, and bounces for ever larger epsilon")
-            proof: Proof = [superstable_motion(prover)]
-            found.proofs = dict.fromkeys(asked, proof)
-            tell("another stable orbit")
-            proof += another_orbit(of, prover)
+            motion = superstable_motion(prover)
+            proof: Proof = [motion]
+            found.proofs = dict.fromkeys({"G7", "G12"}.intersection(claims), proof)
+            if "G15" in claims:
+                tell("where bounces do not come to an end any more")
+                found.proofs["G15"] = [*proof, *border(prover, motion)]
+            if found.proofs.keys() & {"G7", "G12"}:
+                tell("another stable orbit")
+                proof += another_orbit(of, prover)
     if "G8" in claims:
         tell("simulated motions")
         found.notes["G8"] = observed(transients(prover.system))

@@ -197,3 +197,17 @@ def return_map_derivative(
     by_phi, by_gamma = moved / fall, -(epsilon * big_s) / fall
     pull = eta * arrival(start, now)[0]
     return (by_phi, by_gamma), (pull * by_phi + turned, pull * by_gamma - epsilon * big_c)
+
+
+def flight_derivative(
+    start: Launch, now: Clock
+) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
+    """Return the derivatives of phase and velocity at an impact (rows) by phi and by the kick.
+
+    Theorem. The flight depends on epsilon and gamma by the kick alone. So the first column is that
+    of `return_map_derivative` for epsilon = 0 but for the kick, and the second one, as gamma moves
+    the kick by epsilon eta, its second column divided by that: for epsilon = 1/eta, itself.
+    """
+    (by_phi, _), (turned, _) = return_map_derivative(start, now, start.eta * 0)
+    (_, by_kick), (_, pulled) = return_map_derivative(start, now, (start.eta * 0 + 1) / start.eta)
+    return (by_phi, by_kick), (turned, pulled)

@@ -118,6 +118,14 @@ def hull(ranges: Sequence[Range]) -> Range:
     return min(low for low, _ in ranges), max(high for _, high in ranges)
 
 
+def common(one: Range, two: Range) -> Range:
+    """Return what two enclosures of the same have in common; Unproved if that is nothing."""
+    low, high = max(one[0], two[0]), min(one[1], two[1])
+    if low > high:
+        raise Unproved("two enclosures exclude each other")
+    return low, high
+
+
 def agree(bounds: Range, digits: int) -> bool:
     """Whether two bounds are equal to `digits` significant digits."""
     return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits

@@ -55,6 +55,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "branch": "paper.s34_circle.entropy.branch",
         "covering-graph": "paper.s34_circle.entropy.covering_graph",
         "superstable-motion": "paper.s34_circle.persistence.superstable_motion",
+        "bounces-end": "paper.s34_circle.border.bounces_end",
         "stable-pair": "paper.s34_circle.persistence.prove_stable_pair",
         "single-solution": "paper.s4_single.orbits.single_solution",
         "single-orbit": "paper.s4_single.orbits.single_orbit",

@@ -214,7 +214,42 @@ def stable_pair(view, rng):
     return told
 
 
+def bounces_end(view, rng):
+    """How the bounces after the flight from phi_s end: in rest, or in flight at phi_s."""
+    told, arc = separation_arc(view.arc, rng), view.arc
+    side = 1 if view.nu > 0 else -1
+    with flint.ctx.workprec(240):
+        phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
+        for count in range(80):
+            if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**8):
+                return told if view.rests else [*told, "it comes to rest"]
+            gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
+            found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
+            if found is None:
+                return told
+            if not isinstance(found, Impact) or found.lifted > ball(arc.phase[1]):
+                end = f"it is in flight at phi_s after {count} bounces"
+                return [*told, end] if view.rests or count != view.bounces else told
+            phase, speed = found.lifted.mid(), found.speed.mid()
+    return [*told, "bounces have no end"]
+
+
+def border(view, rng):
+    """The motion rests up to one epsilon, and at another, not at a third."""
+    told = [
+        *superstable_motion(view.motion, rng),
+        *bounces_end(view.rests, rng),
+        *bounces_end(view.passes, rng),
+    ]
+    epsilons = view.motion.largest, view.rests.epsilon, view.passes.epsilon
+    if not epsilons[0] <= epsilons[1] < epsilons[2] or view.passes.rests or not view.rests.rests:
+        told.append("no border")
+    return told
+
+
 JUDGES = {
+    "BouncesEnd": bounces_end,
+    "Border": border,
     "Separation": separation_arc,
     "Lands": lands,
     "NeverImpacts": never_impacts,

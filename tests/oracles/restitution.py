@@ -8,8 +8,6 @@ from types import SimpleNamespace
 from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod
 from tests.oracles.plastic import between
 
-CONE = 2  # unstable vectors have |dgamma| <= CONE |dphi|
-
 
 def _states(box, phases, velocities, rng, count=5):
     """(eta, nu, epsilon, phi, gamma): two opposite corners and random places."""
@@ -133,9 +131,15 @@ def _solve(at, ends, count, goal, wanted):
 
 
 def _rates(derivative, rates):
-    """Vectors (dphi, dgamma / CONE) that are flat grow, those with a steep image shrink."""
-    (p, q), (r, s) = ([float(x) for x in row] for row in derivative)
-    q, r = CONE * q, r / CONE
+    """Vectors (x, y) = (dphi, (dgamma - slope dphi) / width) that are flat grow, and those with a
+    steep image shrink.
+    """
+    slope, width = map(float, rates[2])
+    (p, q), (r, s) = (
+        [row[0] + slope * row[1], width * row[1]]
+        for row in ([float(x) for x in row] for row in derivative)
+    )
+    r, s = (r - slope * p) / width, (s - slope * q) / width
     grow = min(abs(p + q * t) for t in (-1, 0, 1))
     edges = ((s - q) / (p - r), (-s - q) / (p + r)) if p > abs(r) else ()
     shrink = max((abs(r * t + s) for t in edges), default=1)
@@ -145,32 +149,57 @@ def _rates(derivative, rates):
         yield "the rates are not hyperbolic"
 
 
-def _impacts(view, rng):
-    """States of both rectangles, which of them, and the next impacts."""
-    for index, part in enumerate((view.strips.left, view.strips.right)):
-        for state in _states(view.box, part, view.strips.velocities, rng):
+def _boxes(strips):
+    """The rectangles, V1 and V2 by turns: two, or two for the states after V1 and two after V2."""
+    if hasattr(strips, "velocities"):
+        return [(strips.left, strips.velocities), (strips.right, strips.velocities)]
+    return [*strips.after_first, *strips.after_second]
+
+
+def _impacts(view, rng, count=5):
+    """States of the rectangles, which of them, and the next impacts."""
+    for index, (phases, velocities) in enumerate(_boxes(view.strips)):
+        for state in _states(view.box, phases, velocities, rng, count):
             found = _launched(state)
             if found is not None:
                 yield state, index, found
 
 
 def rectangle_horseshoe(view, rng):
-    """Edges are mapped beyond both rectangles, by the margin; vectors grow and shrink."""
-    told, (low, high) = [], (view.strips.left[0], view.strips.right[1])
-    for state, index, found in _impacts(view, rng):
-        part = (view.strips.left, view.strips.right)[index]
-        edges = [_launched((*state[:3], edge, state[4])) for edge in part]
+    """Edges are mapped beyond the rectangles that are next, by the margin, images there to
+    velocities in them, and into no others; vectors grow and shrink.
+    """
+    told, boxes = [], _boxes(view.strips)
+    low, high = (min(box[0][0] for box in boxes), max(box[0][1] for box in boxes))
+    for state, index, found in _impacts(view, rng, 12):
+        following = boxes[2:] if len(boxes) == 4 and index % 2 else boxes[:2]
+        edges = [_launched((*state[:3], edge, state[4])) for edge in boxes[index][0]]
         if not all(isinstance(one, Impact) for one in (found, *edges)):
             told += [one for one in (found, *edges) if isinstance(one, str)]
             continue
         told += _rates(found.derivative(), view.rates)
         turns = round((float(edges[0].lifted + edges[1].lifted) - float(low + high)) / 2 / TURN)
         first, last = (one.turned(turns) for one in edges)
-        if first > ball(low - view.margin) or last < ball(high + view.margin):
+        ends = following[0][0][0] - view.margin, following[1][0][1] + view.margin
+        if first > ball(ends[0]) or last < ball(ends[1]):
             told.append(f"edges are mapped to {first.str(9)}, {last.str(9)}, not beyond both sets")
-        if not inside(found.velocity, view.strips.velocities):
-            told.append(f"an image velocity is {found.velocity.str(9)}")
+        for phases, velocities in boxes:
+            if not inside(found.turned(turns), phases):
+                continue
+            if ((phases, velocities) in following) != inside(found.velocity, velocities):
+                told.append(f"an image velocity is {found.velocity.str(9)}")
     return told if view.margin > 0 else [*told, "no margin"]
+
+
+def horseshoe_family(view, rng):
+    """A horseshoe for each interval of epsilon, one after the other from 0 on."""
+    told, reached = [], 0
+    for shoe in view.shoes:
+        if shoe.box[2][0] != reached or shoe.box[:2] != view.box[:2]:
+            told.append(f"no horseshoe from epsilon = {float(reached):.6g} on")
+        reached = shoe.box[2][1]
+        told += rectangle_horseshoe(shoe, rng)
+    return told if reached == view.box[2][1] > 0 else [*told, "not as far as said"]
 
 
 def golden_mean(view, rng):
@@ -224,6 +253,7 @@ JUDGES = {
     "RectangleMap": rectangle,
     "BarredWord": barred_word,
     "RectangleHorseshoe": rectangle_horseshoe,
+    "HorseshoeFamily": horseshoe_family,
     "GoldenMean": golden_mean,
     "Hyperbolic": hyperbolic,
     "EdgeImage": edge_image,

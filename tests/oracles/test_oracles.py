@@ -112,6 +112,16 @@ def _of(field, change):
     return lambda record: change(getattr(record, field))
 
 
+def _narrow(record):
+    """Cut velocities of rectangles, so that images leave them."""
+    sets = record.strips
+    if hasattr(sets, "velocities"):
+        sets.velocities = F(-9, 20), F(-2, 5)
+    else:
+        (phases, (low, high)), second = sets.after_first
+        sets.after_first = (phases, (low, low + (high - low) / 8)), second
+
+
 def _much_growth(record):
     record.growth = F(5000)
     middle = F(float(ball(record.growth).log()))
@@ -209,6 +219,17 @@ FALSE = {
         put("spread", F(1)),
         put("largest", F(9, 10)),
     ],
+    "BouncesEnd": [
+        put("rests", lambda old: not old),
+        put("epsilon", lambda old: 1 - old),
+        _of("arc", offs("speed")),
+    ],
+    "Border": [
+        put("rests", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(2, 5)})),
+        put("passes", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(9, 25)})),
+        put("passes", lambda old: SimpleNamespace(**{**vars(old), "bounces": old.bounces + 1})),
+        _of("motion", put("largest", F(9, 10))),
+    ],
     "StablePair": [put("first", lambda old: (off(old[0]), old[1])), put("epsilon", F(1, 2))],
     "Solution": [
         offs("multiplier"),
@@ -233,18 +254,26 @@ FALSE = {
     "BarredWord": [put("word", (0, 0)), put("short", lambda old: old + 1)],
     "RectangleHorseshoe": [
         put("margin", F(1, 2)),
-        put("rates", lambda old: (F(9), old[1])),
-        put("rates", lambda old: (old[0], F(1, 10**9))),
-        _of("strips", put("velocities", (F(-9, 20), F(-2, 5)))),
+        put("rates", lambda old: (F(99), *old[1:])),
+        put("rates", lambda old: (old[0], F(1, 10**9), old[2])),
+        put("rates", lambda old: (*old[:2], (F(3), F(1)))),
+        _narrow,
+    ],
+    "HorseshoeFamily": [
+        put("shoes", lambda old: old[1:]),
+        put("shoes", lambda old: (old[0], *old[2:])),
+        put("box", lambda old: (*old[:2], (F(0), F(1, 2)))),
+        lambda record: [put("margin", F(1, 2))(shoe) for shoe in record.shoes],
+        lambda record: [_narrow(shoe) for shoe in record.shoes],
     ],
     "GoldenMean": [
-        put("rates", (F(9), F(1, 99))),
+        put("rates", lambda old: (F(9), F(1, 99), old[2])),
         _of("strips", put("right", (F("1.2"), F("1.22")))),
     ],
     "Hyperbolic": [
         put("grow", F(9)),
         put("shrink", F(1, 999)),
-        put("rates", (F(9), F(1, 99))),
+        put("rates", lambda old: (F(9), F(1, 99), old[2])),
     ],
     "EdgeImage": [offs("image"), put("phase", F("1.2"))],
     "Equal": [

@@ -11,8 +11,9 @@ from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sh
 from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import GoldenMean
 from proofs.trusted.parameters import Place
 
@@ -31,6 +32,8 @@ def plot(proved: Context) -> Drawing:
         raise Undecided("no horseshoe is proved at the printed epsilon")
     drawing, both = sheet(3.6, 1, 2, sharey=True)
     for axes, found, name in ((both[0], printed, "printed"), (both[1], corrected, "corrected")):
+        if not isinstance(found.strips, Strips):
+            raise Undecided("the rectangles are not two with the same velocities")
         _strips(axes, proved, found.at, found.strips)
         left, right = show_range(found.strips.left), show_range(found.strips.right)
         axes.set_title(f"{name}: phases {left} and {right}")

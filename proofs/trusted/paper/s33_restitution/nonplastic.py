@@ -1,4 +1,4 @@
-"""Section 3.3: is F, with restitution, a horseshoe on V1 = ABCD and V2 = EFGH? Claims N1 to N4."""
+"""Section 3.3: is F, with restitution, a horseshoe on V1 = ABCD and V2 = EFGH? Claims N1 to N5."""
 
 from __future__ import annotations
 
@@ -10,8 +10,13 @@ from fractions import Fraction
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range, between, floor_text, show, within
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, Strips, hyperbolic
+from proofs.trusted.paper.s33_restitution.horseshoes import (
+    HorseshoeFamily,
+    RectangleHorseshoe,
+    hyperbolic,
+)
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -133,16 +138,30 @@ def _hyperbolic(of: Parameters, found: Found) -> Decision:
 
 def _orbits(of: Parameters, found: Found) -> Decision:
     """N3: the golden mean shift, or the full one; beside it, on which boxes a full one holds."""
-    sets = with_restitution(of)
+    printed = with_restitution(of)
     whole: list[GoldenMean | RectangleHorseshoe]
     whole = [*found.all(GoldenMean), *found.all(RectangleHorseshoe)]
-    own = [each for each in whole if each.strips == sets]
+    own = [each for each in whole if each.strips == printed]
     if not own:
         return undecided("no proof of which words orbits in V1 and V2 follow")
     wide = [each for each in found.elsewhere(RectangleHorseshoe) if each not in own]
     states = found.elsewhere(Rebound)
-    edges = [x for each in wide[:1] for x in edge_images(each.strips, states) if x.short > 0]
+    sets = [each.strips for each in wide[:1] if isinstance(each.strips, Strips)]
+    edges = [x for each in sets for x in edge_images(each, states) if x.short > 0]
     return decided(Verdict.VERIFIED, own[0], corrected=[*own, *wide, *edges])
+
+
+def _family(of: Parameters, found: Found) -> Decision:
+    """N5: horseshoes for one interval of epsilon after the other, on rectangles that move."""
+    if of.epsilon is None:
+        return undecided("epsilon is needed: without restitution see H7 to H9")
+    point = (of.eta, of.eta), (of.nu, of.nu)
+    here = [x for x in found.elsewhere(RectangleHorseshoe) if sides(x.at)[:2] == point]
+    proved = HorseshoeFamily(tuple(sorted(here, key=lambda each: sides(each.at)[2])))
+    most = sides(proved.at)[2][1]
+    if most <= of.epsilon:
+        return replace(undecided(f"proved up to epsilon = {show(most)} only"), corrected=(proved,))
+    return decided(Verdict.VERIFIED, proved, corrected=[proved], margin=most - of.epsilon)
 
 
 _SETS = "V1 = {i0} x {gamma}, V2 = {i1} x {gamma} (phases x velocities before an impact)"
@@ -182,5 +201,16 @@ ROWS = (
         "hyperbolic, and conjugate to the full shift on two symbols (where epsilon = 0: f, on the "
         "phases whose orbits stay there, to the one-sided one).",
         _full,
+    ),
+    Row(
+        "N5",
+        "3.3, for larger epsilon",
+        "",
+        "At (eta, nu) = ({eta}, {nu}), for every epsilon from 0 to some number above {epsilon} "
+        "there are disjoint sets V1 and V2 of states, each one rectangle or the union of two, such "
+        "that every two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of F "
+        "in V1 and V2, and F on the states of these is uniformly hyperbolic, and conjugate to the "
+        "full shift on two symbols (where epsilon = 0: f, to the one-sided one).",
+        _family,
     ),
 )

@@ -11,10 +11,13 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import (
+    Launch,
     arrival,
     clock,
     closing,
+    flight_derivative,
     gap,
+    launch,
     launch_with_restitution,
     return_map_derivative,
 )
@@ -32,7 +35,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, between, hull, show_range, within
+from proofs.trusted.numbers import Phases, Range, between, common, hull, show_range, within
 from proofs.trusted.parameters import Place
 
 Entries = tuple[tuple[Range, Range], tuple[Range, Range]]  # DF: rows (phase, velocity)
@@ -80,11 +83,15 @@ class Rebound(Conclusion):
 
 @dataclass(frozen=True)
 class RectangleMap(Rebound):
-    """F on a whole rectangle: its left and right edges have images at phases in `left`, `right`."""
+    """F on a whole rectangle: its left and right edges have images at phases in `left`, `right`.
+
+    parts: F on parts that cover it, each with all its velocities.
+    """
 
     phases: Phases
     left: Range
     right: Range
+    parts: tuple[Rebound, ...]
 
     @property
     def sentence(self) -> str:
@@ -103,7 +110,8 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     at its lower and gap < 0 at its upper end.
 
     Conclusion: each state is physically possible and has its first impact after a time of flight
-    in `impact`; it depends smoothly on state and parameters; F and DF are enclosed.
+    in `impact`; it depends smoothly on state and parameters; F and DF are enclosed, F directly and
+    by `_centred`.
     Proof. At launch gap = 0 and gap' = epsilon (closing speed) >= 0, so gap > 0 on (0, t_1]; on
     closed pieces by the error of linear interpolation. In the open interval gap falls through its
     only zero. Then (15), the implicit function theorem, and `return_map_derivative`.
@@ -138,9 +146,45 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     (p, q), (r, s) = return_map_derivative(start, now, epsilon)
     early, late = phases[0] + impact[0], phases[1] + impact[1]
     turns = early // whole_turns(1, bits)[0]
-    phase, velocity = lifted((early, late), -turns, bits), arrival(start, now)[1].range
+    kick, direct = epsilon * closing(start, gamma), arrival(start, now)[1].range
+    on_line, moved = _centred(start, nu, (phases, kick), impact, bits)
+    phase = lifted(common((early, late), on_line), -turns, bits)
     derivative = (p.range, q.range), (r.range, s.range)
-    return Rebound(at, phases, velocities, turns, phase, velocity, derivative)
+    return Rebound(at, phases, velocities, turns, phase, common(direct, moved), derivative)
+
+
+def _centred(
+    start: Launch, nu: Enclosure, box: tuple[Range, Enclosure], impact: Range, bits: int
+) -> tuple[Range, Range]:
+    """Enclose phases, on the line, and velocities at the impacts of all flights from `start`.
+
+    By the mean value theorem in (phi, kick), from the flight in their middle. Its time of flight,
+    too: gap(t) = gap'(xi) (t - time), so time = t - gap(t) / gap'(xi), t the middle of what
+    encloses it; twice. Hypothesis: the first impact of all launches in the box, phases x kicks, in
+    which `start` encloses the two apart, is transversal, after a time in `impact`.
+    """
+    (phases, kick), eta = box, start.eta
+    now = clock(eta, Enclosure.of(*impact, bits))
+    centre, pushed = (_middle(ends, bits) for ends in (phases, kick.range))
+    middle = launch(start.side, eta, nu, centre)._replace(kick=pushed)
+    fall, time = gap(start, now, 1), impact
+    for _ in range(2):
+        guess = _middle(time, bits)
+        time = common(time, (guess - gap(middle, clock(eta, guess)) / fall).range)
+    arrived = Enclosure.of(*time, bits)
+    values = centre + arrived, arrival(middle, clock(eta, arrived))[1]
+    aside = Enclosure.of(*phases, bits) - centre, kick - pushed
+    phase, velocity = (
+        (value + row[0] * aside[0] + row[1] * aside[1]).range
+        for value, row in zip(values, flight_derivative(start, now), strict=True)
+    )
+    return phase, velocity
+
+
+def _middle(values: Range, bits: int) -> Enclosure:
+    """Enclose the middle of a range."""
+    middle = (values[0] + values[1]) / 2
+    return Enclosure.of(middle, middle, bits)
 
 
 def rectangle(context: Context, reader: Reader) -> RectangleMap:
@@ -175,5 +219,12 @@ def rectangle(context: Context, reader: Reader) -> RectangleMap:
     image = hull([part.phase for part in parts]), hull([part.velocity for part in parts])
     states = Phases(low, high), left.velocities
     return RectangleMap(
-        left.at, *states, left.turns, *image, ((p, q), (r, s)), left.phase, right.phase
+        left.at,
+        *states,
+        left.turns,
+        *image,
+        ((p, q), (r, s)),
+        left.phase,
+        right.phase,
+        tuple(parts),
     )

@@ -13,15 +13,9 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import floor_text, within
-from proofs.trusted.paper.s33_restitution.horseshoes import (
-    Rates,
-    Strips,
-    crossing,
-    rates,
-    read_maps,
-    strips,
-)
+from proofs.trusted.paper.s33_restitution.cones import Rates, rates
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rectangles import Strips, crossing, read_maps, strips
 from proofs.trusted.parameters import Place
 
 _LONGEST = 10  # symbols of a barred word
@@ -143,8 +137,9 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     same = part.turns == second.turns and part.phases[0] == second.phases[0]
     if not same or part.phases[1] > second.phases[1]:
         raise Unproved("N is no part of V2 with the same left edge")
+    strips((first, part))
     crossing((first, part), ((0, 1), (0,)))
-    return GoldenMean(first.at, found, rates((first, part)))
+    return GoldenMean(first.at, found, rates((*first.parts, *part.parts)))
 
 
 def never_twice(words: Sequence[tuple[int, ...]]) -> bool:

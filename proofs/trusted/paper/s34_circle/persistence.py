@@ -96,7 +96,7 @@ def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
     Hypotheses: let states be phases and relative speeds of the impacts of the `separation` step and
     those at most `spread` beside; the speeds are > 0, the phases inside the arc. Cell i, on
     [e_(i-1), e_i], e_0 = 0: from the states, bounce after bounce has its impact in the bracket
-    given, by `_bounce`; the one after the last bracket satisfies the hypotheses of `_settle`, with
+    given, by `bounce`; the one after the last bracket satisfies the hypotheses of `settle`, with
     r = ratio and T = rest, below phi_s.
 
     Conclusion: `SuperstableMotion` for 0 <= epsilon <= e_n. Proof. With relative velocity 0 the
@@ -117,23 +117,25 @@ def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
         if epsilons[1] <= epsilon:
             raise epsilon_of.fail("the coefficients must increase from 0")
         box = phases, speeds
-        for bounce in bounces.items():
+        for time in bounces.items():
             kicks = epsilons[0] * box[1][0], epsilons[1] * box[1][1]
-            box = _bounce(context.of, box[0], kicks, bounce.range())
+            box = bounce(context.of, box[0], kicks, time.range())
         epsilon = epsilons[1]
         shrinking = epsilon, ratio.number()
         rests.append(rest.number())
-        _settle(context.of, box[0], rests[-1], epsilon * box[1][1], shrinking)
+        settle(context.of, box[0], rests[-1], epsilon * box[1][1], shrinking)
     return SuperstableMotion(arc, epsilon, spread, max(rests))
 
 
-def _push(of: Parameters, phases: Range) -> Range:
+def _push(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Range:
     """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(of.eta, of.nu, phases, COVER_BITS).start())
+    push: Enclosure = launch_acceleration(Motion(of.eta, of.nu, phases, bits).start())
     return push.range
 
 
-def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[Range, Range]:
+def bounce(
+    of: Parameters, phases: Range, kicks: Range, time: Range, bits: int = COVER_BITS
+) -> tuple[Range, Range]:
     """Lemma 1 (one bounce). If a < 0 on [phi, phi + tau], eta tau < pi and w >= 0, then
     h(t) = eta gap(t) / sin(eta t) decreases strictly on (0, tau]; so the gap has at most one zero
     there, is > 0 before and < 0 after it, and gap' < 0 at it. If also -A <= a <= -b < 0, the speed
@@ -151,12 +153,12 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
     """
     if time[0] <= 0 or of.eta * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    motion = Motion(of.eta, of.nu, phases, COVER_BITS)
-    kick = Enclosure.of(*kicks, COVER_BITS) * motion.side
+    motion = Motion(of.eta, of.nu, phases, bits)
+    kick = Enclosure.of(*kicks, bits) * motion.side
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
     if not brackets(gap_of, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
-    strong, weak = _push(of, (phases[0], phases[1] + time[1]))
+    strong, weak = _push(of, (phases[0], phases[1] + time[1]), bits)
     if weak >= 0:
         raise Unproved("the table is not proved to push all through a bounce")
     (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
@@ -164,9 +166,7 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
     return (phases[0] + time[0], phases[1] + time[1]), speeds
 
 
-def _settle(
-    of: Parameters, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range
-) -> None:
+def settle(of: Parameters, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
     """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
     r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
     are none if w = 0 (the mass sticks), infinitely many if w > 0 and epsilon > 0.

@@ -19,7 +19,8 @@ from proofs.trusted.certificate import (
     parameters_to_json,
 )
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s33_restitution.horseshoes import Rates, RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.cones import Rates
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict

@@ -28,7 +28,7 @@ from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import (
     StablePair,
     SuperstableMotion,
-    _bounce,
+    bounce,
     stable_pair,
 )
 from proofs.trusted.parameters import PAPER, Place
@@ -422,7 +422,7 @@ def test_the_checker_takes_the_prover_s_bracket_of_a_wide_box_of_bounces(width):
     kicks = Fraction("0.04") - reach / 5, Fraction("0.04") + reach / 5
     pushing = Pushing(System(PAPER.eta, PAPER.nu), Fraction("6.0454"))
     time, speeds = pushing.bounce(phases, kicks)
-    _, own = _bounce(PAPER, phases, kicks, time)
+    _, own = bounce(PAPER, phases, kicks, time)
     for one, other in zip(speeds, own, strict=True):
         assert abs(one - other) < Fraction(1, 10**6)
 

@@ -1,0 +1,152 @@
+"""Claim G15: where the stable motion ends, by the printed equation; certificates forged."""
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.search.s34_persistence import prove
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.paper import find
+from proofs.trusted.paper.s34_circle.border import Border, BouncesEnd
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.parameters import PAPER
+from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.steps import add, derive, edited
+
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+RESTS, PASSES = "bounces-end-1", "bounces-end-2"
+
+
+@cache
+def evidence():
+    return prove(PAPER, ("G15",))
+
+
+@cache
+def known():
+    return derive(evidence().steps)
+
+
+def kinds(*left_out):
+    return [x for name, x in known().items() if name not in left_out]
+
+
+def test_the_checker_concludes_what_the_prover_says():
+    for name, own in evidence().proofs["G15"][1:]:
+        assert replace(own, arc=known()[name].arc) == known()[name]
+
+
+def test_what_is_said():
+    decision = find("G15").decide(PAPER, kinds())
+    assert find("G15").own and decision.verdict.value == "VERIFIED"
+    low, high = decision.quantities["epsilon_border"]
+    assert low < Fraction("0.361113") < high < low + Fraction(1, 10**5)
+    assert "boundary point in [0.361112, 0.361115]" in decision.theorem
+
+
+@pytest.mark.parametrize(
+    "left_out", [(RESTS,), (PASSES,), ("superstable-motion-1",), (RESTS, PASSES)]
+)
+def test_nothing_is_decided_without_any_of_them(left_out):
+    assert find("G15").decide(PAPER, kinds(*left_out)).verdict.value == "UNDECIDED"
+
+
+def test_elsewhere_nothing_is_decided():
+    of = replace(PAPER, eta=Fraction("0.2122"))
+    assert find("G15").decide(of, kinds()).verdict.value == "UNDECIDED"
+
+
+def followed(epsilon):
+    """How many impacts (14) has after that of the flight from phi_s, before the next phi_s; and
+    whether the mass is in flight there; rebounds below 1e-9 end in rest.
+    """
+    leave = reference.separation_phase(ETA, NU)
+    time, phase = reference.first_impact(ETA, NU, leave)
+    speed = mp.diff(lambda t: reference.left_side_10(ETA, NU, leave, t), time)
+    for count in range(40):
+        kick = epsilon * speed
+        if kick < mpf("1e-9"):
+            return count, False
+        gamma = (-speed - NU * mp.cos(phase)) / ETA
+        step = 5 * kick  # the push is below 0.2: a bounce takes more than 2 kick / 0.2
+        time = step
+        while reference.left_side_14(ETA, NU, epsilon, phase, gamma, time) < 0:  # nu < 0
+            time += step
+            if phase + time > leave:
+                return count, True
+        last = _root(epsilon, phase, gamma, time - step, time)
+        arrived = reference.right_side_15(ETA, NU, epsilon, phase, gamma, last)
+        phase += last
+        speed = -(ETA * arrived + NU * mp.cos(phase))
+    raise AssertionError("bounces have no end")
+
+
+def _root(epsilon, phase, gamma, low, high):
+    for _ in range(90):
+        middle = (low + high) / 2
+        flying = reference.left_side_14(ETA, NU, epsilon, phase, gamma, middle) < 0
+        low, high = (middle, high) if flying else (low, middle)
+    return low
+
+
+@pytest.mark.slow
+def test_the_printed_equation_agrees():
+    assert followed(mpf("0.361115")) == (known()[PASSES].bounces, True)
+    count, flies = followed(mpf("0.361112"))
+    assert not flies and count > known()[RESTS].bounces
+    assert followed(mpf("0.37"))[1] and not followed(mpf("0.36"))[1]
+
+
+WITNESS = {name: (name, "witness") for name in (RESTS, PASSES)}
+
+
+@pytest.mark.parametrize(
+    ("path", "change"),
+    [
+        ((*WITNESS[RESTS], "epsilon"), lambda text: "9028/25000"),
+        ((*WITNESS[RESTS], "epsilon"), lambda text: "361115/1000000"),
+        ((*WITNESS[RESTS], "epsilon"), lambda text: "72223/200000"),
+        ((*WITNESS[RESTS], "rest"), lambda rest: []),
+        ((*WITNESS[RESTS], "rest"), lambda rest: rest[:1]),
+        ((*WITNESS[RESTS], "rest", 1), lambda text: "7"),
+        ((*WITNESS[RESTS], "rest", 0), lambda text: "1/4"),
+        ((*WITNESS[RESTS], "bounces"), lambda bounces: bounces[:-1]),
+        ((*WITNESS[RESTS], "bounces"), lambda bounces: bounces[1:]),
+        ((*WITNESS[RESTS], "bounces", 3, 1), add("1e-9")),
+        ((*WITNESS[PASSES], "epsilon"), lambda text: "45139/125000"),
+        ((*WITNESS[PASSES], "epsilon"), lambda text: "0"),
+        ((*WITNESS[PASSES], "epsilon"), lambda text: "1"),
+        ((*WITNESS[PASSES], "rest"), lambda rest: ["1/2", "6"]),
+        ((*WITNESS[PASSES], "bounces"), lambda bounces: bounces[:-1]),
+        ((*WITNESS[PASSES], "bounces"), lambda bounces: [*bounces, bounces[-1]]),
+        ((*WITNESS[PASSES], "bounces"), lambda bounces: []),
+        ((*WITNESS[PASSES], "bounces", 0), lambda ends: ends[::-1]),
+    ],
+)
+def test_an_edited_witness_is_refused(path, change):
+    steps = {k: x for k, x in evidence().steps.items() if k in ("separation-1", path[0])}
+    derive(steps)
+    with pytest.raises((Unproved, Malformed)):
+        derive(edited(steps, path, change))
+
+
+def test_a_border_needs_all_in_order():
+    (motion,) = (x for x in kinds() if isinstance(x, SuperstableMotion))
+    rests, passes = known()[RESTS], known()[PASSES]
+    assert isinstance(rests, BouncesEnd) and Border(motion, rests, passes)
+    arc = replace(rests.arc, at=replace(rests.arc.at, nu=(Fraction(-1, 4),) * 2))
+    for change in (
+        (motion, passes, rests),
+        (motion, rests, rests),
+        (motion, passes, passes),
+        (motion, replace(rests, epsilon=Fraction("0.3")), passes),
+        (motion, replace(rests, epsilon=passes.epsilon), passes),
+        (motion, rests, replace(passes, arc=arc)),
+        (replace(motion, largest=Fraction("0.3612")), rests, passes),
+    ):
+        with pytest.raises(Unproved):
+            Border(*change)
