@@ -55,6 +55,7 @@ _EDGE = Fraction(1, 2**22)  # how far from grazing phases cells end
 _LEAN = 2e-8  # more than the brackets of images are wide
 _SHORT_FLIGHTS = Fraction(150)
 _CLOSE = Fraction(1, 2**40)
+_AFTER = 1e-3  # how long after a zero of sin(eta t) it has one sign
 _OUTSIDE = 1e-5  # how far outside of the line branches are looked for
 Turn = int | None
 
@@ -88,7 +89,7 @@ class Partition:
 
     def prove(self) -> tuple[str, Absorption]:
         """Prove how much of the circle is absorbed by the sticking arc (rule absorption)."""
-        between = self._prove_lands()
+        between = self.prove_lands()
         branches = Branches(self.system, Candidates(self.system, self.turns))
         first, last = float(between[0]) - _OUTSIDE, float(between[1]) + _OUTSIDE
         for low, high in branches.candidates.runs(first, last, _GRID):
@@ -116,7 +117,7 @@ class Partition:
             self._prove_cells(branches, index, sorted([*ends, *inside]))
         return self._conclude()
 
-    def _prove_lands(self) -> Range:
+    def prove_lands(self) -> Range:
         """Prove which phases on both sides land on the arc; return the ends of those between."""
         name, arc = self.arc
         start, leave = float(arc.start[0]), float(arc.phase[0])
@@ -162,19 +163,13 @@ class Partition:
         branch = branches.branches[index]
         cuts = [Fraction(phase) for phase, _ in ends]
         times = [short(Fraction(y - x) - BRACKET / 2, 32) for x, y in ends]
-        cutting = Cutting(cuts, times, self._after(branch))
+        cutting = Cutting(cuts, times, after_reversal(self.system, branch))
         try:
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
         except FAILED:
             return
         witness = {"cuts": texts(cuts), "times": texts(times), "after": str(cutting.after)}
         self.entries["cells"].append({"branch": branches.names[index], **witness})
-
-    def _after(self, branch: Branch) -> Fraction:
-        """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
-        half = math.pi / float(self.system.eta)
-        zero = math.floor(float(min(branch.ends)) / half) * half
-        return max(branch.begin, short(Fraction(zero + 1e-3), 20))
 
     def _refine(self, branch: Sampled, phase: float, image: float) -> float:
         """Return the phase near the given one with this image, by Newton's method.
@@ -228,6 +223,13 @@ class Partition:
             "within": [texts([*phases, Fraction(steps)]) for phases, steps in within],
         }
         return self.prover.add("absorption", witness), Absorption(self.arc[1], rest, within)
+
+
+def after_reversal(system: System, branch: Branch) -> Fraction:
+    """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
+    half = math.pi / float(system.eta)
+    zero = math.floor(float(min(branch.ends)) / half) * half
+    return max(branch.begin, short(Fraction(zero + _AFTER), 20))
 
 
 def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tuple[Range, int]]:

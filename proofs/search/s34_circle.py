@@ -31,7 +31,7 @@ from proofs.trusted.paper.s34_circle.circle import (
     FixedPoint,
     repelling_fixed_point,
 )
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import Parameters
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10"}  # what rests on where the mass sticks
@@ -93,7 +93,7 @@ def prove_arc(prover: Prover) -> tuple[str, Separation]:
     return prover.add("separation", witness), found
 
 
-def prove_longest(prover: Prover) -> tuple[str, Conclusion]:
+def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
     """Prove an interval around pi/2 without a next impact, to nine places the longest."""
     low, high, centre, unit = 0, 10**9, Fraction(math.pi / 2), Fraction(1, 10**9)
 

@@ -26,7 +26,7 @@ from proofs.trusted.numbers import TURN, Range, ceil_text, covered, floor_text, 
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Lands, Separation
 from proofs.trusted.parameters import Place
-from proofs.trusted.windows import BITS, level
+from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `absorption`
 _UNIT = 1 << 64
@@ -244,16 +244,8 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
     times = times_of.numbers(len(cuts), len(cuts))
     if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
-    if not branch.begin <= after < min(branch.ends):
-        raise Unproved("the window of the first impact begins later, or ends before")
+    window = branch.direction(cuts, after)
     images = [branch.image(x, (t, t + BRACKET)) for x, t in zip(cuts, times, strict=True)]
-    for phases in pairwise(cuts) if after > branch.begin else ():
-        if level(branch.motion(phases), after)[0] <= 0:
-            raise Unproved("an impact before the time given is not excluded")
-    window = after, max(branch.ends)
-    along = branch.motion((cuts[0], cuts[-1])).clock(window).mass_sin
-    if along.lo <= 0 <= along.hi:
-        raise Unproved("f' is not proved to have one sign on a branch")
     cells = []
     for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
         low, high = hull(ends)

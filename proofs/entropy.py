@@ -1,0 +1,12 @@
+"""Section 3.4: the chaos of the plastic map as a whole. G17: its entropy, both sides."""
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.entropy")
+
+from functools import partial
+
+from proofs.shell.runner import run
+
+main = partial(run, "entropy", description=__doc__)
