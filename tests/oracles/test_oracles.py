@@ -178,6 +178,23 @@ FALSE = {
     "Uncovered": LINEAR,
     "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
     "EntropyBound": [offs("entropy"), _much_growth, _swap("branches")],
+    "Grazing": [
+        *map(offs, ("phases", "time", "root")),
+        put("turn", lambda old: old + 2),
+        put("below", lambda old: not old),
+        put("landing", lambda old: None if old else (F(9), F(10))),
+    ],
+    "Pieces": [
+        put("arcs", lambda old: old[:2] + old[3:]),
+        put("arcs", lambda old: old[2:]),
+        put("region", lambda old: (old[0] + F(1, 4), old[1] - F(1, 4))),
+    ],
+    "EntropyRange": [
+        offs("entropy"),
+        put("growth", lambda old: old - 1),
+        _of("lower", put("growth", lambda old: old + 1)),
+        _of("pieces", put("arcs", lambda old: old[:2] + old[3:])),
+    ],
     "FullShift": [_swap("cells"), offs("slopes"), put("cells", lambda old: old[:1])],
     "StayingOrbit": [
         put("cells", lambda old: old[:-1] or old),

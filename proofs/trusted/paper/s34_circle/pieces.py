@@ -74,7 +74,7 @@ class Pieces(Conclusion):
 
     arc: Separation
     lands: tuple[Lands, Lands]
-    parts: tuple[Branch | Grazing | NeverImpacts, ...]
+    arcs: tuple[Branch | Grazing | NeverImpacts, ...]
 
     def __post_init__(self) -> None:
         (first, _), (_, last) = (each.phases for each in self.lands)
@@ -82,14 +82,14 @@ class Pieces(Conclusion):
             raise Unproved("the phases that land on the arc do not adjoin it")
         if not self.arc.returns:
             raise Unproved("the flight from the arc does not return to it")
-        if {each.place for each in (*self.lands, *self.parts)} != {self.arc.at}:
+        if {each.place for each in (*self.lands, *self.arcs)} != {self.arc.at}:
             raise Unproved("the hypotheses are about different oscillators")
-        known = [each.phases for each in self.parts]
+        known = [each.phases for each in self.arcs]
         if not known or known[0][0] > self.region[0] or known[-1][1] < self.region[1]:
             raise Unproved("the parts do not reach the phases that land on the arc")
         if any(not (a < c <= b < d) for (a, b), (c, d) in pairwise(known)):
             raise Unproved("the parts are not in order, or do not adjoin")
-        grazes = [isinstance(each, Grazing) for each in self.parts]
+        grazes = [isinstance(each, Grazing) for each in self.arcs]
         if any(grazes[::2]) or not all(grazes[1::2]) or grazes[-1]:
             raise Unproved("parts without and with a graze do not take turns")
 
@@ -107,10 +107,10 @@ class Pieces(Conclusion):
     @cached_property
     def monotone(self) -> list[Piece]:
         """The pieces with impacts, in order."""
-        ends = [None, *self.parts[1::2], None]
+        ends = [None, *self.arcs[1::2], None]
         return [
             Piece(x, *(y if isinstance(y, Grazing) else None for y in ends[i : i + 2]))
-            for i, x in enumerate(self.parts[::2])
+            for i, x in enumerate(self.arcs[::2])
             if isinstance(x, Branch)
         ]
 
@@ -120,7 +120,7 @@ class Pieces(Conclusion):
             f"outside J = {show_range(self.region)}, mod 2 pi, the mass sticks at once or at the "
             f"next impact, and so ever after. J consists of {len(self.monotone)} intervals, on "
             "each of which f is C^1 and monotone with f' not 0, and of one of phases without any "
-            f"impact, if no touch counts; they end at {len(self.parts) // 2} grazing phases."
+            f"impact, if no touch counts; they end at {len(self.arcs) // 2} grazing phases."
         )
 
 

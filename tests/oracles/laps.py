@@ -1,0 +1,138 @@
+"""Judges of what is said of the circle's pieces: grazes, monotone f, entropy."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import flint
+import numpy as np
+
+from tests.oracles.motion import (
+    PRECISION,
+    TURN,
+    Gap,
+    Impact,
+    _Balls,
+    ball,
+    flight,
+    inside,
+    next_impact,
+    sticks,
+)
+from tests.oracles.plastic import between, lifted
+
+_LONG = 70_000.0
+_TINY = Fraction(1, 10**30)
+
+
+def graze(view):
+    """Phase and time with gap = gap' = 0, by Newton's method, dgap/dphi by a difference."""
+    with flint.ctx.workprec(PRECISION):
+        phase, time = (ball(between(x, Fraction(1, 2))) for x in (view.phases, view.time))
+        step = ball(_TINY)
+        for _ in range(8):
+            here = Gap(_Balls, view.eta, view.nu, phase.mid(), 0, 0).at(time.mid())
+            beside = Gap(_Balls, view.eta, view.nu, phase.mid() + step, 0, 0).at(time.mid())
+            (a, c), (b, d) = (
+                ((y - x) / step, z) for x, y, z in zip(here, beside, here[1:], strict=False)
+            )
+            total = a * d - b * c
+            phase = phase.mid() - (here[0] * d - here[1] * c) / total
+            time = time.mid() - (a * here[1] - b * here[0]) / total
+        return phase, time, abs(a), here[2]
+
+
+def grazing(view, rng):
+    """Where the graze is, the coefficient of the square root, and where f leads on both sides."""
+    told = []
+    with flint.ctx.workprec(PRECISION):
+        phase, time, steep, bend = graze(view)
+        root = (2 * steep / bend).sqrt()
+        for name, own, given in (
+            ("phase", phase, view.phases),
+            ("time", time, view.time),
+            ("root", root, view.root),
+        ):
+            if not inside(own, given):
+                told.append(f"the {name} of the graze is {own.str(12)}")
+    near, far = view.phases if view.below else view.phases[::-1]
+    for launch, window, turn in ((near, None, view.turn), (far, view.landing, view.beyond)):
+        found = flight(view.eta, view.nu, launch, latest=_LONG)
+        if found == "touches":
+            if window is not None or turn != Fraction(view.eta).denominator:
+                told.append(f"no impact after {float(launch):.12g}")
+        elif isinstance(found, Impact):
+            if abs((float(found.lifted) - TURN / 4) / TURN - turn) > 0.7:
+                told.append(f"the impact after {float(launch):.12g} is not in turn {turn}")
+            if (launch == near) is not (found.time < ball(view.time[1])):
+                told.append(f"the impact after {float(launch):.12g} is on the wrong side")
+            if launch == far and (window is None or not inside(found.time, window)):
+                told.append(f"the impact after {float(launch):.12g} is at {found.time.str(12)}")
+            if (found.slope > 0) is not view.below:
+                told.append(f"f' at {float(launch):.12g} has the other sign")
+    return told
+
+
+def _branches(view):
+    return [part for part in view.arcs if part.kind == "Branch"]
+
+
+def pieces(view, rng):
+    """What is outside J comes to the arc at once; in J, pieces with one sign of f' up to grazes."""
+    told, ends = [], [part.phases for part in view.arcs]
+    low, high = view.region
+    for _ in range(6):
+        phase = high + (low + Fraction(TURN) - high) * Fraction(rng.random())
+        found = next_impact(view.eta, view.nu, phase, _LONG)
+        stays = isinstance(found, Impact) and not sticks(view.eta, view.nu, found.phase)
+        if stays and not sticks(view.eta, view.nu, phase):
+            told.append(f"{float(phase) % TURN:.9g} does not lead to the arc at once")
+    if ends[0][0] > low or ends[-1][1] < high:
+        told.append("the parts do not reach the ends of J")
+    if any(b[0] > a[1] or b[0] <= a[0] for a, b in pairwise(ends)):
+        told.append("the parts leave phases out, or are not in order")
+    if [part.kind == "Grazing" for part in view.arcs] != [i % 2 == 1 for i in range(len(ends))]:
+        told.append("parts without and with a graze do not take turns")
+    for part in rng.sample(_branches(view), min(6, len(_branches(view)))):
+        slopes = [
+            found.slope > 0
+            for share in (0, rng.random(), rng.random(), 1)
+            if isinstance(
+                found := flight(
+                    view.eta, view.nu, between(part.phases, Fraction(share)), latest=_LONG
+                ),
+                Impact,
+            )
+        ]
+        if len(set(slopes)) > 1:
+            told.append(f"f' changes its sign on [{part.phases[0]}, {part.phases[1]}]")
+    return told
+
+
+def entropy_range(view, rng):
+    """Bounds of the logarithm; the growth is no less than that of the branches mapped over others.
+
+    Of the pieces i, j with f(i) over j the spectral radius is that of words that do occur.
+    """
+    told = pieces(view.pieces, rng)
+    with flint.ctx.workprec(PRECISION):
+        logs = ball(view.lower.growth).log(), ball(view.growth).log()
+        if logs[0] < ball(view.entropy[0]) or logs[1] > ball(view.entropy[1]):
+            told.append("the entropy may lie outside")
+    parts = _branches(view.pieces)
+    ends = [tuple(map(float, part.phases)) for part in parts]
+    images = []
+    for part in parts:
+        pair = [lifted(view, phase, _LONG) for phase in part.phases]
+        if None in pair:
+            return told
+        low, high = min(pair), max(pair)
+        turns = round((low + high) / 2 / TURN - 0.25)
+        images.append((low - turns * TURN, high - turns * TURN))
+    matrix = np.array([[float(a <= c and d <= b) for c, d in ends] for a, b in images])
+    radius = max(abs(np.linalg.eigvals(matrix)))
+    if float(view.growth) < radius - 1e-9 or view.growth < view.lower.growth:
+        told.append(f"growth below {radius:.6g}, that of words that occur")
+    return told
+
+
+JUDGES = {"Grazing": grazing, "Pieces": pieces, "EntropyRange": entropy_range}
