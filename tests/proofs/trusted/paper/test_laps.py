@@ -18,7 +18,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.grazing import Grazing
-from proofs.trusted.paper.s34_circle.laps import EntropyRange
+from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
@@ -142,74 +142,99 @@ def empty_landing(w):
 
 
 GRAZING_LIES = {
-    "phases beside the graze": lambda w: w.update(phases=["6/5", "12001/10000"]),
-    "phases in reverse": lambda w: w["phases"].reverse(),
-    "a later window": lambda w: w.update(turn=add(1)(w["turn"])),
-    "an earlier window": lambda w: w.update(turn=add(-1)(w["turn"])),
-    "window 0": lambda w: w.update(turn="0"),
-    "a later impact than the next": lambda w: w.update(beyond=add(1)(w["beyond"])),
-    "an earlier one": lambda w: w.update(beyond=add(-1)(w["beyond"])),
-    "the graze itself": lambda w: w.update(beyond=w["turn"]),
-    "no impact": empty_landing,
-    "no impact for q turns": lambda w: w.update(landing=None, beyond="100"),
-    "a landing too soon": lambda w: w.update(landing=[add(-1)(x) for x in w["landing"]]),
-    "a landing too late": lambda w: w.update(landing=[add(1)(x) for x in w["landing"]]),
-    "impacts later than they are": lambda w: w["times"].__setitem__(
+    ("phases beside the graze", "not proved to fall to the graze"): lambda w: w.update(
+        phases=["6/5", "12001/10000"]
+    ),
+    ("phases on one side of it", "between the phases"): lambda w: w.update(
+        phases=[w["phases"][0], add(F(1, 10**12))(w["phases"][0])]
+    ),
+    ("a landing a little too late", "signs"): lambda w: w.update(
+        landing=[add(F(1, 10**5))(x) for x in w["landing"]]
+    ),
+    ("phases in reverse", "reversed"): lambda w: w["phases"].reverse(),
+    ("a later window", "not in order"): lambda w: w.update(turn=add(1)(w["turn"])),
+    ("an earlier window", "earlier impact"): lambda w: w.update(turn=add(-1)(w["turn"])),
+    ("window 0", "whole number"): lambda w: w.update(turn="0"),
+    ("a later impact than the next", "earlier impact"): lambda w: w.update(
+        beyond=add(1)(w["beyond"])
+    ),
+    ("an earlier one", "to the later impact"): lambda w: w.update(beyond=add(-1)(w["beyond"])),
+    ("the graze itself", "not in order"): lambda w: w.update(beyond=w["turn"]),
+    ("no impact", "within q turns"): empty_landing,
+    ("no impact for q turns", "earlier impact"): lambda w: w.update(landing=None, beyond="100"),
+    ("a landing too soon", "to the later impact"): lambda w: w.update(
+        landing=[add(-1)(x) for x in w["landing"]]
+    ),
+    ("a landing too late", "to the later impact"): lambda w: w.update(
+        landing=[add(1)(x) for x in w["landing"]]
+    ),
+    ("impacts later than they are", "to the graze"): lambda w: w["times"].__setitem__(
         0, add(F(-1, 10**9))(w["times"][1])
     ),
-    "a graze too late": lambda w: w["times"].__setitem__(1, add(F(-1, 10**9))(w["times"][2])),
-    "a graze too soon": lambda w: w["times"].__setitem__(2, add(F(1, 10**9))(w["times"][1])),
-    "a rise for too long": moved("times", 8, 3),
-    "times out of order": lambda w: w["times"].reverse(),
-    "three times": lambda w: w["times"].pop(),
+    ("a graze too late", "to the graze"): lambda w: w["times"].__setitem__(
+        1, add(F(-1, 10**9))(w["times"][2])
+    ),
+    ("a graze too soon", "to rise"): lambda w: w["times"].__setitem__(
+        2, add(F(1, 10**9))(w["times"][1])
+    ),
+    ("a rise for too long", "to rise"): moved("times", 8, 3),
+    ("times out of order", "must increase"): lambda w: w["times"].reverse(),
+    ("three times", "3 entries"): lambda w: w["times"].pop(),
 }
 
 
-@pytest.mark.parametrize("lie", GRAZING_LIES)
+@pytest.mark.parametrize("lie", GRAZING_LIES, ids=" ".join)
 def test_a_forged_graze_is_refused(steps, known, lie):
     name = next(x for x, step in steps.items() if step["rule"] == "grazing")
-    refused(steps, known, name, GRAZING_LIES[lie])
+    refused(steps, known, name, GRAZING_LIES[lie], lie[1])
 
 
 PIECES_LIES = {
-    "a branch left out": lambda w: w["branches"].pop(1),
-    "the first branch left out": lambda w: (w["branches"].pop(0), w["grazings"].pop(0)),
-    "a graze left out": lambda w: w["grazings"].pop(1),
-    "what never impacts left out": lambda w: w.update(never=[]),
-    "a branch twice": lambda w: w["branches"].append(w["branches"][0]),
-    "landings exchanged": lambda w: w["lands"].reverse(),
-    "one landing": lambda w: w["lands"].pop(),
-    "impacts after any time": lambda w: w["branches"][0].update(after="1"),
-    "impacts after themselves": lambda w: w["branches"][0].update(after="51/2"),
+    ("a branch left out", "not in order"): lambda w: w["branches"].pop(1),
+    ("the first branch left out", "do not reach"): lambda w: (
+        w["branches"].pop(0),
+        w["grazings"].pop(0),
+    ),
+    ("a graze left out", "not in order"): lambda w: w["grazings"].pop(1),
+    ("what never impacts left out", "not in order"): lambda w: w.update(never=[]),
+    ("a branch twice", "not in order"): lambda w: w["branches"].append(w["branches"][0]),
+    ("landings exchanged", "do not adjoin it"): lambda w: w["lands"].reverse(),
+    ("one landing", "1 entries"): lambda w: w["lands"].pop(),
+    ("impacts after any time", "begins later"): lambda w: w["branches"][0].update(after="1"),
+    ("impacts after themselves", "begins later"): lambda w: w["branches"][0].update(after="51/2"),
 }
 
 
-@pytest.mark.parametrize("lie", PIECES_LIES)
+@pytest.mark.parametrize("lie", PIECES_LIES, ids=" ".join)
 def test_forged_pieces_are_refused(steps, known, lie):
-    refused(steps, known, "pieces-1", PIECES_LIES[lie])
+    refused(steps, known, "pieces-1", PIECES_LIES[lie], lie[1])
 
 
 GRAPH_LIES = {
-    "a smaller growth": lambda w: w.update(growth=add(F(-1, 1000))(w["growth"])),
-    "a growth below 1": lambda w: w.update(growth="1/2"),
-    "equal weights": lambda w: w.update(weights=["1"] * len(w["weights"])),
-    "a weight 0": lambda w: w["weights"].__setitem__(0, "0"),
-    "a state left out": lambda w: (w["states"].pop(), w["weights"].pop()),
-    "no state with all phases": lambda w: w.update(
+    ("a smaller growth", "multiply the weights"): lambda w: w.update(
+        growth=add(F(-1, 1000))(w["growth"])
+    ),
+    ("a growth below 1", "growth >= 1"): lambda w: w.update(growth="1/2"),
+    ("equal weights", "multiply the weights"): lambda w: w.update(
+        weights=["1"] * len(w["weights"])
+    ),
+    ("a weight 0", "weights > 0"): lambda w: w["weights"].__setitem__(0, "0"),
+    ("a state left out", "multiply the weights"): lambda w: (w["states"].pop(), w["weights"].pop()),
+    ("no state with all phases", "no state contains"): lambda w: w.update(
         states=[[low, str(min(F(high), F(2)))] for low, high in w["states"]]
     ),
-    "a short vector": lambda w: w["weights"].pop(),
-    "an image left out": lambda w: w["images"].pop(),
-    "an image moved": lambda w: w["images"][0].update(
+    ("a short vector", "48 entries"): lambda w: w["weights"].pop(),
+    ("an image left out", "no known image"): lambda w: w["images"].pop(),
+    ("an image moved", "signs"): lambda w: w["images"][0].update(
         time=[add(1)(x) for x in w["images"][0]["time"]]
     ),
-    "an image of no phase": lambda w: w["images"][0].update(phase="3"),
+    ("an image of no phase", "on no branch"): lambda w: w["images"][0].update(phase="3"),
 }
 
 
-@pytest.mark.parametrize("lie", GRAPH_LIES)
+@pytest.mark.parametrize("lie", GRAPH_LIES, ids=" ".join)
 def test_a_forged_graph_is_refused(steps, known, lie):
-    refused(steps, known, "itinerary-graph-1", GRAPH_LIES[lie])
+    refused(steps, known, "itinerary-graph-1", GRAPH_LIES[lie], lie[1])
 
 
 def test_each_state_counts(steps, known):
@@ -220,6 +245,43 @@ def test_each_state_counts(steps, known):
         forged = edited(steps, path, lambda old: [str((2 * F(old[0]) + F(old[1])) / 3), old[1]])
         with pytest.raises(Unproved):
             derive(forged, OF, known, steps)
+
+
+def test_a_graze_that_only_one_half_has_is_none(known):
+    """Parts that take turns: a branch where a graze should be, and the other way round."""
+    (pieces,) = only(Pieces, known)
+    low, high, *rest = pieces.arcs
+    first = replace(low, cuts=(low.cuts[0], F(1)), ends=low.ends[:1])
+    last = replace(low, cuts=(F(1), low.cuts[-1]), ends=low.ends[:1])
+    with pytest.raises(Unproved, match="take turns"):
+        replace(pieces, arcs=(first, last, high, *rest))
+    with pytest.raises(Unproved, match="adjoin it"):
+        replace(pieces, lands=pieces.lands[:1] * 2)
+
+
+def test_images_lie_between_those_of_the_ends_whatever_the_enclosures(known):
+    (pieces,) = only(Pieces, known)
+    piece = next(x for x in pieces.monotone if x.left and x.right)
+    low, high = piece.branch.phases
+    middle, wide = (low + high) / 2, (F(1), F(2))
+    assert piece.image((low, middle), lambda phase: wide if phase == low else (F(3), F(4))) == (
+        1,
+        4,
+    )
+    assert piece.image((F(0), F(1, 2)), lambda phase: wide) is None
+    limit = piece.right.graze if piece.right.below else piece.right.other
+    assert piece.image((middle, F(3)), lambda phase: wide) == (min(1, limit[0]), max(2, limit[1]))
+    with pytest.raises(Unproved, match="no known image"):
+        piece.image((low, middle), {}.get)
+
+
+def test_images_longer_than_the_circle_are_refused(known):
+    (pieces,), (found,) = only(Pieces, known), only(EntropyRange, known)
+    whole = OuterGraph([pieces.region], [F(1)], F(100))
+    assert entropy_range(pieces, found.lower, lambda _: (F(1), F(2)), whole).growth == 100
+    for image in ((F(-5), F(1)), (F(1), F(7))):
+        with pytest.raises(Unproved, match="longer than the circle"):
+            entropy_range(pieces, found.lower, lambda _, image=image: image, whole)
 
 
 # -- what conclusions refuse -----------------------------------------------------------------------
