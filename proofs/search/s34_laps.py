@@ -1,4 +1,4 @@
-"""Section 3.4: the entropy of f from both sides. Claim G17.
+"""Section 3.4: the chaos of f as a whole. Claims G17, the entropy from both sides, and H18, grazes.
 
 The circle is cut at the phases after which the mass grazes the table, where f jumps. A graph of
 what the pieces are mapped into at most bounds from above what covering graphs bound from below.
@@ -7,11 +7,12 @@ what the pieces are mapped into at most bounds from above what covering graphs b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
+from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.methods.subshifts import least_ceiling, outer_tower
@@ -24,11 +25,12 @@ from proofs.search.s34_chaos import Branches, prove_covering
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import clock, gap, launch
+from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
-from proofs.trusted.paper.s34_circle.grazing import Grazing, graze
+from proofs.trusted.paper.s34_circle.grazing import ENDS, Grazing, graze
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
@@ -38,10 +40,13 @@ _GRID = 1200
 _OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
 _DEPTHS = 3, 4  # of the towers of states, from below and from above
 _PLACES = 8  # of the ends of states
-_LONGEST = 0.01  # time after a graze in which the gap is proved to rise
-_SPARE = 1e-8  # of times
+_LONGEST = Fraction(1, 100)  # time after a graze in which the gap is proved to rise
+_SPARE = Fraction(1, 10**8)  # of times
 _MOST_TURNS = 20_000
-_NEWTON = 20  # steps
+_NEWTON = 6  # steps
+_FINE = 160  # bits of Newton's method
+_ROOT_PLACES = 16  # of narrow grazes
+_ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 
 
 def prove(
@@ -54,13 +59,14 @@ def prove(
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
     evidence = Evidence(prover.steps, {claim: [] for claim in claims})
-    if "G17" in claims:
-        tell("where f jumps, and what its pieces lead to")
+    for claim in claims:
+        stage, search = _SEARCHES[claim]
+        tell(stage)
         try:
             with prover.undone():
-                evidence.proofs["G17"] = prove_entropy_range(prover)
+                evidence.proofs[claim] = search(prover)
         except FAILED as failure:
-            evidence.notes["G17"] = str(failure)
+            evidence.notes[claim] = str(failure)
     return evidence
 
 
@@ -158,40 +164,115 @@ def prove_grazing(
     prover: Prover, found: Branches, left: Branch | NeverImpacts, right: Branch | NeverImpacts
 ) -> tuple[str, Grazing]:
     """Prove that f jumps once, at a graze, between two neighbours (rule grazing)."""
-    system, phases = prover.system, Phases(left.phases[1], right.phases[0])
-    never = system.eta.denominator
+    phases, never = Phases(left.phases[1], right.phases[0]), prover.system.eta.denominator
     one, two = (x.turn if isinstance(x, Branch) else never for x in (left, right))
     turns = min(one, two), max(one, two)
-    near, far = map(float, phases if one < two else phases[::-1])
-    width = float(phases[1] - phases[0])
-    impact = found.impact(near)
-    time = _zero(system, near, impact.time, 1)
-    reversal = round(time * float(system.eta) / math.tau) * math.tau / float(system.eta)
+    near, far = phases if one < two else phases[::-1]
+    width, impact = phases[1] - phases[0], found.impact(float(near))
+    time = _zero(_flight(prover, near), Fraction(impact.time), 1)
     around = 8 * width + _SPARE
-    rise = min(_LONGEST, abs(time - reversal) / 2)
-    before = impact.time - (time - impact.time) / 2 - around
-    times = [Fraction(t) for t in (before, time - around, time + around, time + rise)]
+    before = (time - Fraction(impact.time)) * 3 / 2 + around
+    times = [time + x for x in (-before, -around, around, _rise(prover.system, time))]
     landing = None
     if turns[1] != never:
-        later = found.impact(far)
-        spare = 2 * (1 + abs(later.slope)) * width + _SPARE
-        arrival = _zero(system, far, later.time, 0)
-        landing = Fraction(arrival - spare), Fraction(arrival + spare)
-    motion = Motion(system.eta, system.nu, phases, BITS)
+        later = found.impact(float(far))
+        spare = 2 * (1 + Fraction(abs(later.slope))) * width + _SPARE
+        arrival = _zero(_flight(prover, far), Fraction(later.time), 0)
+        landing = arrival - spare, arrival + spare
+    return _record(prover, phases, turns, times, landing)
+
+
+def _record(
+    prover: Prover,
+    phases: Phases,
+    turns: tuple[int, int],
+    times: Sequence[Fraction],
+    landing: Range | None,
+) -> tuple[str, Grazing]:
+    """Prove and record a step `grazing`."""
+    motion = Motion(prover.system.eta, prover.system.nu, phases, BITS)
+    found = graze(motion, prover.at, turns, times, landing)
     witness = {
         "phases": texts(phases),
         "turn": str(turns[0]),
-        "times": texts(times),
+        "times": texts(list(times)),
         "beyond": str(turns[1]),
         "landing": None if landing is None else texts(landing),
     }
-    return prover.add("grazing", witness), graze(motion, prover.at, turns, times, landing)
+    return prover.add("grazing", witness), found
 
 
-def _zero(system: System, phase: float, time: float, order: int) -> float:
+def _rise(system: System, time: Fraction) -> Fraction:
+    """Return for how long after a graze the gap is looked at: sin(eta t) keeps its sign."""
+    turn = Fraction(math.tau) / system.eta
+    return min(_LONGEST, abs(time - round(time / turn) * turn) / 2)
+
+
+def _flight(prover: Prover, phase: Fraction) -> Motion:
+    return Motion(prover.system.eta, prover.system.nu, (phase, phase), _FINE)
+
+
+def _middle(x: Enclosure) -> Fraction:
+    return Fraction(x.lo + x.hi, 2 << x.bits)
+
+
+def _zero(motion: Motion, time: Fraction, order: int) -> Fraction:
     """Return about where a derivative of the gap is 0, near a time, by Newton's method."""
-    start = launch(system.side, float(system.eta), float(system.nu), phase)
+    gap_of = motion.gap_of
     for _ in range(_NEWTON):
-        now = clock(float(system.eta), time)
-        time -= gap(start, now, order) / gap(start, now, order + 1)
+        value, rate = (_middle(gap_of((time, time), k)) for k in (order, order + 1))
+        time = round((time - value / rate) * 2**_FINE) / Fraction(2**_FINE)
     return time
+
+
+# -- narrow ones -----------------------------------------------------------------------------------
+
+
+def prove_roots(prover: Prover) -> Proof:
+    """Prove the grazes near the phases asked about, narrowly (rule grazing)."""
+    if not -1 < prover.system.nu < 0:
+        raise Undecided("windows of flights are known for -1 < nu < 0 only")
+    candidates = Candidates(prover.system, _ROOT_TURNS)
+    return [_prove_root(prover, candidates, float(end)) for end in ENDS]
+
+
+def _prove_root(prover: Prover, candidates: Candidates, end: float) -> tuple[str, Grazing]:
+    """Prove the graze after the shortest flight near a phase."""
+    runs = candidates.runs(end - _BESIDE, end + _BESIDE, _ROOT_GRID)
+    ends = [(low, high) for (_, low), (high, _) in pairwise(runs)]
+    seen = {low: (candidates.impact(low), candidates.impact(high)) for low, high in ends}
+    jumps = [(one, two, low) for low, (one, two) in seen.items() if one and two]
+    if not jumps:
+        raise Undecided("no graze is seen")
+    one, two, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
+    first, later = (one, two) if one.turn < two.turn else (two, one)
+    phase, time = _graze(prover, Fraction(low), Fraction(first.time))
+    arrival = _zero(_flight(prover, phase), Fraction(later.time), 0)
+    unit, centre = Fraction(1, 10**_ROOT_PLACES), round(phase, _ROOT_PLACES)
+    wide = 1000 * unit
+    times = [time - 100 * _SPARE, time - wide, time + wide, time + _rise(prover.system, time)]
+    around, turns = Phases(centre - unit, centre + unit), (first.turn, later.turn)
+    return _record(prover, around, turns, times, (arrival - wide, arrival + wide))
+
+
+def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, Fraction]:
+    """Return about the phase and the time of a graze, by Newton's method.
+
+    The least gap has the derivative -(sin(eta t) / eta) A in the phase, see `slope`.
+    """
+    for _ in range(_NEWTON):
+        motion = _flight(prover, phase)
+        time = _zero(motion, time, 1)
+        now, push = motion.clock((time, time)), launch_acceleration(motion.start())
+        along = _middle(now.mass_sin) / motion.eta * _middle(push)
+        step = _middle(motion.gap_of((time, time), 0)) / along
+        phase = round((phase + step) * 2**_FINE) / Fraction(2**_FINE)
+    return phase, time
+
+
+_SEARCHES: Mapping[str, tuple[str, Callable[[Prover], Proof]]] = MappingProxyType(
+    {
+        "G17": ("where f jumps, and what its pieces lead to", prove_entropy_range),
+        "H18": ("square roots", prove_roots),
+    }
+)

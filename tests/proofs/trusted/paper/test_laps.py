@@ -24,7 +24,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.adapter import view
 from tests.oracles.laps import graze
-from tests.oracles.motion import TURN, Impact, next_impact
+from tests.oracles.motion import TURN, Impact, inside, next_impact
 from tests.proofs.trusted.paper.steps import add, derive, edited
 
 OF = replace(PAPER, eta=F("0.21"))
@@ -121,6 +121,50 @@ def test_the_square_root_is_seen(known):
         near = F(phase - size if found.below else phase + size)
         drop = phase + time - TURN * found.turn - image(near)
         assert abs(drop / math.sqrt(size) / float(found.root[0]) - 1) < 0.01
+
+
+# -- narrow grazes ---------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def roots():
+    return prove(PAPER, ("H18",))
+
+
+def test_the_square_roots_at_the_ends_of_the_first_branches(roots):
+    """Against Newton's method on (10), in 240 bits, and f by brute force at distances 1e-8."""
+    found = derive(roots.steps, PAPER)
+    own = [conclusion for _, conclusion in roots.proofs["H18"]]
+    assert own == [found[name] for name, _ in roots.proofs["H18"]]
+    for one, near in zip(own, ("1.2", "1.36", "1.5", "1.57"), strict=True):
+        phase, time, steep, bend = graze(view(one))
+        assert inside(phase, one.phases)
+        assert inside(time, one.time)
+        assert inside((2 * steep / bend).sqrt(), one.root)
+        assert abs(float(phase) - float(near)) < 0.005
+        assert one.below
+        for side, limit, turn in ((-1, one.graze, one.turn), (1, one.other, one.beyond)):
+            beside = next_impact(PAPER.eta, PAPER.nu, F(float(phase)) + F(side, 10**12), 10**4)
+            assert abs(float(beside.lifted) - TURN * turn - float(limit[0])) < 1e-5
+    decision = find("H18").decide(PAPER, own)
+    assert decision.verdict is Verdict.VERIFIED
+    assert all(x[1] - x[0] < F(1, 10**9) for x in decision.quantities.values())
+    assert decision.quantities["root_1"] == own[0].root
+    assert 1.1218 < decision.quantities["jump_1"][0] < 1.1219  # 1.941607 - 0.819754
+
+
+def test_h18_needs_each_of_its_grazes_narrowly(roots):
+    own = [conclusion for _, conclusion in roots.proofs["H18"]]
+    for i, one in enumerate(own):
+        wide = replace(one, root=(one.root[0], one.root[1] + F(1, 10**8)))
+        none = replace(one, landing=None)
+        for few in (
+            own[:i] + own[i + 1 :],
+            [*own[:i], wide, *own[i + 1 :]],
+            [*own[:i], none, *own[i + 1 :]],
+        ):
+            assert find("H18").decide(PAPER, few).verdict is Verdict.UNDECIDED
+    assert find("H18").decide(OF, own).verdict is Verdict.UNDECIDED
 
 
 # -- lies ------------------------------------------------------------------------------------------
