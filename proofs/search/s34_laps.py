@@ -1,4 +1,4 @@
-"""Section 3.4: the chaos of f as a whole. Claims G17, the entropy from both sides, and H18, grazes.
+"""The circle cut where f jumps: grazes between branches, and graphs of what leads where.
 
 The circle is cut at the phases after which the mass grazes the table, where f jumps. A graph of
 what the pieces are mapped into at most bounds from above what covering graphs bound from below.
@@ -7,34 +7,29 @@ what the pieces are mapped into at most bounds from above what covering graphs b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.methods.subshifts import least_ceiling, outer_tower
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, Candidates
-from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s34_absorbing import Partition, after_reversal
-from proofs.search.s34_chaos import Branches, prove_covering
+from proofs.search.s34_chaos import Branches
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
-from proofs.trusted.paper.s34_circle.grazing import ENDS, Grazing, graze
+from proofs.trusted.paper.s34_circle.grazing import Grazing, graze
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
-from proofs.trusted.parameters import Parameters
 
 _GRID = 1200
 _OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
@@ -43,40 +38,10 @@ _PLACES = 8  # of the ends of states
 _LONGEST = Fraction(1, 100)  # time after a graze in which the gap is proved to rise
 _SPARE = Fraction(1, 10**8)  # of times
 _MOST_TURNS = 20_000
-_NEWTON = 6  # steps
-_FINE = 160  # bits of Newton's method
+NEWTON = 6  # steps
+FINE = 160  # bits of Newton's method
 _ROOT_PLACES = 16  # of narrow grazes
 _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
-
-
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
-    """Prove what the claims asked for rest on, as far as it goes."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    evidence = Evidence(prover.steps, {claim: [] for claim in claims})
-    for claim in claims:
-        stage, search = _SEARCHES[claim]
-        tell(stage)
-        try:
-            with prover.undone():
-                evidence.proofs[claim] = search(prover)
-        except FAILED as failure:
-            evidence.notes[claim] = str(failure)
-    return evidence
-
-
-def prove_entropy_range(prover: Prover, depths: tuple[int, int] = _DEPTHS) -> Proof:
-    """Prove lower and upper bounds of the entropy (rules covering-graph, itinerary-graph)."""
-    laps = Laps.cut(prover)
-    lower = prove_covering(prover, laps.found, depths[0])
-    if not lower:
-        raise Undecided("no orbits are seen to stay on the branches")
-    return [laps.bound(lower[0], depths[1])]
 
 
 @dataclass
@@ -169,20 +134,20 @@ def prove_grazing(
     turns = min(one, two), max(one, two)
     near, far = phases if one < two else phases[::-1]
     width, impact = phases[1] - phases[0], found.impact(float(near))
-    time = _zero(_flight(prover, near), Fraction(impact.time), 1)
+    time = zero(flight(prover, near), Fraction(impact.time), 1)
     around = 8 * width + _SPARE
     before = (time - Fraction(impact.time)) * 3 / 2 + around
-    times = [time + x for x in (-before, -around, around, _rise(prover.system, time))]
+    times = [time + x for x in (-before, -around, around, rise(prover.system, time))]
     landing = None
     if turns[1] != never:
         later = found.impact(float(far))
         spare = 2 * (1 + Fraction(abs(later.slope))) * width + _SPARE
-        arrival = _zero(_flight(prover, far), Fraction(later.time), 0)
+        arrival = zero(flight(prover, far), Fraction(later.time), 0)
         landing = arrival - spare, arrival + spare
-    return _record(prover, phases, turns, times, landing)
+    return record(prover, phases, turns, times, landing)
 
 
-def _record(
+def record(
     prover: Prover,
     phases: Phases,
     turns: tuple[int, int],
@@ -202,77 +167,26 @@ def _record(
     return prover.add("grazing", witness), found
 
 
-def _rise(system: System, time: Fraction) -> Fraction:
+def rise(system: System, time: Fraction) -> Fraction:
     """Return for how long after a graze the gap is looked at: sin(eta t) keeps its sign."""
     turn = Fraction(math.tau) / system.eta
     return min(_LONGEST, abs(time - round(time / turn) * turn) / 2)
 
 
-def _flight(prover: Prover, phase: Fraction) -> Motion:
-    return Motion(prover.system.eta, prover.system.nu, (phase, phase), _FINE)
+def flight(prover: Prover, phase: Fraction) -> Motion:
+    """Return the flight from one phase, for Newton's method."""
+    return Motion(prover.system.eta, prover.system.nu, (phase, phase), FINE)
 
 
-def _middle(x: Enclosure) -> Fraction:
+def middle(x: Enclosure) -> Fraction:
+    """Return about the number that is enclosed."""
     return Fraction(x.lo + x.hi, 2 << x.bits)
 
 
-def _zero(motion: Motion, time: Fraction, order: int) -> Fraction:
+def zero(motion: Motion, time: Fraction, order: int) -> Fraction:
     """Return about where a derivative of the gap is 0, near a time, by Newton's method."""
     gap_of = motion.gap_of
-    for _ in range(_NEWTON):
-        value, rate = (_middle(gap_of((time, time), k)) for k in (order, order + 1))
-        time = round((time - value / rate) * 2**_FINE) / Fraction(2**_FINE)
+    for _ in range(NEWTON):
+        value, rate = (middle(gap_of((time, time), k)) for k in (order, order + 1))
+        time = round((time - value / rate) * 2**FINE) / Fraction(2**FINE)
     return time
-
-
-# -- narrow ones -----------------------------------------------------------------------------------
-
-
-def prove_roots(prover: Prover) -> Proof:
-    """Prove the grazes near the phases asked about, narrowly (rule grazing)."""
-    if not -1 < prover.system.nu < 0:
-        raise Undecided("windows of flights are known for -1 < nu < 0 only")
-    candidates = Candidates(prover.system, _ROOT_TURNS)
-    return [_prove_root(prover, candidates, float(end)) for end in ENDS]
-
-
-def _prove_root(prover: Prover, candidates: Candidates, end: float) -> tuple[str, Grazing]:
-    """Prove the graze after the shortest flight near a phase."""
-    runs = candidates.runs(end - _BESIDE, end + _BESIDE, _ROOT_GRID)
-    ends = [(low, high) for (_, low), (high, _) in pairwise(runs)]
-    seen = {low: (candidates.impact(low), candidates.impact(high)) for low, high in ends}
-    jumps = [(one, two, low) for low, (one, two) in seen.items() if one and two]
-    if not jumps:
-        raise Undecided("no graze is seen")
-    one, two, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
-    first, later = (one, two) if one.turn < two.turn else (two, one)
-    phase, time = _graze(prover, Fraction(low), Fraction(first.time))
-    arrival = _zero(_flight(prover, phase), Fraction(later.time), 0)
-    unit, centre = Fraction(1, 10**_ROOT_PLACES), round(phase, _ROOT_PLACES)
-    wide = 1000 * unit
-    times = [time - 100 * _SPARE, time - wide, time + wide, time + _rise(prover.system, time)]
-    around, turns = Phases(centre - unit, centre + unit), (first.turn, later.turn)
-    return _record(prover, around, turns, times, (arrival - wide, arrival + wide))
-
-
-def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, Fraction]:
-    """Return about the phase and the time of a graze, by Newton's method.
-
-    The least gap has the derivative -(sin(eta t) / eta) A in the phase, see `slope`.
-    """
-    for _ in range(_NEWTON):
-        motion = _flight(prover, phase)
-        time = _zero(motion, time, 1)
-        now, push = motion.clock((time, time)), launch_acceleration(motion.start())
-        along = _middle(now.mass_sin) / motion.eta * _middle(push)
-        step = _middle(motion.gap_of((time, time), 0)) / along
-        phase = round((phase + step) * 2**_FINE) / Fraction(2**_FINE)
-    return phase, time
-
-
-_SEARCHES: Mapping[str, tuple[str, Callable[[Prover], Proof]]] = MappingProxyType(
-    {
-        "G17": ("where f jumps, and what its pieces lead to", prove_entropy_range),
-        "H18": ("square roots", prove_roots),
-    }
-)

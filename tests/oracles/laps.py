@@ -135,4 +135,38 @@ def entropy_range(view, rng):
     return told
 
 
-JUDGES = {"Grazing": grazing, "Pieces": pieces, "EntropyRange": entropy_range}
+def expansion(view, rng):
+    """Lengths times the pieces' scales grow by the rate, at the ends of branches and in between."""
+    told = pieces(view.pieces, rng)
+    parts = _branches(view.pieces)
+    if len(parts) != len(view.scales) or not min(view.scales) > 0 or not view.rate > 1:
+        return [*told, "no scales > 0, or no rate > 1"]
+    for part, scale in zip(parts, view.scales, strict=True):
+        for share in (0, Fraction(rng.random()), 1):
+            found = flight(view.eta, view.nu, between(part.phases, share), latest=_LONG)
+            if not isinstance(found, Impact):
+                continue
+            for other, target in zip(parts, view.scales, strict=True):
+                inside_it = float(other.phases[0]) < found.phase < float(other.phases[1])
+                size = abs(float(found.slope)) * float(target / scale)
+                if inside_it and size < float(view.rate) * (1 - 1e-9):
+                    told.append(f"lengths near f = {found.phase:.9g} grow by {size:.6g} only")
+    return told
+
+
+def coding(view, rng):
+    """An expansion and an entropy range, about the same pieces."""
+    told = [*expansion(view.expansion, rng), *entropy_range(view.entropy, rng)]
+    one, two = (
+        [part.phases for part in each.pieces.arcs] for each in (view.expansion, view.entropy)
+    )
+    return told if one == two else [*told, "two different partitions of the circle"]
+
+
+JUDGES = {
+    "Expansion": expansion,
+    "Coding": coding,
+    "Grazing": grazing,
+    "Pieces": pieces,
+    "EntropyRange": entropy_range,
+}

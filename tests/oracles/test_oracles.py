@@ -195,6 +195,17 @@ FALSE = {
         _of("lower", put("growth", lambda old: old + 1)),
         _of("pieces", put("arcs", lambda old: old[:2] + old[3:])),
     ],
+    "Expansion": [
+        put("rate", F(2)),
+        put("rate", F(1)),
+        put("scales", lambda old: (F(1),) * len(old)),
+        put("scales", lambda old: old[1:]),
+    ],
+    "Coding": [
+        _of("expansion", put("rate", F(2))),
+        _of("entropy", put("growth", lambda old: old - 1)),
+        lambda record: put("arcs", lambda old: old[2:])(record.expansion.pieces),
+    ],
     "FullShift": [_swap("cells"), offs("slopes"), put("cells", lambda old: old[:1])],
     "StayingOrbit": [
         put("cells", lambda old: old[:-1] or old),

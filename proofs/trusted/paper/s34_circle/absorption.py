@@ -250,12 +250,12 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
     for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
         low, high = hull(ends)
         flight = max(window[0], low - phases[1]), min(window[1], high - phases[0])
-        stretch = _stretch(branch.motion(phases), flight)
-        cells.append(Cell(phases, tuple(_reduced((low, high), origin)), stretch))
+        bound = stretch(branch.motion(phases), flight)
+        cells.append(Cell(phases, tuple(_reduced((low, high), origin)), bound))
     return cells
 
 
-def _stretch(motion: Motion, time: Range) -> Fraction | None:
+def stretch(motion: Motion, time: Range) -> Fraction | None:
     """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
     sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
     along = sin / rational(motion.eta, motion.bits) * push

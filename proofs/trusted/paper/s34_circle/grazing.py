@@ -29,16 +29,17 @@ class Grazing(Conclusion):
     """After one phase phi_g of `phases` the gap is > 0 until a graze: gap = gap' = 0 < gap''.
 
     It comes after a time in `time`, in window `turn`. After the other phases below phi_g if
-    `below`, else above, the first impact is in this window; after those on the other side in the
-    window `beyond`, after a time in `landing`, or where that is None there is none for 2 pi q,
-    eta = p/q. These impacts are transversal, and f' > 0 if `below`, else f' < 0, on both sides.
-    On the former side f = f_g - a |phi - phi_g|^(1/2) + O(phi - phi_g), f_g the phase of the graze
-    and a in `root`.
+    `below`, else above, the first impact is in this window, later than `begin`; after those on the
+    other side in the window `beyond`, after a time in `landing`, or where that is None there is
+    none for 2 pi q, eta = p/q. These impacts are transversal, and on both sides f' > 0 if `below`,
+    else f' < 0. On the former side f = f_g - a |phi - phi_g|^(1/2) + O(phi - phi_g), f_g the phase
+    of the graze and a in `root`.
     """
 
     at: Place
     phases: Phases
     turn: int
+    begin: Fraction
     time: Range
     below: bool
     beyond: int
@@ -54,6 +55,11 @@ class Grazing(Conclusion):
     def other(self) -> Range | None:
         """Enclose f's limit on the other side, less 2 pi beyond; None if f is not defined there."""
         return None if self.landing is None else self._after(self.landing, self.beyond)
+
+    @property
+    def motion(self) -> Motion:
+        """The flights from these phases."""
+        return Motion(self.at.eta[0], self.at.nu[0], self.phases, BITS)
 
     def _after(self, time: Range, turns: int) -> Range:
         return lifted((self.phases[0] + time[0], self.phases[1] + time[1]), -turns, BITS)
@@ -148,7 +154,7 @@ def graze(
     _separates(motion, (first + last) / 2, bend, below)
     root = sqrt((-along if below else along) * 2 / bend).range
     phases = Phases(*motion.phases)
-    return Grazing(at, phases, turn, (first, last), below, beyond, landing, root)
+    return Grazing(at, phases, turn, before, (first, last), below, beyond, landing, root)
 
 
 def _falling(motion: Motion, time: Range) -> bool:

@@ -12,11 +12,12 @@ from itertools import pairwise
 
 import pytest
 
-from proofs.search.s34_laps import prove
+from proofs.search.s34_whole import prove
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.expansion import Coding, Expansion, beside, expansion
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
@@ -32,7 +33,7 @@ OF = replace(PAPER, eta=F("0.21"))
 
 @pytest.fixture(scope="module")
 def evidence():
-    return prove(OF, ("G17",))
+    return prove(OF, ("G17", "G18"))
 
 
 @pytest.fixture(scope="module")
@@ -121,6 +122,33 @@ def test_the_square_root_is_seen(known):
         near = F(phase - size if found.below else phase + size)
         drop = phase + time - TURN * found.turn - image(near)
         assert abs(drop / math.sqrt(size) / float(found.root[0]) - 1) < 0.01
+
+
+def test_lengths_grow_along_orbits_as_is_proved(known):
+    """|(f^n)'| by brute force, as long as orbits of phases over J stay in its pieces."""
+    (found,) = only(Expansion, known)
+    low, high = map(float, found.pieces.region)
+    ends = [tuple(map(float, piece.phases)) for piece in found.pieces.monotone]
+    longest = 0
+    for k in range(60):
+        phase, size, steps = low + (high - low) * (k + 0.5) / 60, 1.0, 0
+        while any(first < phase < last for first, last in ends) and steps < 12:
+            now = next_impact(OF.eta, OF.nu, F(phase), 7000.0)
+            size, steps = size * abs(float(now.slope)), steps + 1
+            assert size >= float(found.least * found.rate**steps)
+            phase = now.phase
+        longest = max(longest, steps)
+    assert longest > 3
+
+
+def test_prover_and_checker_agree_on_the_expansion(evidence, known):
+    own = [conclusion for _, conclusion in evidence.proofs["G18"]]
+    found = [known[name] for name, _ in evidence.proofs["G18"]]
+    decisions = [find("G18").decide(OF, each) for each in (own, found)]
+    assert decisions[0].theorem == decisions[1].theorem
+    assert [each.verdict for each in decisions] == [Verdict.VERIFIED] * 2
+    for few in (own[:1], own[1:], []):
+        assert find("G18").decide(OF, few).verdict is Verdict.UNDECIDED
 
 
 # -- narrow grazes ---------------------------------------------------------------------------------
@@ -281,6 +309,75 @@ def test_a_forged_graph_is_refused(steps, known, lie):
     refused(steps, known, "itinerary-graph-1", GRAPH_LIES[lie], lie[1])
 
 
+def first_piece(w):
+    return w["cells"][0]
+
+
+EXPANSION_LIES = {
+    ("a greater rate", "to expand"): lambda w: w.update(rate="2"),
+    ("no expansion", "does not expand"): lambda w: w.update(rate="1"),
+    ("one scale", "to expand"): lambda w: w.update(scales=["1"] * len(w["scales"])),
+    ("a scale 0", "scale > 0"): lambda w: w["scales"].__setitem__(0, "0"),
+    ("a scale too few", "entries"): lambda w: w["scales"].pop(),
+    ("a piece too few", "entries"): lambda w: w["cells"].pop(),
+    ("a first cut left out", "one end of the branch"): lambda w: (
+        first_piece(w)["cuts"].pop(0),
+        first_piece(w)["times"].pop(0),
+    ),
+    ("a last cut left out", "one end of the branch"): lambda w: (
+        first_piece(w)["cuts"].pop(),
+        first_piece(w)["times"].pop(),
+    ),
+    ("cuts in reverse", "one end of the branch"): lambda w: first_piece(w)["cuts"].reverse(),
+    ("a time too few", "entries"): lambda w: first_piece(w)["times"].pop(),
+    ("a time moved", "signs"): lambda w: first_piece(w)["times"].__setitem__(
+        1, add(F(1, 1000))(first_piece(w)["times"][1])
+    ),
+    ("one cell a piece", "not proved"): lambda w: [
+        each.update(
+            cuts=each["cuts"][:: len(each["cuts"]) - 1],
+            times=each["times"][:: len(each["times"]) - 1],
+        )
+        for each in w["cells"]
+    ],
+}
+
+
+@pytest.mark.parametrize("lie", EXPANSION_LIES, ids=" ".join)
+def test_a_forged_expansion_is_refused(steps, known, lie):
+    refused(steps, known, "expansion-1", EXPANSION_LIES[lie], lie[1])
+
+
+def test_what_is_beside_grazes_counts(known):
+    """f expands on all cells, but nothing is said of the phases next to a graze."""
+    (found,) = only(Expansion, known)
+    count = len(found.scales)
+    fine = [[(F(1, 1000), (F(0), F(3)))]] * count
+    assert expansion(found.pieces, fine, found.scales, found.rate) == found
+    steep = [*fine[:-1], [*fine[-1], (F(9), (F(1), F(1)))]]
+    with pytest.raises(Unproved, match="to expand"):
+        expansion(found.pieces, steep, found.scales, found.rate)
+    piece = next(x for x in found.pieces.monotone if x.left and x.right)
+    parts = list(beside(piece))
+    assert len(parts) == 2
+    for (bound, image), phase in zip(parts, piece.branch.phases, strict=True):
+        seen = next_impact(OF.eta, OF.nu, phase, 7000.0)
+        assert bound >= 1 / abs(float(seen.slope)) - 1e-9
+        assert image[0] <= F(float(seen.lifted) - TURN * piece.branch.turn) + F(1, 10**9)
+
+
+def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
+    (found,), (bounds,) = only(Expansion, known), only(EntropyRange, known)
+    arcs = (
+        *found.pieces.arcs[:2],
+        replace(found.pieces.arcs[2], begin=F(1)),
+        *found.pieces.arcs[3:],
+    )
+    other = replace(found, pieces=replace(found.pieces, arcs=arcs))
+    with pytest.raises(Unproved, match="different pieces"):
+        Coding(other, bounds)
+
+
 def test_each_state_counts(steps, known):
     """A state that shrinks no longer contains an image, or has fewer weights than it sends on."""
     states = steps["itinerary-graph-1"]["witness"]["states"]
@@ -365,5 +462,4 @@ def test_wide_ranges_decide_nothing(known):
 def test_where_nothing_is_proved_a_note_says_why(eta, nu):
     evidence = prove(replace(PAPER, eta=F(eta), nu=F(nu)), ("G17",))
     assert evidence.proofs == {"G17": []}
-    assert evidence.steps == {}
     assert evidence.notes["G17"]
