@@ -17,7 +17,13 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
-from proofs.trusted.paper.s34_circle.expansion import Coding, Expansion, beside, expansion
+from proofs.trusted.paper.s34_circle.expansion import (
+    Coding,
+    Expansion,
+    beside,
+    expansion,
+    part,
+)
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
@@ -26,7 +32,7 @@ from proofs.trusted.verdicts import Verdict
 from tests.oracles.adapter import view
 from tests.oracles.laps import graze
 from tests.oracles.motion import TURN, Impact, inside, next_impact
-from tests.proofs.trusted.paper.steps import add, derive, edited
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited
 
 OF = replace(PAPER, eta=F("0.21"))
 
@@ -364,6 +370,28 @@ def test_what_is_beside_grazes_counts(known):
         seen = next_impact(OF.eta, OF.nu, phase, 7000.0)
         assert bound >= 1 / abs(float(seen.slope)) - 1e-9
         assert image[0] <= F(float(seen.lifted) - TURN * piece.branch.turn) + F(1, 10**9)
+
+
+def test_the_rule_looks_beside_grazes(steps, known):
+    """With a landing that is known badly, f' may be anything on the far side of a graze."""
+    (pieces,) = only(Pieces, known)
+    low, high = pieces.arcs[1].landing
+    vague = replace(pieces.arcs[1], landing=(low - 1, high + 1))
+    other = replace(pieces, arcs=(pieces.arcs[0], vague, *pieces.arcs[2:]))
+    with pytest.raises(Unproved, match="to expand"):
+        apply("expansion", steps["expansion-1"]["witness"], {**known, "pieces-1": other}, OF)
+
+
+def test_a_part_holds_every_slope(known):
+    (pieces,) = only(Pieces, known)
+    for piece in pieces.monotone:
+        ends = piece.branch.phases
+        ends = ends[0], ends[0] + (ends[1] - ends[0]) / 8
+        seen = [next_impact(OF.eta, OF.nu, phase, 7000.0) for phase in ends]
+        arrivals = sorted(F(float(each.lifted)) for each in seen)
+        bound, image = part(piece.branch, ends, (arrivals[0], arrivals[1]))
+        assert all(bound > 0.999 / abs(float(each.slope)) for each in seen)
+        assert abs(float(image[0] - arrivals[0]) + TURN * piece.branch.turn) < 1e-9
 
 
 def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
