@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -88,11 +88,7 @@ class Laps:
     def bound(self, lower: tuple[str, EntropyBound], depth: int) -> tuple[str, EntropyRange]:
         """Record the step `itinerary-graph`, the growth rounded up."""
         region = self.pieces.region
-        used: dict[Fraction, int] = {}
-
-        def known(phase: Fraction) -> Range:
-            used[phase] = index = self.found.on(phase)
-            return self.found.image(index, phase)
+        known = Images(self.found)
 
         @cache
         def images(state: Range) -> list[Range]:
@@ -107,19 +103,37 @@ class Laps:
         found = entropy_range(
             self.pieces, lower[1], known, OuterGraph(ceiling.states, weights, growth)
         )
-        times = [
-            {"phase": str(phase), "time": texts(self.found.times[index, phase])}
-            for phase, index in sorted(used.items())
-        ]
         witness = {
             "pieces": self.name,
             "lower": lower[0],
-            "images": times,
+            "images": known.witness(),
             "states": [texts(state) for state in ceiling.states],
             "weights": texts(weights),
             "growth": str(growth),
         }
         return self.prover.add("itinerary-graph", witness), found
+
+
+@dataclass
+class Images:
+    """The images of phases on branches, proved when they are asked for, with brackets."""
+
+    found: Branches
+    used: dict[Fraction, int] = field(default_factory=dict)
+
+    def __call__(self, phase: Fraction) -> Range:
+        """Prove and return an image."""
+        if phase not in self.used:
+            self.used[phase] = self.found.on(phase)
+        return self.found.image(self.used[phase], phase)
+
+    def witness(self) -> list[dict[str, object]]:
+        """Return the phases and brackets."""
+        return [self.bracket(phase) for phase in sorted(self.used)]
+
+    def bracket(self, phase: Fraction) -> dict[str, object]:
+        """Return a phase and its bracket."""
+        return {"phase": str(phase), "time": texts(self.found.times[self.used[phase], phase])}
 
 
 # -- grazes ----------------------------------------------------------------------------------------

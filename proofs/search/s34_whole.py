@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -20,13 +21,15 @@ from proofs.motion.system import System
 from proofs.motion.windows import Candidates
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s34_chaos import prove_covering
-from proofs.search.s34_laps import FINE, NEWTON, Laps, flight, middle, record, rise, zero
+from proofs.search.s34_laps import FINE, NEWTON, Images, Laps, flight, middle, record, rise, zero
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, Range, hull
 from proofs.trusted.paper.s34_circle.absorption import BRACKET
+from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, cycles, is_least, word_of
+from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.expansion import Expansion, Part, beside, expansion, part
 from proofs.trusted.paper.s34_circle.grazing import ENDS, Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
@@ -37,6 +40,8 @@ _DEPTHS = 3, 4  # of the towers of states, from below and from above
 _SCALE, _RATE = Fraction(1, 7), Fraction(5, 4)  # of lengths above pi/2, and how they grow
 _DEEPEST = 40  # halvings of a piece
 _BRACKET_PLACES = 40  # binary, of a time in a bracket
+_LONGEST, _RADIUS = 3, Fraction(1, 10**7)  # period of orbits, and how near they are
+_SWEEPS = 40
 _ROOT_PLACES = 16  # of narrow grazes
 _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 _SOONER = Fraction(1, 10**6)  # than a narrow graze, impacts beside it
@@ -161,6 +166,52 @@ class _Cutting:
         return self.piece.branch.image(phase, (time, time + BRACKET))
 
 
+# -- periodic orbits -------------------------------------------------------------------------------
+
+
+def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]:
+    """Prove all periodic orbits up to a period (rule cycles)."""
+    known, points = Images(laps.found), Images(laps.found)
+    outer = Outer(grown[1], known)
+    alive = [
+        word
+        for length in range(1, _LONGEST + 1)
+        for word, state in outer.words(length)
+        if is_least(word) and not outer.dies(word, state)
+    ]
+    pieces = grown[1].pieces.monotone
+    phases, orbits = [], []
+    for word in alive:
+        orbit = _cycle(laps, [pieces[i].branch for i in word])
+        with suppress(*FAILED):
+            mapped = [(x, points(x)) for x in orbit]
+            if word_of(grown[1], mapped, _RADIUS) == word:
+                phases.append(orbit)
+                orbits.append(mapped)
+    found = cycles(known, grown[1], orbits, _RADIUS, _LONGEST)
+    witness = {
+        "expansion": grown[0],
+        "orbits": [[points.bracket(x) for x in orbit] for orbit in phases],
+        "radius": str(_RADIUS),
+        "longest": str(_LONGEST),
+        "images": known.witness(),
+    }
+    return laps.prover.add("cycles", witness), found
+
+
+def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
+    """Return about the phases of a periodic orbit through branches, by Newton's method."""
+    ends = [(float(x.phases[0]), float(x.phases[1])) for x in branches]
+    phases = [(low + high) / 2 for low, high in ends]
+    for _ in range(_SWEEPS):
+        for k in reversed(range(len(phases))):
+            seen = laps.found.impact(phases[k])
+            image = phases[k] + seen.time - math.tau * branches[k].turn
+            moved = phases[k] + (phases[(k + 1) % len(phases)] - image) / seen.slope
+            phases[k] = min(max(moved, ends[k][0]), ends[k][1])
+    return [round(Fraction(phase), 14) for phase in phases]
+
+
 # -- square roots ----------------------------------------------------------------------------------
 
 
@@ -206,10 +257,16 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     return phase, time
 
 
+def prove_all_orbits(whole: _Whole) -> Proof:
+    """Prove the expansion, and all periodic orbits up to a period."""
+    grown = prove_expansion(whole.laps)
+    return [whole.range, grown, prove_cycles(whole.laps, grown)]
+
+
 _SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyType(
     {
         "G17": ("where f jumps, and what its pieces lead to", lambda whole: [whole.range]),
-        "G18": ("where f expands", lambda whole: [whole.range, prove_expansion(whole.laps)]),
+        "G18": ("where f expands, and periodic orbits", prove_all_orbits),
         "H18": ("square roots", lambda whole: prove_roots(whole.prover)),
     }
 )

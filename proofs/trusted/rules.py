@@ -58,6 +58,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "pieces": "paper.s34_circle.pieces.pieces",
         "itinerary-graph": "paper.s34_circle.laps.itinerary_graph",
         "expansion": "paper.s34_circle.expansion.prove_expansion",
+        "cycles": "paper.s34_circle.cycles.prove_cycles",
         "superstable-motion": "paper.s34_circle.persistence.superstable_motion",
         "stable-pair": "paper.s34_circle.persistence.prove_stable_pair",
         "single-solution": "paper.s4_single.orbits.single_solution",

@@ -15,6 +15,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
     "Branch": ("phases",),
+    "Cycles": ("counts",),
     "EntropyRange": ("entropy",),
     "Pieces": ("region",),
     "MarkovSet": ("growth", "fixed_points"),

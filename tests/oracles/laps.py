@@ -163,7 +163,50 @@ def coding(view, rng):
     return told if one == two else [*told, "two different partitions of the circle"]
 
 
+def _on_line(found):
+    """The phase of an impact, on the line around pi/2."""
+    return (float(found.lifted) + TURN / 4) % TURN - TURN / 4
+
+
+def _closes(view, parts):
+    """Whether Newton's method, backwards, finds a periodic orbit through branches."""
+    ends = [tuple(map(float, part.phases)) for part in parts]
+    phases = [(low + high) / 2 for low, high in ends]
+    moved = [1.0] * len(phases)
+    for _ in range(40):
+        for k in reversed(range(len(phases))):
+            found = flight(view.eta, view.nu, Fraction(phases[k]), latest=_LONG)
+            if not isinstance(found, Impact):
+                return None
+            off = phases[(k + 1) % len(phases)] - _on_line(found)
+            new = min(max(phases[k] + off / float(found.slope), ends[k][0]), ends[k][1])
+            phases[k], moved[k] = new, abs(off)
+    return max(moved) < 1e-6
+
+
+def cycles(view, rng):
+    """One fixed point in each branch that crosses the diagonal; orbits for some of the words."""
+    told, parts = expansion(view.expansion, rng), _branches(view.expansion.pieces)
+    crossing = 0
+    for part in parts:
+        found = [flight(view.eta, view.nu, phase, latest=_LONG) for phase in part.phases]
+        if all(isinstance(each, Impact) for each in found):
+            off = [_on_line(each) - float(x) for each, x in zip(found, part.phases, strict=True)]
+            crossing += off[0] * off[1] < 0
+    low, high = view.counts[0]
+    if not low <= crossing <= high:
+        told.append(f"{crossing} branches cross the diagonal")
+    rotations = [{w[i:] + w[:i] for i in range(len(w))} for w in (*view.words, *view.left)]
+    if sum(map(len, rotations)) != len(set().union(*rotations)):
+        told.append("a word twice, up to rotation")
+    for word in rng.sample(view.words, min(4, len(view.words))):
+        if max(word) >= len(parts) or _closes(view, [parts[i] for i in word]) is False:
+            told.append(f"no orbit is seen to follow {word}")
+    return told
+
+
 JUDGES = {
+    "Cycles": cycles,
     "Expansion": expansion,
     "Coding": coding,
     "Grazing": grazing,

@@ -201,6 +201,12 @@ FALSE = {
         put("scales", lambda old: (F(1),) * len(old)),
         put("scales", lambda old: old[1:]),
     ],
+    "Cycles": [
+        put("counts", lambda old: ((old[0][0] + 1, old[0][1] + 1), *old[1:])),
+        put("words", lambda old: (*old, old[0])),
+        put("words", lambda old: tuple((len(old[0]) + 50, *w[1:]) for w in old)),
+        _of("expansion", put("rate", F(2))),
+    ],
     "Coding": [
         _of("expansion", put("rate", F(2))),
         _of("entropy", put("growth", lambda old: old - 1)),

@@ -264,10 +264,10 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
 
 def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:
     """Read phases on branches and brackets of their first impacts; enclose f there, on the line."""
-    return dict(_image(branches, entry) for entry in entries.items(1, 5000))
+    return dict(read_image(branches, entry) for entry in entries.items(1, 5000))
 
 
-def _image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
+def read_image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
     """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
     phase_of, time_of = entry.fields("phase", "time")
     phase = phase_of.number()

@@ -1,4 +1,4 @@
-"""All orbits that do not come to stick: f expands on them, and words tell them apart. Row G18."""
+"""All orbits that do not come to stick: f expands on them, and words tell them apart."""
 
 from __future__ import annotations
 
@@ -17,10 +17,8 @@ from proofs.trusted.numbers import Range, floor_text, hull, increasing, show
 from proofs.trusted.paper.s34_circle.absorption import BRACKET, stretch
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
-from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
-from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 Part = tuple[Fraction, Range]  # a bound of 1/|f'| on a part of a piece, and what holds its image
@@ -85,7 +83,8 @@ def expansion(
     targets = [(piece.phases, scale) for piece, scale in zip(pieces.monotone, scales, strict=True)]
     for piece_parts, scale in zip(parts, scales, strict=True):
         METER.get().spend(2 * len(piece_parts) * len(targets))
-        for bound, (low, high) in piece_parts:
+        for bound, image in piece_parts:
+            low, high = pieces.unwrapped(image)
             for (first, last), other in targets:
                 if first <= high and low <= last and rate * bound * scale > other:
                     raise Unproved("f is not proved to expand from piece to piece")
@@ -142,66 +141,3 @@ def _side(grazing: Grazing, *, near: bool) -> Part:
         raise Unproved("f' is not proved to be other than 0 beside a graze")
     low, high = grazing.phases[0] + time[0], grazing.phases[1] + time[1]
     return bound, lifted((low, high), -(grazing.turn if near else grazing.beyond), BITS)
-
-
-# -- the row ---------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Coding(Conclusion):
-    """Theorem. Let f expand on pieces, and the graphs of an entropy range be about the same ones.
-    Then what the sentence says.
-
-    Proof. Orbits with the same sequence are equal: `Expansion`. Each path of the inner graph is
-    followed by an orbit, and each orbit follows one of the outer graph: `entropy_range`.
-    """
-
-    expansion: Expansion
-    entropy: EntropyRange
-
-    def __post_init__(self) -> None:
-        if self.expansion.pieces != self.entropy.pieces:
-            raise Unproved("expansion and entropy are about different pieces")
-
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.expansion.at
-
-    @property
-    def sentence(self) -> str:
-        lower = self.entropy.lower
-        return (
-            f"{self.expansion.sentence} Which sequences of intervals are followed by orbits that "
-            "stay in them lies between two sofic shifts: those of the paths in a graph with "
-            f"{lower.states} states all are, and all that are belong to paths in a graph with "
-            f"{self.entropy.states} states; their entropies are log {show(lower.growth)} or more "
-            f"and log {show(self.entropy.growth)} or less."
-        )
-
-    @property
-    def brief(self) -> str:
-        return f"{self.expansion.brief}; {self.entropy.brief}"
-
-
-def _tame(of: Parameters, found: Found) -> Decision:
-    """G18: by an expansion and an entropy range about the same pieces."""
-    del of
-    expansions, ranges = found.all(Expansion), found.all(EntropyRange)
-    if not (expansions and ranges):
-        return undecided("no expansion, or no graph of what follows what, is proved")
-    coding = Coding(expansions[0], ranges[0])
-    return decided(Verdict.VERIFIED, coding, corrected=[coding])
-
-
-ROWS = (
-    Row(
-        "G18",
-        "3.4",
-        "",
-        "At (eta, nu) = ({eta}, {nu}): all orbits of f that come neither to the one that sticks "
-        "nor to a phase without any impact are unstable, and told apart by the sequences of "
-        "intervals that they follow.",
-        _tame,
-    ),
-)

@@ -13,7 +13,7 @@ from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import TURN, Range, between, show, within
+from proofs.trusted.numbers import Range, between, show, within
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound, read_images
 from proofs.trusted.paper.s34_circle.pieces import Known, Pieces
 from proofs.trusted.parameters import Parameters, Place
@@ -117,9 +117,8 @@ def entropy_range(
     def least(image: Range) -> Fraction:
         """Return the least weight of a state that contains what an image has in common with J."""
         METER.get().spend(2 * len(ranked))
-        if not region[1] - TURN < image[0] <= image[1] < region[0] + TURN:
-            raise Unproved("an image may be longer than the circle")
-        low, high = max(image[0], region[0]), min(image[1], region[1])
+        first, last = pieces.unwrapped(image)
+        low, high = max(first, region[0]), min(last, region[1])
         if low > high:
             return Fraction(0)
         weight = next((v for v, state in ranked if within((low, high), state)), None)

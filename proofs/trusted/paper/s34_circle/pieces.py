@@ -13,7 +13,7 @@ from proofs.trusted.flights import lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, show_range
+from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, show_range
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
@@ -103,6 +103,13 @@ class Pieces(Conclusion):
         """All phases between those that land on the arc, and a few more, so that it is short."""
         low, high = self.lands[0].phases[1], self.lands[1].phases[0]
         return Phases(Fraction(floor_text(low)), Fraction(ceil_text(high)))
+
+    def unwrapped(self, image: Range) -> Range:
+        """Return what holds an image on the line, if it meets no multiple of 2 pi added to J."""
+        low, high = self.region
+        if not high - TURN < image[0] <= image[1] < low + TURN:
+            raise Unproved("an image may be longer than the circle")
+        return image
 
     @cached_property
     def monotone(self) -> list[Piece]:

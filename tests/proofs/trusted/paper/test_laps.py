@@ -8,7 +8,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction as F
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, product
 
 import pytest
 
@@ -16,9 +16,9 @@ from proofs.search.s34_whole import prove
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
+from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.expansion import (
-    Coding,
     Expansion,
     beside,
     expansion,
@@ -153,7 +153,7 @@ def test_prover_and_checker_agree_on_the_expansion(evidence, known):
     decisions = [find("G18").decide(OF, each) for each in (own, found)]
     assert decisions[0].theorem == decisions[1].theorem
     assert [each.verdict for each in decisions] == [Verdict.VERIFIED] * 2
-    for few in (own[:1], own[1:], []):
+    for few in (own[:1], own[1:2], []):
         assert find("G18").decide(OF, few).verdict is Verdict.UNDECIDED
 
 
@@ -392,6 +392,81 @@ def test_a_part_holds_every_slope(known):
         bound, image = part(piece.branch, ends, (arrivals[0], arrivals[1]))
         assert all(bound > 0.999 / abs(float(each.slope)) for each in seen)
         assert abs(float(image[0] - arrivals[0]) + TURN * piece.branch.turn) < 1e-9
+
+
+# -- periodic orbits -------------------------------------------------------------------------------
+
+
+def closed_words(pieces, length):
+    """The words that lead back to where they started, f being the brute-force one: closed paths.
+
+    A word counts if after three rounds the images of its first piece are not empty.
+    """
+    ends = [tuple(map(float, piece.branch.phases)) for piece in pieces.monotone]
+
+    def follow(state, i, j):
+        after = sorted(image(x) for x in state)
+        low, high = max(after[0], ends[j][0]), min(after[1], ends[j][1])
+        return (low, high) if low < high else None
+
+    found = []
+    for word in product(range(len(ends)), repeat=length):
+        state = ends[word[0]]
+        for k in range(3 * length):
+            state = state and follow(state, word[k % length], word[(k + 1) % length])
+        if state:
+            found.append(word)
+    return found
+
+
+def test_periodic_orbits_counted_by_brute_force(known):
+    (found,) = only(Cycles, known)
+    for n in (1, 2, 3):
+        count = len(closed_words(found.expansion.pieces, n))
+        low, high = (
+            sum(d * found.counts[d - 1][side] for d in range(1, n + 1) if n % d == 0)
+            for side in (0, 1)
+        )
+        assert low <= count <= high
+    assert found.counts[0] == (4, 4)
+    assert sum(high - low for low, high in found.counts) == len(found.left) <= 3
+
+
+CYCLES_LIES = {
+    ("an orbit twice", "proved different"): lambda w: w["orbits"].append(w["orbits"][-1]),
+    ("a rotated orbit", "proved different"): lambda w: w["orbits"].append(
+        [*w["orbits"][-1][1:], w["orbits"][-1][0]]
+    ),
+    ("an orbit run through twice", "proved different"): lambda w: w["orbits"].append(
+        w["orbits"][0] * 2
+    ),
+    ("two orbits in one", "close enough"): lambda w: w["orbits"].append(
+        [w["orbits"][0][0], w["orbits"][1][0]]
+    ),
+    ("a smaller radius", "close enough"): lambda w: w.update(radius="1/1000000000000"),
+    ("a larger radius", "inside of a branch"): lambda w: w.update(radius="1"),
+    ("no radius", "no radius"): lambda w: w.update(radius="0"),
+    ("periods too long", "no radius"): lambda w: w.update(longest="9"),
+    ("periods too short", "proved different"): lambda w: w.update(longest="2"),
+    ("an image left out", "no known image"): lambda w: w["images"].pop(),
+    ("a point left out", "close enough"): lambda w: w["orbits"][-1].pop(),
+}
+
+
+@pytest.mark.parametrize("lie", CYCLES_LIES, ids=" ".join)
+def test_forged_periodic_orbits_are_refused(steps, known, lie):
+    refused(steps, known, "cycles-1", CYCLES_LIES[lie], lie[1])
+
+
+def test_an_orbit_that_is_not_given_is_left_open(steps, known):
+    (found,) = only(Cycles, known)
+    forged = edited(steps, ("cycles-1", "witness", "orbits"), lambda old: old[1:])
+    less = derive(forged, OF, known, steps)["cycles-1"]
+    assert (less.words, len(less.left)) == (found.words[1:], len(found.left) + 1)
+    assert less.counts[0] == (3, 4)
+
+
+# -- what an expansion needs -----------------------------------------------------------------------
 
 
 def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
