@@ -31,9 +31,10 @@ from proofs.trusted.paper.s34_circle.absorption import BRACKET
 from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, cycles, is_least, word_of
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.expansion import Expansion, Part, beside, expansion, part
-from proofs.trusted.paper.s34_circle.grazing import ENDS, Grazing
+from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Piece
+from proofs.trusted.paper.s34_circle.roots import ENDS
 from proofs.trusted.parameters import Parameters
 
 _DEPTHS = 3, 4  # of the towers of states, from below and from above
@@ -215,7 +216,15 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
 # -- square roots ----------------------------------------------------------------------------------
 
 
-def prove_roots(prover: Prover) -> Proof:
+def prove_roots(whole: _Whole) -> Proof:
+    """Prove grazes narrowly, and the pieces between them."""
+    roots = prove_grazes(whole.prover)
+    with suppress(*FAILED):
+        roots.append((whole.laps.name, whole.laps.pieces))
+    return roots
+
+
+def prove_grazes(prover: Prover) -> Proof:
     """Prove the grazes near the phases asked about, narrowly (rule grazing)."""
     if not -1 < prover.system.nu < 0:
         raise Undecided("windows of flights are known for -1 < nu < 0 only")
@@ -267,6 +276,6 @@ _SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyTyp
     {
         "G17": ("where f jumps, and what its pieces lead to", lambda whole: [whole.range]),
         "G18": ("where f expands, and periodic orbits", prove_all_orbits),
-        "H18": ("square roots", lambda whole: prove_roots(whole.prover)),
+        "H18": ("square roots", prove_roots),
     }
 )

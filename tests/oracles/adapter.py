@@ -14,6 +14,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Horseshoe": ("interval",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
+    "Between": ("images", "full"),
     "Branch": ("phases",),
     "Cycles": ("counts",),
     "EntropyRange": ("entropy",),

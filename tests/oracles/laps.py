@@ -205,7 +205,27 @@ def cycles(view, rng):
     return told
 
 
+def narrow(view, rng):
+    """Grazes as they are said to be, and f between them, seen close to its ends, as is told."""
+    told = []
+    for one in view.grazes:
+        told += grazing(one, rng)
+    for (low, high), one, two in zip(view.images, view.grazes, view.grazes[1:], strict=False):
+        for phase, (least, most) in ((one.phases[1], low), (two.phases[0], high)):
+            beside = phase + (1 if phase == one.phases[1] else -1) * Fraction(1, 10**13)
+            found = flight(view.eta, view.nu, beside, latest=_LONG)
+            seen = isinstance(found, Impact)
+            if seen and not float(least) - 1e-4 < _on_line(found) < float(most) + 1e-4:
+                told.append(f"f({float(phase):.12g}) is {_on_line(found):.9g}")
+    for m in range(1, view.full + 1):
+        (low, _), (_, high) = view.images[m - 1]
+        if low > view.grazes[0].phases[0] or high < view.grazes[view.full].phases[1]:
+            told.append(f"piece {m} is not mapped over the first {view.full}")
+    return told
+
+
 JUDGES = {
+    "Between": narrow,
     "Cycles": cycles,
     "Expansion": expansion,
     "Coding": coding,

@@ -201,6 +201,11 @@ FALSE = {
         put("scales", lambda old: (F(1),) * len(old)),
         put("scales", lambda old: old[1:]),
     ],
+    "Between": [
+        put("full", lambda old: old + 1),
+        put("images", lambda old: tuple((off(low), off(high)) for low, high in old)),
+        put("grazes", lambda old: old[::-1]),
+    ],
     "Cycles": [
         put("counts", lambda old: ((old[0][0] + 1, old[0][1] + 1), *old[1:])),
         put("words", lambda old: (*old, old[0])),

@@ -45,7 +45,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s34_circle.other_sets": ("G5", "G11"),
         "s34_circle.entropy": ("G9",),
         "s34_circle.laps": ("G17",),
-        "s34_circle.grazing": ("H18",),
+        "s34_circle.roots": ("H18",),
         "s34_circle.cycles": ("G18",),
         "s34_circle.circle": GROUPS["circle"],
         "s34_circle.persistence": GROUPS["persistence"],

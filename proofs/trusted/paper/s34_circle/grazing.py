@@ -1,4 +1,4 @@
-"""Where f jumps: phases after which the mass grazes the table, f's square root there. Row H18."""
+"""Where f jumps: phases after which the mass grazes the table, f's square root there."""
 
 from __future__ import annotations
 
@@ -15,13 +15,10 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import sqrt
 from proofs.trusted.numbers import Phases, Range, between, increasing, show_range
 from proofs.trusted.paper.s34_circle.entropy import read_turn
-from proofs.trusted.parameters import PAPER, Parameters, Place
-from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
 _PLACES = 9
-_NARROW, _NEAR = Fraction(1, 10**9), Fraction(1, 200)
-ENDS = tuple(map(Fraction, ("1.2", "1.36", "1.5", "1.57")))  # where row H18 looks for grazes
 
 
 @dataclass(frozen=True)
@@ -188,41 +185,3 @@ def _separates(motion: Motion, time: Fraction, bend: Enclosure, below: bool) -> 
     clearance = misses((time, time), 0) - slope * slope / (2 * rational(bend.range[0], BITS))
     if not meets((time, time), 0).hi < 0 < clearance.lo:
         raise Unproved("the graze is not proved to be between the phases")
-
-
-# -- the row ---------------------------------------------------------------------------------------
-
-
-def _jump(graze: Grazing) -> Range:
-    """Enclose f_g less f's limit on the other side; both are counted from the window's turn."""
-    other = graze.other or graze.graze
-    return graze.graze[0] - other[1], graze.graze[1] - other[0]
-
-
-def _roots(of: Parameters, found: Found) -> Decision:
-    """H18: by narrow grazes near each of the phases asked about, in their order."""
-    del of
-    known = [x for x in found.all(Grazing) if x.root[1] - x.root[0] <= _NARROW and x.other]
-    near = [[x for x in known if abs(x.phases[0] - end) <= _NEAR] for end in ENDS]
-    if not all(near):
-        return undecided("not at each of these phases the square root is enclosed narrowly")
-    best = [group[0] for group in near]
-    values = {
-        f"{name}_{index}": value
-        for index, graze in enumerate(best, 1)
-        for name, value in (("phase", graze.phases), ("root", graze.root), ("jump", _jump(graze)))
-    }
-    return decided(Verdict.VERIFIED, *best, corrected=best, known=values)
-
-
-ROWS = (
-    Row(
-        "H18",
-        "3.1",
-        "",
-        "At (eta, nu) = ({eta}, {nu}): f jumps at phases near 1.2, 1.36, 1.50 and 1.57 after which "
-        "the mass grazes the table, with a square root whose coefficients are known to 9 places.",
-        _roots,
-        PAPER.place,
-    ),
-)

@@ -12,11 +12,15 @@ from itertools import pairwise, product
 
 import pytest
 
-from proofs.search.s34_whole import prove
+from proofs.motion.impact import HORIZON
+from proofs.motion.system import System
+from proofs.search.evidence import Evidence
+from proofs.search.s34_whole import prove, prove_grazes
+from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles
+from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.expansion import (
     Expansion,
@@ -27,6 +31,7 @@ from proofs.trusted.paper.s34_circle.expansion import (
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
+from proofs.trusted.paper.s34_circle.roots import Between
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.adapter import view
@@ -162,7 +167,8 @@ def test_prover_and_checker_agree_on_the_expansion(evidence, known):
 
 @pytest.fixture(scope="module")
 def roots():
-    return prove(PAPER, ("H18",))
+    prover = Prover(System(PAPER.eta, PAPER.nu), 30, HORIZON)
+    return Evidence(prover.steps, {"H18": prove_grazes(prover)})
 
 
 def test_the_square_roots_at_the_ends_of_the_first_branches(roots):
@@ -199,6 +205,43 @@ def test_h18_needs_each_of_its_grazes_narrowly(roots):
         ):
             assert find("H18").decide(PAPER, few).verdict is Verdict.UNDECIDED
     assert find("H18").decide(OF, own).verdict is Verdict.UNDECIDED
+
+
+def firsts(pieces):
+    """The pieces of the circle, and the grazes at the ends of the first ones, where f increases."""
+    return pieces, tuple(x for x in pieces.arcs if isinstance(x, Grazing) and x.below)
+
+
+def test_f_between_grazes_and_the_horseshoe_that_they_carry(known):
+    between = Between(*firsts(only(Pieces, known)[0]))
+    for (low, high), one, two in zip(
+        between.images, between.grazes, between.grazes[1:], strict=False
+    ):
+        inside = F(float(one.phases[1])) + F(1, 10**9), F(float(two.phases[0])) - F(1, 10**9)
+        first, last = map(image, inside)
+        assert float(low[0]) - 1e-3 < first < last < float(high[1]) + 1e-3
+        assert float(low[1]) < image(sum(inside) / 2) < float(high[0])
+    ends = [float(x.phases[0]) for x in between.grazes]
+    images = [(float(low[0]), float(high[0])) for low, high in between.images]
+    fulls = [
+        m for m in range(1, len(ends)) if all(a < ends[0] and ends[m] < b for a, b in images[:m])
+    ]
+    assert between.full == max(fulls) == 2
+    assert "every sequence of 2 symbols" in between.sentence
+
+
+def test_pieces_between_other_grazes_are_not_told_of(known, roots):
+    pieces, grazes = firsts(only(Pieces, known)[0])
+    for wrong in (grazes[:1], grazes[::-1], grazes[::2]):
+        with pytest.raises(Unproved):
+            Between(pieces, wrong)
+    with pytest.raises(Unproved, match="one oscillator"):
+        Between(pieces, tuple(x for _, x in roots.proofs["H18"]))
+    last = [x for x in pieces.arcs if isinstance(x, Grazing) and not x.below]
+    with pytest.raises(Unproved, match="no piece"):
+        Between(pieces, tuple(last))
+    assert Between(pieces, grazes[2:]).full < 2
+    assert "symbols" not in Between(pieces, grazes[2:]).sentence
 
 
 # -- lies ------------------------------------------------------------------------------------------
@@ -456,6 +499,31 @@ CYCLES_LIES = {
 @pytest.mark.parametrize("lie", CYCLES_LIES, ids=" ".join)
 def test_forged_periodic_orbits_are_refused(steps, known, lie):
     refused(steps, known, "cycles-1", CYCLES_LIES[lie], lie[1])
+
+
+def test_the_images_of_states_are_rounded_outward(known):
+    (found,) = only(Cycles, known)
+    for piece_number, piece in enumerate(found.expansion.pieces.monotone):
+        low, high = (F(image(float(x))) for x in piece.branch.phases)
+        outer = Outer(
+            found.expansion, {x: (F(image(float(x))),) * 2 for x in piece.branch.phases}.get
+        )
+        exact = min(low, high), max(low, high)
+        for after, other in enumerate(found.expansion.pieces.monotone):
+            state = outer.step(piece.branch.phases, piece_number, after)
+            common = max(exact[0], other.phases[0]), min(exact[1], other.phases[1])
+            if common[0] <= common[1]:
+                assert state[0] <= common[0] <= common[1] <= state[1]
+                assert state[0] > common[0] - F(1, 10**7)
+
+
+def test_periodic_orbits_of_another_expansion_are_not_told_of(known):
+    (found,), (bounds,) = only(Cycles, known), only(EntropyRange, known)
+    other = replace(found.expansion, rate=F(9, 8))
+    told = find("G18").decide(OF, [bounds, other, found])
+    assert "periodic orbits of least period" not in told.theorem
+    told = find("G18").decide(OF, [bounds, found.expansion, found])
+    assert "periodic orbits of least period" in told.theorem
 
 
 def test_an_orbit_that_is_not_given_is_left_open(steps, known):
