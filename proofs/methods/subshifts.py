@@ -11,7 +11,10 @@ tower). With all of them the bound is the entropy of f on the pieces; a few step
 Source: F. Hofbauer, On intrinsic ergodicity of piecewise monotonic transformations with positive
 entropy, Israel J. Math. 34 (1979).
 
-Everything here is a candidate; `Subshift.growth` is exact for the images that were given.
+From above: if the pieces are all that an orbit that stays can be in, and each image of a part of a
+state lies in a state again, then the words over the pieces grow no faster than the paths.
+
+Everything here is a candidate; growths are exact for the images that were given.
 """
 
 from __future__ import annotations
@@ -27,9 +30,11 @@ from numpy.typing import NDArray
 from proofs.trusted.numbers import Range
 
 Image = Callable[[int, Fraction], Range]  # an enclosure of f at a point of a piece
+Images = Callable[[Range], Sequence[Range]]  # what holds the images of the parts of a state
 
 _ROUNDS = 400
 _SCALE = 10**12
+_LEAST = 1e-9  # value of a state from which few paths stay, beside the greatest
 
 
 @dataclass(frozen=True)
@@ -159,3 +164,60 @@ def _reached(first: int, sources: NDArray[np.intp], targets: NDArray[np.intp]) -
         reached |= new
         waiting += new
     return sorted(reached)
+
+
+# -- from above ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Ceiling:
+    """States, and a vector v of positive whole numbers with A v <= growth v for the outer graph A.
+
+    From each state an edge leads, for each image, to a state that contains it.
+    """
+
+    states: tuple[Range, ...]
+    vector: tuple[int, ...]
+    growth: Fraction
+
+
+def outer_tower(whole: Range, images: Images, depth: int, places: int) -> list[Range]:
+    """Return an interval, and what holds the images of its parts, of theirs, and so on.
+
+    They are rounded outward to decimals, but stay in the interval, which contains all images.
+    """
+    unit, states, fresh = Fraction(1, 10**places), {whole}, {whole}
+    for _ in range(depth):
+        outer = {
+            (max(whole[0], low // unit * unit), min(whole[1], -(-high // unit) * unit))
+            for state in fresh
+            for low, high in images(state)
+        }
+        fresh = outer - states
+        states |= fresh
+    return sorted(states)
+
+
+def least_ceiling(states: Sequence[Range], images: Images) -> Ceiling:
+    """Return the outer graph of least growth found on states, one of which contains all images.
+
+    Edges lead to the state of least value that contains an image; see `largest_subshift`.
+    """
+    lows, highs = (np.array([float(x) for x in side]) for side in zip(*states, strict=True))
+    sources, choices = [], []
+    for i, state in enumerate(states):
+        for low, high in images(state):
+            sources.append(i)
+            choices.append((lows <= float(low)) & (highs >= float(high)))
+    contained = np.array(choices)
+    values = np.ones(len(states))
+    for _ in range(_ROUNDS):
+        targets = np.where(contained, values, np.inf).argmin(axis=1)
+        sums = np.bincount(sources, values[targets], len(states))
+        values = np.maximum(values / values.max() + sums / sums.max(), _LEAST)
+    vector = [1 + round(float(value) / float(values.max()) * _SCALE) for value in values]
+    totals = [0] * len(states)
+    for source, target in zip(sources, targets.tolist(), strict=True):
+        totals[source] += vector[target]
+    growth = max(Fraction(total, v) for total, v in zip(totals, vector, strict=True))
+    return Ceiling(tuple(states), tuple(vector), growth)

@@ -17,6 +17,7 @@ _TITLES = {
     "dimension": "Section 3.2: the Hausdorff dimension of the invariant set",
     "chaos": "Section 3.4: more chaos than the paper saw",
     "circle": "Section 3.4: the global picture",
+    "entropy": "Section 3.4: the chaos of the plastic map as a whole",
     "persistence": "Section 3.4: what restitution changes",
     "single": "Section 4: single-impact periodic orbits",
     "soft": "Section 5: soft springs, equation by equation",

@@ -85,7 +85,7 @@ class Partition:
 
     def prove(self) -> tuple[str, Absorption]:
         """Prove how much of the circle ends up where (rule absorption)."""
-        between = self._prove_lands()
+        between = self.prove_lands()
         turns = min(self.turns, self.system.eta.denominator)
         branches = Branches(self.system, Candidates(self.system, turns), _EDGES)
         first, last = float(between[0]) - _OUTSIDE, float(between[1]) + _OUTSIDE
@@ -119,7 +119,7 @@ class Partition:
         mesh.seed()
         return mesh
 
-    def _prove_lands(self) -> Range:
+    def prove_lands(self) -> Range:
         """Prove which phases on both sides land on the arc; return the ends of those between."""
         name, arc = self.arc
         start, leave = float(arc.start[0]), float(arc.phase[0])
@@ -155,7 +155,7 @@ class Partition:
                 impact_before(self.system, Fraction(x), Fraction(y) - Fraction(x) + n * whole)
                 for x, y, n in rows
             ]
-            cutting = landing.Cutting(phases, times, _after(self.system, branch))
+            cutting = landing.Cutting(phases, times, after_reversal(self.system, branch))
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
         except FAILED:
             return
@@ -201,7 +201,7 @@ def _rounded(value: Fraction) -> Fraction:
     return Fraction(math.ceil(value * 10**12), 10**12)
 
 
-def _after(system: System, branch: Branch) -> Fraction:
+def after_reversal(system: System, branch: Branch) -> Fraction:
     """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
     half = math.pi / float(system.eta)
     zero = math.floor(float(min(branch.ends)) / half) * half

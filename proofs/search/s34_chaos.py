@@ -20,7 +20,7 @@ from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, within
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound, entropy_bound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
@@ -71,6 +71,13 @@ def prove_entropy(
     for low, high in found.candidates.runs(*_DOMAIN, _GRID):
         if high - low > _NARROWEST:
             found.prove(prover, low, high)
+    return prove_covering(prover, found, depth)
+
+
+def prove_covering(
+    prover: Prover, found: Branches, depth: int = _DEPTH
+) -> list[tuple[str, EntropyBound]]:
+    """Prove the covering graph of the largest subshift seen on branches; none, no step."""
     pieces = [branch.phases for branch in found.branches]
     try:
         states = tower(pieces, found.image, depth, _PLACES)
@@ -160,6 +167,10 @@ class Branches:
         if found is None:
             raise Undecided("no impact in floating point")
         return found
+
+    def on(self, phase: Fraction) -> int:
+        """Return the number of the branch that a phase lies on."""
+        return next(i for i, x in enumerate(self.branches) if within((phase, phase), x.phases))
 
     def image(self, index: int, phase: Fraction) -> Range:
         """Prove and return the image of a phase in a branch."""

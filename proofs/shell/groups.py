@@ -30,6 +30,7 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "dimension": "s32_dimension",
         "chaos": "s34_chaos",
         "circle": "s34_circle",
+        "entropy": "s34_whole",
         "persistence": "s34_persistence",
         "single": "s4_single",
         "soft": "s5_soft",

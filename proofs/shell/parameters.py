@@ -24,6 +24,7 @@ HEEDED = MappingProxyType(  # by which parameters what a certificate says change
         "dimension": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
         "chaos": _OSCILLATOR,
         "circle": _OSCILLATOR,
+        "entropy": _OSCILLATOR,
         "persistence": (*_OSCILLATOR, "epsilon"),
         "single": _OSCILLATOR,
         "soft": (),

@@ -188,6 +188,45 @@ FALSE = {
     "Uncovered": LINEAR,
     "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
     "EntropyBound": [offs("entropy"), _much_growth, _swap("branches")],
+    "Grazing": [
+        *map(offs, ("phases", "time", "root")),
+        put("turn", lambda old: old + 2),
+        put("below", lambda old: not old),
+        put("landing", lambda old: None if old else (F(9), F(10))),
+    ],
+    "Pieces": [
+        put("arcs", lambda old: old[:2] + old[3:]),
+        put("arcs", lambda old: old[2:]),
+        put("region", lambda old: (old[0] + F(1, 4), old[1] - F(1, 4))),
+    ],
+    "EntropyRange": [
+        offs("entropy"),
+        put("growth", lambda old: old - 1),
+        _of("lower", put("growth", lambda old: old + 1)),
+        _of("pieces", put("arcs", lambda old: old[:2] + old[3:])),
+    ],
+    "Expansion": [
+        put("rate", F(2)),
+        put("rate", F(1)),
+        put("scales", lambda old: (F(1),) * len(old)),
+        put("scales", lambda old: old[1:]),
+    ],
+    "Between": [
+        put("full", lambda old: old + 1),
+        put("images", lambda old: tuple((off(low), off(high)) for low, high in old)),
+        put("grazes", lambda old: old[::-1]),
+    ],
+    "Cycles": [
+        put("counts", lambda old: ((old[0][0] + 1, old[0][1] + 1), *old[1:])),
+        put("words", lambda old: (*old, old[0])),
+        put("words", lambda old: tuple((len(old[0]) + 50, *w[1:]) for w in old)),
+        _of("expansion", put("rate", F(2))),
+    ],
+    "Coding": [
+        _of("expansion", put("rate", F(2))),
+        _of("entropy", put("growth", lambda old: old - 1)),
+        lambda record: put("arcs", lambda old: old[2:])(record.expansion.pieces),
+    ],
     "FullShift": [_swap("cells"), offs("slopes"), put("cells", lambda old: old[:1])],
     "StayingOrbit": [
         put("cells", lambda old: old[:-1] or old),

@@ -31,6 +31,7 @@ QUICK = {  # arguments with which a command prints something soon; another one p
     "nonplastic": ["--only", "N1", "N2"],
     "orbits": ["--word", "01", "--fast"],
     "period_doubling": [],
+    "entropy": ["--only", "H18"],
     "persistence": ["--only", "G8"],
     "resonance": ["--nu", "-0.2", "--epsilon", "0.5", "--phi", "1", "--gamma", "-0.3"],
     "sets": ["--only", "H12"],

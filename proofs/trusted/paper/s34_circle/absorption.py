@@ -35,7 +35,6 @@ from proofs.trusted.windows import BITS, level
 
 BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
 _MOST_STEPS = 400
-_HALVINGS = 12
 _LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 
@@ -218,15 +217,7 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]
     times = times_of.numbers(len(cuts), len(cuts))
     if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
-    if not branch.begin <= after < min(branch.ends):
-        raise Unproved("the window of the first impact begins later, or ends before")
-    if after > branch.begin and not _up(branch, (cuts[0], cuts[-1]), after, _HALVINGS):
-        raise Unproved("an impact before the time given is not excluded")
-    window = after, max(branch.ends)
-    along = branch.motion((cuts[0], cuts[-1])).clock(window).mass_sin
-    if along.lo <= 0 <= along.hi:
-        raise Unproved("f' is not proved to have one sign on a branch")
-    sign = -1 if along.lo > 0 else 1
+    window, sign = branch.direction((cuts[0], cuts[-1]), after)
     known = [_impact(branch, x, t) for x, t in zip(cuts, times, strict=True)]
     for i, phases in enumerate(pairwise(cuts)):
         (low, first), (high, last) = known[i : i + 2][::sign]
@@ -262,15 +253,6 @@ def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enc
     fall, swing = fall + Enclosure.of(-most, most, bits), BRACKET * eta
     near = now._replace(mass_sin=now.mass_sin + Enclosure.of(-swing, swing, bits))
     return (phase + time, phase + time + BRACKET), inverse_slope(start, near, fall)
-
-
-def _up(branch: Branch, phases: Range, time: Fraction, halvings: int) -> bool:
-    """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
-    if level(branch.motion(phases), time)[0] > 0:
-        return True
-    middle = (phases[0] + phases[1]) / 2
-    halves = (phases[0], middle), (middle, phases[1])
-    return halvings > 0 and all(_up(branch, half, time, halvings - 1) for half in halves)
 
 
 def _reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Range, Range]]:

@@ -31,6 +31,7 @@ from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, unde
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
 _MOST_TURNS = 20_000
+_HALVINGS = 12
 _LOG_BITS = 160
 
 
@@ -84,6 +85,30 @@ class Branch(Conclusion):
             raise Unproved("a bracket does not have the signs +, - at its ends")
         return phase + time[0], phase + time[1]
 
+    def direction(self, phases: Range, after: Fraction) -> tuple[Range, int]:
+        """Return a window of the impacts after these launches, and the sign of f', the same on all.
+
+        They come later than `after` if gap > 0 then. f' = (sin(eta t) / eta) A / gap' has one sign
+        if sin(eta t) has from then on.
+        """
+        if not self.begin <= after < min(self.ends):
+            raise Unproved("the window of the first impact begins later, or ends before")
+        if after > self.begin and not self._up(phases, after, _HALVINGS):
+            raise Unproved("an impact before the time given is not excluded")
+        window = after, max(self.ends)
+        along = self.motion(phases).clock(window).mass_sin
+        if along.lo <= 0 <= along.hi:
+            raise Unproved("f' is not proved to have one sign on a branch")
+        return window, -1 if along.lo > 0 else 1
+
+    def _up(self, phases: Range, time: Fraction, halvings: int) -> bool:
+        """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
+        if level(self.motion(phases), time)[0] > 0:
+            return True
+        middle = (phases[0] + phases[1]) / 2
+        halves = (phases[0], middle), (middle, phases[1])
+        return halvings > 0 and all(self._up(half, time, halvings - 1) for half in halves)
+
     @property
     def sentence(self) -> str:
         return (
@@ -105,27 +130,33 @@ def branch(context: Context, reader: Reader) -> Branch:
     piece, and on the union since at a shared end the first impact is the same.
     """
     cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
-    cuts, turn = cuts_of.numbers(2, 200), turn_of.number()
-    if turn.denominator != 1 or not 1 <= turn <= _MOST_TURNS:
-        raise turn_of.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
+    cuts, turn = cuts_of.numbers(2, 200), read_turn(turn_of)
     of, phases = context.of, Phases(cuts[0], cuts[-1])
     if not -1 < of.nu < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
     whole = Motion(of.eta, of.nu, phases, BITS)
     meetings, launched = Meetings.of(whole), leaves(whole)
-    for low, high in meetings.before(int(turn)):
+    for low, high in meetings.before(turn):
         if high > launched:
             clear(whole, (max(low, launched), high))
-    begin = meetings.window(int(turn))[0]
+    begin = meetings.window(turn)[0]
     if begin <= launched:
         raise Unproved("the last window starts at launch")
-    found = Branch(of.place, cuts, int(turn), begin, ends_of.numbers())
+    found = Branch(of.place, cuts, turn, begin, ends_of.numbers())
     for piece, end in zip(pairwise(cuts), found.ends, strict=True):
         if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
             raise Unproved("the gap is not proved to fall to the impact")
         if level(found.motion(piece), end)[1] >= 0:
             raise Unproved("the gap is not proved negative at an end")
     return found
+
+
+def read_turn(reader: Reader) -> int:
+    """Read the number of a window."""
+    turn = reader.number()
+    if turn.denominator != 1 or not 1 <= turn <= _MOST_TURNS:
+        raise reader.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
+    return int(turn)
 
 
 # -- the covering graph ----------------------------------------------------------------------------
@@ -235,14 +266,19 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
     vector = weights.numbers(1, 2000)
     return entropy_bound(
         branches,
-        dict(_image(branches, entry) for entry in images.items(1, 5000)),
+        read_images(branches, images),
         [state.range() for state in states.items(len(vector), len(vector))],
         vector,
         growth.number(),
     )
 
 
-def _image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
+def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:
+    """Read phases on branches and brackets of their first impacts; enclose f there, on the line."""
+    return dict(read_image(branches, entry) for entry in entries.items(1, 5000))
+
+
+def read_image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
     """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
     phase_of, time_of = entry.fields("phase", "time")
     phase = phase_of.number()

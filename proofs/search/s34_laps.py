@@ -1,0 +1,206 @@
+"""The circle cut where f jumps: grazes between branches, and graphs of what leads where.
+
+The circle is cut at the phases after which the mass grazes the table, where f jumps. A graph of
+what the pieces are mapped into at most bounds from above what covering graphs bound from below.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+from intervals import Undecided
+from proofs.methods.subshifts import least_ceiling, outer_tower
+from proofs.motion.system import System
+from proofs.motion.windows import BITS, Candidates
+from proofs.search.s34_absorbing import Partition, after_reversal
+from proofs.search.s34_chaos import Branches
+from proofs.search.s34_circle import prove_arc, prove_longest
+from proofs.search.steps import Prover
+from proofs.trusted.certificate import texts
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.arithmetic import Enclosure
+from proofs.trusted.numbers import Phases, Range
+from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
+from proofs.trusted.paper.s34_circle.grazing import Grazing, graze
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts
+from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
+from proofs.trusted.paper.s34_circle.pieces import Pieces
+
+_GRID = 1200
+_OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
+_DEPTHS = 3, 4  # of the towers of states, from below and from above
+_PLACES = 8  # of the ends of states
+_LONGEST = Fraction(1, 100)  # time after a graze in which the gap is proved to rise
+_SPARE = Fraction(1, 10**8)  # of times
+_MOST_TURNS = 20_000
+NEWTON = 6  # steps
+FINE = 160  # bits of Newton's method
+_ROOT_PLACES = 16  # of narrow grazes
+_ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
+
+
+@dataclass
+class Laps:
+    """The circle, cut where f jumps; `name`: the step `pieces`."""
+
+    prover: Prover
+    found: Branches
+    name: str
+    pieces: Pieces
+
+    @classmethod
+    def cut(cls, prover: Prover) -> Laps:
+        """Prove what leads to the sticking arc, branches, grazes, and what never impacts."""
+        system = prover.system
+        if not (-1 < system.nu < 0 < system.eta < 1 and system.eta.denominator <= _MOST_TURNS):
+            raise Undecided("windows of flights are known for -1 < nu < 0 < eta = p/q < 1 only")
+        arc = prove_arc(prover)
+        landing = Partition(prover, arc)
+        low, high = map(float, landing.prove_lands())
+        never, silent = prove_longest(prover)
+        found = Branches(system, Candidates(system, system.eta.denominator - 1))
+        for ends in found.candidates.runs(low - _OUTSIDE, high + _OUTSIDE, _GRID):
+            found.prove(prover, *ends)
+        after = {one: after_reversal(system, one) for one in found.branches}
+        names = dict(zip(found.branches, found.names, strict=True))
+        parts: list[Branch | NeverImpacts] = [*found.branches, silent]
+        between = pairwise(sorted(parts, key=lambda each: each.phases))
+        grazes = [prove_grazing(prover, found, *pair) for pair in between]
+        pieces = Pieces(
+            arc[1],
+            (Lands(prover.at, landing.cells[0].phases), Lands(prover.at, landing.cells[1].phases)),
+            tuple(sorted([*after, silent, *(g for _, g in grazes)], key=lambda x: x.phases)),
+        )
+        witness = {
+            "separation": arc[0],
+            "lands": landing.entries["lands"],
+            "branches": [{"branch": names[x], "after": str(after[x])} for x in after],
+            "grazings": [name for name, _ in grazes],
+            "never": [never],
+        }
+        return cls(prover, found, prover.add("pieces", witness), pieces)
+
+    def bound(self, lower: tuple[str, EntropyBound], depth: int) -> tuple[str, EntropyRange]:
+        """Record the step `itinerary-graph`, the growth rounded up."""
+        region = self.pieces.region
+        known = Images(self.found)
+
+        @cache
+        def images(state: Range) -> list[Range]:
+            found = (piece.image(state, known) for piece in self.pieces.monotone)
+            cut = ((max(x[0], region[0]), min(x[1], region[1])) for x in found if x is not None)
+            return [x for x in cut if x[0] <= x[1]]
+
+        states = outer_tower((region[0], region[1]), images, depth, _PLACES)
+        ceiling = least_ceiling(states, images)
+        growth = -Fraction(-ceiling.growth * 10**4 // 1, 10**4)
+        weights = [Fraction(each) for each in ceiling.vector]
+        found = entropy_range(
+            self.pieces, lower[1], known, OuterGraph(ceiling.states, weights, growth)
+        )
+        witness = {
+            "pieces": self.name,
+            "lower": lower[0],
+            "images": known.witness(),
+            "states": [texts(state) for state in ceiling.states],
+            "weights": texts(weights),
+            "growth": str(growth),
+        }
+        return self.prover.add("itinerary-graph", witness), found
+
+
+@dataclass
+class Images:
+    """The images of phases on branches, proved when they are asked for, with brackets."""
+
+    found: Branches
+    used: dict[Fraction, int] = field(default_factory=dict)
+
+    def __call__(self, phase: Fraction) -> Range:
+        """Prove and return an image."""
+        if phase not in self.used:
+            self.used[phase] = self.found.on(phase)
+        return self.found.image(self.used[phase], phase)
+
+    def witness(self) -> list[dict[str, object]]:
+        """Return the phases and brackets."""
+        return [self.bracket(phase) for phase in sorted(self.used)]
+
+    def bracket(self, phase: Fraction) -> dict[str, object]:
+        """Return a phase and its bracket."""
+        return {"phase": str(phase), "time": texts(self.found.times[self.used[phase], phase])}
+
+
+# -- grazes ----------------------------------------------------------------------------------------
+
+
+def prove_grazing(
+    prover: Prover, found: Branches, left: Branch | NeverImpacts, right: Branch | NeverImpacts
+) -> tuple[str, Grazing]:
+    """Prove that f jumps once, at a graze, between two neighbours (rule grazing)."""
+    phases, never = Phases(left.phases[1], right.phases[0]), prover.system.eta.denominator
+    one, two = (x.turn if isinstance(x, Branch) else never for x in (left, right))
+    turns = min(one, two), max(one, two)
+    near, far = phases if one < two else phases[::-1]
+    width, impact = phases[1] - phases[0], found.impact(float(near))
+    time = zero(flight(prover, near), Fraction(impact.time), 1)
+    around = 8 * width + _SPARE
+    before = (time - Fraction(impact.time)) * 3 / 2 + around
+    times = [time + x for x in (-before, -around, around, rise(prover.system, time))]
+    landing = None
+    if turns[1] != never:
+        later = found.impact(float(far))
+        spare = 2 * (1 + Fraction(abs(later.slope))) * width + _SPARE
+        arrival = zero(flight(prover, far), Fraction(later.time), 0)
+        landing = arrival - spare, arrival + spare
+    return record(prover, phases, turns, times, landing)
+
+
+def record(
+    prover: Prover,
+    phases: Phases,
+    turns: tuple[int, int],
+    times: Sequence[Fraction],
+    landing: Range | None,
+) -> tuple[str, Grazing]:
+    """Prove and record a step `grazing`."""
+    motion = Motion(prover.system.eta, prover.system.nu, phases, BITS)
+    found = graze(motion, prover.at, turns, times, landing)
+    witness = {
+        "phases": texts(phases),
+        "turn": str(turns[0]),
+        "times": texts(list(times)),
+        "beyond": str(turns[1]),
+        "landing": None if landing is None else texts(landing),
+    }
+    return prover.add("grazing", witness), found
+
+
+def rise(system: System, time: Fraction) -> Fraction:
+    """Return for how long after a graze the gap is looked at: sin(eta t) keeps its sign."""
+    turn = Fraction(math.tau) / system.eta
+    return min(_LONGEST, abs(time - round(time / turn) * turn) / 2)
+
+
+def flight(prover: Prover, phase: Fraction) -> Motion:
+    """Return the flight from one phase, for Newton's method."""
+    return Motion(prover.system.eta, prover.system.nu, (phase, phase), FINE)
+
+
+def middle(x: Enclosure) -> Fraction:
+    """Return about the number that is enclosed."""
+    return Fraction(x.lo + x.hi, 2 << x.bits)
+
+
+def zero(motion: Motion, time: Fraction, order: int) -> Fraction:
+    """Return about where a derivative of the gap is 0, near a time, by Newton's method."""
+    gap_of = motion.gap_of
+    for _ in range(NEWTON):
+        value, rate = (middle(gap_of((time, time), k)) for k in (order, order + 1))
+        time = round((time - value / rate) * 2**FINE) / Fraction(2**FINE)
+    return time

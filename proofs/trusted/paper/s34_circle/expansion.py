@@ -1,0 +1,154 @@
+"""All orbits that do not come to stick: f expands on them, and words tell them apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.equations import launch_acceleration
+from proofs.trusted.flights import Motion, lifted
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Range, floor_text, hull, increasing, show
+from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.paper.s34_circle.grazing import Grazing
+from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
+from proofs.trusted.parameters import Place
+from proofs.trusted.windows import BITS
+
+BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `expansion`
+Part = tuple[Fraction, Range]  # a bound of 1/|f'| on a part of a piece, and what holds its image
+
+
+@dataclass(frozen=True)
+class Expansion(Conclusion):
+    """Lengths, times scales[i] in piece i, grow by `rate` > 1 or more from piece to piece."""
+
+    pieces: Pieces
+    scales: tuple[Fraction, ...]
+    rate: Fraction
+
+    def __post_init__(self) -> None:
+        if len(self.scales) != len(self.pieces.monotone) or min(self.scales) <= 0:
+            raise Unproved("a scale > 0 for each piece is expected")
+        if self.rate <= 1:
+            raise Unproved("f does not expand")
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.pieces.at
+
+    @property
+    def least(self) -> Fraction:
+        """A constant c with |(f^n)'| >= c rate^n."""
+        return min(self.scales) / max(self.scales)
+
+    @property
+    def sentence(self) -> str:
+        return (
+            f"{self.pieces.sentence} |(f^n)'| >= {floor_text(self.least)} {show(self.rate)}^n "
+            "wherever phi, f(phi), ..., f^n(phi) lie in these intervals and none before the last "
+            "is grazing. So two phases whose orbits stay in them for ever, and in the same one "
+            "each time, are equal, and every periodic orbit in them is unstable. All other orbits "
+            "come to the periodic orbit that sticks, which is stable, or to a phase without any "
+            "impact, which is fixed if a touch counts."
+        )
+
+    @property
+    def brief(self) -> str:
+        return (
+            f"|(f^n)'| >= {floor_text(self.least)} {show(self.rate)}^n on all orbits that do not "
+            "come to stick, nor to a phase without any impact"
+        )
+
+
+def expansion(
+    pieces: Pieces, parts: list[list[Part]], scales: tuple[Fraction, ...], rate: Fraction
+) -> Expansion:
+    """Theorem. Let each piece i be the union of parts with 1/|f'| <= s and images in an interval,
+    and rate s scale_i <= scale_j wherever this meets piece j. Then what `Expansion.sentence` says.
+
+    Proof. Where f leads from piece i to j, |f'| scale_j >= rate scale_i: the chain rule. Two phases
+    with one sequence bound an interval in one piece, sent monotonically onto one in the next, and
+    so on: by the mean value theorem these grow by 1/s each time, and the pieces are bounded. On a
+    periodic orbit |(f^n)'| >= c rate^n for all n: it is repelling. What leaves J is on the arc, or
+    there after the next impact, and the flight from the arc returns to it.
+    """
+    found = Expansion(pieces, scales, rate)
+    targets = [(piece.phases, scale) for piece, scale in zip(pieces.monotone, scales, strict=True)]
+    for piece_parts, scale in zip(parts, scales, strict=True):
+        METER.get().spend(2 * len(piece_parts) * len(targets))
+        for bound, image in piece_parts:
+            low, high = pieces.unwrapped(image)
+            for (first, last), other in targets:
+                if first <= high and low <= last and rate * bound * scale > other:
+                    raise Unproved("f is not proved to expand from piece to piece")
+    return found
+
+
+def prove_expansion(context: Context, reader: Reader) -> Expansion:
+    """Rule `expansion`: {pieces, cells: [{cuts, times}], scales, rate}, a cell list for each piece.
+
+    The cuts lead from one end of the branch of the piece to the other; at each the gap is > 0 at
+    the time given, < 0 by 2^-26 later. Parts are the phases between cuts, mapped between the images
+    of these, and those beside grazes, near the limits there. Conclusion: `expansion`.
+    """
+    pieces_of, cells_of, scales_of, rate_of = reader.fields("pieces", "cells", "scales", "rate")
+    pieces = context.step(pieces_of, Pieces)
+    count = len(pieces.monotone)
+    pairs = zip(pieces.monotone, cells_of.items(count, count), strict=True)
+    parts = [[*_between(piece, entry), *beside(piece)] for piece, entry in pairs]
+    return expansion(pieces, parts, scales_of.numbers(count, count), rate_of.number())
+
+
+def _between(piece: Piece, entry: Reader) -> Iterator[Part]:
+    """Read cuts of a branch, and yield the parts between them."""
+    cuts_of, times_of = entry.fields("cuts", "times")
+    cuts, branch = cuts_of.numbers(2), piece.branch
+    times = times_of.numbers(len(cuts), len(cuts))
+    if not increasing(cuts) or (cuts[0], cuts[-1]) != (branch.cuts[0], branch.cuts[-1]):
+        raise cuts_of.fail("phases from one end of the branch to the other are expected")
+    images = [branch.image(x, (t, t + BRACKET)) for x, t in zip(cuts, times, strict=True)]
+    for phases, ends in zip(pairwise(cuts), pairwise(images), strict=True):
+        yield part(branch, phases, hull(ends))
+
+
+def part(branch: Branch, phases: Range, image: Range) -> Part:
+    """Return what f is on an interval of a branch, on which it is monotone onto `image`."""
+    bound = stretch(branch.motion(phases), (image[0] - phases[1], image[1] - phases[0]))
+    if bound is None:
+        raise Unproved("f' is not proved to be other than 0")
+    return bound, lifted(image, -branch.turn, BITS)
+
+
+def stretch(motion: Motion, time: Range) -> Fraction | None:
+    """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
+    sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
+    along = sin / rational(motion.eta, motion.bits) * push
+    if along.lo <= 0 <= along.hi:
+        return None
+    ratio: Enclosure = motion.gap_of(time, 1) / along
+    return max(-ratio.range[0], ratio.range[1])
+
+
+def beside(piece: Piece) -> Iterator[Part]:
+    """Yield the parts of a piece between its branch and grazes."""
+    for grazing, above in ((piece.left, True), (piece.right, False)):
+        if grazing is not None:
+            yield _side(grazing, near=grazing.below is not above)
+
+
+def _side(grazing: Grazing, *, near: bool) -> Part:
+    """Return the part on one side of a graze."""
+    time = (grazing.begin, grazing.time[1]) if near else grazing.landing
+    bound = None if time is None else stretch(grazing.motion, time)
+    if time is None or bound is None:
+        raise Unproved("f' is not proved to be other than 0 beside a graze")
+    low, high = grazing.phases[0] + time[0], grazing.phases[1] + time[1]
+    return bound, lifted((low, high), -(grazing.turn if near else grazing.beyond), BITS)
