@@ -29,7 +29,14 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, Range, hull
 from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, cycles, is_least, word_of
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.expansion import Expansion, Part, beside, expansion, part
+from proofs.trusted.paper.s34_circle.expansion import (
+    BRACKET,
+    Expansion,
+    Part,
+    beside,
+    expansion,
+    part,
+)
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Piece

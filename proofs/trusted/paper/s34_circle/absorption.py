@@ -31,7 +31,7 @@ from proofs.trusted.paper.s34_circle.cells import Absorbed, Cell, Inverse, absor
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, NeverImpacts, Separation
 from proofs.trusted.parameters import Place
-from proofs.trusted.windows import BITS, level
+from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
 _MOST_STEPS = 400

@@ -7,7 +7,15 @@ from math import log, sqrt
 import numpy as np
 import pytest
 
-from proofs.methods.subshifts import arc, between, common, largest_subshift, tower
+from proofs.methods.subshifts import (
+    arc,
+    between,
+    common,
+    largest_subshift,
+    least_ceiling,
+    outer_tower,
+    tower,
+)
 
 
 def exact(*formulas):
@@ -117,3 +125,36 @@ def test_parts_and_bounds():
     assert between((F(0), F(1)), (F(3), F(4))) == (1, 3)
     assert between((F(3), F(4)), (F(0), F(1))) == (1, 3)
     assert between((F(0), F(2)), (F(1), F(4))) is None
+
+
+def ceiling(pieces, image, depth, places=9):
+    """The bound from above for a map of [0, 1] into itself, on pieces that cover it."""
+
+    def images(state):
+        parts = [(i, common(piece, state)) for i, piece in enumerate(pieces)]
+        ends = [[image(i, x)[0] for x in part] for i, part in parts if part]
+        return [(max(F(0), min(pair)), min(F(1), max(pair))) for pair in ends]
+
+    states = outer_tower((F(0), F(1)), images, depth, places)
+    found = least_ceiling(states, images)
+    value = dict(zip(found.states, found.vector, strict=True))
+    for state in found.states:  # by the definition, whatever edges were chosen
+        held = ((v for (a, b), v in value.items() if a <= x and y <= b) for x, y in images(state))
+        assert sum(map(min, held)) <= found.growth * value[state]
+    return found
+
+
+@pytest.mark.parametrize("beta", ["1.7", "2.3", "3.14"])
+def test_beta_transformations_from_above(beta):
+    pieces, image = beta_map(F(beta))
+    pieces = [(low, min(F(1), high + F(1, 10**9))) for low, high in pieces]
+    bounds = [ceiling(pieces, image, depth).growth for depth in (0, 2, 5, 12)]
+    assert bounds == sorted(bounds, reverse=True)
+    assert F(beta) * (1 - F(1, 10**6)) <= bounds[-1] < F(beta) * F("1.003")
+
+
+def test_states_from_above_hold_the_images():
+    pieces, image = tent("1.7")
+    states = outer_tower((F(0), F(1)), lambda state: [(F(1, 3), F(2, 3))], 2, 2)
+    assert states == [(F(0), F(1)), (F("0.33"), F("0.67"))]
+    assert ceiling(pieces, image, 8).growth >= F("1.7") - F(1, 10**6)
