@@ -19,6 +19,7 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range, within
 from proofs.trusted.paper.s34_circle.other_sets import (
+    FullShift,
     StayingOrbit,
     StayingSet,
     full_shift,
@@ -108,6 +109,12 @@ class Sketcher:
         )
         return Sketch(sketch.interval, pieces, sketch.gaps)
 
+    def full_shifts(self, printed: Range, around: Range) -> list[Sketch]:
+        """Return what looks like full shifts on two and three symbols, around both intervals."""
+        whole = min(printed[0], around[0]), max(printed[1], around[1])
+        found = self.full_shift(printed, 2), self.full_shift(whole, 3)
+        return [one for one in found if one is not None]
+
     def full_shift(self, interval: Range, symbols: int) -> Sketch | None:
         """Return the least widening of an interval that looks like a full shift."""
         for extra in range(2 * _WIDEST + 1):
@@ -134,22 +141,18 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     The second one in an interval that contains `around` too. What is not proved is left out.
     """
     sketcher = Sketcher(prover)
-    whole = min(printed[0], around[0]), max(printed[1], around[1])
     few = sketcher.refined(sketcher.sketch(printed, _FINE))
-    shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
-    sketches = [few, *(one for one in shifts if one is not None)]
-    proofs = Pieces(prover, sketches)
+    shifts = sketcher.full_shifts(printed, around)
+    proofs = Pieces(prover, [few, *shifts])
     found: Proof = []
     orbits: list[tuple[Phases, ...]] = []
     with suppress(*FAILED):
         name, orbit = proofs.prove(few, "staying-orbit", staying_orbit)
         found.append((name, orbit))
         orbits.append(orbit.cells)
-    for sketch in sketches[1:]:
-        with suppress(*FAILED):
-            name, shift = proofs.prove(sketch, "full-shift", full_shift)
-            found.append((name, shift))
-            orbits += [(shift.cells[0],), (shift.cells[-1],)]
+    for name, shift in _shifts(proofs, shifts):
+        found.append((name, shift))
+        orbits += [(shift.cells[0],), (shift.cells[-1],)]
     known: list[tuple[Phases, ...]] = []
     for cells in orbits:
         if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
@@ -157,6 +160,20 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
                 name, orbit = periodic_orbit(prover, cells)
                 found.append((name, orbit))
                 known.append(orbit.cells)
+    return found
+
+
+def prove_full_shifts(prover: Prover, printed: Range, around: Range) -> list[tuple[str, FullShift]]:
+    """Prove the full shifts of `prove_staying` alone."""
+    shifts = Sketcher(prover).full_shifts(printed, around)
+    return _shifts(Pieces(prover, shifts), shifts)
+
+
+def _shifts(proofs: Pieces, sketches: Sequence[Sketch]) -> list[tuple[str, FullShift]]:
+    found = []
+    for sketch in sketches:
+        with suppress(*FAILED):
+            found.append(proofs.prove(sketch, "full-shift", full_shift))
     return found
 
 

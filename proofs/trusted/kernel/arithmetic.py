@@ -7,11 +7,13 @@ functions are rounded down and up. Nothing here is shared with the package `inte
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from functools import lru_cache
 
 from proofs.trusted.kernel.meter import METER
 
+_NARROW = 16  # units
 _MIXED = "enclosures of different precision do not mix"
 
 
@@ -39,9 +41,11 @@ class Enclosure:
         unit = 1 << self.bits
         return Fraction(self.lo, unit), Fraction(self.hi, unit)
 
-    def _like(self, other: Enclosure | int) -> Enclosure:
+    def _like(self, other: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(other, int):
             return Enclosure(other << self.bits, other << self.bits, self.bits)
+        if isinstance(other, Fraction):
+            return rational(other, self.bits)
         if other.bits != self.bits:
             raise ValueError(_MIXED)
         return other
@@ -49,7 +53,7 @@ class Enclosure:
     def __neg__(self) -> Enclosure:
         return Enclosure(-self.hi, -self.lo, self.bits)
 
-    def __add__(self, value: Enclosure | int) -> Enclosure:
+    def __add__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
@@ -57,16 +61,16 @@ class Enclosure:
 
     __radd__ = __add__
 
-    def __sub__(self, value: Enclosure | int) -> Enclosure:
+    def __sub__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
         return Enclosure(self.lo - other.hi, self.hi - other.lo, self.bits)
 
-    def __rsub__(self, value: int) -> Enclosure:
+    def __rsub__(self, value: Fraction | int) -> Enclosure:
         return -self + value
 
-    def __mul__(self, value: Enclosure | int) -> Enclosure:
+    def __mul__(self, value: Enclosure | Fraction | int) -> Enclosure:
         bits = self.bits
         if isinstance(value, Enclosure):
             if value.bits != bits:
@@ -78,11 +82,11 @@ class Enclosure:
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
             return Enclosure(min(ends), max(ends), bits)
-        return NotImplemented
+        return self * rational(value, bits) if isinstance(value, Fraction) else NotImplemented
 
     __rmul__ = __mul__
 
-    def __truediv__(self, value: Enclosure | int) -> Enclosure:
+    def __truediv__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
@@ -92,6 +96,9 @@ class Enclosure:
         quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
         low = min(a // b for a, b in quotients)
         return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
+
+    def __rtruediv__(self, value: Fraction | int) -> Enclosure:
+        return self._like(value) / self
 
     def __pow__(self, n: int) -> Enclosure:
         if n < 1:
@@ -119,7 +126,10 @@ class Enclosure:
         end is too close to one to tell, the extremum is put in, which is outward.
         """
         sin, cos, first, _ = _sincos(self.lo, self.bits)
-        if self.lo == self.hi:
+        if (width := self.hi - self.lo) < _NARROW:  # |sin'|, |cos'| <= 1
+            one = 1 << self.bits
+            for value in (sin, cos):
+                value.lo, value.hi = max(value.lo - width, -one), min(value.hi + width, one)
             return sin, cos
         sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
         sin, cos = sin.hull(sin_hi), cos.hull(cos_hi)
@@ -138,7 +148,7 @@ def rational(value: Fraction, bits: int) -> Enclosure:
     return Enclosure.of(value, value, bits)
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=256)
 def pi(bits: int) -> Enclosure:
     """Enclose pi = 48 atan(1/18) + 32 atan(1/57) - 20 atan(1/239) (Gauss)."""
     work = bits + 16
@@ -206,19 +216,31 @@ def log(value: Fraction, bits: int) -> Enclosure:
         scaled, n = scaled / 2, n + 1
     while 3 * scaled < 2:
         scaled, n = scaled * 2, n - 1
-    log2 = _log1(Fraction(4, 3), bits) - _log1(Fraction(2, 3), bits)
-    return _log1(scaled, bits) + log2 * n
+    log2 = _log1(rational(Fraction(1, 7), bits)) - _log1(rational(Fraction(-1, 5), bits))
+    return _log1(rational((scaled - 1) / (scaled + 1), bits)) + log2 * n
 
 
-def _log1(m: Fraction, bits: int) -> Enclosure:
-    """Enclose log m = 2 atanh((m - 1) / (m + 1)) for 2/3 <= m <= 4/3, so |z| <= 1/5."""
-    z = rational((m - 1) / (m + 1), bits)
+def log_of(x: Enclosure) -> Enclosure:
+    """Enclose log X = y + log(X exp(-y)), X in (2^-60, 2^60), y about the logarithm of a middle."""
+    if x.lo <= 0:
+        raise Unproved("the logarithm of an enclosure that leaves (0, oo)")
+    about = Fraction(math.log((x.lo + x.hi) / (2 << x.bits)))
+    y = rational(about, x.bits)
+    ratio = x * exp(-y)
+    z = (ratio - 1) / (ratio + 1)
+    if 5 * max(-z.lo, z.hi) > 1 << x.bits:
+        raise Unproved("a wide enclosure has no logarithm")
+    return y + _log1(z)
+
+
+def _log1(z: Enclosure) -> Enclosure:
+    """Enclose log m = 2 atanh z, z = (m - 1) / (m + 1), for |z| <= 1/5."""
     square, power, total, k = z * z, z, z, 1
     while max(abs(power.lo), abs(power.hi)) > 1:
         power, k = power * square, k + 2
         total = total + power / k
     # the tail: |z|^(k+2) / (k+2) / (1 - z^2), below the last power, at most one unit
-    return 2 * Enclosure(total.lo - 1, total.hi + 1, bits)
+    return 2 * Enclosure(total.lo - 1, total.hi + 1, z.bits)
 
 
 def exp(x: Enclosure) -> Enclosure:
@@ -247,38 +269,41 @@ class Dual:
     def __init__(self, value: Enclosure, derivative: Enclosure) -> None:
         self.value, self.derivative = value, derivative
 
-    def _like(self, other: Dual | Enclosure | int) -> Dual:
+    def _like(self, other: Dual | Enclosure | Fraction | int) -> Dual:
         if isinstance(other, Dual):
             return other
-        zero = Enclosure(0, 0, self.value.bits)
+        zero = 0 * self.value
         return Dual(zero + other, zero)
 
     def __neg__(self) -> Dual:
         return Dual(-self.value, -self.derivative)
 
-    def __add__(self, value: Dual | Enclosure | int) -> Dual:
+    def __add__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         return Dual(self.value + other.value, self.derivative + other.derivative)
 
     __radd__ = __add__
 
-    def __sub__(self, value: Dual | Enclosure | int) -> Dual:
+    def __sub__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         return self + -self._like(value)
 
-    def __rsub__(self, value: Enclosure | int) -> Dual:
+    def __rsub__(self, value: Enclosure | Fraction | int) -> Dual:
         return -self + value
 
-    def __mul__(self, value: Dual | Enclosure | int) -> Dual:
+    def __mul__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         slope = self.derivative * other.value + self.value * other.derivative
         return Dual(self.value * other.value, slope)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, value: Dual | Enclosure | int) -> Dual:
+    def __truediv__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         quotient = self.value / other.value
         return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+
+    def __rtruediv__(self, value: Enclosure | Fraction | int) -> Dual:
+        return self._like(value) / self
 
     def sincos(self) -> tuple[Dual, Dual]:
         """Return (sin, cos) with their derivatives."""

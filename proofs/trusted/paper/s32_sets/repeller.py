@@ -1,264 +1,385 @@
-"""The rule `dimension`: the Hausdorff dimension of a set that the impact map repels."""
+"""The rule `dimension`: how a set that the impact map repels grows thin, and its dimension."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.flights import FirstImpact, Motion, bits_for, transversal_step, whole_turns
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log, pi, rational
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.flights import FirstImpact, Motion, transversal_step, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.complexes import BITS, Arc, Complex, Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
-from proofs.trusted.kernel.series import Series, polynomial
-from proofs.trusted.numbers import Phases, Range, between, hull, show_range, within
+from proofs.trusted.kernel.transfer import Collocation, Growth, Series, Trial, growth
+from proofs.trusted.numbers import (
+    Phases,
+    Range,
+    between,
+    ceil_text,
+    floor_text,
+    hull,
+    show,
+    show_range,
+    within,
+)
 from proofs.trusted.parameters import Place
 
-_WORD = re.compile("[01]{1,16}")
-_MOST_WORDS, _MOST = 16, 200
+_ZERO, _ONE = Fraction(0), Fraction(1)
+_WORD = re.compile("[0-9]{1,16}")
+_MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 2000, 4000
+_MOST_CUTS = 50
 
 
 @dataclass(frozen=True)
 class Repeller(Conclusion):
     """The compact set K = union of g_w(K) over the words; g_w is g_j after g_v where w = jv.
 
-    f increases on both domains; g_j is its inverse from `hull` into domains[j], for letters that
+    f increases on the domains; g_j is its inverse from `hull` into domains[j], for letters that
     end a word, and on its part that g_v reaches for others; f takes no other points of domains[j]
     there. The g_w map the hull into itself, to disjoint images; 1 / g_w' lies in the range that
-    `slopes` has for w, all above 1. The Hausdorff dimension of K lies in `dimension`.
+    `slopes` has for w, all above 1. With some h > 0 on the hull and s = `exponent`, the sum over
+    the words of (g_w')^s h(g_w), divided by h, lies in `growth`; the Hausdorff dimension of K, in
+    `dimension`.
     """
 
     at: Place
     hull: Phases
-    domains: tuple[Phases, Phases]
+    domains: tuple[Phases, ...]
     words: tuple[str, ...]
     slopes: tuple[Range, ...]
+    exponent: Fraction
+    growth: Range
     dimension: Range
 
     def __post_init__(self) -> None:
         """Raise Unproved unless domains and bounds are in order."""
-        if self.domains[0][1] >= self.domains[1][0]:
+        if any(one[1] >= two[0] for one, two in pairwise(self.domains)):
             raise Unproved("the domains are not in order")
-        if not 0 < self.dimension[0] < self.dimension[1]:
+        if not (0 <= self.dimension[0] < self.dimension[1] and 0 < self.growth[0] < self.growth[1]):
             raise Unproved("the bounds of the dimension are not in order")
-        if min(low for low, _ in self.slopes) <= 1:
+        if len(self.slopes) != len(self.words) or min(low for low, _ in self.slopes) <= 1:
             raise Unproved("the inverse branches are not proved to contract")
 
     @property
     def sentence(self) -> str:
         return (
-            f"let g_0, g_1 be the inverse branches of f from {show_range(self.hull)} into "
-            f"{' and '.join(map(show_range, self.domains))}. The compact set that is the union of "
-            f"its images by {', '.join(self.words)}, which are disjoint, has a Hausdorff dimension "
-            f"in {between(self.dimension, 12)}."
+            f"let g_0, ..., g_{len(self.domains) - 1} be the inverse branches of f from "
+            f"{show_range(self.hull)} into {', '.join(map(show_range, self.domains))}, and K the "
+            f"compact set that is the union of its images by {', '.join(self.words)}, which are "
+            f"disjoint. K has a Hausdorff dimension in {between(self.dimension, 12)}; with "
+            f"s = {show(self.exponent)} and some h > 0, the sum of (g_w')^s h(g_w) over these "
+            f"words w lies between {floor_text(self.growth[0], 12)} h and "
+            f"{ceil_text(self.growth[1], 12)} h on {show_range(self.hull)}."
         )
 
 
 @dataclass(frozen=True)
-class _Branch:
-    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`."""
+class Letter:
+    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`; F' > 0.
 
-    step: FirstImpact
-    domain: Phases
-    turns: int
-    bits: int
-
-    def excess(self, phase: Fraction, image: Range) -> int:
-        """Return the sign of F(phase) - x for all x in `image`, 0 where it is not decided.
-
-        Let T = x - phase + 2 pi turns, t the time of the impact. F(phase) > x means T < t. In the
-        window the gap has the one zero t; it is positive before that and negative after.
-        """
-        low, high = whole_turns(self.turns, self.bits)
-        time = (image[0] - phase + low, image[1] - phase + high)
-        begin, end = self.step.windows[0]
-        if time[1] < begin or time[0] > end:
-            return 1 if time[1] < begin else -1
-        motion = self.step.motion
-        thin = Motion(motion.eta, motion.nu, (phase, phase), self.bits)
-        height = thin.gap(thin.start(), time)
-        if height.lo > 0 and time[1] <= end:
-            return 1
-        return -1 if height.hi < 0 and begin <= time[0] else 0
-
-    def brackets(self, around: Range, image: Range) -> bool:
-        """Whether for each x in `image` the domain has one y with F(y) = x, and it is around."""
-        signs = (self.excess(end, image) for end in around)
-        return within(around, self.domain) and tuple(signs) == (-1, 1)
-
-    def inverse(self, x: Series, value: Range, order: int) -> Series:
-        """Return g(x) up to an order, where F(g) = id and g(x_0) is in `value`.
-
-        Let z be the first m terms of y = g(x), and G(y) = gap(y, x - y + 2 pi turns). Then G(y) = 0
-        and y - z = -G(z) / G'(z) + O(h^2m), so G(z) begins with h^m. By `slope`, -G' is
-        sin(eta t) / eta times the launch acceleration.
-        """
-        motion = self.step.motion
-        eta, nu = (Series.constant(rational(z, self.bits)) for z in (motion.eta, motion.nu))
-        ahead = x + Series.constant(pi(self.bits) * (2 * self.turns))
-        known = [Enclosure.of(*value, self.bits)]
-        while (m := len(known)) <= order:
-            z = Series.polynomial(*known)
-            start, now = launch(motion.side, eta, nu, z), clock(eta, ahead - z)
-            rate = now.mass_sin / eta * launch_acceleration(start)
-            rest = gap(start, now).over_power(m) / rate
-            known += [rest[k] for k in range(min(m, order + 1 - m))]
-        return Series(known.__getitem__)
-
-
-def _branch(context: Context, flight: Reader, phases: Reader, turns: Reader, bits: int) -> _Branch:
-    """Read a branch, and show that F' > 0: the slope's other factors have known signs."""
-    domain = Phases(*phases.range())
-    step = transversal_step(context, flight, domain)
-    if step.motion.clock(step.windows[0]).mass_sin.hi >= 0:
-        raise Unproved("f is not proved to increase on a domain")
-    return _Branch(step, domain, integer(turns, 0, 10**6), bits)
-
-
-class _System:
-    """The witness of the rule `dimension`, as it is read.
-
-    images: enclosures of g_w(x_0), ..., g_w(x_2n) for the words and their shorter ends w, x_i for
-    the empty one. test: the coefficients of h, a polynomial in u = (x - middle) / half the width.
+    The first impact from cuts[i], cuts[i + 1] is transversal, in the window of steps[i].
     """
 
-    def __init__(self, context: Context, reader: Reader) -> None:
-        flights, turns, whole, domains, words, inverse, radius_of, *rest = reader.fields(
-            "flights", "turns", "hull", "domains", "words", "inverse", "radius",
-            "pieces", "order", "test", "dimension",
-        )  # fmt: skip
-        pieces, order, test, span = rest
-        self.order, self.test = integer(order, 1, _MOST), test.numbers(1, _MOST)
-        self.hull, self.dimension = Phases(*whole.range()), span.range()
-        self.words = tuple(word.string() for word in words.items(2, _MOST_WORDS))
-        radius, steps = radius_of.number(), 2 * integer(pieces, 1, _MOST)
-        if radius <= 0 or not all(map(_WORD.fullmatch, self.words)):
-            raise reader.fail("a positive radius, and words over 0 and 1 of up to 16 letters")
-        self.bits = bits_for((-radius, radius))
-        parts = zip(flights.items(2, 2), domains.items(2, 2), turns.items(2, 2), strict=True)
-        self.branches = [_branch(context, *part, self.bits) for part in parts]
-        self.step = (self.hull[1] - self.hull[0]) / steps
-        points = [self.hull[0] + self.step * j for j in range(steps + 1)]
-        self.images = {"": [(x, x) for x in points]}
-        ends = sorted({word[k:] for word in self.words for k in range(len(word))})
-        for word, each in zip(ends, inverse.items(len(ends), len(ends)), strict=True):
-            centres = each.numbers(len(points), len(points))
-            self.images[word] = [(y - radius, y + radius) for y in centres]
+    cuts: tuple[Fraction, ...]
+    steps: tuple[FirstImpact, ...]
+    turns: int
 
-    def around(self, word: str, first: int, last: int) -> Range:
-        """Return where g_word takes all phases from one x_i to another: it increases."""
-        return self.images[word][first][0], self.images[word][last][1]
+    @classmethod
+    def read(cls, context: Context, cuts_of: Reader, flights: Reader, turns: Reader) -> Letter:
+        """Read a letter; F' > 0 as the slope's other factors have known signs."""
+        cuts = cuts_of.numbers(2, _MOST_CUTS)
+        pieces = [Phases(*piece) for piece in pairwise(cuts)]
+        named = zip(flights.items(len(pieces), len(pieces)), pieces, strict=True)
+        steps = tuple(transversal_step(context, name, piece) for name, piece in named)
+        if any(step.motion.clock(step.windows[0]).mass_sin.hi >= 0 for step in steps):
+            raise Unproved("f is not proved to increase on a domain")
+        return cls(cuts, steps, integer(turns, 0, 10**6))
 
-    def require(self) -> None:
-        """Raise Unproved unless the inverse images are where they are said to be, and disjoint."""
-        (low, high), turn = self.hull, whole_turns(1, self.bits)
-        last, first = (high - turn[1], high - turn[0]), (low + turn[0], low + turn[1])
-        for branch in self.branches:
-            bottom, top = branch.domain
-            if not branch.excess(bottom, last) > 0 > branch.excess(top, first):
-                raise Unproved("f is not proved to pass the hull only once on a domain")
-        for word in filter(None, self.images):
-            brackets = self.branches[int(word[0])].brackets
-            if not all(map(brackets, self.images[word], self.images[word[1:]])):
-                raise Unproved(f"an inverse image by {word} is not proved where it is said")
-        spans = sorted(self.around(word, 0, -1) for word in self.words)
-        if not within(hull(spans), self.hull):
-            raise Unproved("the inverse branches leave the hull")
-        if any(before[1] >= after[0] for before, after in pairwise(spans)):
-            raise Unproved("the images of the inverse branches are not proved disjoint")
+    @property
+    def domain(self) -> Phases:
+        """The whole domain."""
+        return Phases(self.cuts[0], self.cuts[-1])
 
-    def germs(self, first: int, last: int) -> dict[str, Series]:
-        """Return the series of g_w at all phases from one x_i to another, x for the empty w."""
-        x = Enclosure.of(*self.around("", first, last), self.bits)
-        found = {"": Series.polynomial(x, rational(Fraction(1), self.bits))}
-        for word in sorted(filter(None, self.images), key=len):
-            inverse, value = self.branches[int(word[0])].inverse, self.around(word, first, last)
-            found[word] = inverse(found[word[1:]], value, self.order + 1)
-        return found
+    @property
+    def motion(self) -> Motion:
+        """The oscillator's flights."""
+        return self.steps[0].motion
 
-    def range(self, middle: Series, whole: Series) -> Range:
-        """Enclose a function on a piece by Taylor's formula, with Lagrange's remainder.
+    def require_once(self, whole: Range) -> None:
+        """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain.
 
-        The series are those at the middle of the piece and at all of its points.
+        So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b]. At the
+        lower end y that is so if b - 2 pi - y + 2 pi turns is a time before the impact, which is
+        in the window, where the gap is positive before it and negative after.
         """
-        total, h = whole[self.order], Enclosure.of(-self.step, self.step, self.bits)
-        for k in reversed(range(self.order)):
-            total = total * h + middle[k]
-        return total.range
+        (low, high), turn = whole, whole_turns(1, BITS)
+        bottom, top = self.domain
+        time = self.time(bottom, (high - turn[1], high - turn[0]), BITS)
+        begin, end = self._ends(0)
+        above = time[1] < begin or (time[1] <= end and self._height(bottom, time).lo > 0)
+        time = self.time(top, (low + turn[0], low + turn[1]), BITS)
+        begin, end = self._ends(-1)
+        below = time[0] > end or (time[0] >= begin and self._height(top, time).hi < 0)
+        if not (above and below):
+            raise Unproved("f is not proved to pass the hull only once on a domain")
 
-    def h(self, x: Series) -> Series:
-        """Return h(x)."""
-        numbers = sum(self.hull, Fraction(0)) / 2, 2 / (self.hull[1] - self.hull[0])
-        middle, scale = (Series.constant(rational(z, self.bits)) for z in numbers)
-        return polynomial(self.test, (x - middle) * scale)
+    def _ends(self, piece: int) -> Range:
+        return self.steps[piece].windows[0]
 
-    def defect(self, germs: dict[str, Series]) -> Series:
-        """Return L_s h - h, L_s h the sum of (g_w')^s h(g_w)."""
-        s = Series.constant(rational(sum(self.dimension, Fraction(0)) / 2, self.bits))
-        total = -self.h(germs[""])
-        for y in (germs[word] for word in self.words):
-            total = total + (y.derivative().log() * s).exp() * self.h(y)
-        return total
+    def time(self, phase: Fraction, image: Range, bits: int) -> Range:
+        """Enclose x - phase + 2 pi turns for x in `image`."""
+        low, high = whole_turns(self.turns, bits)
+        return image[0] - phase + low, image[1] - phase + high
+
+    def _height(self, phase: Fraction, time: Range) -> Enclosure:
+        motion = replace(self.motion, phases=(phase, phase), bits=BITS)
+        return motion.gap(motion.start(), time)
+
+    def starts_within(self, phases: Range, image: Range, bits: int) -> bool:
+        """Whether x - y + 2 pi turns is in the window of all the steps that y may belong to."""
+        spans = (self.time(end, image, bits) for end in phases)
+        times = hull(list(spans))
+        pieces = zip(pairwise(self.cuts), self.steps, strict=True)
+        return within(phases, self.domain) and all(
+            within(times, step.windows[0])
+            for (low, high), step in pieces
+            if low <= phases[1] and phases[0] <= high
+        )
+
+    def over(self, y: Complex, x: Complex) -> tuple[Launch, Clock]:
+        """Return the state after a launch at y, and the clock at x, for complex numbers."""
+        motion, turn = self.motion, pi(BITS) * (2 * self.turns)
+        eta, nu = Complex.of(motion.eta), Complex.of(motion.nu)
+        ahead = x - y + Complex(turn, Enclosure(0, 0, BITS))
+        return launch(motion.side, eta, nu, y), clock(eta, ahead)
+
+    def at(self, y: Enclosure, x: Enclosure) -> tuple[Launch, Clock]:
+        """Return the same for real numbers."""
+        motion, bits = self.motion, y.bits
+        eta, nu = rational(motion.eta, bits), rational(motion.nu, bits)
+        ahead = x - y + pi(bits) * (2 * self.turns)
+        return launch(motion.side, eta, nu, y), clock(eta, ahead)
+
+    def inverse(self, x: Enclosure, y: Enclosure) -> tuple[Enclosure, Enclosure]:
+        """Enclose the y in Y with F(y) = x for x in X, if there is just one, and F' there.
+
+        Interval Newton, with more and more bits: G(y) = gap(y, x - y + 2 pi turns) = 0, so y is in
+        m - G(m) / G'(Y), m a number in Y. By `slope` -G' is sin(eta t) / eta times the launch
+        acceleration.
+        """
+        good = y.bits - (y.hi - y.lo).bit_length()
+        while True:
+            before, bits = good, min(max(BITS, -(-good >> 5) << 6), x.bits)  # few kinds: see `pi`
+            few = min(bits, BITS + (-(-good >> 6) << 6))
+            start, now = self.at(rounded(y, few), rounded(x, few))
+            rate = now.mass_sin / start.eta * launch_acceleration(start)
+            y = rounded(y, bits)
+            middle = Enclosure((y.lo + y.hi) >> 1, (y.lo + y.hi) >> 1, bits)
+            y = y.meet(middle + gap(*self.at(middle, rounded(x, bits))) / rounded(rate, bits))
+            good = bits - (y.hi - y.lo).bit_length()
+            if good <= before or good >= x.bits - 10:
+                y = rounded(y, x.bits)
+                return y, slope(*self.at(y, x))
+
+
+def rounded(x: Enclosure, bits: int) -> Enclosure:
+    """Return an enclosure with other bits."""
+    if bits >= x.bits:
+        return Enclosure(x.lo << bits - x.bits, x.hi << bits - x.bits, bits)
+    return Enclosure(x.lo >> x.bits - bits, -(-x.hi >> x.bits - bits), bits)
+
+
+@dataclass
+class Inverses:
+    """The inverse branches g_w on the ellipse, near polynomials y_w of u, the empty one's x.
+
+    paths: the coefficients of y_w by Chebyshev's polynomials, for the words and their shorter
+    ends w, shorter ones first. found: how far g_w is from y_w at most, as `over` finds it.
+
+    Theorem. Let w = jv, Gamma(y, x) = gap(y, x - y + 2 pi turns_j), and g_v analytic inside E and
+    continuous, g the identity for the empty v. For all z on the boundary of E let Re Gamma_y(y, x)
+    have one sign for x = g_v(z), |y - y_w(z)| <= r = radii[w], |Gamma_y| >= c, any two of its
+    values be at most k c apart, k < 1, and |Gamma(y_w(z), x)| <= e c, e + k r <= r. Then for z in E
+    there is one y with |y - y_w(z)| <= r and Gamma(y, g_v(z)) = 0, analytic in z; it is within
+    e / (1 - k).
+    Let its derivative have a positive real part on the boundary: then so it has in E.
+
+    Proof. A(z) = Gamma_y(y_w(z), g_v(z)) is not 0 in E, by the sign of its real part on the
+    boundary. N(z, y) = y - Gamma(y, g_v(z)) / A(z) has |dN/dy| <= k on the boundary, so for each
+    d, |d| <= r, at y = y_w(z) + d in all of E (maximum principle), and as well
+    |N(z, y_w(z)) - y_w(z)| <= e: N contracts the disc. Its iterates from y_w are analytic in z and
+    converge uniformly. On [a, b] y is real, since its conjugate is a zero as well.
+    """
+
+    letters: tuple[Letter, ...]
+    words: tuple[str, ...]
+    ellipse: Ellipse
+    paths: dict[str, tuple[Fraction, ...]]
+    radii: dict[str, Fraction]
+    found: dict[str, Fraction] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless f passes the hull once on each domain."""
+        for letter in self.letters:
+            letter.require_once(self.ellipse.hull)
+
+    def over(self, arc: Arc) -> list[tuple[Complex, Complex]]:
+        """Enclose g_w and g_w' for the words on an arc of the boundary.
+
+        For w = jv, and the middle m of the arc, Gamma(y_w, g_v) is by the mean value theorem, in
+        the angle, near its value at m, and that near Gamma(y_w(m), y_v(m)).
+        """
+        half = Fraction(11, 7) / arc.count  # more than half the angle
+        turn = Complex(Enclosure.of(-half, half, BITS), Enclosure(0, 0, BITS))
+        x = arc.germ(self.ellipse.coordinates)
+        known = {"": (x, x.values, Complex.of(_ONE), _ZERO)}
+        for word, path in self.paths.items():
+            letter, y = self.letters[int(word[0])], arc.germ(path)
+            before, images, rate, near = known[word[1:]]
+            start, now = letter.over(y.values.widened(self.radii[word]), images)
+            by_x, by_y = (
+                gap(start, now, 1),
+                -(now.mass_sin / start.eta * launch_acceleration(start)),
+            )
+            turning = (by_y * y.rates + by_x * rate * x.rates) * turn
+            error = (gap(*letter.over(y.value, before.value)) + turning).size + by_x.size * near
+            least = max(by_y.re.range[0], -by_y.re.range[1])
+            if least <= 0 or by_y.spread >= least:
+                raise Unproved(f"an inverse branch by {word} is not proved to be regular")
+            distance = error / (least - by_y.spread)
+            self.found[word] = max(distance, self.found.get(word, distance))
+            faster = -(by_x / by_y) * rate
+            if faster.re.lo <= 0:
+                raise Unproved(f"an inverse branch by {word} is not proved to increase")
+            known[word] = y, y.values.widened(distance), faster, distance
+        return [known[word][1:3] for word in self.words]
+
+    def at(self, x: Enclosure) -> list[tuple[Enclosure, Enclosure]]:
+        """Enclose g_w(x) and g_w'(x) for the words and a real x."""
+        known = self._all_at(x)
+        one = rational(Fraction(1), x.bits)
+        return [(known[word][0], one / known[word][1]) for word in self.words]
+
+    def _all_at(self, x: Enclosure) -> dict[str, tuple[Enclosure, Enclosure]]:
+        middle, half = (rational(each, BITS) for each in self.ellipse.coordinates)
+        near = (rounded(x, BITS) - middle) / half
+        u = near.meet(Enclosure(-1 << BITS, 1 << BITS, BITS))
+        known = {"": (x, rational(Fraction(1), x.bits))}
+        for word, path in self._scaled.items():
+            letter, (image, rate) = self.letters[int(word[0])], known[word[1:]]
+            around = Enclosure.of(-self.found[word], self.found[word], BITS)
+            y, faster = letter.inverse(image, path(u) + around)
+            known[word] = y, faster * rate
+        return known
+
+    @cached_property
+    def _scaled(self) -> dict[str, Series]:
+        return {word: Series.of(path, BITS) for word, path in self.paths.items()}
+
+    def require_near(self) -> None:
+        """Raise Unproved unless the g_w are proved as near to the paths as is said."""
+        for word, radius in self.radii.items():
+            if self.found[word] > radius:
+                raise Unproved(f"an inverse branch by {word} is not proved where it is said")
+
+    def require(self, bits: int) -> None:
+        """Raise Unproved unless g_w, real on [a, b], is what F on a domain takes to g_v.
+
+        g_w increases (see `over`); so its values are in the domain if those at a and b are. At a
+        the zero of the gap is in the window, where it is the first impact. The gap is positive at
+        the beginning of a window and negative at its end, for all launches that it is for; so it
+        stays the zero there up to b, also where the window changes at a cut: there both hold the
+        first impact.
+        """
+        self.require_near()
+        low, high = (self._all_at(rational(end, bits)) for end in self.ellipse.hull)
+        for word in self.paths:
+            letter = self.letters[int(word[0])]
+            (first, _), (last, _), (image, _) = low[word], high[word], low[word[1:]]
+            if not within((first.range[0], last.range[1]), letter.domain):
+                raise Unproved(f"an inverse image by {word} is not proved in its domain")
+            if not letter.starts_within(first.range, image.range, bits):
+                raise Unproved(f"an inverse image by {word} is not proved to be the first impact's")
+
+
+def _read(context: Context, reader: Reader) -> tuple[Inverses, Trial, Collocation]:
+    """Read the witness of the rule `dimension`."""
+    flights, turns, whole, domains_of, *rest = reader.fields(
+        "flights", "turns", "hull", "domains", "words", "rho", "arcs", "paths", "radii",
+        "nodes", "exponent", "growth", "test", "bits",
+    )  # fmt: skip
+    words_of, rho, arcs, paths, radii, nodes, exponent, mean, test, bits_of = rest
+    domains = domains_of.items(2, _MOST_LETTERS)
+    count, bits = len(domains), integer(bits_of, BITS, _MOST_BITS)
+    parts = zip(domains, flights.items(count, count), turns.items(count, count), strict=True)
+    words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
+    if not all(_WORD.fullmatch(word) and int(max(word)) < count for word in words):
+        raise words_of.fail("words of up to 16 letters, which are the numbers of the domains")
+    ends = sorted({word[k:] for word in words for k in range(len(word))}, key=by_length)
+    ellipse = Ellipse(Phases(*whole.range()), rho.number())
+    inverses = Inverses(
+        tuple(Letter.read(context, *part) for part in parts),
+        words,
+        ellipse,
+        {
+            end: path.numbers(1, 100)
+            for end, path in zip(ends, paths.items(len(ends), len(ends)), strict=True)
+        },
+        dict(zip(ends, radii.numbers(len(ends), len(ends)), strict=True)),
+    )
+    trial = Trial(exponent.number(), test.numbers(1, _MOST_TERMS))
+    by = Collocation(
+        ellipse, integer(arcs, 1, _MOST_ARCS), integer(nodes, 1, _MOST_TERMS), mean.number(), bits
+    )
+    return inverses, trial, by
+
+
+def by_length(word: str) -> tuple[int, str]:
+    """Order words by length, then by the alphabet."""
+    return len(word), word
 
 
 def dimension(context: Context, reader: Reader) -> Repeller:
-    """Rule `dimension`: {flights, turns, hull, domains, words, inverse, ..., dimension: [l, u]}.
+    """Rule `dimension`: {flights, turns, hull, domains, words, rho, arcs, paths, radii, ...}.
 
-    f is the impact map; for j = 0, 1 flights[j] is a transversal first-impact step that contains
-    domains[j], F = phase + time of flight - 2 pi turns[j]. x_0, ..., x_2n are equidistant on
-    hull = [a, b], n `pieces`. inverse: a list y_0, ..., y_2n for each word and each shorter end of
-    a word, in alphabetical order; r is `radius`. Special, since inverse branches of the impact map
-    have no formula: their series come from gap = 0 by Newton's method (`_Branch.inverse`).
+    f is the impact map. domains[j]: increasing phases; flights[j]: for each two that follow one
+    another a transversal first-impact step that contains them. F = phase + time of flight -
+    2 pi turns[j]. paths: a polynomial for each word and each shorter
+    end of a word, shorter ones first. Special, since inverse branches of the impact map have no
+    formula: they are proved near these polynomials, in a complex neighbourhood (`Inverses`).
 
-    Hypotheses. (1) F' > 0, by sin(eta t) < 0 in the window; F > b - 2 pi at the lower and
-    F < a + 2 pi at the upper end of the domain. (2) Let g_w(x) for a word w = jv be the y in
-    domains[j] with F(y) = g_v(x), g of the empty word x. g_w(x_i) exists within y_i - r, y_i + r:
-    F takes these on both sides of all that g_v(x_i) may be. The images g_w([a, b]) of the words
-    lie in [a, b] and are disjoint. (3) With the polynomial h > 0, `test`, s = (l + u)/2,
+    Hypotheses: F' > 0, by sin(eta t) < 0 in the window, and F passes hull = [a, b] once on each
+    domain (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b and `rho`; those
+    of the theorem `kernel.transfer.growth` for the g_w of the words, `exponent`, `growth`, with the
+    test function h of the coefficients `test` by Chebyshev's polynomials, the numbers of `arcs` and
+    `nodes`, and in so many `bits`; g_w' < 1.
 
-        L_s h(x) = sum over the words of g_w'(x)^s h(g_w(x)),      0 < g_w' <= exp(-m) < 1,
-
-    and q = (u - l) m / 2, on [a, b]: -q h / (1 + q) <= L_s h - h <= q h.
-    By Taylor's formula of that `order` N on each piece, with Lagrange's remainder: coefficients
-    at its middle below N, over the piece at N.
-
-    Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson).
-
-    Proof (Bowen 1979; min-max: Pollicott, Vytnova 2022). L_(s+t) <= exp(-t m) L_s for t >= 0.
-    So L_u h <= exp(-q) (1 + q) h <= h and L_l h >= (1 + q) (1 - q / (1 + q)) h = h.
-    For words of n letters w let R_w and r_w be the extremes of the derivatives of the n-fold
-    compositions g_W. R_w <= C r_w with C free of n, since log g_w' are Lipschitz and the arguments
-    approach each other by exp(-m) a step. Upper bound: the sum of R_W^u is at most
-    C^u L_u^n h / min h <= C', the intervals g_W([a, b]) cover K and are at most R_W (b - a) long,
-    which tends to 0: the u-dimensional measure of K is finite. Lower bound: the sum of r_W^l is
-    at least L_l^n h / (C^l max h) >= c > 0, so for t > 0 that of r_W^(l - t) >= exp(n m t) c,
-    over 1 for a large n. As g_W contract by r_W at most and have disjoint images,
-    dim K >= l - t (Falconer, Fractal Geometry, Proposition 9.7).
+    Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson), its dimension
+    by the theorem `kernel.transfer.Growth.dimension`.
     """
-    system = _System(context, reader)
-    system.require()
-    above = below = Fraction(0)  # the extremes of (L_s h - h) / h, at least 0
-    rates: dict[str, list[Range]] = {word: [] for word in system.words}
-    for j in range(1, len(system.images[""]), 2):
-        whole, middle = system.germs(j - 1, j + 1), system.germs(j, j)
-        least = system.h(whole[""])[0].range[0]
-        if least <= 0:
-            raise Unproved("the test function is not proved positive")
-        low, high = system.range(system.defect(middle), system.defect(whole))
-        above, below = max(above, high / least), max(below, -low / least)
-        for word, bounds in rates.items():
-            bounds.append(system.range(middle[word].derivative(), whole[word].derivative()))
-    if min(low for bounds in rates.values() for low, _ in bounds) <= 0:
+    inverses, trial, by = _read(context, reader)
+    return repeller(inverses, growth(inverses, trial, by), by.bits)
+
+
+def repeller(inverses: Inverses, found: Growth, bits: int) -> Repeller:
+    """Return what the rule `dimension` concludes."""
+    inverses.require(bits)
+    if min(low for low, _ in found.rates) <= 0:
         raise Unproved("the inverse branches are not proved to increase")
-    slopes = tuple((1 / high, 1 / low) for low, high in map(hull, rates.values()))
-    first, second = system.branches
-    domains, span = (first.domain, second.domain), system.dimension
-    found = Repeller(first.step.at, system.hull, domains, system.words, slopes, span)
-    q = (span[1] - span[0]) / 2 * log(hull(slopes)[0], system.bits).range[0]
-    if above > q or below * (1 + q) > q:
-        raise Unproved("the operator is not proved near enough to 1")
-    return found
+    slopes = tuple((1 / high, 1 / low) for low, high in found.rates)
+    return Repeller(
+        inverses.letters[0].steps[0].at,
+        Phases(*inverses.ellipse.hull),
+        tuple(letter.domain for letter in inverses.letters),
+        inverses.words,
+        slopes,
+        found.s,
+        found.bounds,
+        found.dimension(bits),
+    )
