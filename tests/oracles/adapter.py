@@ -14,6 +14,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Horseshoe": ("interval",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
+    "ThinShift": ("rate",),
     "MarkovSet": ("growth", "fixed_points"),
     "Digits": ("readings",),
     "Itinerary": ("cut",),
