@@ -51,6 +51,7 @@ _MOST_NODES = 2000
 _FIRST = 40  # bits that floating point is trusted with
 _STEPS = 60  # of Newton's method, or of secants
 _CLOSE = 1e-13
+_SPARE = 130  # bits that are computed beyond those known: two steps, and rounding
 
 
 @dataclass(frozen=True)
@@ -315,13 +316,14 @@ class _Eigenfunction:
         """Improve this to the digits of a table, by Newton's method with one derivative."""
         import numpy as np
 
+        known = self.bits
         self._rescale(table)
         inverse = np.linalg.inv(self._derivative(table))
-        before = 1 << 2 * table.bits
+        before = 1 << max(0, table.bits - known + _SPARE)
         for _ in range(_STEPS + table.bits):
-            defect = self._defect(table)
+            defect = self._defect(table, max(0, before.bit_length() - _SPARE))
             size = max(map(abs, defect))
-            if 2 * size > before:
+            if 2 * size > before:  # no better than the last one
                 return
             before, shift = size, size.bit_length() - 60
             scaled = [value >> shift if shift > 0 else value << -shift for value in defect]
@@ -360,12 +362,13 @@ class _Eigenfunction:
         total[:, 0] = by_s if self.given is None else -(here @ h)
         return total
 
-    def _defect(self, table: _Table) -> list[int]:
-        """Return L_s h - mean h at the nodes."""
-        bits, terms = self.bits, self.terms
-        total = [-(self.mean * clenshaw(terms, 2 * u, bits) >> bits) for u in table.nodes]
+    def _defect(self, table: _Table, drop: int) -> list[int]:
+        """Return L_s h - mean h at the nodes, without the last bits, which do not count."""
+        bits, terms = self.bits - drop, [c >> drop for c in self.terms]
+        s, mean = self.s >> drop, self.mean >> drop
+        total = [-(mean * clenshaw(terms, 2 * (u >> drop), bits) >> bits) for u in table.nodes]
         for images, rates in zip(table.images, table.rates, strict=True):
             for j, (v, rate) in enumerate(zip(images, rates, strict=True)):
-                weight = exp_fixed(self.s * rate >> bits, bits)
-                total[j] += weight * clenshaw(terms, 2 * v, bits) >> bits
-        return total
+                weight = exp_fixed(s * (rate >> drop) >> bits, bits)
+                total[j] += weight * clenshaw(terms, 2 * (v >> drop), bits) >> bits
+        return [value << drop for value in total]

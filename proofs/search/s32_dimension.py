@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
+from math import lcm
 
 from intervals import Undecided
 from proofs.methods.dimension import Images, Remembered, boundary, candidate, ellipses, enough_arcs
@@ -89,6 +90,7 @@ class _Run:
         trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
         self.tell("the operator's inequality, on all of the interval")
         found = repeller(inverses, growth(known, trial, by), by.bits)
+        scale = lcm(*(c.denominator for c in trial.coefficients))
         witness = {
             "flights": list(flights),
             "turns": [str(letter.turns) for letter in letters],
@@ -102,7 +104,7 @@ class _Run:
             "nodes": str(by.nodes),
             "exponent": str(trial.s),
             "growth": str(by.mean),
-            "test": texts(trial.coefficients),
+            "test": [str(c * scale) for c in trial.coefficients],
             "bits": str(by.bits),
         }
         return self.prover.add("dimension", witness), found

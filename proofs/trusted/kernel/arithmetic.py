@@ -10,10 +10,12 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from functools import lru_cache
+from math import isqrt
 
 from proofs.trusted.kernel.meter import METER
 
 _NARROW = 16  # units
+_MANY = 512  # bits
 _MIXED = "enclosures of different precision do not mix"
 
 
@@ -181,24 +183,31 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
     t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
     most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
     2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
+    With many bits r is halved h times before, rounded by a unit, and (sin, cos) taken to
+    (2 sin cos, 1 - 2 sin^2) as often: errors of at most e units become at most 4 e + 2.
     """
-    guard = 12 + max(0, abs(x).bit_length() - bits)
+    halvings = isqrt(bits) >> 1 if bits >= _MANY else 0
+    guard = 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
     work = bits + guard
-    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> 2))  # about work / 4 steps
+    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> (2 + 2 * (halvings > 0))))  # work / 4 steps
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
     x <<= guard
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
     doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
     r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
-    sums, term, n = [0, 1 << work], 1 << work, 0
+    sums, term, n, part = [0, 1 << work], 1 << work, 0, r >> halvings
     while term not in (0, -1):
         n += 1
-        term = (term * r >> work) // n
+        term = (term * part >> work) // n
         if n & 2:
             sums[1 - (n & 1)] -= term
         else:
             sums[1 - (n & 1)] += term
-    error = 3 * n + 2 + (r_hi - r)
+    error = 3 * n + 2 + (halvings > 0)
+    for _ in range(halvings):
+        sums = [2 * sums[0] * sums[1] >> work, (1 << work) - (2 * sums[0] ** 2 >> work)]
+        error = 4 * error + 2
+    error += r_hi - r
     sin, cos = (Enclosure((v - error) >> guard, -((-v - error) >> guard), bits) for v in sums)
     one = 1 << bits
     for value in (sin, cos):

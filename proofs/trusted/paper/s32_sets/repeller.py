@@ -333,7 +333,10 @@ def _read(context: Context, reader: Reader) -> tuple[Inverses, Trial, Collocatio
         },
         dict(zip(ends, radii.numbers(len(ends), len(ends)), strict=True)),
     )
-    trial = Trial(exponent.number(), test.numbers(1, _MOST_TERMS))
+    first, *others = test.numbers(1, _MOST_TERMS)
+    if first == 0:
+        raise Unproved("the test function is not proved positive")
+    trial = Trial(exponent.number(), (_ONE, *(c / first for c in others)))
     by = Collocation(
         ellipse, integer(arcs, 1, _MOST_ARCS), integer(nodes, 1, _MOST_TERMS), mean.number(), bits
     )
@@ -357,7 +360,8 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     Hypotheses: F' > 0, by sin(eta t) < 0 in the window, and F passes hull = [a, b] once on each
     domain (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b and `rho`; those
     of the theorem `kernel.transfer.growth` for the g_w of the words, `exponent`, `growth`, with the
-    test function h of the coefficients `test` by Chebyshev's polynomials, the numbers of `arcs` and
+    test function h of the coefficients `test` by Chebyshev's polynomials, divided by the first, the
+    numbers of `arcs` and
     `nodes`, and in so many `bits`; g_w' < 1.
 
     Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson), its dimension
