@@ -14,8 +14,7 @@ from math import isqrt
 
 from proofs.trusted.kernel.meter import METER
 
-_NARROW = 16  # units
-_MANY = 512  # bits
+_NARROW, _MANY = 1 << 10, 512  # units, where there are many bits
 _MIXED = "enclosures of different precision do not mix"
 
 
@@ -128,14 +127,13 @@ class Enclosure:
         end is too close to one to tell, the extremum is put in, which is outward.
         """
         sin, cos, first, _ = _sincos(self.lo, self.bits)
-        if (width := self.hi - self.lo) < _NARROW:  # |sin'|, |cos'| <= 1
-            one = 1 << self.bits
+        width, one = self.hi - self.lo, 1 << self.bits
+        if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
             for value in (sin, cos):
                 value.lo, value.hi = max(value.lo - width, -one), min(value.hi + width, one)
             return sin, cos
         sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
         sin, cos = sin.hull(sin_hi), cos.hull(cos_hi)
-        one = 1 << self.bits
         for turn in range(first + 1, min(last, first + 4) + 1):
             target = (cos, sin)[turn & 1]
             if turn & 2:
