@@ -1,4 +1,4 @@
-"""Claim 1 read for the map itself: the Hausdorff dimension of the set that stays in I (H13)."""
+"""Hausdorff dimensions: of the set that stays in I (H13), of the full shifts beside it (G19)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from functools import partial
 from math import lcm
 
 from intervals import Undecided
-from proofs.methods.dimension import Images, Remembered, boundary, candidate, ellipses, enough_arcs
+from proofs.methods.dimension import Images, Remembered, boundary, ellipses, enough_arcs
+from proofs.methods.eigenfunction import candidate
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.impact import HORIZON
 from proofs.motion.inverse import InverseBranch
@@ -31,7 +32,8 @@ from proofs.trusted.kernel.transfer import growth, on_boundary
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
-from proofs.trusted.paper.s32_sets.repeller import Inverses, Letter, Repeller, by_length, repeller
+from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
+from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found

@@ -7,7 +7,8 @@ import pytest
 from mpmath import findroot, mp, mpf
 
 from intervals import Undecided
-from proofs.methods.dimension import Formulas, candidate, dimension
+from proofs.methods.dimension import Formulas, dimension
+from proofs.methods.eigenfunction import candidate
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.transfer import growth

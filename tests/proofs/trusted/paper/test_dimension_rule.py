@@ -17,7 +17,8 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.s32_sets.dimension import FULL
-from proofs.trusted.paper.s32_sets.repeller import Letter, _read
+from proofs.trusted.paper.s32_sets.inverses import Letter
+from proofs.trusted.paper.s32_sets.repeller import _read
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.paper import reference
