@@ -1,4 +1,4 @@
-"""Claim 1 read for the map itself: the Hausdorff dimension of the set that stays in I (H13)."""
+"""Hausdorff dimensions of the sets that stay in I and in the intervals of G5. Claims H13, G19."""
 
 if __name__ == "__main__":
     from proofs.shell.entry import launch

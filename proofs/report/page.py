@@ -14,7 +14,7 @@ _TITLES = {
     "horseshoe": "The horseshoe, claim by claim",
     "nonplastic": "Section 3.3: impacts with restitution, and their horseshoe",
     "sets": "Sections 3.1 and 3.2: the invariant set, and the steps of Claim 1",
-    "dimension": "Section 3.2: the Hausdorff dimension of the invariant set",
+    "dimension": "Sections 3.2 and 3.4: Hausdorff dimensions of the invariant sets",
     "chaos": "Section 3.4: more chaos than the paper saw",
     "circle": "Section 3.4: the global picture",
     "entropy": "Section 3.4: the chaos of the plastic map as a whole",

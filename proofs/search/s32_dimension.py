@@ -1,32 +1,46 @@
-"""Claim 1 read for the map itself: the Hausdorff dimension of the set that stays in I (H13)."""
+"""Hausdorff dimensions: of the set that stays in I (H13), of the full shifts beside it (G19)."""
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
+from math import lcm
 
 from intervals import Undecided
-from proofs.methods.dimension import dimension, precision
+from proofs.methods.dimension import Images, Remembered, boundary, ellipses, enough_arcs
+from proofs.methods.eigenfunction import candidate
 from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import HORIZON, FirstImpact
-from proofs.motion.inverse import InverseBranch, InverseSystem
+from proofs.motion.impact import HORIZON
+from proofs.motion.inverse import InverseBranch
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
+from proofs.search.s34_staying import prove_full_shifts
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
+from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.flights import first_impact
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.complexes import Ellipse
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.transfer import growth, on_boundary
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
-from proofs.trusted.paper.s32_sets.repeller import Repeller
+from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
+from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
-_MOST_DIGITS = 30  # of the dimension: time grows faster than their square
-_SLACK = 20  # bits by which a bracket is wider than rounding
+_ZERO, _ROOM = Fraction(0), Fraction(3, 2)  # between a branch and its path
+_MARGIN = Fraction(1, 2000)  # of a domain around what is needed
+_MOST_TERMS, _TAIL = 40, 1e-3  # of a path
 
 
 @dataclass
@@ -37,61 +51,133 @@ class _Run:
     prover: Prover
     digits: int
     tell: Tell
-    flights: dict[Range, tuple[str, FirstImpact]] = field(default_factory=dict)
+    letters: dict[Range, tuple[list[str], Letter]] = field(default_factory=dict)
 
     def attempt(self, make: Callable[[], tuple[str, Repeller]]) -> Proof:
         """Make a part of the proof; what cannot be proved leaves no step."""
-        flights = dict(self.flights)
+        letters = dict(self.letters)
         with suppress(*FAILED), self.prover.undone():
             return [make()]
-        self.flights = flights
+        self.letters = letters
         return []
 
-    def impact(self, domain: Range) -> tuple[str, FirstImpact]:
+    def letter(self, domain: Phases) -> tuple[list[str], Letter]:
         """Prove the first impact transversal on all of a domain, once."""
-        if domain not in self.flights:
-            found, *others = cover_by_impacts(self.prover.system, domain)
-            if others:
-                raise Undecided("the first impact is not proved transversal in one piece")
-            self.flights[domain] = self.prover.add_impact(found), found
-        return self.flights[domain]
+        if domain not in self.letters:
+            found = cover_by_impacts(self.prover.system, domain)
+            names = [self.prover.add_impact(part) for part in found]
+            context, steps = Context(self.of), self.prover.steps
+            proved = [first_impact(context, Reader(steps[name]["witness"])) for name in names]
+            cuts = (domain[0], *(part.flight.phases[1] for part in found))
+            turns = InverseBranch(self.prover.system, domain).turns
+            self.letters[domain] = names, Letter(cuts, tuple(proved), turns)
+        return self.letters[domain]
 
-    def repeller(self, sets: Parameters, words: tuple[str, ...]) -> tuple[str, Repeller]:
-        """Enclose the dimension of the set of all sequences of these words (rule dimension)."""
-        domains, hull = (Phases(*sets.left), Phases(*sets.right)), Phases(*sets.interval)
-        radius = Fraction(1, 2 ** (precision(self.digits) - _SLACK))
-        branches, flights = [], []
-        for domain in domains:
-            flight, impact = self.impact(domain)
-            branches.append(InverseBranch(impact, domain, radius))
-            flights.append(flight)
-        if not all(branch.passes_once(hull) for branch in branches):
-            raise Undecided("f is not proved to increase and to pass I once")
-        bits = precision(self.digits)
-        system = InverseSystem((branches[0], branches[1]), hull, words, radius, bits)
-        if not system.images_are_disjoint():
-            raise Undecided("the inverse images of I are not proved disjoint, and in I")
-        found = dimension(system, hull, self.digits, self.tell)
-        steps = 2 * found.pieces
-        points = [hull[0] + (hull[1] - hull[0]) * j / steps for j in range(steps + 1)]
-        centres = system.centres(points)
-        name = self.prover.add(
-            "dimension",
-            {
-                "flights": flights,
-                "turns": [str(branch.turns) for branch in branches],
-                "hull": texts(hull),
-                "domains": [texts(domain) for domain in domains],
-                "words": list(words),
-                "inverse": [texts(centres[suffix]) for suffix in sorted(centres)],
-                "radius": str(radius),
-                "pieces": str(found.pieces),
-                "order": str(found.order),
-                "test": texts(found.trial.coefficients),
-                "dimension": texts(found.bounds),
-            },
+    def repeller(
+        self,
+        hull: Phases,
+        domains: Sequence[Phases],
+        words: tuple[str, ...],
+        exponent: Fraction | None = None,
+    ) -> tuple[str, Repeller]:
+        """Enclose the dimension of the set of all sequences of these words (rule dimension).
+
+        exponent: where the growth of the operator is asked for, not the dimension.
+        """
+        flights, letters = zip(*map(self.letter, domains), strict=True)
+        self.tell("the inverse branches of f on an ellipse")
+        inverses, arcs = self._inverses(hull, letters, words)
+        self.tell("a test function for the dimension")
+        known = Remembered(inverses)
+        trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
+        self.tell("the operator's inequality, on all of the interval")
+        found = repeller(inverses, growth(known, trial, by), by.bits)
+        scale = lcm(*(c.denominator for c in trial.coefficients))
+        witness = {
+            "flights": list(flights),
+            "turns": [str(letter.turns) for letter in letters],
+            "hull": texts(hull),
+            "domains": [texts(letter.cuts) for letter in letters],
+            "words": list(words),
+            "rho": str(inverses.ellipse.rho),
+            "arcs": str(arcs),
+            "paths": [texts(path) for path in inverses.paths.values()],
+            "radii": texts(list(inverses.radii.values())),
+            "nodes": str(by.nodes),
+            "exponent": str(trial.s),
+            "growth": str(by.mean),
+            "test": [str(c * scale) for c in trial.coefficients],
+            "bits": str(by.bits),
+        }
+        return self.prover.add("dimension", witness), found
+
+    def shift(
+        self, shift: FullShift, words: tuple[str, ...], exponent: Fraction | None
+    ) -> tuple[str, Repeller]:
+        """Enclose the dimension of a full shift, by domains as small as may be in its cells."""
+        domains = [self._image(shift.interval, cell) for cell in shift.cells]
+        return self.repeller(shift.interval, domains, words, exponent)
+
+    def _image(self, hull: Phases, cell: Phases) -> Phases:
+        """Return a little more than the part of a cell that f takes to the hull."""
+        branch = InverseBranch(self.prover.system, cell)
+        ends = [branch.along([float(sum(hull)) / 2, float(end)])[1][0].real for end in hull]
+        low, high = (round(Fraction(y), 4) for y in ends)
+        return Phases(max(cell[0], low - _MARGIN), min(cell[1], high + _MARGIN))
+
+    def _inverses(
+        self, hull: Phases, letters: tuple[Letter, ...], words: tuple[str, ...]
+    ) -> tuple[Inverses, int]:
+        """Find an ellipse and paths on which the inverse branches are proved, and how many arcs."""
+        ends = sorted({word[k:] for word in words for k in range(len(word))}, key=by_length)
+        branches = [InverseBranch(self.prover.system, letter.domain) for letter in letters]
+
+        def along(path: Sequence[complex]) -> dict[str, Images]:
+            known: dict[str, Images] = {"": [(x, 1) for x in path]}
+            for word in ends:
+                before = known[word[1:]]
+                found = branches[int(word[0])].along([x for x, _ in before])
+                known[word] = [(y, d * e) for (y, d), (_, e) in zip(found, before, strict=True)]
+            return known
+
+        for rho in ellipses(lambda path: [along(path)[word] for word in words], hull):
+            known = along(boundary(hull, float(rho)))
+            paths = {word: _path(known[word], float(rho)) for word in ends}
+            found = Inverses(letters, words, Ellipse(hull, rho), paths, dict.fromkeys(ends, _ZERO))
+            with suppress(Unproved):
+                return enough_arcs(partial(_with_radii, found))
+        raise Undecided("no ellipse is found that the inverse branches map into itself")
+
+
+def _with_radii(branches: Inverses, arcs: int) -> tuple[Inverses, int]:
+    """Find how far from their paths the branches may be, if so many arcs prove it."""
+    found = branches
+    for room in (_ZERO, _ROOM):
+        radii = {word: round(room * each, 12) for word, each in found.found.items()}
+        found = replace(branches, radii=radii or branches.radii, found={})
+        on_boundary(found, found.ellipse.arcs(arcs))
+    found.require_near()
+    return found, arcs
+
+
+def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
+    """Return Chebyshev coefficients of a branch, from its values at equal angles from 0 to pi.
+
+    On the ellipse T_k = (w^k + w^-k) / 2: they are those of its Fourier series.
+    """
+    values = [y for y, _ in images][len(images) // 2 :]
+    steps, found = len(values) - 1, list[float]()
+    weights = [0.5, *[1.0] * (steps - 1), 0.5]
+    for k in range(_MOST_TERMS):
+        turned = (
+            weight * (y * cmath.exp(-1j * math.pi * k * j / steps)).real
+            for j, (weight, y) in enumerate(zip(weights, values, strict=True))
         )
-        return name, Repeller(self.prover.at, hull, domains, words, found.slopes, found.bounds)
+        found.append((2 if k else 1) * sum(turned) / steps / rho**k)
+    sizes = [abs(c) * rho**k for k, c in enumerate(found)]
+    while len(found) > 2 and sizes[len(found) - 1] < _TAIL * max(sizes[1:]):
+        del found[-1]
+    return tuple(round(Fraction(c), 12) for c in found)
 
 
 def prove(
@@ -101,22 +187,39 @@ def prove(
     digits: int = 30,
     tell: Tell = lambda stage: None,
 ) -> Evidence:
-    """Prove what H13 rests on: s_0, and the dimension to so many digits, 30 at most."""
-    if "H13" not in claims:
-        return Evidence()
-    digits = min(digits, _MOST_DIGITS)
+    """Prove what the claims rest on: dimensions, rates of escape and s_0, to so many digits."""
     run = _Run(of, Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON), digits, tell)
-    proof: Proof = []
+    provers = {"H13": _staying, "G19": _shifts}
+    proofs = {claim: provers[claim](run) for claim in provers if claim in claims}
+    return Evidence(run.prover.steps, proofs)
+
+
+def _staying(run: _Run) -> Proof:
+    """H13: s_0, and the sets that stay in I and in an interval around it."""
+    of, proof = run.of, list[tuple[str, Conclusion]]()
     if max(of.moran_ratios) < 1:
         proof.append(run.prover.root(of.moran_ratios))
-    tell("a horseshoe around I, and the orbits of the ends of I")
+    run.tell("a horseshoe around I, and the orbits of the ends of I")
     around = prove_staying(of, run.prover)
     proof += around
     if around:
         staying = invariant_set(of.interval, Found(of, [each for _, each in around]))
         base = staying.base
-        whole = replace(of, left=base.left, right=base.right, interval=base.interval)
-        proof += run.attempt(partial(run.repeller, whole, FULL))
+        whole = base.interval, (base.left, base.right), FULL
+        proof += run.attempt(partial(run.repeller, *whole))
         if staying.shift.factors == "000":
-            proof += run.attempt(partial(run.repeller, of, WITHOUT_000))
-    return Evidence(run.prover.steps, {"H13": proof})
+            inner = Phases(*of.interval), (Phases(*of.left), Phases(*of.right)), WITHOUT_000
+            proof += run.attempt(partial(run.repeller, *inner))
+    return proof
+
+
+def _shifts(run: _Run) -> Proof:
+    """G19: the full shifts of G5, and for each its dimension and the growth of lengths."""
+    run.tell("full shifts around [1.32, 1.48]")
+    proof = list[tuple[str, Conclusion]]()
+    for name, shift in prove_full_shifts(run.prover, PRINTED, run.of.interval):
+        proof.append((name, shift))
+        words = tuple(map(str, range(len(shift.cells))))
+        for exponent in (None, Fraction(1)):
+            proof += run.attempt(partial(run.shift, shift, words, exponent))
+    return proof

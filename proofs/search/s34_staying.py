@@ -109,6 +109,12 @@ class Sketcher:
         )
         return Sketch(sketch.interval, pieces, sketch.gaps)
 
+    def full_shifts(self, printed: Range, around: Range) -> list[Sketch]:
+        """Return what looks like full shifts on two and three symbols, around both intervals."""
+        whole = min(printed[0], around[0]), max(printed[1], around[1])
+        found = self.full_shift(printed, 2), self.full_shift(whole, 3)
+        return [one for one in found if one is not None]
+
     def full_shift(self, interval: Range, symbols: int) -> Sketch | None:
         """Return the least widening of an interval that looks like a full shift."""
         for extra in range(2 * _WIDEST + 1):
@@ -135,22 +141,18 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     The second one in an interval that contains `around` too. What is not proved is left out.
     """
     sketcher = Sketcher(prover)
-    whole = min(printed[0], around[0]), max(printed[1], around[1])
     few = sketcher.refined(sketcher.sketch(printed, _FINE))
-    shifts = [sketcher.full_shift(printed, 2), sketcher.full_shift(whole, 3)]
-    sketches = [few, *(one for one in shifts if one is not None)]
-    proofs = Pieces(prover, sketches)
+    shifts = sketcher.full_shifts(printed, around)
+    proofs = Pieces(prover, [few, *shifts])
     found: Proof = []
     orbits: list[tuple[Phases, ...]] = []
     with suppress(*FAILED):
         name, orbit = proofs.prove(few, "staying-orbit", staying_orbit)
         found.append((name, orbit))
         orbits.append(orbit.cells)
-    for sketch in sketches[1:]:
-        with suppress(*FAILED):
-            name, shift = proofs.prove(sketch, "full-shift", full_shift)
-            found.append((name, shift))
-            orbits += [(shift.cells[0],), (shift.cells[-1],)]
+    for name, shift in _shifts(proofs, shifts):
+        found.append((name, shift))
+        orbits += [(shift.cells[0],), (shift.cells[-1],)]
     known: list[tuple[Phases, ...]] = []
     for cells in orbits:
         if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
@@ -167,6 +169,20 @@ def prove_shift(prover: Prover, around: Range, symbols: int) -> tuple[str, FullS
     if sketch is None:
         raise Undecided("no full shift is seen")
     return Pieces(prover, [sketch]).prove(sketch, "full-shift", full_shift)
+
+
+def prove_full_shifts(prover: Prover, printed: Range, around: Range) -> list[tuple[str, FullShift]]:
+    """Prove the full shifts of `prove_staying` alone."""
+    shifts = Sketcher(prover).full_shifts(printed, around)
+    return _shifts(Pieces(prover, shifts), shifts)
+
+
+def _shifts(proofs: Pieces, sketches: Sequence[Sketch]) -> list[tuple[str, FullShift]]:
+    found = []
+    for sketch in sketches:
+        with suppress(*FAILED):
+            found.append(proofs.prove(sketch, "full-shift", full_shift))
+    return found
 
 
 @dataclass

@@ -31,6 +31,7 @@ from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.parameters import HEEDED, add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict, tally
@@ -230,12 +231,17 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
 
 def _checked(path: Path, quiet: bool) -> bool:
     """Run the independent checker on what was written; say loudly if it disagrees."""
-    began = perf_counter()
-    try:
-        report = check(read(path))
-    except (Malformed, Rejected) as error:
-        say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
-        return False
+    began, work, report = perf_counter(), DEFAULT, None
+    while report is None:
+        try:
+            report = check(read(path), work)
+        except Exhausted:
+            work *= 8
+        except (Malformed, Rejected) as error:
+            say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
+            return False
+    if work > DEFAULT:
+        say(f"it needs more work than is usual: python -m proofs.check --work {work} {path}")
     if not quiet:
         spent = (perf_counter() - began) * 1000
         count = f"{len(report.claims)} claim{'s' if len(report.claims) > 1 else ''}"

@@ -13,6 +13,7 @@ Range = tuple[Fraction, Fraction]
 
 TURN = Fraction("6.283185307")  # a little less than 2 pi
 _LONGEST = 12_000  # bits of a number that is written
+_MOST_PLACES = 40  # of a decimal, where nobody asked for more
 
 
 class _Pair(tuple[Fraction, Fraction]):
@@ -66,8 +67,12 @@ def show(value: Fraction) -> str:
     while rest % 5 == 0:
         rest, fives = rest // 5, fives + 1
     places = max(twos, fives)
-    if rest != 1 or places > 40:
+    if rest != 1 or places > _MOST_PLACES:
         return str(value)
+    return _decimal(value, places)
+
+
+def _decimal(value: Fraction, places: int) -> str:
     digits = str(abs(value.numerator) * (10**places // value.denominator)).rjust(places + 1, "0")
     sign = "-" if value < 0 else ""
     return sign + (f"{digits[:-places]}.{digits[-places:]}" if places else digits)
@@ -80,18 +85,25 @@ def show_range(values: Range) -> str:
 
 def floor_text(value: Fraction, places: int = 6) -> str:
     """Write a decimal of so many places that is <= value."""
-    return show(Fraction(value * 10**places // 1, 10**places))
+    floor = Fraction(value * 10**places // 1, 10**places)
+    return show(floor) if places <= _MOST_PLACES else _decimal(floor, places)
 
 
 def ceil_text(value: Fraction, places: int = 6) -> str:
     """Write a decimal of so many places that is >= value."""
-    return show(-Fraction(-value * 10**places // 1, 10**places))
+    return floor_text(Fraction(-(-value * 10**places // 1), 10**places), places)
 
 
 def between(bounds: Range, places: int = 6) -> str:
     """Write an enclosure, rounded outward: a number where that is one."""
     low, high = floor_text(bounds[0], places), ceil_text(bounds[1], places)
     return low if low == high else f"[{low}, {high}]"
+
+
+def decimals(bounds: Range) -> tuple[str, str]:
+    """Write different bounds, rounded outward, to two places more than they decide."""
+    places = len(str(int(1 / (bounds[1] - bounds[0])))) + 1
+    return floor_text(bounds[0], places), ceil_text(bounds[1], places)
 
 
 def within(inner: Range, outer: Range) -> bool:

@@ -19,6 +19,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Cycles": ("counts",),
     "EntropyRange": ("entropy",),
     "Pieces": ("region",),
+    "ThinShift": ("rate",),
     "MarkovSet": ("growth", "fixed_points"),
     "Digits": ("readings",),
     "Itinerary": ("cut",),

@@ -1,5 +1,6 @@
 """Judges of conclusions about Cantor sets and dimensions (section 3.2)."""
 
+import math
 import re
 from collections import Counter
 from fractions import Fraction
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from tests.oracles.motion import TURN, ball, inside
-from tests.oracles.plastic import between, itinerary, lifted
+from tests.oracles.plastic import between, full_shift, itinerary, lifted
 
 _DEGREE = 22
 
@@ -230,9 +231,27 @@ def repeller(view, rng):
         told.append("the inverse branches leave the hull")
     if any(b[0] <= a[1] for a, b in pairwise(spans)):
         told.append("the images of the inverse branches overlap")
-    found = _dimension([y[2:] for y in images], [r[2:] for r in rates], nodes, (low, high))
+    eigenvalue = _growth([y[2:] for y in images], [r[2:] for r in rates], nodes, (low, high))
+    found, grown = _dimension(eigenvalue), eigenvalue(float(view.exponent))
     if not float(view.dimension[0]) - 1e-7 < found < float(view.dimension[1]) + 1e-7:
         told.append(f"the dimension is about {found:.9g}")
+    if not float(view.growth[0]) - 1e-7 < grown < float(view.growth[1]) + 1e-7:
+        told.append(f"the growth at {float(view.exponent):.9g} is about {grown:.9g}")
+    return told
+
+
+def thin_shift(view, rng):
+    """The full shift is one; the repellers have its branches; lengths shrink by the growth."""
+    told = full_shift(view.shift, rng) + repeller(view.repeller, rng) + repeller(view.escape, rng)
+    count = len(view.shift.cells)
+    for each in (view.repeller, view.escape):
+        if each.hull != view.shift.interval or each.words != tuple(map(str, range(count))):
+            told.append("a repeller is not that of the full shift")
+    if view.escape.exponent != 1:
+        told.append("the growth is not that of lengths")
+    slow, fast = (-math.log(end) for end in reversed(view.escape.growth))
+    if not float(view.rate[0]) - 1e-12 <= slow <= fast <= float(view.rate[1]) + 1e-12:
+        told.append(f"orbits escape at a rate of about {slow:.9g}")
     return told
 
 
@@ -264,7 +283,8 @@ def _inverse(branch, targets):
     return a, fit.deriv()(a)
 
 
-def _dimension(images, rates, nodes, hull):
+def _growth(images, rates, nodes, hull):
+    """The leading eigenvalue of the operator on polynomials, as a function of s."""
     scale = chebyshev.chebvander(2 * (nodes - hull[0]) / (hull[1] - hull[0]) - 1, _DEGREE - 1)
     basis = [
         chebyshev.chebvander(2 * (y - hull[0]) / (hull[1] - hull[0]) - 1, _DEGREE - 1)
@@ -276,6 +296,10 @@ def _dimension(images, rates, nodes, hull):
         operator = sum((r**s)[:, None] * values for r, values in zip(rates, basis, strict=True))
         return max(np.linalg.eigvals(operator @ inverse).real)
 
+    return eigenvalue
+
+
+def _dimension(eigenvalue):
     low, high = 0.0, 2.0
     for _ in range(34):
         middle = (low + high) / 2
@@ -295,4 +319,5 @@ JUDGES = {
     "InvariantSet": invariant_set,
     "Repeller": repeller,
     "StayingDimension": staying_dimension,
+    "ThinShift": thin_shift,
 }

@@ -172,11 +172,19 @@ FALSE = {
     "Repeller": [
         offs("dimension"),
         offs("slopes"),
+        offs("growth"),
         put("words", lambda old: ("0", "00", "1")[: len(old)]),
     ],
     "StayingDimension": [
         _of("repeller", offs("dimension")),
         _of("staying", _of("shift", put("factors", "11"))),
+    ],
+    "ThinShift": [
+        offs("rate"),
+        _of("repeller", offs("dimension")),
+        _of("escape", offs("growth")),
+        _of("escape", put("exponent", F(9, 10))),
+        _of("shift", put("interval", (F("1.3"), F("1.5")))),
     ],
     "MoranRoot": [offs("root"), put("ratios", (F(1, 9), F(1, 8)))],
     "NoGap": [put("ratios", (F(1, 4), F(1, 3)))],

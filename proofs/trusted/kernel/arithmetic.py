@@ -7,11 +7,14 @@ functions are rounded down and up. Nothing here is shared with the package `inte
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from functools import lru_cache
+from math import isqrt
 
 from proofs.trusted.kernel.meter import METER
 
+_NARROW, _MANY = 1 << 10, 512  # units, where there are many bits
 _MIXED = "enclosures of different precision do not mix"
 
 
@@ -39,9 +42,11 @@ class Enclosure:
         unit = 1 << self.bits
         return Fraction(self.lo, unit), Fraction(self.hi, unit)
 
-    def _like(self, other: Enclosure | int) -> Enclosure:
+    def _like(self, other: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(other, int):
             return Enclosure(other << self.bits, other << self.bits, self.bits)
+        if isinstance(other, Fraction):
+            return rational(other, self.bits)
         if other.bits != self.bits:
             raise ValueError(_MIXED)
         return other
@@ -49,7 +54,7 @@ class Enclosure:
     def __neg__(self) -> Enclosure:
         return Enclosure(-self.hi, -self.lo, self.bits)
 
-    def __add__(self, value: Enclosure | int) -> Enclosure:
+    def __add__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
@@ -57,16 +62,16 @@ class Enclosure:
 
     __radd__ = __add__
 
-    def __sub__(self, value: Enclosure | int) -> Enclosure:
+    def __sub__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
         return Enclosure(self.lo - other.hi, self.hi - other.lo, self.bits)
 
-    def __rsub__(self, value: int) -> Enclosure:
+    def __rsub__(self, value: Fraction | int) -> Enclosure:
         return -self + value
 
-    def __mul__(self, value: Enclosure | int) -> Enclosure:
+    def __mul__(self, value: Enclosure | Fraction | int) -> Enclosure:
         bits = self.bits
         if isinstance(value, Enclosure):
             if value.bits != bits:
@@ -78,11 +83,11 @@ class Enclosure:
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
             return Enclosure(min(ends), max(ends), bits)
-        return NotImplemented
+        return self * rational(value, bits) if isinstance(value, Fraction) else NotImplemented
 
     __rmul__ = __mul__
 
-    def __truediv__(self, value: Enclosure | int) -> Enclosure:
+    def __truediv__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
         other = self._like(value)
@@ -92,6 +97,9 @@ class Enclosure:
         quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
         low = min(a // b for a, b in quotients)
         return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
+
+    def __rtruediv__(self, value: Fraction | int) -> Enclosure:
+        return self._like(value) / self
 
     def __pow__(self, n: int) -> Enclosure:
         if n < 1:
@@ -119,11 +127,13 @@ class Enclosure:
         end is too close to one to tell, the extremum is put in, which is outward.
         """
         sin, cos, first, _ = _sincos(self.lo, self.bits)
-        if self.lo == self.hi:
+        width, one = self.hi - self.lo, 1 << self.bits
+        if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
+            for value in (sin, cos):
+                value.lo, value.hi = max(value.lo - width, -one), min(value.hi + width, one)
             return sin, cos
         sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
         sin, cos = sin.hull(sin_hi), cos.hull(cos_hi)
-        one = 1 << self.bits
         for turn in range(first + 1, min(last, first + 4) + 1):
             target = (cos, sin)[turn & 1]
             if turn & 2:
@@ -138,7 +148,7 @@ def rational(value: Fraction, bits: int) -> Enclosure:
     return Enclosure.of(value, value, bits)
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=256)
 def pi(bits: int) -> Enclosure:
     """Enclose pi = 48 atan(1/18) + 32 atan(1/57) - 20 atan(1/239) (Gauss)."""
     work = bits + 16
@@ -171,24 +181,31 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
     t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
     most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
     2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
+    With many bits r is halved h times before, rounded by a unit, and (sin, cos) taken to
+    (2 sin cos, 1 - 2 sin^2) as often: errors of at most e units become at most 4 e + 2.
     """
-    guard = 12 + max(0, abs(x).bit_length() - bits)
+    halvings = isqrt(bits) >> 1 if bits >= _MANY else 0
+    guard = 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
     work = bits + guard
-    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> 2))  # about work / 4 steps
+    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> (2 + 2 * (halvings > 0))))  # work / 4 steps
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
     x <<= guard
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
     doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
     r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
-    sums, term, n = [0, 1 << work], 1 << work, 0
+    sums, term, n, part = [0, 1 << work], 1 << work, 0, r >> halvings
     while term not in (0, -1):
         n += 1
-        term = (term * r >> work) // n
+        term = (term * part >> work) // n
         if n & 2:
             sums[1 - (n & 1)] -= term
         else:
             sums[1 - (n & 1)] += term
-    error = 3 * n + 2 + (r_hi - r)
+    error = 3 * n + 2 + (halvings > 0)
+    for _ in range(halvings):
+        sums = [2 * sums[0] * sums[1] >> work, (1 << work) - (2 * sums[0] ** 2 >> work)]
+        error = 4 * error + 2
+    error += r_hi - r
     sin, cos = (Enclosure((v - error) >> guard, -((-v - error) >> guard), bits) for v in sums)
     one = 1 << bits
     for value in (sin, cos):
@@ -206,19 +223,31 @@ def log(value: Fraction, bits: int) -> Enclosure:
         scaled, n = scaled / 2, n + 1
     while 3 * scaled < 2:
         scaled, n = scaled * 2, n - 1
-    log2 = _log1(Fraction(4, 3), bits) - _log1(Fraction(2, 3), bits)
-    return _log1(scaled, bits) + log2 * n
+    log2 = _log1(rational(Fraction(1, 7), bits)) - _log1(rational(Fraction(-1, 5), bits))
+    return _log1(rational((scaled - 1) / (scaled + 1), bits)) + log2 * n
 
 
-def _log1(m: Fraction, bits: int) -> Enclosure:
-    """Enclose log m = 2 atanh((m - 1) / (m + 1)) for 2/3 <= m <= 4/3, so |z| <= 1/5."""
-    z = rational((m - 1) / (m + 1), bits)
+def log_of(x: Enclosure) -> Enclosure:
+    """Enclose log X = y + log(X exp(-y)), X in (2^-60, 2^60), y about the logarithm of a middle."""
+    if x.lo <= 0:
+        raise Unproved("the logarithm of an enclosure that leaves (0, oo)")
+    about = Fraction(math.log((x.lo + x.hi) / (2 << x.bits)))
+    y = rational(about, x.bits)
+    ratio = x * exp(-y)
+    z = (ratio - 1) / (ratio + 1)
+    if 5 * max(-z.lo, z.hi) > 1 << x.bits:
+        raise Unproved("a wide enclosure has no logarithm")
+    return y + _log1(z)
+
+
+def _log1(z: Enclosure) -> Enclosure:
+    """Enclose log m = 2 atanh z, z = (m - 1) / (m + 1), for |z| <= 1/5."""
     square, power, total, k = z * z, z, z, 1
     while max(abs(power.lo), abs(power.hi)) > 1:
         power, k = power * square, k + 2
         total = total + power / k
     # the tail: |z|^(k+2) / (k+2) / (1 - z^2), below the last power, at most one unit
-    return 2 * Enclosure(total.lo - 1, total.hi + 1, bits)
+    return 2 * Enclosure(total.lo - 1, total.hi + 1, z.bits)
 
 
 def exp(x: Enclosure) -> Enclosure:
@@ -247,38 +276,41 @@ class Dual:
     def __init__(self, value: Enclosure, derivative: Enclosure) -> None:
         self.value, self.derivative = value, derivative
 
-    def _like(self, other: Dual | Enclosure | int) -> Dual:
+    def _like(self, other: Dual | Enclosure | Fraction | int) -> Dual:
         if isinstance(other, Dual):
             return other
-        zero = Enclosure(0, 0, self.value.bits)
+        zero = 0 * self.value
         return Dual(zero + other, zero)
 
     def __neg__(self) -> Dual:
         return Dual(-self.value, -self.derivative)
 
-    def __add__(self, value: Dual | Enclosure | int) -> Dual:
+    def __add__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         return Dual(self.value + other.value, self.derivative + other.derivative)
 
     __radd__ = __add__
 
-    def __sub__(self, value: Dual | Enclosure | int) -> Dual:
+    def __sub__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         return self + -self._like(value)
 
-    def __rsub__(self, value: Enclosure | int) -> Dual:
+    def __rsub__(self, value: Enclosure | Fraction | int) -> Dual:
         return -self + value
 
-    def __mul__(self, value: Dual | Enclosure | int) -> Dual:
+    def __mul__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         slope = self.derivative * other.value + self.value * other.derivative
         return Dual(self.value * other.value, slope)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, value: Dual | Enclosure | int) -> Dual:
+    def __truediv__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
         other = self._like(value)
         quotient = self.value / other.value
         return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+
+    def __rtruediv__(self, value: Enclosure | Fraction | int) -> Dual:
+        return self._like(value) / self
 
     def sincos(self) -> tuple[Dual, Dual]:
         """Return (sin, cos) with their derivatives."""

@@ -44,7 +44,7 @@ LENGTHY = {  # that take seconds, some in processes of their own
     "__main__": ["--fresh"],
     "benchmark": ["limit"],
     "check": ["reports/ledger.json"],
-    "dimension": ["--digits", "100"],
+    "dimension": ["--digits", "500"],
     "circle": [],
     "foundations": [],
     "horseshoe": ["--digits", "900"],

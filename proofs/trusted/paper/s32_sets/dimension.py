@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, ceil_text, floor_text, hull, show_range, within
+from proofs.trusted.numbers import Phases, ceil_text, decimals, floor_text, hull, show_range, within
 from proofs.trusted.paper.s32_sets.invariant import InvariantSet, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.paper.s32_sets.repeller import Repeller
@@ -36,8 +36,10 @@ class StayingDimension(Conclusion):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the hypotheses are proved, of one oscillator."""
-        (low, start), (end, high) = self.repeller.domains
         base = self.staying.base
+        if len(self.repeller.domains) != 2:
+            raise Unproved("the repeller has not two domains")
+        (low, start), (end, high) = self.repeller.domains
         if not (low, high) == self.interval == self.repeller.hull or self.at != base.at:
             raise Unproved("the domains and the invariant set do not begin and end with the hull")
         if not within((start, end), base.gap):
@@ -58,9 +60,7 @@ class StayingDimension(Conclusion):
     @property
     def bounds(self) -> tuple[str, str]:
         """The bounds of the dimension, to two places more than they decide."""
-        low, high = self.repeller.dimension
-        places = min(40, len(str(int(1 / (high - low)))) + 1)
-        return floor_text(low, places), ceil_text(high, places)
+        return decimals(self.repeller.dimension)
 
     @property
     def sentence(self) -> str:

@@ -103,6 +103,7 @@ _CONNECTIONS = (
 class FullShift(Conclusion):
     """The phases whose orbits stay in `interval` are a full shift on the cells, in order of phase.
 
+    f is one-to-one on each cell and maps it over the interval, into which no other phase goes.
     slopes: bounds on f', which is above 1 on the cells.
     """
 
@@ -121,10 +122,10 @@ class FullShift(Conclusion):
         named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
         return (
             f"f is C^1, f' in {between(self.slopes, 2)}, on each of the sets {named}, maps each of "
-            f"them over {whole}, and no other phase of {whole} into it: the phases whose orbits "
-            f"stay in {whole} are a Cantor set on which f is conjugate to the full shift on "
-            f"{len(self.cells)} symbols, the n-th symbol of phi being the number of the set that "
-            f"f^n(phi) lies in.{_CONNECTIONS if len(self.cells) == 3 else ''}"
+            f"them one-to-one over {whole}, and no other phase of {whole} into it: the phases "
+            f"whose orbits stay in {whole} are a Cantor set on which f is conjugate to the full "
+            f"shift on {len(self.cells)} symbols, the n-th symbol of phi being the number of the "
+            f"set that f^n(phi) lies in.{_CONNECTIONS if len(self.cells) == 3 else ''}"
         )
 
 
@@ -132,14 +133,16 @@ def full_shift(staying: StayingSet) -> FullShift:
     """Theorem. Let f increase on the cells of a staying set, which are two or more and disjoint,
     and map each of them over the interval. Then what `FullShift.sentence` says.
 
-    Proof. 1. The phases that follow a word of length n through the cells are an interval, by the
-    inverse branches, which are defined on all cells; it is at most |cell| / mu^(n-1) long,
-    mu = min f' > 1. So every sequence is followed by one phase, which depends continuously on it;
-    sequences are compact, so this is a homeomorphism, and it turns the shift into f. 2. f
-    increases, and the cells are in order of phase: the order of phases is the lexicographic order
-    of sequences. 3. So, on three symbols, f^n(phi) <= p for all n if and only if no sequence moved
-    on begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and only if none is 0.
-    Every sequence has its phase, and those of sequences that agree for long are close.
+    Proof. 0. An image that is an interval of phases is shorter than the circle, so f, which
+    increases, is one-to-one on a cell. 1. The phases that follow a word of length n through the
+    cells are an interval, by the inverse branches, which are defined on all cells; it is at most
+    |cell| / mu^(n-1) long, mu = min f' > 1. So every sequence is followed by one phase, which
+    depends continuously on it; sequences are compact, so this is a homeomorphism, and it turns the
+    shift into f. 2. f increases, and the cells are in order of phase: the order of phases is the
+    lexicographic order of sequences. 3. So, on three symbols, f^n(phi) <= p for all n if and only
+    if no sequence moved on begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and
+    only if none is 0. Every sequence has its phase, and those of sequences that agree for long are
+    close.
     """
     interval, *more = staying.region
     if more or not all(image_arc(cell).covers(interval) for cell in staying.cells):

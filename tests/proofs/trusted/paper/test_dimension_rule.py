@@ -9,31 +9,32 @@ from operator import getitem
 import pytest
 from mpmath import findroot, mp, mpf
 
-from proofs.motion.inverse import InverseBranch, InverseSystem
 from proofs.search import s32_dimension as dimension
-from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.s32_sets.dimension import FULL
-from proofs.trusted.paper.s32_sets.repeller import _Branch
+from proofs.trusted.paper.s32_sets.inverses import Letter
+from proofs.trusted.paper.s32_sets.repeller import _read
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.paper import reference
 
 DIGITS = 5
-SETS = next(nearest_sets(PAPER))  # I0 = [1.1, 1.15], I1 = [1.27, 1.32]
+HULL = Phases(Fraction("1.1"), Fraction("1.32"))
+DOMAINS = Phases(HULL[0], Fraction("1.15")), Phases(Fraction("1.27"), HULL[1])
 DIMENSION = Fraction("0.425083744300103")  # see test_dimension: periodic orbits
 
 
 @cache
-def proved():
+def proved(words=FULL, hull=HULL):
     """The steps of the full horseshoe, the name of its own, and its conclusion."""
     prover = Prover(dimension.System(PAPER.eta, PAPER.nu), DIGITS, dimension.HORIZON)
     run = dimension._Run(PAPER, prover, DIGITS, lambda stage: None)
-    name, found = run.repeller(SETS, FULL)
+    name, found = run.repeller(hull, DOMAINS, words)
     return prover.steps, name, found
 
 
@@ -60,17 +61,22 @@ def conclude(given, known=None):
 @pytest.mark.slow
 def test_the_conclusion_is_the_prover_s():
     found, own = conclude(witness()), proved()[2]
-    assert replace(found, slopes=own.slopes) == own
+    assert found == own
     low, high = found.dimension
     assert low < DIMENSION < high < low + Fraction(1, 10**DIGITS)
-    for mine, other in zip(found.slopes, own.slopes, strict=True):
-        assert all(abs(a - b) < Fraction(1, 20) for a, b in zip(mine, other, strict=True))
+    assert found.growth[0] < 1 < found.growth[1]
 
 
-def test_wider_bounds_are_proved_too():
+@pytest.mark.parametrize("shift", ["1e-4", "-1e-4", "1/100"])
+def test_another_exponent_proves_wider_bounds(shift):
     given = witness()
-    given["dimension"] = [str(DIMENSION - Fraction(1, 10**3)), str(DIMENSION + Fraction(1, 10**3))]
-    assert conclude(given).dimension[0] == DIMENSION - Fraction(1, 10**3)
+    given["exponent"] = str(Fraction(given["exponent"]) + Fraction(shift))
+    low, high = conclude(given).dimension
+    assert low < DIMENSION < high and high - low > abs(Fraction(shift))
+
+
+def dimension_read(given):
+    return _read(Context(PAPER, {}, flights()), Reader(given))
 
 
 def at(*path):
@@ -95,83 +101,59 @@ def add(by):
     return lambda text: str(Fraction(text) + Fraction(by))
 
 
-def move_dimension(by):
-    return at("dimension")(lambda ends: list(map(add(by), ends)))
-
-
-def tighter(given):
-    low, high = map(Fraction, given["dimension"])
-    middle, width = (low + high) / 2, (high - low) / 10**9
-    given["dimension"] = [str(middle - width), str(middle + width)]
-
-
-def negated(given):
-    given["test"] = [str(-Fraction(c)) for c in given["test"]]
-
-
 def swapped(*names):
     return lambda given: [given[name].reverse() for name in names]
 
 
-def true_images(words=FULL, hull=SETS.interval):
-    """Other words or another hull, with their true inverse images."""
+def of_words(*words):
+    """Other words, with paths that are right for them."""
 
     def apply(given):
-        radius = Fraction(given["radius"])
-        letters = []
-        for domain in (SETS.left, SETS.right):
-            (impact,) = dimension.cover_by_impacts(dimension.System(PAPER.eta, PAPER.nu), domain)
-            letters.append(InverseBranch(impact, domain, radius))
-        system = InverseSystem(tuple(letters), hull, words, radius, 120)
-        count = len(given["inverse"][0]) - 1
-        found = system.centres(
-            [hull[0] + (hull[1] - hull[0]) * j / count for j in range(count + 1)]
-        )
-        given["inverse"] = [[str(y) for y in found[suffix]] for suffix in sorted(found)]
-        given["words"], given["hull"] = list(words), list(map(str, hull))
+        first, second = (path for path in given["paths"])
+        later = [["113/100"], ["32/25"]]
+        ends = sorted({word[k:] for word in words for k in range(len(word))}, key=len)
+        known = {"0": first, "1": second}
+        given["paths"] = [known.get(end, later[int(end[0])]) for end in ends]
+        given["radii"] = [given["radii"][int(end[0])] for end in ends]
+        given["words"] = list(words)
 
     return apply
 
 
-BOUND, PLACE, ONCE = "not proved near enough", "where it is said", "only once"
+NEAR, DOMAIN, ONCE = "where it is said", "in its domain", "only once"
 UNPROVED = {
     "a hull that is a point": (put(hull=["11/10", "11/10"]), "no interval of phases"),
     "a hull beyond the circle": (put(hull=["11/10", "7"]), "no interval of phases"),
-    "a word twice": (
-        lambda given: given.update(words=["0", "0"], inverse=given["inverse"][:1]),
-        "disjoint",
-    ),
-    "equal bounds": (put(dimension=["2/5", "2/5"]), "not in order"),
-    "a dimension from 0": (put(dimension=["0", "17/20"]), "not in order"),
+    "a word twice": (of_words("0", "0"), "disjoint"),
+    "a word and its extension": (of_words("0", "00"), None),
     "domains in the wrong order": (
-        swapped("domains", "flights", "turns", "inverse"),
+        swapped("domains", "flights", "turns", "paths", "radii"),
         "not in order",
     ),
-    "higher": (move_dimension("1e-5"), BOUND),
-    "lower": (move_dimension("-1e-5"), BOUND),
-    "much higher": (move_dimension("1/10"), BOUND),
-    "tighter than h allows": (tighter, BOUND),
-    "another h": (at("test", 3)(add("1/1000")), BOUND),
-    "an h with huge coefficients": (put(test=["1" + "0" * 900, "1" + "0" * 899] * 9), BOUND),
-    "an h of the highest degree": (put(test=["2", "1/9", *["1/1000000"] * 198]), BOUND),
-    "a constant h": (put(test=["1"]), BOUND),
-    "a negative h": (negated, "not proved positive"),
+    "exponent 0": (put(exponent="0"), "exponent"),
+    "an exponent above 1": (put(exponent="11/10"), "exponent"),
+    "a negative growth": (put(growth="-1"), "growth"),
+    "a constant h": (put(test=["1"]), "to grow"),
+    "a negative h": (put(test=["-1", "2"]), "not proved positive"),
     "an h with a zero": (put(test=["0", "1"]), "not proved positive"),
-    "an inverse image moved": (at("inverse", 0, 1)(add("1e-9")), PLACE),
-    "one of the other branch moved": (at("inverse", 1, 2)(add("-1e-9")), PLACE),
-    "one moved far": (at("inverse", 0, 0)(add("1/100")), PLACE),
-    "images of the other branch": (swapped("inverse"), PLACE),
-    "a radius that rounding needs": (put(radius="1/" + str(2**150)), PLACE),
-    "a large radius": (put(radius="1/100"), PLACE),
+    "an h with huge coefficients": (put(test=["1" + "0" * 900, "1" + "0" * 899] * 9), None),
+    "an h of the highest degree": (put(test=["2", "1/9", *["1/1000000"] * 198]), None),
+    "no ellipse": (put(rho="1"), "rho"),
+    "an ellipse that is too wide": (put(rho="20"), None),
+    "few arcs": (put(arcs="2"), None),
+    "another path": (at("paths", 0, 0)(add("1/100")), None),
+    "paths of the other branch": (swapped("paths"), None),
+    "no radius": (at("radii", 0)(lambda text: "0"), NEAR),
+    "a negative radius": (at("radii", 0)(lambda text: "-" + text), None),
+    "a small radius": (at("radii", 1)(lambda text: str(Fraction(text) / 10)), NEAR),
+    "a large radius": (at("radii", 0)(lambda text: "1"), None),
     "a turn more": (at("turns", 0)(add(1)), ONCE),
     "a turn less": (at("turns", 1)(add(-1)), ONCE),
     "turns of the other branch": (swapped("turns"), ONCE),
-    "low order": (put(order="2"), BOUND),
-    "a hull too wide": (put(hull=["1", "33/25"]), PLACE),
-    "a hull not invariant": (true_images(hull=(Fraction("1.12"), SETS.right[1])), "leave the hull"),
-    "a domain too short": (at("domains", 0, 0)(add("1/50")), PLACE),
-    "overlapping images": (true_images(("0", "1", "11")), "disjoint"),
-    "a word and its extension": (true_images(("0", "01")), "disjoint"),
+    "a hull too wide": (put(hull=["1", "33/25"]), None),
+    "a hull not invariant": (put(hull=["28/25", "33/25"]), "itself"),
+    "a domain too short": (at("domains", 0, 0)(add("1/50")), DOMAIN),
+    "one too short above": (at("domains", 1, 1)(add("-1/50")), DOMAIN),
 }
 MALFORMED = {
     "one word": put(words=["0"]),
@@ -181,24 +163,37 @@ MALFORMED = {
     "flights swapped": swapped("flights"),
     "domains swapped": swapped("domains"),
     "a domain beyond its flight": at("domains", 0, 0)(add("-1/100")),
-    "no such flight": put(flights=["first-impact-1", "first-impact-9"]),
+    "no such flight": put(flights=[["first-impact-1"], ["first-impact-9"]]),
+    "no flight": put(flights=[["first-impact-1"], []]),
+    "more flights than pieces": put(flights=[["first-impact-1"] * 2, ["first-impact-2"]]),
     "half a turn": put(turns=["9/2", "9"]),
     "turns missing": put(turns=["4"]),
-    "too few inverse images": at("inverse", 0)(lambda values: values[:-1]),
-    "no images of a branch": at("inverse")(lambda values: values[:1]),
-    "more pieces than images": put(pieces="3"),
-    "half a piece": put(pieces="5/2"),
-    "order 0": put(order="0"),
-    "an enormous order": put(order="1000"),
+    "too few paths": at("paths")(lambda values: values[:1]),
+    "an empty path": at("paths", 0)(lambda values: []),
+    "too few radii": at("radii")(lambda values: values[:1]),
+    "half an arc": put(arcs="5/2"),
+    "no arcs": put(arcs="0"),
+    "enormously many nodes": put(nodes="100000"),
+    "many bits": put(bits="100000"),
     "no coefficients": put(test=[]),
     "a hull reversed": put(hull=["33/25", "11/10"]),
-    "no radius": put(radius="0"),
-    "a negative radius": put(radius="-1/1000"),
-    "bounds reversed": swapped("dimension"),
-    "a float": put(radius="1e-9"),
+    "a float": put(rho="1e-9"),
     "a field more": put(comment="true"),
-    "a field less": lambda given: given.pop("order"),
+    "a field less": lambda given: given.pop("arcs"),
 }
+WIDE = {
+    "another h": at("test", 1)(lambda text: str(Fraction(text) * 1001 / 1000)),
+    "few nodes": put(nodes="4"),
+    "another growth": put(growth="999/1000"),
+}
+
+
+@pytest.mark.parametrize("name", WIDE)
+def test_what_makes_the_bounds_wide(name):
+    given = witness()
+    WIDE[name](given)
+    low, high = conclude(given).dimension
+    assert low < DIMENSION < high and high - low > Fraction(10, 10**DIGITS)
 
 
 @pytest.mark.parametrize("name", UNPROVED)
@@ -224,26 +219,62 @@ def test_work_is_counted():
         conclude(witness())
 
 
-def test_the_side_of_a_point_may_stay_undecided():
-    """F(y) is 1.2 at the y below, to 30 digits: 64 bits cannot tell, 200 can."""
-    flight = flights()[witness()["flights"][0]]
-    eta, nu = mpf("0.2121"), mpf("-0.2")
-    root = findroot(
-        lambda y: reference.left_side_10(eta, nu, y, mpf("1.2") - y + 8 * mp.pi), mpf("1.12")
+def letter(j=0):
+    (name,), turns = witness()["flights"][j], witness()["turns"][j]
+    return Letter(tuple(DOMAINS[j]), (flights()[name],), int(turns))
+
+
+def root_at(x, turns=4, guess="1.12"):
+    """The y with F(y) = x, also of complex x, by equation (10) typed by hand."""
+    return findroot(
+        lambda y: reference.left_side_10(mpf("0.2121"), mpf("-0.2"), y, x - y + 2 * mp.pi * turns),
+        mp.mpmathify(guess),
     )
-    y, image = Fraction(mp.nstr(root, 30)), (Fraction("1.2"),) * 2
-    more, less = y + Fraction(1, 10**28), y - Fraction(1, 10**28)
-    for bits, above, below in ((64, 0, 0), (200, 1, -1)):
-        branch = _Branch(flight, SETS.left, 4, bits)
-        assert branch.excess(more, image) == above and branch.excess(less, image) == below
-        assert branch.brackets((less, more), image) is (bits == 200)
-        assert branch.brackets((less, more + 1), image) is False
-    wide = (Fraction("1.19"), Fraction("1.21"))
-    assert branch.excess(y, wide) == 0 and not branch.brackets((less, more), wide)
+
+
+@pytest.mark.parametrize("bits", [64, 100, 140])
+@pytest.mark.parametrize("around", [("1.11", "1.14"), ("1.124", "1.125"), ("1.1", "1.15")])
+def test_an_inverse_image_to_all_bits(bits, around):
+    y = Enclosure.of(*map(Fraction, around), 64)
+    value, rate = letter().inverse(rational(Fraction("1.2"), bits), y)
+    with mp.workdps(50):
+        true, step = root_at(mpf("1.2")), mpf(10) ** -20
+        slope = 2 * step / (root_at(mpf("1.2") + step) - root_at(mpf("1.2") - step))
+        low, high = (mpf(end.numerator) / end.denominator for end in value.range)
+        assert low - mpf(10) ** -45 < true < high + mpf(10) ** -45
+        assert high - low < mpf(2) ** (12 - bits)
+        low, high = (mpf(end.numerator) / end.denominator for end in rate.range)
+        assert low - mpf(10) ** -15 < slope < high + mpf(10) ** -15
+
+
+def test_without_an_inverse_image_there_is_none():
+    with pytest.raises(Unproved):
+        around = Enclosure.of(Fraction("1.13"), Fraction("1.15"), 64)
+        letter().inverse(rational(Fraction("1.2"), 64), around)
+
+
+def test_branches_on_arcs_by_newton_s_method():
+    """g and g' at complex numbers, by equation (10) typed by hand, are in the boxes."""
+    inverses, _, by = dimension_read(witness())
+    middle, half = map(float, by.ellipse.coordinates)
+    for arc in by.ellipse.arcs(16)[::5]:
+        found = inverses.over(arc)
+        for share in (0.01, 0.5, 0.99):
+            w = mp.expjpi((arc.j + share) / arc.count) * float(by.ellipse.rho)
+            x = middle + half * (w + 1 / w) / 2
+            for (y, rate), turns, guess in zip(found, (4, 9), (1.12, 1.29), strict=True):
+                y0 = guess
+                for step in range(1, 5):  # continued from the real axis
+                    y0 = root_at(middle + (x - middle) * step / 4, turns, y0)
+                ends = (root_at(x + sign * 1e-6, turns, y0) for sign in (1, -1))
+                slope = (next(ends) - next(ends)) / 2e-6
+                for box, value in ((y, y0), (rate, slope)):
+                    for (low, high), part in zip(box.ranges, (value.real, value.imag), strict=True):
+                        assert float(low) - 1e-7 < part < float(high) + 1e-7
 
 
 def known_with(**change):
-    name = witness()["flights"][0]
+    name = witness()["flights"][0][0]
     return {**flights(), name: replace(flights()[name], **change)}
 
 
@@ -265,7 +296,7 @@ def test_another_flight_is_refused(change, reason):
 def test_f_may_not_pass_the_hull_twice():
     """On a domain that f takes once around, phases may come back to the hull unseen."""
     given = witness()
-    motion = flights()[given["flights"][0]].motion
+    motion = flights()[given["flights"][0][0]].motion
     longer = replace(motion, phases=(Fraction("0.9"), Fraction("1.15")))
     given["domains"][0] = ["1", "23/20"]
     given["turns"][0] = "3"

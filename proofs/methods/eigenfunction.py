@@ -1,0 +1,197 @@
+"""Eigenfunctions of transfer operators by collocation: candidates, nothing here is proved.
+
+At Chebyshev's nodes L_s h = mean h, L_s h the sum of |g_i'|^s h(g_i), for h a sum of Chebyshev's
+polynomials. In floating point first; then to twice as many digits again and again, by Newton's
+method with the derivative in floating point.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from mpmath.libmp.libelefun import exp_fixed
+
+from intervals import Undecided
+from proofs.trusted.kernel.arithmetic import Enclosure, log_of, pi, rational
+from proofs.trusted.kernel.complexes import BITS, Ellipse
+from proofs.trusted.kernel.transfer import Branches, Collocation, Trial, clenshaw
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_MOST_NODES = 2000
+_FIRST = 40  # bits that floating point is trusted with
+_STEPS = 60  # of Newton's method, or of secants
+_CLOSE = 1e-13
+_SPARE = 130  # bits that are computed beyond those known: two steps, and rounding
+
+
+def candidate(
+    branches: Branches,
+    ellipse: Ellipse,
+    arcs: int,
+    digits: int,
+    s: Fraction | None = None,
+) -> tuple[Trial, Collocation]:
+    """Return guesses of s and h, L_s h = h; for a given s, of mean and h, L_s h = mean h."""
+    guard = 3 + math.ceil(2 * math.log10(digits + 10))
+    found = _Eigenfunction.rough(branches, ellipse, s)
+    goal = max(BITS, math.ceil((digits + guard) * math.log2(10)))
+    ladder = [goal]
+    while ladder[0] > 2 * _FIRST:
+        ladder.insert(0, ladder[0] // 2 + 8)
+    for bits in ladder:
+        terms = math.ceil(bits / math.log2(ellipse.rho)) + 2
+        if terms > _MOST_NODES:
+            raise Undecided(f"{digits} digits need {terms} nodes")
+        found.refine(_Table.of(branches, ellipse, terms, bits + 16))
+    unit = 10 ** (digits + guard)
+    h = tuple(Fraction(round(Fraction(c, 1 << found.bits) * unit), unit) for c in found.terms)
+    s, mean = (
+        Fraction(round(Fraction(x, 1 << found.bits) * unit), unit) for x in (found.s, found.mean)
+    )
+    by = Collocation(ellipse, arcs, len(h), mean, goal + 16)
+    return Trial(s, h), by
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Chebyshev's nodes u_j, and for each branch the images v_ij in [-1, 1] and log |g_i'|."""
+
+    bits: int
+    nodes: list[int]
+    images: list[list[int]]
+    rates: list[list[int]]
+
+    @classmethod
+    def of(cls, branches: Branches, ellipse: Ellipse, count: int, bits: int) -> _Table:
+        middle, half = (rational(each, bits) for each in ellipse.coordinates)
+        nodes = [(pi(bits) * (2 * j + 1) / (2 * count)).sincos()[1] for j in range(count)]
+        columns = [branches.at(middle + half * u) for u in nodes]
+        images, rates = [], []
+        for row in zip(*columns, strict=True):
+            images.append([_mid((y - middle) / half) for y, _ in row])
+            rates.append([_mid(log_of(rate if rate.lo > 0 else -rate)) for _, rate in row])
+        return cls(bits, [_mid(u) for u in nodes], images, rates)
+
+    def float(self, values: Sequence[int]) -> np.ndarray[Any, Any]:
+        """Return the numbers in floating point."""
+        import numpy as np
+
+        return np.array([value / (1 << self.bits) for value in values])
+
+
+def _mid(x: Enclosure) -> int:
+    return (x.lo + x.hi) >> 1
+
+
+@dataclass
+class _Eigenfunction:
+    """h = sum of terms[k] T_k, terms[0] = 1, with L_s h = mean h, about, in units of 2^-bits.
+
+    given: s, where it is, and mean is looked for; where it is None, mean is 1.
+    """
+
+    terms: list[int]
+    s: int
+    mean: int
+    bits: int
+    given: Fraction | None
+
+    @classmethod
+    def rough(cls, branches: Branches, ellipse: Ellipse, given: Fraction | None) -> _Eigenfunction:
+        """Return the leading eigenfunction in floating point, s by secants."""
+        import numpy as np
+        from numpy.polynomial.chebyshev import chebvander
+
+        count = math.ceil(_FIRST / math.log2(ellipse.rho)) + 3
+        table = _Table.of(branches, ellipse, count, 64)
+        inverse = np.linalg.inv(chebvander(table.float(table.nodes), count - 1))
+        basis = [chebvander(table.float(v), count - 1) for v in table.images]
+        rates = [table.float(rate)[:, None] for rate in table.rates]
+
+        def leading(s: float) -> tuple[float, Any]:
+            terms = [np.exp(s * r) * b for r, b in zip(rates, basis, strict=True)]
+            values, vectors = np.linalg.eig(inverse @ sum(terms))
+            best = int(np.argmax(values.real))
+            if values[best].real <= 0:
+                raise Undecided("the operator has no leading eigenvalue on polynomials")
+            return float(values[best].real), vectors[:, best].real
+
+        before, at = 0.4, 0.5 if given is None else float(given)
+        value = math.log(leading(before)[0])
+        for _ in range(_STEPS if given is None else 0):
+            now = math.log(leading(at)[0])
+            if abs(at - before) < _CLOSE or now == value:
+                break
+            before, value, at = at, now, at - now * (at - before) / (now - value)
+        mean, vector = leading(at)
+        terms = [round(Fraction(c / vector[0]) * (1 << 64)) for c in vector]
+        return cls(
+            terms, round(Fraction(at) * (1 << 64)), round(Fraction(mean) * (1 << 64)), 64, given
+        )
+
+    def refine(self, table: _Table) -> None:
+        """Improve this to the digits of a table, by Newton's method with one derivative."""
+        import numpy as np
+
+        known = self.bits
+        self._rescale(table)
+        inverse = np.linalg.inv(self._derivative(table))
+        before = 1 << max(0, table.bits - known + _SPARE)
+        for _ in range(_STEPS + table.bits):
+            defect = self._defect(table, max(0, before.bit_length() - _SPARE))
+            size = max(map(abs, defect))
+            if 2 * size > before:  # no better than the last one
+                return
+            before, shift = size, size.bit_length() - 60
+            scaled = [value >> shift if shift > 0 else value << -shift for value in defect]
+            change = [int(x) for x in inverse @ np.array(scaled, dtype=float)]
+            change = [x << shift if shift > 0 else x >> -shift for x in change]
+            self.terms[1:] = [c - x for c, x in zip(self.terms[1:], change[1:], strict=True)]
+            if self.given is None:
+                self.s -= change[0]
+            else:
+                self.mean -= change[0]
+
+    def _rescale(self, table: _Table) -> None:
+        """Go over to the units of a table, and to as many terms as it has nodes."""
+        up, self.bits = table.bits - self.bits, table.bits
+        few = [c << up if up > 0 else c >> -up for c in self.terms[: len(table.nodes)]]
+        self.terms = few + [0] * (len(table.nodes) - len(few))
+        self.s, self.mean = (x << up if up > 0 else x >> -up for x in (self.s, self.mean))
+        if self.given is None:
+            self.mean = 1 << self.bits
+        else:
+            self.s = round(self.given * (1 << self.bits))
+
+    def _derivative(self, table: _Table) -> np.ndarray[Any, Any]:
+        """Return that of the defects by s or mean, and by the coefficients but the first."""
+        import numpy as np
+        from numpy.polynomial.chebyshev import chebvander
+
+        last, one = len(self.terms) - 1, 1 << self.bits
+        h = np.array([c / one for c in self.terms])
+        here = chebvander(table.float(table.nodes), last)
+        total, by_s = -here * (self.mean / one), 0 * h
+        for images, rates in zip(table.images, table.rates, strict=True):
+            rate = table.float(rates)
+            part = np.exp(self.s / one * rate)[:, None] * chebvander(table.float(images), last)
+            total, by_s = total + part, by_s + rate * (part @ h)
+        total[:, 0] = by_s if self.given is None else -(here @ h)
+        return total
+
+    def _defect(self, table: _Table, drop: int) -> list[int]:
+        """Return L_s h - mean h at the nodes, without the last bits, which do not count."""
+        bits, terms = self.bits - drop, [c >> drop for c in self.terms]
+        s, mean = self.s >> drop, self.mean >> drop
+        total = [-(mean * clenshaw(terms, 2 * (u >> drop), bits) >> bits) for u in table.nodes]
+        for images, rates in zip(table.images, table.rates, strict=True):
+            for j, (v, rate) in enumerate(zip(images, rates, strict=True)):
+                weight = exp_fixed(s * (rate >> drop) >> bits, bits)
+                total[j] += weight * clenshaw(terms, 2 * (v >> drop), bits) >> bits
+        return [value << drop for value in total]

@@ -1,0 +1,250 @@
+"""Inverse branches of the impact map, proved in a complex neighbourhood of an interval."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.flights import FirstImpact, Motion, transversal_step, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.complexes import BITS, Arc, Complex, Ellipse
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.enclose import integer
+from proofs.trusted.kernel.transfer import Series
+from proofs.trusted.numbers import Phases, Range, hull, within
+
+_ZERO, _ONE = Fraction(0), Fraction(1)
+_MOST_CUTS = 50
+
+
+@dataclass(frozen=True)
+class Letter:
+    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`; F' > 0.
+
+    The first impact from cuts[i], cuts[i + 1] is transversal, in the window of steps[i].
+    """
+
+    cuts: tuple[Fraction, ...]
+    steps: tuple[FirstImpact, ...]
+    turns: int
+
+    @classmethod
+    def read(cls, context: Context, cuts_of: Reader, flights: Reader, turns: Reader) -> Letter:
+        """Read a letter; F' > 0 as the slope's other factors have known signs."""
+        cuts = cuts_of.numbers(2, _MOST_CUTS)
+        pieces = [Phases(*piece) for piece in pairwise(cuts)]
+        named = zip(flights.items(len(pieces), len(pieces)), pieces, strict=True)
+        steps = tuple(transversal_step(context, name, piece) for name, piece in named)
+        if any(step.motion.clock(step.windows[0]).mass_sin.hi >= 0 for step in steps):
+            raise Unproved("f is not proved to increase on a domain")
+        return cls(cuts, steps, integer(turns, 0, 10**6))
+
+    @property
+    def domain(self) -> Phases:
+        """The whole domain."""
+        return Phases(self.cuts[0], self.cuts[-1])
+
+    @property
+    def motion(self) -> Motion:
+        """The oscillator's flights."""
+        return self.steps[0].motion
+
+    def require_once(self, whole: Range) -> None:
+        """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain.
+
+        So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b]. At the
+        lower end y that is so if b - 2 pi - y + 2 pi turns is a time before the impact, which is
+        in the window, where the gap is positive before it and negative after.
+        """
+        (low, high), turn = whole, whole_turns(1, BITS)
+        bottom, top = self.domain
+        time = self.time(bottom, (high - turn[1], high - turn[0]), BITS)
+        begin, end = self._ends(0)
+        above = time[1] < begin or (time[1] <= end and self._height(bottom, time).lo > 0)
+        time = self.time(top, (low + turn[0], low + turn[1]), BITS)
+        begin, end = self._ends(-1)
+        below = time[0] > end or (time[0] >= begin and self._height(top, time).hi < 0)
+        if not (above and below):
+            raise Unproved("f is not proved to pass the hull only once on a domain")
+
+    def _ends(self, piece: int) -> Range:
+        return self.steps[piece].windows[0]
+
+    def time(self, phase: Fraction, image: Range, bits: int) -> Range:
+        """Enclose x - phase + 2 pi turns for x in `image`."""
+        low, high = whole_turns(self.turns, bits)
+        return image[0] - phase + low, image[1] - phase + high
+
+    def _height(self, phase: Fraction, time: Range) -> Enclosure:
+        motion = replace(self.motion, phases=(phase, phase), bits=BITS)
+        return motion.gap(motion.start(), time)
+
+    def starts_within(self, phases: Range, image: Range, bits: int) -> bool:
+        """Whether x - y + 2 pi turns is in the window of all the steps that y may belong to."""
+        spans = (self.time(end, image, bits) for end in phases)
+        times = hull(list(spans))
+        pieces = zip(pairwise(self.cuts), self.steps, strict=True)
+        return within(phases, self.domain) and all(
+            within(times, step.windows[0])
+            for (low, high), step in pieces
+            if low <= phases[1] and phases[0] <= high
+        )
+
+    def over(self, y: Complex, x: Complex) -> tuple[Launch, Clock]:
+        """Return the state after a launch at y, and the clock at x, for complex numbers."""
+        motion, turn = self.motion, pi(BITS) * (2 * self.turns)
+        eta, nu = Complex.of(motion.eta), Complex.of(motion.nu)
+        ahead = x - y + Complex(turn, Enclosure(0, 0, BITS))
+        return launch(motion.side, eta, nu, y), clock(eta, ahead)
+
+    def at(self, y: Enclosure, x: Enclosure) -> tuple[Launch, Clock]:
+        """Return the same for real numbers."""
+        motion, bits = self.motion, y.bits
+        eta, nu = rational(motion.eta, bits), rational(motion.nu, bits)
+        ahead = x - y + pi(bits) * (2 * self.turns)
+        return launch(motion.side, eta, nu, y), clock(eta, ahead)
+
+    def inverse(self, x: Enclosure, y: Enclosure) -> tuple[Enclosure, Enclosure]:
+        """Enclose the y in Y with F(y) = x for x in X, if there is just one, and F' there.
+
+        Interval Newton, with more and more bits: G(y) = gap(y, x - y + 2 pi turns) = 0, so y is in
+        m - G(m) / G'(Y), m a number in Y. By `slope` -G' is sin(eta t) / eta times the launch
+        acceleration.
+        """
+        good = y.bits - (y.hi - y.lo).bit_length()
+        while True:
+            before, bits = good, min(max(BITS, -(-good >> 5) << 6), x.bits)  # few kinds: see `pi`
+            few = min(bits, BITS + (-(-good >> 6) << 6))
+            start, now = self.at(rounded(y, few), rounded(x, few))
+            rate = now.mass_sin / start.eta * launch_acceleration(start)
+            y = rounded(y, bits)
+            middle = Enclosure((y.lo + y.hi) >> 1, (y.lo + y.hi) >> 1, bits)
+            y = y.meet(middle + gap(*self.at(middle, rounded(x, bits))) / rounded(rate, bits))
+            good = bits - (y.hi - y.lo).bit_length()
+            if good <= before or good >= x.bits - 10:
+                y = rounded(y, x.bits)
+                return y, slope(*self.at(y, x))
+
+
+def rounded(x: Enclosure, bits: int) -> Enclosure:
+    """Return an enclosure with other bits."""
+    if bits >= x.bits:
+        return Enclosure(x.lo << bits - x.bits, x.hi << bits - x.bits, bits)
+    return Enclosure(x.lo >> x.bits - bits, -(-x.hi >> x.bits - bits), bits)
+
+
+@dataclass
+class Inverses:
+    """The inverse branches g_w on the ellipse, near polynomials y_w of u, the empty one's x.
+
+    paths: the coefficients of y_w by Chebyshev's polynomials, for the words and their shorter
+    ends w, shorter ones first. found: how far g_w is from y_w at most, as `over` finds it.
+
+    Theorem. Let w = jv, Gamma(y, x) = gap(y, x - y + 2 pi turns_j), and g_v analytic inside E and
+    continuous, g the identity for the empty v. For all z on the boundary of E let Re Gamma_y(y, x)
+    have one sign for x = g_v(z), |y - y_w(z)| <= r = radii[w], |Gamma_y| >= c, any two of its
+    values be at most k c apart, k < 1, and |Gamma(y_w(z), x)| <= e c, e + k r <= r. Then for z in E
+    there is one y with |y - y_w(z)| <= r and Gamma(y, g_v(z)) = 0, analytic in z; it is within
+    e / (1 - k).
+    Let its derivative have a positive real part on the boundary: then so it has in E.
+
+    Proof. A(z) = Gamma_y(y_w(z), g_v(z)) is not 0 in E, by the sign of its real part on the
+    boundary. N(z, y) = y - Gamma(y, g_v(z)) / A(z) has |dN/dy| <= k on the boundary, so for each
+    d, |d| <= r, at y = y_w(z) + d in all of E (maximum principle), and as well
+    |N(z, y_w(z)) - y_w(z)| <= e: N contracts the disc. Its iterates from y_w are analytic in z and
+    converge uniformly. On [a, b] y is real, since its conjugate is a zero as well.
+    """
+
+    letters: tuple[Letter, ...]
+    words: tuple[str, ...]
+    ellipse: Ellipse
+    paths: dict[str, tuple[Fraction, ...]]
+    radii: dict[str, Fraction]
+    found: dict[str, Fraction] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Raise Unproved unless f passes the hull once on each domain."""
+        for letter in self.letters:
+            letter.require_once(self.ellipse.hull)
+
+    def over(self, arc: Arc) -> list[tuple[Complex, Complex]]:
+        """Enclose g_w and g_w' for the words on an arc of the boundary.
+
+        For w = jv, and the middle m of the arc, Gamma(y_w, g_v) is by the mean value theorem, in
+        the angle, near its value at m, and that near Gamma(y_w(m), y_v(m)).
+        """
+        half = Fraction(11, 7) / arc.count  # more than half the angle
+        turn = Complex(Enclosure.of(-half, half, BITS), Enclosure(0, 0, BITS))
+        x = arc.germ(self.ellipse.coordinates)
+        known = {"": (x, x.values, Complex.of(_ONE), _ZERO)}
+        for word, path in self.paths.items():
+            letter, y = self.letters[int(word[0])], arc.germ(path)
+            before, images, rate, near = known[word[1:]]
+            start, now = letter.over(y.values.widened(self.radii[word]), images)
+            by_x, by_y = (
+                gap(start, now, 1),
+                -(now.mass_sin / start.eta * launch_acceleration(start)),
+            )
+            turning = (by_y * y.rates + by_x * rate * x.rates) * turn
+            error = (gap(*letter.over(y.value, before.value)) + turning).size + by_x.size * near
+            least = max(by_y.re.range[0], -by_y.re.range[1])
+            if least <= 0 or by_y.spread >= least:
+                raise Unproved(f"an inverse branch by {word} is not proved to be regular")
+            distance = error / (least - by_y.spread)
+            self.found[word] = max(distance, self.found.get(word, distance))
+            faster = -(by_x / by_y) * rate
+            if faster.re.lo <= 0:
+                raise Unproved(f"an inverse branch by {word} is not proved to increase")
+            known[word] = y, y.values.widened(distance), faster, distance
+        return [known[word][1:3] for word in self.words]
+
+    def at(self, x: Enclosure) -> list[tuple[Enclosure, Enclosure]]:
+        """Enclose g_w(x) and g_w'(x) for the words and a real x."""
+        known = self._all_at(x)
+        one = rational(Fraction(1), x.bits)
+        return [(known[word][0], one / known[word][1]) for word in self.words]
+
+    def _all_at(self, x: Enclosure) -> dict[str, tuple[Enclosure, Enclosure]]:
+        middle, half = (rational(each, BITS) for each in self.ellipse.coordinates)
+        near = (rounded(x, BITS) - middle) / half
+        u = near.meet(Enclosure(-1 << BITS, 1 << BITS, BITS))
+        known = {"": (x, rational(Fraction(1), x.bits))}
+        for word, path in self._scaled.items():
+            letter, (image, rate) = self.letters[int(word[0])], known[word[1:]]
+            around = Enclosure.of(-self.found[word], self.found[word], BITS)
+            y, faster = letter.inverse(image, path(u) + around)
+            known[word] = y, faster * rate
+        return known
+
+    @cached_property
+    def _scaled(self) -> dict[str, Series]:
+        return {word: Series.of(path, BITS) for word, path in self.paths.items()}
+
+    def require_near(self) -> None:
+        """Raise Unproved unless the g_w are proved as near to the paths as is said."""
+        for word, radius in self.radii.items():
+            if self.found[word] > radius:
+                raise Unproved(f"an inverse branch by {word} is not proved where it is said")
+
+    def require(self, bits: int) -> None:
+        """Raise Unproved unless g_w, real on [a, b], is what F on a domain takes to g_v.
+
+        g_w increases (see `over`); so its values are in the domain if those at a and b are. At a
+        the zero of the gap is in the window, where it is the first impact. The gap is positive at
+        the beginning of a window and negative at its end, for all launches that it is for; so it
+        stays the zero there up to b, also where the window changes at a cut: there both hold the
+        first impact.
+        """
+        self.require_near()
+        low, high = (self._all_at(rational(end, bits)) for end in self.ellipse.hull)
+        for word in self.paths:
+            letter = self.letters[int(word[0])]
+            (first, _), (last, _), (image, _) = low[word], high[word], low[word[1:]]
+            if not within((first.range[0], last.range[1]), letter.domain):
+                raise Unproved(f"an inverse image by {word} is not proved in its domain")
+            if not letter.starts_within(first.range, image.range, bits):
+                raise Unproved(f"an inverse image by {word} is not proved to be the first impact's")
