@@ -8,7 +8,8 @@ functions are rounded down and up. Nothing here is shared with the package `inte
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, reduce
+from operator import mul
 
 from proofs.trusted.kernel.meter import METER
 
@@ -279,6 +280,9 @@ class Dual:
         other = self._like(value)
         quotient = self.value / other.value
         return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+
+    def __pow__(self, n: int) -> Dual:
+        return reduce(mul, [self] * n)
 
     def sincos(self) -> tuple[Dual, Dual]:
         """Return (sin, cos) with their derivatives."""
