@@ -63,16 +63,17 @@ def follow(
     end: Fraction,
     *,
     step: Fraction,
+    most: int = 2000,
     accept: Callable[[Piece], None] = lambda piece: None,
 ) -> list[Traced]:
     """Return the pieces of an arc from a value of the axis, which grows, up to another one.
 
     start: about a point; accept: raises where a piece is not wanted, which is then halved. The arc
-    ends before where no piece is short enough; Undecided if there is none.
+    ends before where no piece is short enough, or there are so many; Undecided if there is none.
     """
     found: list[Traced] = []
     place, longest = list(start), step
-    while place[axis] < end:
+    while place[axis] < end and len(found) < most:
         ahead = min(step, end - place[axis])
         try:
             traced = _traced(formula, axis, place, ahead)

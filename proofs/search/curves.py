@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from intervals import Interval, Undecided
 from proofs.methods.arcs import follow, thin
 from proofs.methods.formulas import enclosed
-from proofs.methods.lemmas import newton, require_zero, written
+from proofs.methods.lemmas import krawczyk, newton, require_zero, written
 from proofs.motion.single_flight import SingleFlight
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence, Tell
@@ -48,8 +48,12 @@ _TIMES = 240  # looked at in a table period
 _EARLIEST = 0.1  # touch
 _FEWEST = 6  # etas in a row
 _STEP = Fraction(1, 25)
-_NEAR = Fraction(1, 1000)  # how short pieces are next to a meeting point
+_NEAR = Fraction(1, 4000)  # how short pieces are next to a meeting point
+_PIECES = 250
 _PLACES = 16
+_WIDENINGS = 3
+_UNIT = Fraction(1, 10**8)
+_SOFTEST = 4  # of the grid, in its first interval
 _SHARES = (Fraction(1, 8), Fraction(3, 8), Fraction(5, 8), Fraction(7, 8))
 
 
@@ -91,7 +95,7 @@ def _runs(n: int, q: float) -> Iterator[list[Seen]]:
     """Yield curves: points one after the other, with times that do not jump."""
     for window in range(2 * n * _WIDEST):
         run: list[Seen] = []
-        for k in range(1, _GRID):
+        for k in range(1 if window else _SOFTEST, _GRID):
             eta = round((window + Fraction(k, _GRID)) / (2 * n), 4)
             seen = _seen(n, q, eta)
             if run and (seen is None or abs(seen.time - run[-1].time) > 0.5):
@@ -138,7 +142,7 @@ class Curves:
             times[piece] = flight.touching_once(piece.hull(ETA)[TIME])
 
         start = newton(formula, run[0].guess, axis=ETA)[0]
-        traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, accept=accept)
+        traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)
         pieces = tuple(each.piece for each in traced)
         points = [thin(formula, ETA, guess, _PLACES) for guess in _guesses(pieces)]
         boxes = tuple(box for box, _ in points)
@@ -183,6 +187,14 @@ class Curves:
         around = tuple(hull(sides) for sides in zip(*nearby, strict=True))
         box, witness = thin(formula, None, near, _PLACES)
         matrix = newton(formula, near)[1]
+        for _ in range(_WIDENINGS):  # what has one zero may have it in a wider box alone
+            image = krawczyk(formula, around, matrix)
+            around = tuple(
+                side
+                if side[0] < each.inf and each.sup < side[1]
+                else _wider(hull([side, (each.inf, each.sup)]))
+                for side, each in zip(around, image.values(), strict=True)
+            )
         require_zero(formula, around, matrix)
         nu = self._amplitude(curve.n, curve.side, box)
         found = Meeting(curve, other, box, nu, signs[0] < 0)
@@ -201,6 +213,12 @@ def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
     formula = level(curve.n, curve.epsilon, other, piece)
     (value,) = enclosed(formula, (piece.box[ETA], piece.box[P]))
     return 1 if value.inf > 0 else -1 if value.sup < 0 else 0
+
+
+def _wider(side: Range) -> Range:
+    """Return a range somewhat wider than another one, with short ends."""
+    room = (side[1] - side[0]) / 8
+    return (side[0] - room) // _UNIT * _UNIT, -(-(side[1] + room) // _UNIT) * _UNIT
 
 
 def _guesses(pieces: Sequence[Piece]) -> Iterator[list[Fraction]]:
