@@ -105,6 +105,11 @@ def _runs(n: int, q: float) -> Iterator[list[Seen]]:
         yield run
 
 
+def seen_curves(n: int, epsilon: Fraction) -> list[list[Seen]]:
+    """Return the curves of grazing that are seen, by points of each."""
+    return [run for run in _runs(n, float(ratio(epsilon))) if len(run) >= _FEWEST]
+
+
 @dataclass
 class Curves:
     """Collects the steps of this group, each with its conclusion."""
@@ -249,11 +254,10 @@ def prove(
     if {*asked} & {"C2", "C3"}:
         all_of_it = Curves(of.epsilon or Fraction(0), formulas.steps)
         for n in range(1, _MOST + 1):
-            for run in _runs(n, float(ratio(all_of_it.epsilon))):
-                if len(run) >= _FEWEST:
-                    tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
-                    with suppress(*FAILED):
-                        all_of_it.grazing(n, run)
+            for run in seen_curves(n, all_of_it.epsilon):
+                tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
+                with suppress(*FAILED):
+                    all_of_it.grazing(n, run)
         evidence.proofs |= {"C2": all_of_it.found, "C3": all_of_it.meetings}
         evidence.notes["C3"] = "; ".join(all_of_it.failures)
     return evidence

@@ -34,7 +34,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, attempts, centre_of, integer, read_box, sqrt
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.zeros import Arc, Piece, an_arc, read_matrix, require_zero
-from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
+from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show, show_range, within
 
 ETA, P, TIME = range(3)  # the variables of a curve's formulas, in the order of the alphabet
 FOLD, FLIP = "fold", "flip"
@@ -279,7 +279,8 @@ class Meeting(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        name = f"{self.other}_{self.curve.n}"
+        near = floor_text(self.box[ETA][0], 2).replace(".", "_")
+        name = f"{self.other}_{self.curve.n}_near_{near}"
         return {f"eta_graze_{name}": self.box[ETA], f"nu_graze_{name}": self.amplitude}
 
 
