@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from proofs.report.figures.figure import Figure, all_of, the
-from proofs.report.figures.style import BLACK, BLUE, GREEN, ORANGE, PROVED, sheet
+from proofs.report.figures.style import BLACK, BLUE, GREEN, ORANGE, PROVED, PURPLE, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
@@ -21,22 +23,31 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
 _POINTS = 400
+_WIDEST = 2  # eta
+_COLOURS = {"folds": GREEN, "flips": ORANGE, "where it begins to stick": PURPLE}
 _DASHES = ("-", (0, (4, 1)))  # of n = 1, 2
 
 
-def _beside(curve: GrazingCurve, flip: bool) -> tuple[list[float], list[float]]:
-    """Return points of the curve of folds, or of flips, where it is below |nu| = 1."""
-    n, q = curve.n, ratio(curve.epsilon)
-    low, high = map(float, curve.arc.ends)
-    etas, nus = [low + (high - low) * k / _POINTS for k in range(_POINTS + 1)], []
+def _closed(n: int, q: Fraction, window: int) -> Iterator[tuple[str, list[float], list[float]]]:
+    """Yield the closed forms between multiples of 1/(2 n), where they are below |nu| = 1."""
+    low, high, side = window / (2 * n), (window + 1) / (2 * n), -1 if window % 2 else 1
+    etas = [low + (high - low) * (k + 0.5) / _POINTS for k in range(_POINTS)]
+    found: dict[str, list[float]] = {"folds": [], "flips": []}
+    if q == 1 and high <= 1 / n:
+        found["where it begins to stick"] = []
     for eta in etas:
-        x = math.pi * n * eta
-        share = -((float(q) * eta * math.tan(x)) ** 2)
-        if flip:
-            share = eta**2 * (float(q) ** 2 + 1 / math.cos(x) ** 2)
-        nu = math.sqrt(nu_squared(n, q, (eta, share), math.pi)) if share < 1 else math.nan
-        nus.append(curve.side * nu if nu < 1 else math.nan)
-    return etas, nus
+        x, own = math.pi * n * eta, float(q)
+        shares = {
+            "folds": -((own * eta * math.tan(x)) ** 2),
+            "flips": eta**2 * (own * own + 1 / math.cos(x) ** 2),
+            "where it begins to stick": eta**2,
+        }
+        for name, nus in found.items():
+            p = shares[name]
+            nu = math.sqrt(nu_squared(n, q, (eta, p), math.pi)) if p < 1 else math.nan
+            nus.append(side * nu if nu < 1 else math.nan)
+    for name, nus in found.items():
+        yield name, etas, nus
 
 
 def plot(proved: Context) -> Drawing:
@@ -58,9 +69,11 @@ def plot(proved: Context) -> Drawing:
         label, dashes = once(f"grazing, n = {curve.n}"), _DASHES[(curve.n - 1) % 2]
         etas = [float(end[ETA][0]) for end in ends]
         axes.plot(etas, nus, color=BLUE, lw=1.8, ls=dashes, gid=PROVED, label=label)
-        for flip, colour, name in ((False, GREEN, "folds"), (True, ORANGE, "flips")):
-            shown = once(f"{name}, n = {curve.n}")
-            axes.plot(*_beside(curve, flip), color=colour, lw=0.8, ls=dashes, label=shown)
+    for n in sorted({curve.n for curve in all_of(proved, GrazingCurve)}):
+        for window in range(_WIDEST * 2 * n):
+            for name, etas, nus in _closed(n, ratio(epsilon), window):
+                style = {"color": _COLOURS[name], "lw": 0.7, "ls": _DASHES[(n - 1) % 2]}
+                axes.plot(etas, nus, **style, label=once(f"{name}, n = {n}"))
     for each in all_of(proved, Meeting):
         place = float(sum(each.box[ETA]) / 2), float(sum(each.amplitude) / 2)
         axes.plot(*place, "o", color=BLACK, markersize=3, gid=PROVED, label=once("they meet"))
@@ -77,7 +90,8 @@ FIGURE = Figure(
     ("C2", "C3"),
     "curves",
     "Thick: single-impact orbits that touch the table on their way, through the ends of the proved "
-    "boxes; points: where that meets folds or flips, proved. Thin: folds and flips by their closed "
-    "forms, in floating point.",
+    "boxes; points: where that meets folds or flips, proved. Thin, in floating point: folds, flips "
+    "and for epsilon = 0 where the mass begins to stick, of the solutions of (14), (15), by their "
+    "closed forms; whether they are orbits, grazing says.",
     plot,
 )

@@ -61,7 +61,9 @@ def curves() -> str:
     4. epsilon^2 < 1: both roots are inside the unit circle exactly if |tr| < 1 + epsilon^2 (Jury);
     one is 1 or -1 exactly if tr = 1 + epsilon^2, -1 - epsilon^2, and roots that are not real have
     the modulus epsilon. tr falls with p, linearly. 5. LEAST: A falls up to p = -q^2 e, grows from
-    there, and A'' > 0 there. A(p) -> 1 for p -> -oo, -> oo for p -> 1.
+    there, and A'' > 0 there. A(p) -> 1 for p -> -oo, -> oo for p -> 1. 6. For epsilon = 0 the
+    launch acceleration is side h (p - eta^2), and tr = 0 at p = eta^2. 7. As n eta tends to an
+    integer, e and W = eta h tan x tend to 0; as n eta + 1/2 does, e and 1/cos^2 x to oo.
     """
     return (
         "Let 0 <= epsilon < 1, q = (1 - epsilon)/(1 + epsilon), n >= 1, 2 n eta no integer, e = "
@@ -77,7 +79,14 @@ def curves() -> str:
         "e, two solutions for greater |nu| < 1, none for smaller; A has a nondegenerate minimum "
         "there, so there is no cusp), and -1 exactly on nu^2 = A(p_F), where p_F < 1 (flips: the "
         "multiplier passes -1 with a speed other than 0 as nu changes). Both curves are graphs "
-        "over eta and do not meet; no other multipliers come to the unit circle."
+        "over eta and do not meet; no other multipliers come to the unit circle. For epsilon = 0 "
+        "the mass leaves the table at once (launch acceleration > 0) exactly if p - eta^2 has the "
+        "sign of nu; sticking begins at nu^2 = A(eta^2), where the multipliers are 0. The ends of "
+        "these curves: as n eta tends to an integer, folds tend to nu = 0, flips to |nu| = "
+        "p_F/(1 - p_F), p_F = eta^2 (1 + q^2), if that p_F is below 1, the onset of sticking to "
+        "eta^2/(1 - eta^2), if eta < 1; and at any fixed p the relative velocity at the impact to 0 "
+        "(resonant grazing), and beyond nu has the other sign. As 2 n eta tends to an odd integer, "
+        "folds tend to |nu| = 1, and p_F has passed 1, where |nu| grows without bound."
     )
 
 

@@ -108,6 +108,17 @@ def test_soft_springs_are_the_bouncing_ball(epsilon):
             assert 2 * nu_at(n, q, eta, p) / eta**2 == pytest.approx(rho, rel=1e-5)
 
 
+@pytest.mark.parametrize("epsilon", [0.0, 0.3])
+def test_ends_of_the_closed_curves(epsilon):
+    q, n, near = (1 - epsilon) / (1 + epsilon), 2, 1e-7
+    share = 0.25 * (1 + q * q)
+    assert nu_at(n, q, 0.5 - near, fold(n, q, 0.5 - near)) < 1e-5
+    assert nu_at(n, q, 0.5 - near, flip(n, q, 0.5 - near)) == pytest.approx(share / (1 - share))
+    assert nu_at(n, q, 0.5 - near, 0.25) == pytest.approx(1 / 3)  # 1/(n^2 - 1)
+    assert nu_at(n, q, 0.25 - near, fold(n, q, 0.25 - near)) == pytest.approx(1)
+    assert flip(n, q, 0.25 - near) > 1
+
+
 def test_the_theorem_needs_each_lemma():
     from proofs.search.derivations import Steps
     from proofs.trusted.verdicts import Found
