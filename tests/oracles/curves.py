@@ -82,10 +82,11 @@ def distance(n, epsilon, eta, p, t):
 def grazing(n, epsilon, eta):
     """The p at which flights begin to touch the table, and when; by looking closer and closer."""
     side = 1 if math.tan(math.pi * n * eta) > 0 else -1
-    low, high = 0.0, TURN * n
+    low, high = 1e-6, TURN * n - 1e-6
     for _ in range(4):
         t = np.linspace(low, high, 20_003)[1:-1]
-        bound = -side * distance(n, epsilon, eta, 0.0, t) / (1 - np.cos(t))
+        with np.errstate(divide="ignore"):
+            bound = -side * distance(n, epsilon, eta, 0.0, t) / (1 - np.cos(t))
         k = int(np.argmax(np.where(np.isfinite(bound), bound, -np.inf)))
         low, high = t[max(k - 3, 0)], t[min(k + 3, len(t) - 1)]
     return side, side * float(bound[k]), float(t[k])

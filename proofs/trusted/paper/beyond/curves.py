@@ -84,7 +84,7 @@ def curves() -> str:
         "sign of nu; sticking begins at nu^2 = A(eta^2), where the multipliers are 0. The ends of "
         "these curves: as n eta tends to an integer, folds tend to nu = 0, flips to |nu| = "
         "p_F/(1 - p_F), p_F = eta^2 (1 + q^2), if that p_F is below 1, the onset of sticking to "
-        "eta^2/(1 - eta^2), if eta < 1; and at any fixed p the relative velocity at the impact to 0 "
+        "eta^2/(1 - eta^2), if eta < 1; at any fixed p the relative velocity at the impact to 0 "
         "(resonant grazing), and beyond nu has the other sign. As 2 n eta tends to an odd integer, "
         "folds tend to |nu| = 1, and p_F has passed 1, where |nu| grows without bound."
     )

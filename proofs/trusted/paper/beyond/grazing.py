@@ -161,12 +161,14 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
     """Rule `grazing-curve`: {n, epsilon, pieces, points, times, amplitudes}.
 
     Hypotheses: pieces and points are those of an arc over eta of zeros of `touch`, see `an_arc`,
-    p < 1. For each piece, and all (eta, p) in its box, by the rule `first-impact` with its times:
-    gap' > 0 up to the first of them (gap'' > 0 for epsilon = 0), and all is closed but two windows;
-    one has the times of the box inside, and gap'' > 0; the other has T inside, and gap' < 0.
-    amplitudes: ranges that contain nu at the points. Conclusion: lemma 2, with relative
-    acceleration > 0 at t_G. (The derivative of F by p and t is regular, so t_G is no multiple of
-    2 pi. gap = gap' = 0 at t_G and gap'' > 0: it is the only zero in its window.)
+    p < 1. For each piece, and all (eta, p) in it, by the rule `first-impact` with its times: gap' >
+    0 up to the first of them (gap'' > 0 for epsilon = 0), and all is closed but two windows; gap''
+    > 0 in the first, T is inside the second one, and gap' < 0 there. amplitudes: ranges that
+    contain nu at the points. Conclusion: lemma 2, with relative acceleration > 0 at t_G.
+
+    Proof. gap = gap' = 0 at t_G, so t_G is in no closed piece, nor in the second window: it is in
+    the first, and the only zero there. The derivative of F by p and t is regular, so t_G is no
+    multiple of 2 pi.
     """
     n_of, epsilon_of, pieces_of, points_of, times_of, nus_of = reader.fields(
         "n", "epsilon", "pieces", "points", "times", "amplitudes"
@@ -188,14 +190,12 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
 
 
 def _touches_once(of: GrazingCurve, piece: Piece, times: Sequence[Fraction]) -> None:
-    gap_of, touch = _gap_along(of, piece), piece.hull(ETA)[TIME]
+    gap_of = _gap_along(of, piece)
     whole = (pi(COVER_BITS) * (2 * of.n)).range
     windows, _ = first_windows(gap_of, times, 1 if of.epsilon else 2)
     if len(windows) != 2:
         raise Unproved("another touch on the way is not excluded")
     around, last = windows
-    if not (around[0] < touch[0] and touch[1] < around[1]):
-        raise Unproved("the touch is not inside its window")
     if gap_of(around, 2).lo <= 0:
         raise Unproved("the touch is not proved to be the only one in its window")
     if not (last[0] < whole[0] and whole[1] < last[1] and falls(gap_of, last, _HALVINGS)):

@@ -289,6 +289,15 @@ def test_false_arcs(changes, reason):
     refused("arc", {**ARC, **changes}, reason, C=CIRCLE)
 
 
+def test_a_slanted_box_is_looked_at_where_it_is():
+    """y + y^3 = 2 x: at x = 1 y is 1, and not in 2 + [-1/10, 1/10]."""
+    cubic = {"variables": ["x", "y"], "values": ["y - 2*x + y**3"]}
+    box = [["-1", "1"], ["-1/10", "1/10"]]
+    piece = {"box": box, "slope": ["0", "2"], "matrix": [["1"]]}
+    witness = {"function": "F", "axis": "x", "pieces": [piece], "points": []}
+    refused("arc", witness, "Krawczyk", F=cubic)
+
+
 @pytest.mark.parametrize("axis", ["z", "C", ""])
 def test_the_axis_is_a_variable(axis):
     refused("arc", {**ARC, "axis": axis}, "variable", Malformed, C=CIRCLE)

@@ -10,9 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from proofs.methods.arcs import thin
+from proofs.methods.arcs import follow, thin
+from proofs.motion.impact import first_step
+from proofs.motion.single_flight import SingleFlight
 from proofs.search.curves import Curves, seen_curves
-from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.equations import clock, return_map_derivative
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
@@ -22,6 +24,7 @@ from proofs.trusted.paper.beyond.grazing import (
     GrazingCurve,
     Meeting,
     P,
+    _gap_along,
     grazing_curve,
     meeting,
     nu_squared,
@@ -177,6 +180,20 @@ def test_orbits_are_on_the_side_that_is_said():
         assert oracle.repeats(2, 0.0, eta, p + 1e-4, -1) is False
 
 
+def test_the_gap_of_a_piece_is_enclosed():
+    curve, rng = checked(), random.Random(7)
+    for piece in curve.arc.pieces[::3]:
+        gap_of = _gap_along(curve, piece)
+        for _ in range(20):
+            share, time = F(rng.random()), F(rng.uniform(0.1, 12))
+            eta = piece.box[ETA][0] + share * (piece.box[ETA][1] - piece.box[ETA][0])
+            low, high = piece.cut(ETA, eta)[P]
+            p = float(low + F(rng.random()) * (high - low))
+            value = -oracle.distance(2, 0, float(eta), p, float(time)) / (1 - p)
+            found = gap_of((time, time), 0).range
+            assert float(found[0]) - 1e-9 <= value <= float(found[1]) + 1e-9
+
+
 def shifted(box, by=F(1, 10)):
     return [box[0], *([str(F(low) + by), str(F(high) + by)] for low, high in box[1:])]
 
@@ -213,6 +230,7 @@ LIES = [
     entry("times", 0, lambda x: x[:-1]),  # up to before the impact
     entry("times", 0, lambda x: [*x, "13", "14"]),
     entry("times", 0, lambda x: [*x[:2], *x[-2:]]),
+    entry("times", 0, lambda x: [*[t for t in x if F(t) < 10], x[-1]]),  # a rise in the last one
     entry("times", 0, lambda x: ["4", *[t for t in x if F(t) > 4]]),
     entry("amplitudes", 0, lambda x: [str(-F(end)) for end in x[::-1]]),
     entry("amplitudes", 0, lambda x: [x[1], str(F(x[1]) + 1)]),
@@ -227,6 +245,15 @@ def test_false_curves_are_refused(change):
         grazing_curve(Context(), Reader(witness))
 
 
+def mirrored(point):
+    """The same zero at -eta: the equations are even in eta."""
+    (low, high), *rest = point["box"]
+    first, *others = point["matrix"]
+    turned = [str(-F(x)) for x in first]
+    box = [[str(-F(high)), str(-F(low))], *rest]
+    return {"box": box, "matrix": [turned, *others]}
+
+
 MISSED = [
     edit("other", lambda x: "flip"),
     edit("other", lambda x: "cusp"),
@@ -234,6 +261,7 @@ MISSED = [
     edit("around", lambda x: {**x, "box": shifted(x["box"])}),
     edit("around", lambda x: {**x, "matrix": x["matrix"][::-1]}),
     edit("box", lambda x: {**x, "box": shifted(x["box"])}),
+    edit("box", lambda x: mirrored(x)),
     edit("box", lambda x: {**x, "box": [["7/5", "141/100"], *x["box"][1:]]}),
 ]
 
@@ -244,6 +272,19 @@ def test_false_meetings_are_refused(change):
     change(witness)
     with pytest.raises((Unproved, Malformed)):
         judged(witness)
+
+
+def test_touches_before_an_earlier_impact_are_refused():
+    """For n = 2 near eta = 1.42 there is a touch at 3.72, and an impact at 7.47 < 4 pi."""
+    start = [F("1.42"), F("0.230927"), F("3.71823")]
+    (traced,) = follow(touch(2, F(0)), ETA, start, F("1.4201"), step=F(1, 100))
+    flight = SingleFlight.of(2, F(1), -1, traced.piece)
+    times = [*flight._closed(first_step(flight), F("3.6")), F("3.6")]
+    times += [*flight._closed(F("3.84"), F("7.3")), F("7.3"), F("7.6")]
+    assert flight.gap(F("7.6")).certainly_negative()
+    witness = {"n": "2", "epsilon": "0", "pieces": [traced.witness], "times": [texts(times)]}
+    with pytest.raises(Unproved, match="impact is not proved"):
+        grazing_curve(Context(), Reader({**witness, "points": [], "amplitudes": []}))
 
 
 def test_a_curve_that_ends_before_does_not_meet():
