@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import random
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -14,10 +15,12 @@ from proofs.methods.arcs import follow, thin
 from proofs.motion.impact import first_step
 from proofs.motion.single_flight import SingleFlight
 from proofs.search.curves import Curves, seen_curves
+from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.equations import clock, return_map_derivative
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper import BEYOND
 from proofs.trusted.paper.beyond.curves import ROWS, curves
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
@@ -34,6 +37,7 @@ from proofs.trusted.paper.beyond.grazing import (
 )
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import check
 from tests.oracles import curves as oracle
 
 F = Fraction
@@ -295,3 +299,15 @@ def test_a_curve_that_ends_before_does_not_meet():
     assert F(short["pieces"][-1]["box"][0][1]) == curve.arc.ends[1]
     with pytest.raises(Unproved, match="meet once"):
         meeting(Context(known={"grazing-curve-1": curve}), Reader(steps_of()[1]))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("epsilon", "count"), [("0", 1), ("0.3", 4)])
+def test_all_curves_from_the_search_to_the_checker(epsilon, count):
+    of = replace(PAPER, epsilon=F(epsilon))
+    made = produce({"curves": BEYOND["curves"]}, of, digits=20)
+    report = check(made.certificate)
+    assert [claim.verdict for claim in report.claims] == [Verdict.VERIFIED] * 3
+    points = next(line for line in made.lines if line.id == "C3").quantities
+    assert sum(name.startswith("eta_") for name in points) == count
+    assert all(high - low < F(1, 10**12) for low, high in points.values())
