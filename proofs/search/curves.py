@@ -21,9 +21,10 @@ from proofs.motion.single_flight import SingleFlight
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence, Tell
 from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.arcs import Arc
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.enclose import Box, centre_of
-from proofs.trusted.kernel.zeros import Arc, Piece
+from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range, hull, show
 from proofs.trusted.paper.beyond.curves import curves
 from proofs.trusted.paper.beyond.grazing import (
@@ -32,13 +33,12 @@ from proofs.trusted.paper.beyond.grazing import (
     FOLD,
     TIME,
     GrazingCurve,
-    Meeting,
     P,
-    level,
     nu_squared,
     ratio,
     touch,
 )
+from proofs.trusted.paper.beyond.meetings import Meeting, level
 from proofs.trusted.parameters import Parameters
 
 _MOST = 2  # table periods
@@ -215,7 +215,7 @@ class Curves:
 
 
 def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
-    formula = level(curve.n, curve.epsilon, other, piece)
+    formula = level(curve, other, piece)
     (value,) = enclosed(formula, (piece.box[ETA], piece.box[P]))
     return 1 if value.inf > 0 else -1 if value.sup < 0 else 0
 

@@ -28,7 +28,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "formula-value": "kernel.values.value",
         "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
-        "arc": "kernel.zeros.arc",
+        "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",
         "graph": "kernel.graph.graph",
@@ -66,7 +66,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
-        "grazing-meets": "paper.beyond.grazing.meeting",
+        "grazing-meets": "paper.beyond.meetings.meeting",
     }
 )
 

@@ -13,11 +13,11 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
     GrazingCurve,
-    Meeting,
     amplitude,
     nu_squared,
     ratio,
 )
+from proofs.trusted.paper.beyond.meetings import Meeting
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing

@@ -5,7 +5,8 @@ In formulas a, b stand for psi_k, psi_(k+1), delta for their difference, z for a
 
 from __future__ import annotations
 
-from proofs.trusted.paper.beyond.grazing import GrazingCurve, Meeting
+from proofs.trusted.paper.beyond.grazing import GrazingCurve
+from proofs.trusted.paper.beyond.meetings import Meeting
 from proofs.trusted.paper.formulas import Equal, Passage, derived_row, theorem
 from proofs.trusted.paper.s2_foundations import S14, S15
 from proofs.trusted.parameters import Parameters

@@ -25,16 +25,15 @@ from proofs.trusted.paper.beyond.curves import ROWS, curves
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
     GrazingCurve,
-    Meeting,
     P,
     _gap_along,
     grazing_curve,
-    meeting,
     nu_squared,
     ratio,
     single_launch,
     touch,
 )
+from proofs.trusted.paper.beyond.meetings import Meeting, meeting
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
