@@ -5,6 +5,8 @@ In formulas a, b stand for psi_k, psi_(k+1), delta for their difference, z for a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from proofs.trusted.paper.beyond.grazing import GrazingCurve
 from proofs.trusted.paper.beyond.meetings import Meeting
 from proofs.trusted.paper.formulas import Equal, Passage, derived_row, theorem
@@ -91,14 +93,18 @@ def curves() -> str:
     )
 
 
+def _about(known: Sequence[GrazingCurve | Meeting], missing: str) -> Decision:
+    return decided(Verdict.VERIFIED, *known, corrected=known) if known else undecided(missing)
+
+
 def _grazing(of: Parameters, found: Found) -> Decision:
     known = [each for each in found.all(GrazingCurve) if each.epsilon == of.epsilon]
-    return decided(Verdict.VERIFIED, *known) if known else undecided("no curve is proved")
+    return _about(known, "no curve is proved")
 
 
 def _meeting(of: Parameters, found: Found) -> Decision:
     known = [each for each in found.all(Meeting) if each.curve.epsilon == of.epsilon]
-    return decided(Verdict.VERIFIED, *known) if known else undecided("no point is proved")
+    return _about(known, "no point is proved")
 
 
 ROWS = (

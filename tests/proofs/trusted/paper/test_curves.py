@@ -174,6 +174,15 @@ def test_prover_and_checker_conclude_the_same():
     assert all(high - low < F(1, 10**12) for low, high in (*curve.amplitudes, point.amplitude))
 
 
+def test_rows_are_decided_by_what_is_about_their_epsilon():
+    curve, point = checked(), judged(steps_of()[1])
+    plastic, other = (replace(PAPER, epsilon=F(x)) for x in ("0", "0.01"))
+    for row, known, said in ((ROWS[1], curve, "touches the table once"), (ROWS[2], point, "folds")):
+        here, there = row.decide(plastic, [known]), row.decide(other, [known])
+        assert here.verdict is Verdict.VERIFIED and said in here.theorem
+        assert there.verdict is row.decide(plastic, []).verdict is Verdict.UNDECIDED
+
+
 def test_orbits_are_on_the_side_that_is_said():
     """Simulated: an impact 2 pi n later on one side of the curve, an earlier one on the other."""
     curve = checked()
