@@ -24,10 +24,11 @@ from proofs.methods.formulas import (
     values,
 )
 from proofs.trusted.certificate import SCHEMA, Reader, texts
-from proofs.trusted.kernel.enclose import Box
+from proofs.trusted.kernel.enclose import Box, centre_of, point_box
 from proofs.trusted.kernel.formulas import Formulas, read_formulas, read_function
 from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series
+from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range
 
 _COARSE_DIGITS = 3
@@ -211,43 +212,82 @@ class Lemmas:
     ) -> str:
         """Add a step `unique-zero`: Newton's method from the guess, then a cube around its end."""
         formula, reach = self.function(function), Fraction(radius)
-        centre, places = [Fraction(x) for x in guess], 2 ** (bits - 13)
-        for _ in range(_STEPS):
-            matrix = _inverse_at(formula, centre)
-            points = [Interval(x, precision=bits) for x in centre]
-            defect = [v.mid for v in values(formula, points)]
-            moved = [x - dot(row, defect) for x, row in zip(centre, matrix, strict=True)]
-            last, centre = centre, [_rounded(x, places) for x in moved]
-            if centre == last:
-                break
+        centre, matrix = newton(formula, [Fraction(x) for x in guess], bits=bits)
         unit = reach / 100
         box = tuple(
             (round((x - reach) / unit) * unit, round((x + reach) / unit) * unit) for x in centre
         )
-        _krawczyk(formula, box, centre, matrix, bits)
+        require_zero(formula, box, matrix, centre=centre, bits=bits)
         witness = {"function": function, "box": written(box), "centre": texts(centre)}
         return self.add("unique-zero", {**witness, "matrix": [texts(row) for row in matrix]})
 
 
-def _krawczyk(
+def newton(
+    formula: Formulas, guess: Sequence[Fraction], *, axis: int | None = None, bits: int = 53
+) -> tuple[list[Fraction], list[list[Fraction]]]:
+    """Return about a zero, and the inverse of the derivative; without moving along an axis."""
+    centre, places = list(guess), 2 ** (bits - 13)
+    moving = [k for k in range(len(centre)) if k != axis]
+    for _ in range(_STEPS):
+        matrix = _inverse_at(formula, centre, moving)
+        defect = [v.mid for v in values(formula, [Interval(x, precision=bits) for x in centre])]
+        last = list(centre)
+        for k, row in zip(moving, matrix, strict=True):
+            centre[k] = _rounded(centre[k] - dot(row, defect), places)
+        if centre == last:
+            break
+    return centre, matrix
+
+
+def require_zero(
     formula: Formulas,
     box: Box,
-    centre: Sequence[Fraction],
     matrix: Sequence[Sequence[Fraction]],
-    bits: int,
+    *,
+    inside: Box = (),
+    **options: Any,
 ) -> None:
-    """Raise Undecided unless m - C F(m) + (1 - C F'(X)) (X - m) lies inside X."""
-    x = [Interval(*side, precision=bits) for side in box]
-    middle = [Interval(m, precision=bits) for m in centre]
-    defect, slopes = values(formula, middle), jacobian(formula, x)
-    for i, (row, side) in enumerate(zip(matrix, x, strict=True)):
-        rest = [
-            int(i == j) - dot(row, column) for j, column in enumerate(zip(*slopes, strict=True))
-        ]
-        moved = [a - m for a, m in zip(x, middle, strict=True)]
-        image = middle[i] - dot(row, defect) + dot(rest, moved)
-        if not (side.inf < image.inf and image.sup < side.sup):
+    """Raise Undecided unless the Krawczyk operator maps the box inside itself, or another one."""
+    for k, image in krawczyk(formula, box, matrix, **options).items():
+        low, high = (inside or box)[k]
+        if not (low < image.inf and image.sup < high):
             raise Undecided("whether there is exactly one zero near the guess")
+
+
+def krawczyk(
+    formula: Formulas,
+    box: Box,
+    matrix: Sequence[Sequence[Fraction]],
+    *,
+    centre: Sequence[Fraction] = (),
+    axis: int | None = None,
+    slope: Sequence[Fraction] = (),
+    bits: int = 53,
+) -> dict[int, Interval]:
+    """Enclose m - C F(m) + (1 - C F'(X)) (X - m) by variables.
+
+    With an axis and a slope: that of a slanted box, without the axis, see the rule `arc`.
+    """
+    whole = box if axis is None else Piece(box, tuple(slope) or _flat(box)).hull(axis)
+    x, middle = (
+        [Interval(*side, precision=bits) for side in sides]
+        for sides in (box, point_box(centre or centre_of(box)))
+    )
+    defect = values(formula, middle)
+    slopes = jacobian(formula, [Interval(*side, precision=bits) for side in whole])
+    if axis is not None:
+        for partials in slopes:
+            partials[axis] += dot(partials, slope or _flat(box))
+    moved = [a - m for a, m in zip(x, middle, strict=True)]
+    columns, image = list(zip(*slopes, strict=True)), {}
+    for i, row in zip((k for k in range(len(x)) if k != axis), matrix, strict=True):
+        rest = [int(i == j) - dot(row, column) for j, column in enumerate(columns)]
+        image[i] = middle[i] - dot(row, defect) + dot(rest, moved)
+    return image
+
+
+def _flat(box: Box) -> tuple[Fraction, ...]:
+    return (Fraction(0),) * len(box)
 
 
 def _sides(box: Named) -> dict[str, Range]:
@@ -259,8 +299,10 @@ def _rounded(value: Fraction, places: int = _PLACES) -> Fraction:
     return Fraction(round(value * places), places)
 
 
-def _inverse_at(formula: Formulas, point: Sequence[Fraction]) -> list[list[Fraction]]:
-    """Return about the inverse of the derivative at a point."""
+def _inverse_at(
+    formula: Formulas, point: Sequence[Fraction], places: Sequence[int]
+) -> list[list[Fraction]]:
+    """Return about the inverse of the derivative by some variables at a point."""
     rows = jacobian(formula, [Interval(x) for x in point])
-    exact_inverse = inverse(tuple(tuple(entry.mid for entry in row) for row in rows))
+    exact_inverse = inverse(tuple(tuple(row[k].mid for k in places) for row in rows))
     return [[_rounded(entry) for entry in row] for row in exact_inverse]

@@ -111,7 +111,7 @@ def first_impact(
     where all phases do, Undecided where the launch itself is not decided.
     """
     _require_leaving(flight)
-    return march(flight, [_NOW, _first_step(flight)], horizon, finest)
+    return march(flight, [_NOW, first_step(flight)], horizon, finest)
 
 
 def _require_leaving(flight: Flight) -> None:
@@ -149,7 +149,7 @@ def march(
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
         next_value = flight.gap(ahead)
-        if _positive_between(flight, now, value, ahead, next_value):
+        if positive_between(flight, now, value, ahead, next_value):
             if single and open_pieces:
                 raise Unsettled(open_pieces, times)
             step, allowed = 2 * step, least
@@ -168,7 +168,8 @@ def march(
     return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
 
 
-def _first_step(flight: Flight) -> Fraction:
+def first_step(flight: Flight) -> Fraction:
+    """Return a time up to which the gap is proved to open."""
     step = Fraction(1)
     while step > _TINIEST:
         if flight.rises(step):
@@ -177,9 +178,10 @@ def _first_step(flight: Flight) -> Fraction:
     raise Undecided("the launch acceleration is too close to 0 at this precision")
 
 
-def _positive_between(
+def positive_between(
     flight: Flight, low: Fraction, at_low: Interval, high: Fraction, at_high: Interval
 ) -> bool:
+    """Whether gap > 0 between two times, by its values there and the greatest gap''."""
     if not (at_low.certainly_positive() and at_high.certainly_positive()):
         return False
     bend = flight.gap(low, high, order=2).sup
@@ -201,7 +203,7 @@ def locate(
         try:
             if not known:
                 _require_leaving(flight)
-                known = [_NOW, _first_step(flight)]
+                known = [_NOW, first_step(flight)]
             finest = Fraction(1, 2 ** (3 + 10 * attempt))
             found = march(flight, known, horizon, finest, single=True)
         except (NoImpact, Sticks):

@@ -24,6 +24,7 @@ _TITLES = {
     "resonance": "Sections 6 and 7: resonance",
     "foundations": "Section 2 and the appendix",
     "explore": "What is proved about the motion",
+    "curves": "Curves in the plane of eta and nu",
 }
 
 _HOW = (

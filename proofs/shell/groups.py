@@ -36,6 +36,7 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "soft": "s5_soft",
         "resonance": "s6_resonance",
         "explore": "beyond",
+        "curves": "curves",
     }
 )
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(

@@ -30,6 +30,7 @@ HEEDED = MappingProxyType(  # by which parameters what a certificate says change
         "soft": (),
         "resonance": (),
         "explore": _OSCILLATOR,
+        "curves": ("epsilon",),
     }
 )
 _MEANING = {

@@ -28,6 +28,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "formula-value": "kernel.values.value",
         "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
+        "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",
         "graph": "kernel.graph.graph",
@@ -70,6 +71,8 @@ RULES: Mapping[str, str] = MappingProxyType(
         "markov-set": "paper.beyond.chaos.prove_markov_set",
         "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
+        "grazing-curve": "paper.beyond.grazing.grazing_curve",
+        "grazing-meets": "paper.beyond.meetings.meeting",
     }
 )
 

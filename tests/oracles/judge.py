@@ -2,12 +2,34 @@
 
 from fractions import Fraction
 
-from tests.oracles import beyond, circle, formulas, kernel, laps, plastic, restitution, sets, single
+from tests.oracles import (
+    beyond,
+    circle,
+    curves,
+    formulas,
+    kernel,
+    laps,
+    plastic,
+    restitution,
+    sets,
+    single,
+)
 from tests.oracles.adapter import view
 
 JUDGES = {
     name: judge
-    for module in (plastic, sets, circle, laps, restitution, single, formulas, kernel, beyond)
+    for module in (
+        plastic,
+        sets,
+        circle,
+        laps,
+        restitution,
+        single,
+        formulas,
+        kernel,
+        beyond,
+        curves,
+    )
     for name, judge in module.JUDGES.items()
 }
 

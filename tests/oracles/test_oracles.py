@@ -18,6 +18,7 @@ from tests.oracles.sources import (
     committed_conclusions,
     committed_rows,
     conclusions,
+    curves,
     lemmas,
     proved,
     rows,
@@ -52,7 +53,7 @@ def by_hand():
     """Conclusions that none of the committed certificates needs."""
     from proofs.trusted.paper.s32_sets.moran import NoGap
 
-    return (NoGap((F(1, 2), F(3, 5))),)
+    return NoGap((F(1, 2), F(3, 5))), *curves()
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
@@ -101,6 +102,11 @@ def put(field, value):
 def _target_hit(record):
     phase = lifted(record, between(record.phases, F(1, 2))) % TURN
     record.target = F(phase) - F(1, 100), F(phase) + F(1, 100)
+
+
+def moved(box):
+    """A box beside another one, in all but its first variable."""
+    return box[0], *((b, b + (b - a)) for a, b in box[1:])
 
 
 def _swap(field):
@@ -361,6 +367,24 @@ FALSE = {
         put("cells", lambda old: tuple(off(x) for x in old)),
         put("cells", lambda old: old[:-1]),
         _of("arc", offs("phase")),
+    ],
+    "Arc": [
+        put("pieces", lambda old: old[::2] if len(old) > 2 else ()),
+        put("pieces", lambda old: tuple((moved(box), slope) for box, slope in old)),
+        put("points", lambda old: tuple((x, *map(off, rest)) for x, *rest in old)),
+    ],
+    "GrazingCurve": [
+        put("n", 1),
+        put("epsilon", F(1, 1000)),
+        put("side", 1),
+        offs("amplitudes", 0),
+        _of("arc", put("pieces", lambda old: tuple((moved(box), slope) for box, slope in old))),
+    ],
+    "Meeting": [
+        put("other", "flip"),
+        put("rising", lambda old: not old),
+        put("box", lambda old: (off(old[0]), *old[1:])),
+        offs("amplitude"),
     ],
     "StableOrbit": [
         offs("cells"),

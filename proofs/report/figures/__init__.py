@@ -6,6 +6,7 @@ python -m proofs.report.figures --help
 from proofs.report.figures import (
     cantor,
     circle,
+    curves,
     impact_map,
     model,
     rectangles,
@@ -34,5 +35,6 @@ FIGURES: tuple[Figure, ...] = (
     resonance.FIGURE,
     traces.FIGURE,
 )
+OWN: tuple[Figure, ...] = (curves.FIGURE,)  # of what is no part of the report
 
-__all__ = ["FIGURES", "Certificates", "Documents", "Figure"]
+__all__ = ["FIGURES", "OWN", "Certificates", "Documents", "Figure"]

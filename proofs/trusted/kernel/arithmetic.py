@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, reduce
 from math import isqrt
+from operator import mul
 
 from proofs.trusted.kernel.meter import METER
 
@@ -311,6 +312,9 @@ class Dual:
 
     def __rtruediv__(self, value: Enclosure | Fraction | int) -> Dual:
         return self._like(value) / self
+
+    def __pow__(self, n: int) -> Dual:
+        return reduce(mul, [self] * n)
 
     def sincos(self) -> tuple[Dual, Dual]:
         """Return (sin, cos) with their derivatives."""

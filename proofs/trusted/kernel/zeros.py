@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, rational
@@ -14,6 +16,7 @@ from proofs.trusted.kernel.enclose import (
     add,
     attempts,
     box_text,
+    centre_of,
     enclosed,
     point_box,
     read_box,
@@ -21,7 +24,9 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.values import Value
-from proofs.trusted.numbers import Range, show_range, within
+from proofs.trusted.numbers import Range, hull, show_range, within
+
+Rows = Sequence[Sequence[Fraction]]
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,30 @@ class UniqueZero(Conclusion):
         return (
             f"for {self.function.definition} and {box}: {self.function.name} has exactly one zero."
         )
+
+
+class Piece(NamedTuple):
+    """A slanted box: the y + slope (x - m), x in the side of the axis, m its middle, y in others.
+
+    slope: 0 along the axis.
+    """
+
+    box: Box
+    slope: tuple[Fraction, ...]
+
+    def cut(self, axis: int, x: Fraction) -> Box:
+        """Return the part at one value of the axis."""
+        beyond = x - centre_of(self.box)[axis]
+        sides = zip(self.box, self.slope, strict=True)
+        return tuple(
+            (x, x) if k == axis else (low + slope * beyond, high + slope * beyond)
+            for k, ((low, high), slope) in enumerate(sides)
+        )
+
+    def hull(self, axis: int) -> Box:
+        """Return the smallest box around it."""
+        ends = [self.cut(axis, x) for x in self.box[axis]]
+        return tuple(hull(sides) for sides in zip(*ends, strict=True))
 
 
 def _sign_at(function: Formulas, point: Fraction) -> int:
@@ -108,36 +137,64 @@ def unique_zero(context: Context, reader: Reader) -> UniqueZero:
     the fixed points are the zeros. Source: Krawczyk 1969; Moore 1977; for n = 1 with
     C = 1 / F'(m) this is Newton's method with a remainder.
     """
-    function_of, box_of, centre_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
+    function_of, box_of, middle_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
     function = context.function(function_of)
     n = len(function.variables)
     if len(function.roots) != n:
         raise function_of.fail("as many values as variables are expected")
-    box, centre = read_box(box_of, n), centre_of.numbers(n, n)
+    box, centre = read_box(box_of, n), middle_of.numbers(n, n)
     if not all(low <= m <= high for m, (low, high) in zip(centre, box, strict=True)):
-        raise centre_of.fail("the centre is not in the box")
-    matrix = [row.numbers(n, n) for row in matrix_of.items(n, n)]
-    for image in tried(lambda bits: _krawczyk(function, box, centre, matrix, bits)):
-        if all(a[0] < b[0] and b[1] < a[1] for a, b in zip(box, image, strict=True)):
-            return UniqueZero(function, box)
+        raise middle_of.fail("the centre is not in the box")
+    require_zero(function, box, read_matrix(matrix_of, n), centre=centre)
+    return UniqueZero(function, box)
+
+
+def read_matrix(reader: Reader, n: int) -> Rows:
+    """Read a square matrix by its rows."""
+    return [row.numbers(n, n) for row in reader.items(n, n)]
+
+
+def require_zero(
+    function: Formulas,
+    box: Box,
+    matrix: Rows,
+    *,
+    centre: Sequence[Fraction] = (),
+    axis: int | None = None,
+    slope: Sequence[Fraction] = (),
+    inside: Box = (),
+) -> None:
+    """Require that K, for the middle if no other centre, lies strictly inside a box: its own, or
+    another one. With an axis only the other variables count.
+    """
+    piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
+    middle, sides = tuple(centre) or centre_of(box), inside or box
+    for image in tried(lambda bits: _krawczyk(function, piece, middle, matrix, (axis, bits))):
+        if all(sides[k][0] < low and high < sides[k][1] for k, (low, high) in image.items()):
+            return
     raise Unproved("the Krawczyk operator does not map the box strictly inside")
 
 
 def _krawczyk(
     function: Formulas,
-    box: Box,
-    centre: tuple[Fraction, ...],
-    matrix: list[tuple[Fraction, ...]],
-    bits: int,
-) -> list[Range]:
-    """Enclose K = m - C F(m) + (I - C J) (X - m)."""
-    x, middle = enclosed(box, bits), enclosed(point_box(centre), bits)
+    piece: Piece,
+    centre: Sequence[Fraction],
+    matrix: Rows,
+    how: tuple[int | None, int],
+) -> dict[int, Range]:
+    """Enclose K by variables, but the axis; how: the axis, or None, and the precision."""
+    axis, bits = how
+    whole = piece.box if axis is None else piece.hull(axis)
+    x, middle = enclosed(piece.box, bits), enclosed(point_box(centre), bits)
     steps = [a - m for a, m in zip(x, middle, strict=True)]
+    slope = [rational(each, bits) for each in piece.slope]
     values, nothing = function.values(middle), rational(Fraction(0), bits)
-    columns = list(zip(*function.jacobian(x), strict=True))
-    image = []
-    for i, row in enumerate(matrix):
-        c = [rational(entry, bits) for entry in row]
+    slopes = function.jacobian(enclosed(whole, bits))
+    if axis is not None:
+        slopes = [[*row[:axis], add(row[axis], row, slope), *row[axis + 1 :]] for row in slopes]
+    columns, image = list(zip(*slopes, strict=True)), {}
+    for i, entries in zip((k for k in range(len(x)) if k != axis), matrix, strict=True):
+        c = [rational(entry, bits) for entry in entries]
         defect = [int(i == j) - add(nothing, c, column) for j, column in enumerate(columns)]
-        image.append(add(middle[i] - add(nothing, c, values), defect, steps).range)
+        image[i] = add(middle[i] - add(nothing, c, values), defect, steps).range
     return image

@@ -15,11 +15,13 @@ from mpmath import mpf
 from intervals import Undecided
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
+from tests.oracles.curves import amplitude, grazing
+from tests.oracles.sources import curves as curves_of_grazing
 from tests.proofs.trusted.paper import reference
 
 pytest.importorskip("matplotlib")
 
-from proofs.report.figures import FIGURES, Certificates
+from proofs.report.figures import FIGURES, OWN, Certificates
 from proofs.report.figures.__main__ import main
 from proofs.report.figures.style import PROVED, style, svg_of
 
@@ -299,3 +301,25 @@ def test_three_sets_and_restitution(drawings):
     ((polygon,),) = found.values()
     cells = step("persistence", "superstable-motion-1")["cells"]
     assert max(x for x, _ in polygon) == max(float(Fraction(cell["epsilon"])) for cell in cells)
+
+
+def test_curves_of_grazing_pass_where_the_oracle_says():
+    """Thick lines go through the proved pieces, the point where they meet is one of them."""
+    from matplotlib import pyplot as plt
+
+    (figure,) = OWN
+    with pytest.raises(Undecided):
+        figure.plot(Context())
+    made = curves_of_grazing()
+    curve = made[0]
+    drawing = figure.plot(Context(known=dict(enumerate(made))))
+    lines = [line for line in drawing.axes[0].lines if line.get_gid() == PROVED]
+    plt.close(drawing)
+    etas, nus = lines[0].get_data()
+    assert len(etas) == len(curve.arc.pieces) + 1
+    assert (etas[0], etas[-1]) == tuple(map(float, curve.arc.ends))
+    for eta, nu in zip(etas, nus, strict=True):
+        side, p, _ = grazing(2, 0.0, eta)
+        assert nu == pytest.approx(amplitude(2, 0.0, eta, p, side), abs=5e-3)
+    (x,), (y,) = lines[1].get_data()
+    assert (x, y) == pytest.approx((1.42393906912, -0.59355799944), abs=1e-10)

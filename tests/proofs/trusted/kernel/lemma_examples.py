@@ -1,7 +1,9 @@
 """Lemma files made by the prover: textbook maps, and the gap of the impact model."""
 
+from fractions import Fraction
 from functools import cache
 
+from proofs.methods.arcs import follow, thin
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
@@ -84,6 +86,17 @@ def henon_fixed_points():
     file.unique_zero("P", ["-1.13", "-0.34"], "1/100")
     first, second = HENON_FIXED[1]
     file.sign(f"({first})**2 + ({second})**2", 1, x=("-1", "1/2"), y=("-1", "1"))
+    return file
+
+
+def circle():
+    """An arc of the unit circle, a graph over x, that passes (3/5, 4/5)."""
+    file = Lemmas({"C": (["x", "y"], ["x**2 + y**2 - 1"])})
+    formula, start, place = file.function("C"), [Fraction(-3, 5), Fraction(4, 5)], Fraction(3, 5)
+    traced = follow(formula, 0, start, Fraction(4, 5), step=Fraction(1, 5))
+    point = thin(formula, 0, [place, Fraction(4, 5)], 20)[1]
+    pieces = [each.witness for each in traced]
+    file.add("arc", {"function": "C", "axis": "x", "pieces": pieces, "points": [point]})
     return file
 
 
@@ -176,6 +189,7 @@ EXAMPLES = {
     "flips": flips,
     "logistic": logistic,
     "henon_fixed_points": henon_fixed_points,
+    "circle": circle,
     "henon_horseshoe": henon_horseshoe,
     "golden_mean": golden_mean,
     "second_iterate": second_iterate,

@@ -244,6 +244,65 @@ def test_a_double_zero_is_not_proved_unique():
         refused("unique-zero", witness, "Krawczyk", F=double)
 
 
+# -- arcs ------------------------------------------------------------------------------------------
+
+CIRCLE = {"variables": ["x", "y"], "values": ["x**2 + y**2 - 1"]}
+LEFT = {"box": [["-1/4", "0"], ["3/4", "21/20"]], "slope": ["0", "1/8"], "matrix": [["1/2"]]}
+RIGHT = {"box": [["0", "1/4"], ["3/4", "21/20"]], "slope": ["0", "-1/8"], "matrix": [["1/2"]]}
+TOP = {"box": [["0", "0"], ["9/10", "41/40"]], "matrix": [["1/2"]]}
+ARC = {"function": "C", "axis": "x", "pieces": [LEFT, RIGHT], "points": [TOP]}
+LOW = {"box": [["0", "1/4"], ["-21/20", "-3/4"]], "slope": ["0", "1/8"], "matrix": [["-1/2"]]}
+
+
+def test_arc():
+    """The circle over [-1/4, 1/4], on two slanted boxes; over [-3/5, 4/5] in the example."""
+    assert "are the graph of a smooth function of x in [-0.25, 0.25]" in says("arc", ARC, C=CIRCLE)
+    for piece, ends in ((LEFT, "[-0.25, 0]"), (LOW, "[0, 0.25]")):
+        alone = {**ARC, "pieces": [piece], "points": []}
+        assert says("arc", alone, C=CIRCLE).endswith(f"a smooth function of x in {ends}.")
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"pieces": [LEFT, LOW], "points": []}, "Krawczyk"),  # to the other half of the circle
+        ({"pieces": [RIGHT, LEFT], "points": []}, "one after the other"),
+        ({"pieces": [LEFT, {**RIGHT, "box": [["1/10", "1/4"], ["3/4", "21/20"]]}]}, "one after"),
+        ({"pieces": [LEFT, {**RIGHT, "slope": ["1", "-1/8"]}]}, "along its axis"),
+        ({"pieces": [LEFT, {**RIGHT, "slope": ["0", "5"]}]}, "Krawczyk"),
+        ({"pieces": [LEFT, {**RIGHT, "matrix": [["-1/2"]]}]}, "Krawczyk"),
+        ({"pieces": [LEFT, {**RIGHT, "matrix": [["0"]]}]}, "Krawczyk"),
+        ({"pieces": [LEFT, {**RIGHT, "box": [["0", "1/4"], ["1", "21/20"]]}]}, "Krawczyk"),
+        ({"pieces": [{**LEFT, "box": [["0", "0"], ["3/4", "21/20"]]}], "points": []}, "one after"),
+        (
+            {"pieces": [{**RIGHT, "box": [["0", "1"], ["-1", "2"]]}], "points": []},
+            "Krawczyk",
+        ),
+        ({"pieces": [{**RIGHT, "box": [["0", "1/4"], ["-2", "2"]]}], "points": []}, "Krawczyk"),
+        ({"points": [{**TOP, "box": [["0", "0"], ["-41/40", "-9/10"]]}]}, "not in a piece"),
+        ({"points": [{**TOP, "box": [["0", "0"], ["9/10", "1"]]}]}, "Krawczyk"),
+        ({"points": [{**TOP, "box": [["1/2", "1/2"], ["9/10", "41/40"]]}]}, "not in a piece"),
+        ({"points": [{**TOP, "box": [["-1/9", "1/9"], ["9/10", "41/40"]]}]}, "not in a piece"),
+    ],
+)
+def test_false_arcs(changes, reason):
+    refused("arc", {**ARC, **changes}, reason, C=CIRCLE)
+
+
+def test_a_slanted_box_is_looked_at_where_it_is():
+    """y + y^3 = 2 x: at x = 1 y is 1, and not in 2 + [-1/10, 1/10]."""
+    cubic = {"variables": ["x", "y"], "values": ["y - 2*x + y**3"]}
+    box = [["-1", "1"], ["-1/10", "1/10"]]
+    piece = {"box": box, "slope": ["0", "2"], "matrix": [["1"]]}
+    witness = {"function": "F", "axis": "x", "pieces": [piece], "points": []}
+    refused("arc", witness, "Krawczyk", F=cubic)
+
+
+@pytest.mark.parametrize("axis", ["z", "C", ""])
+def test_the_axis_is_a_variable(axis):
+    refused("arc", {**ARC, "axis": axis}, "variable", Malformed, C=CIRCLE)
+
+
 # -- the form of the file --------------------------------------------------------------------------
 
 

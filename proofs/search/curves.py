@@ -1,0 +1,263 @@
+"""Beyond the paper: curves in the plane of eta and nu. Rows C1 to C3.
+
+Where curves of grazing are is seen in floating point; then they are followed in slanted boxes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from intervals import Interval, Undecided
+from proofs.methods.arcs import follow, thin
+from proofs.methods.formulas import enclosed
+from proofs.methods.lemmas import krawczyk, newton, require_zero, written
+from proofs.motion.single_flight import SingleFlight
+from proofs.search.derivations import Steps
+from proofs.search.evidence import FAILED, Evidence, Tell
+from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.arcs import Arc
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.enclose import Box, centre_of
+from proofs.trusted.kernel.zeros import Piece
+from proofs.trusted.numbers import Range, hull, show
+from proofs.trusted.paper.beyond.curves import curves
+from proofs.trusted.paper.beyond.grazing import (
+    ETA,
+    FLIP,
+    FOLD,
+    TIME,
+    GrazingCurve,
+    P,
+    nu_squared,
+    ratio,
+    touch,
+)
+from proofs.trusted.paper.beyond.meetings import Meeting, level
+from proofs.trusted.parameters import Parameters
+
+_MOST = 2  # table periods
+_WIDEST = 2  # eta
+_GRID = 40  # eta in an interval between multiples of 1/(2 n)
+_TIMES = 240  # looked at in a table period
+_EARLIEST = 0.1  # touch
+_FEWEST = 6  # etas in a row
+_STEP = Fraction(1, 25)
+_NEAR = Fraction(1, 4000)  # how short pieces are next to a meeting point
+_PIECES = 150
+_PLACES = 16
+_WIDENINGS = 3
+_UNIT = Fraction(1, 10**8)
+_SOFTEST = 4  # of the grid, in its first interval
+_SHARES = (Fraction(1, 8), Fraction(3, 8), Fraction(5, 8), Fraction(7, 8))
+
+
+class Seen(NamedTuple):
+    """A point of a curve, in floating point."""
+
+    eta: Fraction
+    p: float
+    time: float
+    beyond: dict[str, bool]
+
+    @property
+    def guess(self) -> list[Fraction]:
+        """Return it exactly."""
+        return [self.eta, Fraction(self.p), Fraction(self.time)]
+
+
+def _seen(n: int, q: float, eta: Fraction) -> Seen | None:
+    """Return where flights begin to touch the table, for |nu| < 1, as p moves."""
+    own, x = float(eta), math.pi * n * float(eta)
+    side = -1 if 2 * n * eta // 1 % 2 else 1
+    tangent, cos = own * math.tan(x), math.cos(x)
+
+    def bound(t: float) -> float:
+        mass = math.cos(own * t - x) / cos - 1 - q * tangent * math.sin(t)
+        return -side * mass / (1 - math.cos(t))
+
+    times = [math.tau * (k + 0.5) / _TIMES for k in range(_TIMES * n)]
+    time = max(times, key=bound)
+    p = side * bound(time)
+    free = all(side * (math.cos(math.tau * m * own - x) / cos - 1) > 0 for m in range(1, n))
+    if not free or p >= 1 or time < _EARLIEST or p * p + (q * tangent) ** 2 >= (1 - p) ** 2:
+        return None
+    beyond = {FOLD: p + (q * tangent) ** 2 > 0, FLIP: p > own**2 * (q * q + 1 / cos**2)}
+    return Seen(eta, p, time, beyond)
+
+
+def _runs(n: int, q: float) -> Iterator[list[Seen]]:
+    """Yield curves: points one after the other, with times that do not jump."""
+    for window in range(2 * n * _WIDEST):
+        run: list[Seen] = []
+        for k in range(1 if window else _SOFTEST, _GRID):
+            eta = round((window + Fraction(k, _GRID)) / (2 * n), 4)
+            seen = _seen(n, q, eta)
+            if run and (seen is None or abs(seen.time - run[-1].time) > 0.5):
+                yield run
+                run = []
+            run += [seen] if seen else []
+        yield run
+
+
+def seen_curves(n: int, epsilon: Fraction) -> list[list[Seen]]:
+    """Return the curves of grazing that are seen, by points of each."""
+    return [run for run in _runs(n, float(ratio(epsilon))) if len(run) >= _FEWEST]
+
+
+@dataclass
+class Curves:
+    """Collects the steps of this group, each with its conclusion."""
+
+    epsilon: Fraction
+    steps: dict[str, dict[str, Any]]
+    found: list[tuple[str, Conclusion]] = field(default_factory=list)
+    meetings: list[tuple[str, Conclusion]] = field(default_factory=list)
+    failures: list[str] = field(default_factory=list)
+
+    def _add(self, rule: str, **witness: Any) -> str:
+        name = f"{rule}-{1 + sum(step['rule'] == rule for step in self.steps.values())}"
+        self.steps[name] = {"rule": rule, "witness": witness}
+        return name
+
+    def grazing(self, n: int, run: Sequence[Seen]) -> None:
+        """Follow a curve, and find where it meets others."""
+        formula, epsilon = touch(n, self.epsilon), self.epsilon
+        side = -1 if 2 * n * run[0].eta // 1 % 2 else 1
+        crossings = {
+            other: newton(touch(n, epsilon, other), first.guess)[0]
+            for first, second in pairwise(run)
+            for other in (FOLD, FLIP)
+            if first.beyond[other] != second.beyond[other]
+        }
+        times: dict[Piece, list[Fraction]] = {}
+
+        def accept(piece: Piece) -> None:
+            low, high = piece.box[ETA]
+            if high - low > _NEAR and any(
+                low - _NEAR < point[ETA] < high + _NEAR for point in crossings.values()
+            ):
+                raise Undecided("a long piece next to another curve")
+            flight = SingleFlight.of(n, ratio(epsilon), side, piece)
+            times[piece] = flight.touching_once(piece.hull(ETA)[TIME])
+
+        start = newton(formula, run[0].guess, axis=ETA)[0]
+        traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)
+        pieces = tuple(each.piece for each in traced)
+        points = [thin(formula, ETA, guess, _PLACES) for guess in _guesses(pieces)]
+        boxes = tuple(box for box, _ in points)
+        arc = Arc(formula, ETA, pieces, boxes)
+        nus = tuple(self._amplitude(n, side, box) for box in boxes)
+        curve = GrazingCurve(n, epsilon, side, arc, nus)
+        name = self._add(
+            "grazing-curve",
+            n=str(n),
+            epsilon=str(epsilon),
+            pieces=[each.witness for each in traced],
+            points=[witness for _, witness in points],
+            times=[texts(times[piece]) for piece in pieces],
+            amplitudes=[texts(nu) for nu in nus],
+        )
+        self.found.append((name, curve))
+        for other, point in crossings.items():
+            try:
+                self._meeting(name, curve, other, point)
+            except FAILED as failure:
+                self.failures.append(f"{other} near eta = {float(point[ETA]):.6g}: {failure}")
+
+    def _amplitude(self, n: int, side: int, box: Box) -> Range:
+        """Enclose nu in decimals."""
+        eta, p = (Interval(*box[k], precision=8 * _PLACES) for k in (ETA, P))
+        pi = Interval.pi(precision=8 * _PLACES)
+        nu = nu_squared(n, ratio(self.epsilon), (eta, p), pi).sqrt() * side
+        unit = Fraction(1, 10 ** (_PLACES - 1))
+        return nu.inf // unit * unit, -(-nu.sup // unit) * unit
+
+    def _meeting(
+        self, name: str, curve: GrazingCurve, other: str, near: Sequence[Fraction]
+    ) -> None:
+        """Prove that a curve meets another one at one point."""
+        formula = touch(curve.n, self.epsilon, other)
+        hulls = [piece.hull(ETA) for piece in curve.arc.pieces]
+        signs = [_sign(curve, other, piece) for piece in curve.arc.pieces]
+        open_ones = [k for k, sign in enumerate(signs) if sign == 0]
+        if not open_ones:
+            raise Undecided("the curves do not meet")
+        nearby = hulls[max(open_ones[0] - 1, 0) : open_ones[-1] + 2]
+        around = tuple(hull(sides) for sides in zip(*nearby, strict=True))
+        box, witness = thin(formula, None, near, _PLACES)
+        matrix = newton(formula, near)[1]
+        for _ in range(_WIDENINGS):  # what has one zero may have it in a wider box alone
+            image = krawczyk(formula, around, matrix)
+            around = tuple(
+                side
+                if side[0] < each.inf and each.sup < side[1]
+                else _wider(hull([side, (each.inf, each.sup)]))
+                for side, each in zip(around, image.values(), strict=True)
+            )
+        require_zero(formula, around, matrix)
+        nu = self._amplitude(curve.n, curve.side, box)
+        found = Meeting(curve, other, box, nu, signs[0] < 0)
+        step = self._add(
+            "grazing-meets",
+            curve=name,
+            other=other,
+            around={"box": written(around), "matrix": [texts(row) for row in matrix]},
+            box=witness,
+            amplitude=texts(nu),
+        )
+        self.meetings.append((step, found))
+
+
+def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
+    formula = level(curve, other, piece)
+    (value,) = enclosed(formula, (piece.box[ETA], piece.box[P]))
+    return 1 if value.inf > 0 else -1 if value.sup < 0 else 0
+
+
+def _wider(side: Range) -> Range:
+    """Return a range somewhat wider than another one, with short ends."""
+    room = (side[1] - side[0]) / 8
+    return (side[0] - room) // _UNIT * _UNIT, -(-(side[1] + room) // _UNIT) * _UNIT
+
+
+def _guesses(pieces: Sequence[Piece]) -> Iterator[list[Fraction]]:
+    """Yield about some points of a curve, at short decimals."""
+    low, high = pieces[0].box[ETA][0], pieces[-1].box[ETA][1]
+    for share in _SHARES:
+        eta = round(low + (high - low) * share, 3)
+        for piece in pieces:
+            if piece.box[ETA][0] <= eta <= piece.box[ETA][1]:
+                yield [*centre_of(piece.cut(ETA, eta))]
+                break
+
+
+def prove(
+    of: Parameters,
+    asked: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Tell = lambda stage: None,
+) -> Evidence:
+    """Prove closed forms of folds and flips, and follow the curves of grazing."""
+    formulas = Steps(digits)
+    evidence = Evidence(formulas.steps)
+    if "C1" in asked:
+        tell("folds and flips")
+        proved = [formulas.prove(need) for need in curves.needs]
+        evidence.proofs["C1"] = [each for each in proved if each is not None]
+    if {*asked} & {"C2", "C3"}:
+        all_of_it = Curves(of.epsilon or Fraction(0), formulas.steps)
+        for n in range(1, _MOST + 1):
+            for run in seen_curves(n, all_of_it.epsilon):
+                tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
+                with suppress(*FAILED):
+                    all_of_it.grazing(n, run)
+        evidence.proofs |= {"C2": all_of_it.found, "C3": all_of_it.meetings}
+        evidence.notes["C3"] = "; ".join(all_of_it.failures)
+    return evidence
