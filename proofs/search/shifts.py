@@ -9,10 +9,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import combinations, groupby, pairwise
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
+from proofs.search.portrait import stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
@@ -55,30 +56,15 @@ class Piece:
         return None
 
 
-def pieces(system: System, grid: int = _GRID) -> list[Piece]:
+def pieces(system: System, grid: int = _GRID, farthest: float = _FARTHEST) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
-    runs: list[list[tuple[float, float, float]]] = [[]]
-    for k in range(grid):
-        phase = math.tau * (k + 0.5) / grid
-        found = next_impact(system, phase, _FARTHEST)
-        if found is None or abs(found[2]) < _STEEP:
-            runs.append([])
-            continue
-        point = phase, phase + found[0], found[2]
-        if runs[-1] and not _continues(runs[-1][-1], point):
-            runs.append([])
-        runs[-1].append(point)
-    return [
-        Piece(tuple(x for x, _, _ in run), tuple(y for _, y, _ in run))
-        for run in runs
-        if len(run) > 2
-    ]
-
-
-def _continues(one: tuple[float, float, float], two: tuple[float, float, float]) -> bool:
-    """Whether the second of two neighbours is on the branch of the first, by the slopes."""
-    expected = (one[2] + two[2]) / 2 * (two[0] - one[0])
-    return one[2] * two[2] > 0 and abs(two[1] - one[1] - expected) < 0.3 * abs(expected) + 1e-3
+    found = []
+    for stretch in stretches(system, grid, farthest):
+        for steep, points in groupby(stretch.points, lambda point: abs(point.slope) >= _STEEP):
+            run = list(points)
+            if steep and len(run) > 2:
+                found.append(Piece(tuple(x.phase for x in run), tuple(x.image for x in run)))
+    return found
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
@@ -120,9 +106,9 @@ def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] |
     return found if apart else None
 
 
-def full_shifts(system: System) -> Iterator[list[Range]]:
+def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
-    found = symbols(pieces(system))
+    found = symbols(seen)
     for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
         yield from _with_spare(family)
 
@@ -184,11 +170,11 @@ def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
     for spare in _SPARES:
         sets = cells(family, spare)
         if sets:
-            yield _short(sets, spare)
+            yield rounded_out(sets, spare)
             return
 
 
-def _short(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
+def rounded_out(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
     """Round sets outward to decimals, of the fewest places that leave room around them."""
     narrowest = min(high - low for low, high in sets)
     gap = min(two[0] - one[1] for one, two in pairwise(sets))

@@ -46,11 +46,12 @@ _SPARE = Fraction(1, 10**12)
 
 @dataclass(frozen=True)
 class Made:
-    """What a run made: lines for the screen, certificate, page."""
+    """What a run made: lines for the screen, certificate, page; what floating point saw beside."""
 
     lines: list[Line]
     certificate: str
     page: str
+    seen: str = ""
 
 
 def printed(bounds: Range, digits: int) -> dict[str, str]:

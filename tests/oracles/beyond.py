@@ -30,6 +30,18 @@ def never_sticks(view, rng):
     return [] if _pushes(view).count(True) <= 1 else ["at some phases the mass sticks"]
 
 
+def flights_end(view, rng):
+    """After launches all around, the gap is below 0 before so many turns, or the mass sticks."""
+    told = []
+    for k in range(12):
+        found = next_impact(view.eta, view.nu, Fraction(k) / 2, TURN * view.eta.denominator)
+        if found in ("touches", "none"):
+            told.append(
+                f"after a launch at {k / 2} there is no impact in {view.eta.denominator} turns"
+            )
+    return told
+
+
 def _over(view, cell, target):
     """Whether f maps a cell over another, or misses it; None where neither is seen."""
     ends = [lifted(view, phase) for phase in cell]
@@ -50,6 +62,8 @@ def markov_set(view, rng):
     told, cells = [], view.cells
     if any(b[0] <= a[1] for a, b in pairwise(cells)) or view.slopes[0] <= 1:
         told.append("the cells are out of order or overlap, or f does not expand")
+    if len(view.onward) != len(cells):
+        return [*told, "the arrows are not those of these cells"]
     for i, cell in enumerate(cells):
         found = _impact(view, sum(cell) / 2)
         sign = -1 if isinstance(found, Impact) and found.slope < 0 else 1
@@ -114,6 +128,7 @@ JUDGES = {
     "AtRest": at_rest,
     "Leaves": leaves,
     "NeverSticks": never_sticks,
+    "FlightsEnd": flights_end,
     "MarkovSet": markov_set,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,

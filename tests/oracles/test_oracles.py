@@ -269,6 +269,7 @@ FALSE = {
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
+    "FlightsEnd": [put("nu", F("-0.2"))],
     "MarkovSet": [
         put("cells", lambda old: old[::-1]),
         put("cells", lambda old: (off(old[0]), *old[1:])),
