@@ -3,8 +3,10 @@
 Asks at any eta > 0 and nu: does the mass come to rest on the table for ever (X1)? Is there a
 compact invariant set on which the impact map has positive entropy (X2)? A stable periodic motion on
 which the mass sticks and leaves again (X3)? A stable periodic orbit without sticking (X4)? Are
-there flights without an end (X5)? Sets and orbits are found by themselves, then proved. Beside
-the verdicts, and apart from them: the circle cut into branches, as floating point sees it.
+there flights without an end (X5)? With --epsilon, about impacts with restitution: is there chaos
+(X6)? A stable motion (X7)? Does every motion come to rest (X8)? Sets and orbits are found by
+themselves, then proved. Beside the verdicts, and apart from them: the circle cut into branches, as
+floating point sees it.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from functools import partial
 from proofs.motion.system import System
 from proofs.report.markup import markdown_table
 from proofs.search.beyond import EFFORT, Budget
-from proofs.search.portrait import HEAD, Stretch, fates, rows, stretches
+from proofs.search.portrait import HEAD, Stretch, fates, rebounding_fates, rows, stretches
 from proofs.shell.cli import number, whole
 from proofs.shell.runner import More, run
 from proofs.trusted.numbers import TURN, show
@@ -31,9 +33,12 @@ _MOST_EFFORT = 5
 _NARROW = 0.005  # of stretches that are counted only
 _SMALL = 50  # a denominator of eta after which touches are common
 
+_TITLE = "## Seen in floating point, not proved"
+
 EXAMPLES = """
   python -m proofs.explore --eta 0.25 --nu -0.3
   python -m proofs.explore --eta 0.103 --nu 0.541 --only X2
+  python -m proofs.explore --eta 0.22 --nu -0.2 --epsilon 0.05
   python -m proofs.explore --eta 1.1009 --nu -1.2954 --effort 4 --seconds 60
 """
 OWN = {
@@ -48,11 +53,22 @@ OWN = {
 def dossier(of: Parameters, options: Namespace) -> str:
     """Return in Markdown what floating point sees on the circle, and what is special here."""
     system, budget = System(of.eta, of.nu), Budget(options.effort or EFFORT)
+    if of.epsilon is not None:
+        ends = rebounding_fates(system, float(of.epsilon), budget.starts, budget.impacts)
+        return "\n".join(
+            [
+                _TITLE,
+                "",
+                f"Of {budget.starts} motions from random impacts, after {budget.impacts} more:",
+                "",
+                *(f"- {100 * fate.share:.0f} percent: {fate.name}" for fate in ends),
+            ]
+        )
     seen = stretches(system, budget.grid, budget.farthest)
     shown = rows(seen, _NARROW)
     return "\n".join(
         [
-            "## Seen in floating point, not proved",
+            _TITLE,
             "",
             f"The circle in {len(shown)} stretches, from {budget.grid} phases, flights up to time "
             f"{budget.farthest:g}:",

@@ -6,12 +6,15 @@ Candidates only, never evidence: what is proved is said by conclusions, elsewher
 from __future__ import annotations
 
 import math
+import random
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import late_state, transient
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
@@ -111,6 +114,9 @@ _NAMES = {
 }
 
 
+_WANDERS = "no end of it: they wander"
+
+
 @dataclass(frozen=True)
 class Fate:
     """What a share of the orbits that were followed comes to; impacts: the most until then."""
@@ -146,7 +152,28 @@ def _cycle_name(system: System, phase: float, farthest: float) -> str:
         if abs(seen.image % math.tau - phase) < _NEAR:
             return f"a stable orbit of period {period} near {min(points):.6f}"
         points.append(seen.image % math.tau)
-    return "no end of it: they wander"
+    return _WANDERS
+
+
+def rebounding_fates(system: System, epsilon: float, starts: int, impacts: int) -> list[Fate]:
+    """Follow motions with restitution from random impacts, and count what they come to."""
+    generator, ends = random.Random(1), Counter[str]()
+    for _ in range(starts):
+        start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
+        first = state = late_state(system, epsilon, *start, impacts)
+        period = 0
+        while state is not None and period < _LONGEST:
+            state, period = late_state(system, epsilon, *state, 1), period + 1
+            if state is not None and first is not None and math.dist(first, state) < _NEAR:
+                break
+        else:
+            period = 0
+        if first is not None:
+            ends[f"a stable orbit of period {period}" if period else _WANDERS] += 1
+        else:
+            rests = transient(system, epsilon, *start).rests
+            ends["it rests on the table for a while" if rests else _NAMES[FLIES]] += 1
+    return [Fate(name, count / starts, impacts) for name, count in ends.most_common()]
 
 
 # -- in words --------------------------------------------------------------------------------------

@@ -95,12 +95,14 @@ def run(
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     try:
-        of = parameters(options, HEEDED[file])
+        of = parameters(options, HEEDED[file], beyond=file in BEYOND)
     except ValueError as error:
         parser.error(str(error))
     asked = wanted(file, of, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
+    if "rebounding" in asked and of.epsilon is None:
+        parser.error(f"{' '.join(asked['rebounding'])}: with restitution: give --epsilon")
     is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
     is_other = is_less or file in BEYOND or options.figure or bool(more.chosen(options))
     choose_folder(parser, options, is_other)
@@ -115,7 +117,7 @@ def _parser(file: str, description: str | None, examples: str, more: More) -> Pa
     exact = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
     epilog = EPILOG.format(group=file, first=claims[0], own=exact if HEEDED[file] else "")
     parser = Parser(f"proofs.{file}", description, epilog + examples)
-    add_parameters(parser, HEEDED[file])
+    add_parameters(parser, HEEDED[file], beyond=file in BEYOND)
     add_outputs(parser, claims)
     parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
     parser.set_defaults(file=file, figure=False)

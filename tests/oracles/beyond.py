@@ -7,7 +7,7 @@ from math import prod
 import numpy as np
 
 from tests.oracles.circle import _released, separation_arc
-from tests.oracles.motion import TURN, Impact, inside, next_impact, sticks
+from tests.oracles.motion import TURN, Impact, flight, inside, next_impact, sticks
 from tests.oracles.plastic import _impact, lifted, points, smooth
 
 
@@ -40,6 +40,27 @@ def flights_end(view, rng):
                 f"after a launch at {k / 2} there is no impact in {view.eta.denominator} turns"
             )
     return told
+
+
+def comes_to_rest(view, rng):
+    """The table pushes at all phases; rebounds from impacts at random become weaker, to nothing."""
+    if not all(_pushes(view, 180)):
+        return ["at some phase the mass leaves"]
+    side = 1 if view.nu > 0 else -1
+    for _ in range(3):
+        phase, speed = Fraction(rng.random()) * 6, rng.uniform(0.01, 2)
+        for _ in range(200):
+            rate = float(view.nu) * np.cos(float(phase))
+            gamma = Fraction((side * speed - rate) / float(view.eta))
+            found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
+            if view.epsilon * Fraction(speed) < 1e-5 or not isinstance(found, Impact):
+                break
+            phase, speed = Fraction(found.phase), float(found.speed)
+        else:
+            return ["200 impacts later it has not come to rest"]
+        if found in ("none", "touches"):
+            return [f"after a rebound: {found}"]
+    return []
 
 
 def _over(view, cell, target):
@@ -129,6 +150,7 @@ JUDGES = {
     "Leaves": leaves,
     "NeverSticks": never_sticks,
     "FlightsEnd": flights_end,
+    "ComesToRest": comes_to_rest,
     "MarkovSet": markov_set,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,

@@ -206,7 +206,11 @@ FALSE = {
         put("spread", F(1)),
         put("largest", F(9, 10)),
     ],
-    "StablePair": [put("first", lambda old: (off(old[0]), old[1])), put("epsilon", F(1, 2))],
+    "StableCycle": [
+        put("boxes", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
+        put("boxes", lambda old: old[:1] * 2),
+        put("epsilon", F(1, 2)),
+    ],
     "Solution": [
         offs("multiplier"),
         offs("acceleration"),
@@ -270,6 +274,7 @@ FALSE = {
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
     "FlightsEnd": [put("nu", F("-0.2"))],
+    "ComesToRest": [put("nu", F(1)), put("nu", F("-0.2")), put("epsilon", F("0.999"))],
     "MarkovSet": [
         put("cells", lambda old: old[::-1]),
         put("cells", lambda old: (off(old[0]), *old[1:])),

@@ -29,7 +29,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"explore": ("X1", "X2", "X3", "X4", "X5")}
+    {"explore": ("X1", "X2", "X3", "X4", "X5"), "rebounding": ("X6", "X7", "X8")}
 )  # asked at any parameters, and not of the paper: no part of the ledger
 
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -53,6 +53,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "beyond.chaos": ("X2",),
         "beyond.attractors": ("X1", "X3", "X4"),
         "beyond.flights": ("X5",),
+        "beyond.restitution": BEYOND["rebounding"],
     }
 )
 

@@ -20,6 +20,7 @@ from proofs.trusted.paper.beyond.attractors import (
 )
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
 from proofs.trusted.paper.beyond.flights import FlightsEnd
+from proofs.trusted.paper.beyond.restitution import ComesToRest
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
@@ -164,6 +165,37 @@ def test_flights_end_at_one_eta_and_above_nu_0(eta, nu):
     assert "5 turns" in FlightsEnd(Place.plastic(F(1, 5), F(1, 5))).sentence
 
 
+def restituting(eta, nu, epsilon):
+    eta, nu, epsilon = map(F, (eta, nu, epsilon))
+    return Place((eta, eta), (nu, nu), (epsilon, epsilon))
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "epsilon", "holds"),
+    [
+        ("1/2", "1/5", "0", True),
+        ("1/2", "1/5", "0.4999", True),
+        ("1/2", "1/5", "1/2", False),  # 1/4 of 0.4 is 0.1
+        ("1/2", "1/5", "0.5001", False),
+        ("1", "7", "0.999", True),  # A = b: the table does not change its push
+        ("1/2", "1/3", "1/10", False),  # no push at one phase
+        ("1/2", "-1/5", "1/10", False),
+    ],
+)
+def test_motions_with_restitution_come_to_rest(eta, nu, epsilon, holds):
+    at = restituting(eta, nu, epsilon)
+    if holds:
+        assert "comes to rest" in ComesToRest(at).sentence
+    else:
+        with pytest.raises(Unproved):
+            ComesToRest(at)
+
+
+def test_the_greatest_epsilon_of_a_range_counts():
+    with pytest.raises(Unproved):
+        ComesToRest(replace(restituting("1/2", "1/5", "0"), epsilon=(F(0), F("0.6"))))
+
+
 # -- motions that stick ----------------------------------------------------------------------------
 
 
@@ -263,10 +295,28 @@ ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
 ]
 
 
+REBOUNDING = [  # verdicts of X6 to X8; by simulation in the oracles
+    ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED"),
+    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED"),
+    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED"),
+    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED"),
+    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("eta", "nu", "epsilon", "verdicts"), REBOUNDING)
+def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
+    of = replace(PAPER, eta=F(eta), nu=F(nu), epsilon=F(epsilon), reach=None)
+    made = produce({"rebounding": BEYOND["rebounding"]}, of, digits=20, effort=1)
+    assert [line.verdict.value for line in made.lines] == verdicts.split()
+    assert len(check(made.certificate).claims) == 3
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu", "verdicts"), ASKED)
 def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu))
-    made = produce(BEYOND, of, digits=20, effort=2)
+    made = produce({"explore": BEYOND["explore"]}, of, digits=20, effort=2)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
     assert len(check(made.certificate).claims) == 5
