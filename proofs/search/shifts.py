@@ -9,9 +9,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, groupby, pairwise
+from itertools import combinations, groupby, islice, pairwise
 
+from intervals import Undecided
 from proofs.motion.candidate import next_impact
+from proofs.motion.covering import cover_by_impacts
 from proofs.motion.system import System
 from proofs.search.portrait import stretches
 from proofs.search.repair import rounded_slopes
@@ -23,6 +25,7 @@ _FARTHEST = 200.0  # the longest flight among them
 _STEEP = 1.02  # the least |f'| of a piece
 _SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
 _MOST_SYMBOLS = 8
+_MOST_PAIRS = 24
 
 
 # -- branches, in floating point -------------------------------------------------------------------
@@ -110,12 +113,12 @@ def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
     found = symbols(seen)
     for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
-        yield from _with_spare(family)
+        yield from islice(_with_spare(family), 1)
 
 
-def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
-    """Yield I0 and I1, likewise, on which f seems to be an increasing horseshoe."""
-    found = [x for x in symbols(pieces(system)) if x[0].images[0] < x[0].images[-1]]
+def pairs(seen: Sequence[Piece], *, rising: bool) -> Iterator[tuple[Range, Range]]:
+    """Yield I0 and I1, with ever less spare, on which f seems to be a full shift; or increases."""
+    found = [x for x in symbols(seen) if x[0].images[0] < x[0].images[-1] or not rising]
     for family in families(found, 2):
         yield from ((left, right) for left, right in _with_spare(family))
 
@@ -123,10 +126,12 @@ def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
 def own_sets(of: Parameters) -> Parameters | None:
     """Return the statement about I0 and I1 found at its oscillator, bounds of f' rounded outward.
 
+    Rather those that the flights of each set are proved for in one piece, as for the dimension.
     None where no increasing horseshoe is seen.
     """
     system = System(of.eta, of.nu)
-    for sets in rising_pairs(system):
+    found = list(islice(pairs(pieces(system), rising=True), _MOST_PAIRS))
+    for sets in [*(sets for sets in found if _in_one_piece(system, sets)), *found]:
         seen = [
             next_impact(system, float(low + (high - low) * Fraction(k, 8)))
             for low, high in sets
@@ -145,6 +150,14 @@ def own_sets(of: Parameters) -> Parameters | None:
             printed_s0=None,
         )
     return None
+
+
+def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:
+    """Whether the first impacts of each set are proved in one piece."""
+    try:
+        return all(len(cover_by_impacts(system, each, limit=4)) == 1 for each in sets)
+    except Undecided:
+        return False
 
 
 def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
@@ -166,12 +179,11 @@ def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
 
 
 def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
-    """Yield the sets of a full shift with as much spare as there is, rounded outward."""
+    """Yield the sets of a full shift, rounded outward, from the most spare that there is on."""
     for spare in _SPARES:
         sets = cells(family, spare)
         if sets:
             yield rounded_out(sets, spare)
-            return
 
 
 def rounded_out(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:

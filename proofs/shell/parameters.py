@@ -9,6 +9,7 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
+from intervals import Undecided
 from proofs.shell.cli import Parser, number
 from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
@@ -92,13 +93,21 @@ def parameters(options: Namespace, heeded: Iterable[str], *, beyond: bool) -> Pa
 
 
 def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
-    """Return the numbers, at another oscillator with sets that are found unless some are given."""
+    """Return the numbers, at another oscillator with sets that are found unless some are given.
+
+    Undecided where none are found: the paper's are not meant there.
+    """
     elsewhere = (of.eta, of.nu) != (PAPER.eta, PAPER.nu)
     if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
         from proofs.search.shifts import own_sets
 
         found = own_sets(of)
-        return of if found is None else replace(found, slopes=given.get("slopes", found.slopes))
+        if found is None:
+            raise Undecided(
+                f"no sets with an increasing horseshoe are seen at {of.place}: give --left and "
+                "--right, or see python -m proofs.explore"
+            )
+        return replace(found, slopes=given.get("slopes", found.slopes))
     return of
 
 

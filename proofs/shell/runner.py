@@ -98,6 +98,9 @@ def run(
         of = parameters(options, HEEDED[file], beyond=file in BEYOND)
     except ValueError as error:
         parser.error(str(error))
+    except Undecided as failure:
+        say(f"{parser.prog}: UNDECIDED: {failure}", sys.stderr)
+        return 1
     asked = wanted(file, of, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
