@@ -16,14 +16,16 @@ if __name__ == "__main__":
 
     launch("proofs.explore")
 
-from argparse import Namespace
+from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import partial
 
 from proofs.motion.system import System
 from proofs.report.markup import markdown_table
 from proofs.search.beyond import EFFORT, Budget
 from proofs.search.portrait import HEAD, Stretch, fates, rebounding_fates, rows, stretches
+from proofs.search.s34_chaos import FASTEST
 from proofs.shell.cli import number, whole
 from proofs.shell.runner import More, run
 from proofs.trusted.numbers import TURN, show
@@ -41,18 +43,30 @@ EXAMPLES = """
   python -m proofs.explore --eta 0.22 --nu -0.2 --epsilon 0.05
   python -m proofs.explore --eta 1.1009 --nu -1.2954 --effort 4 --seconds 60
 """
+
+
+def _seconds(text: str) -> Fraction:
+    """Read a time for argparse."""
+    value = number(text)
+    if value <= 0:
+        raise ArgumentTypeError(f"seconds are a positive number, not {text!r}")
+    return value
+
+
 OWN = {
     "effort": {"type": whole("effort", _MOST_EFFORT), "metavar": "N"}
     | {"help": f"how much is looked at, 1 to {_MOST_EFFORT} (default {EFFORT}); each is about twice"
        " the one before"},
-    "seconds": {"type": number, "metavar": "S"}
+    "seconds": {"type": _seconds, "metavar": "S"}
     | {"help": "stop looking early; what is found then depends on the machine"},
 }  # fmt: skip
 
 
 def dossier(of: Parameters, options: Namespace) -> str:
     """Return in Markdown what floating point sees on the circle, and what is special here."""
-    system, budget = System(of.eta, of.nu), Budget(options.effort or EFFORT)
+    if of.eta > FASTEST:
+        return f"{_TITLE}\n\nNothing: for eta > {FASTEST} flights are not followed."
+    system, budget = System(of.eta, of.nu), Budget(of.eta, options.effort or EFFORT)
     if of.epsilon is not None:
         ends = rebounding_fates(system, float(of.epsilon), budget.starts, budget.impacts)
         return "\n".join(

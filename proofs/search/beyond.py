@@ -19,9 +19,9 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.loops import loops
-from proofs.search.s34_chaos import prove_entropy
+from proofs.search.s34_chaos import FASTEST, prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
-from proofs.search.shifts import full_shifts, pieces
+from proofs.search.shifts import full_shifts, pieces, reach
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -49,11 +49,13 @@ class Budget:
     impacts, the longest flight among them (`farthest`) and the sets that are tried.
     """
 
-    def __init__(self, effort: int = EFFORT, seconds: float = math.inf) -> None:
-        share, self._seconds = 2.0 ** (effort - EFFORT), seconds
+    def __init__(
+        self, eta: Fraction, effort: int = EFFORT, seconds: float | Fraction = math.inf
+    ) -> None:
+        share, self._seconds = 2.0 ** (effort - EFFORT), float(seconds)
         self.grid, self.starts, self.impacts = int(3000 * share), int(48 * share), int(400 * share)
-        self.tries, self.farthest = int(8 * share), 400.0 * share
-        self._until = monotonic() + seconds
+        self.tries, self.farthest = int(8 * share), 2 * share * reach(eta)
+        self._until = monotonic() + self._seconds
 
     def check(self) -> None:
         """Raise Undecided once the time is over."""
@@ -81,14 +83,17 @@ def prove(
     digits: int = 30,
     tell: Tell = lambda stage: None,
     effort: int = EFFORT,
-    seconds: float = math.inf,
+    seconds: float | Fraction = math.inf,
 ) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes: see `Budget`."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    run = Run(prover, Budget(effort, seconds))
+    run = Run(prover, Budget(of.eta, effort, seconds))
     found = Evidence(prover.steps, {claim: [] for claim in claims})
     for claim in claims:
         if claim not in _SEARCHES:
+            continue
+        if of.eta > FASTEST:
+            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
             continue
         stage, search = _SEARCHES[claim]
         tell(stage)

@@ -17,6 +17,7 @@ from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_chaos import FASTEST
 from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
@@ -31,14 +32,16 @@ def prove(
     digits: int = 30,
     tell: Tell = lambda stage: None,
     effort: int = EFFORT,
-    seconds: float = math.inf,
+    seconds: float | Fraction = math.inf,
 ) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
-    budget, found = Budget(effort, seconds), Evidence(prover.steps)
+    budget, found = Budget(of.eta, effort, seconds), Evidence(prover.steps)
     for claim in claims:
         found.proofs[claim] = []
-        if claim in _SEARCHES and of.epsilon is not None:
+        if claim in _SEARCHES and of.eta > FASTEST:
+            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
+        elif claim in _SEARCHES and of.epsilon is not None:
             stage, search = _SEARCHES[claim]
             tell(stage)
             try:

@@ -15,7 +15,7 @@ from itertools import combinations, pairwise
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
-from proofs.search.shifts import Piece, rounded_out
+from proofs.search.shifts import Piece, reach, rounded_out
 from proofs.trusted.numbers import Range
 
 _STARTS, _SETTLED = 12, 30  # orbits, and their impacts until J is laid around them
@@ -24,7 +24,6 @@ _NODES = 400  # intervals that are mapped back
 _MOST_LOOPS = 4
 _SPARE = 0.03  # by how much images overshoot, relative to what they cover
 _NARROWEST = 1e-9
-_FARTHEST = 200.0
 _HALVINGS = 50
 
 
@@ -57,7 +56,7 @@ def _intervals(system: System) -> Iterator[tuple[float, float]]:
     for k in range(_STARTS):
         phase: float | None = math.tau * (k + 0.5) / _STARTS
         for _ in range(_SETTLED):
-            found = next_impact(system, phase, _FARTHEST) if phase is not None else None
+            found = next_impact(system, phase, reach(system.eta)) if phase is not None else None
             if found is not None:
                 late.append(found[1])
             phase = None if found is None else found[1]
@@ -135,7 +134,7 @@ def _preimage(system: System, piece: Piece, image: float) -> float | None:
     rises = piece.images[k + 1] > piece.images[k]
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        found = next_impact(system, middle, _FARTHEST)
+        found = next_impact(system, middle, reach(system.eta))
         if found is None:
             return None
         low, high = (middle, high) if (middle + found[0] < image) == rises else (low, middle)

@@ -23,6 +23,7 @@ _STEPS = 4  # of epsilon, from 0
 _ROUNDS = 12  # until the edges and the velocities settle
 _HALVINGS = 45
 _SAMPLES = 9
+_FARTHEST = 400.0  # the longest flight
 _ROOM = 0.2  # of the velocities' range, kept around the images
 Floats = tuple[float, float]
 
@@ -41,7 +42,9 @@ class _Map:
             self.system.side, eta, nu, phase, epsilon=self.epsilon, gamma=gamma
         )
         speed = self.system.side * closing(start, gamma)
-        found = next_impact(self.system, phase, self.epsilon * speed, 400.0) if speed >= 0 else None
+        found = (
+            next_impact(self.system, phase, self.epsilon * speed, _FARTHEST) if speed >= 0 else None
+        )
         if found is None or found[0] == 0:
             return None
         return phase + found[0], arrival(start, clock(eta, found[0]))[1]

@@ -21,7 +21,8 @@ from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
 
 _GRID = 1500  # phases that are looked at
-_FARTHEST = 200.0  # the longest flight among them
+_FARTHEST = 200.0  # the longest flight among them, if eta <= _SLOW
+_SLOW = 3
 _STEEP = 1.02  # the least |f'| of a piece
 _SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
 _MOST_SYMBOLS = 8
@@ -59,10 +60,15 @@ class Piece:
         return None
 
 
-def pieces(system: System, grid: int = _GRID, farthest: float = _FARTHEST) -> list[Piece]:
+def reach(eta: Fraction) -> float:
+    """Return how long flights are followed: shorter where the mass swings fast, for the work."""
+    return _FARTHEST * min(1.0, float(_SLOW / eta))
+
+
+def pieces(system: System, grid: int = _GRID, farthest: float | None = None) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
     found = []
-    for stretch in stretches(system, grid, farthest):
+    for stretch in stretches(system, grid, farthest or reach(system.eta)):
         for steep, points in groupby(stretch.points, lambda point: abs(point.slope) >= _STEEP):
             run = list(points)
             if steep and len(run) > 2:

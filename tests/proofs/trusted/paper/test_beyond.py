@@ -5,6 +5,8 @@ from fractions import Fraction
 
 import pytest
 
+from intervals import Undecided
+from proofs.search.beyond import Budget
 from proofs.shell.groups import produce
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
@@ -320,3 +322,22 @@ def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     made = produce({"explore": BEYOND["explore"]}, of, digits=20, effort=2)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
     assert len(check(made.certificate).claims) == 5
+
+
+@pytest.mark.parametrize("eta", ["1e30", "101"])
+def test_a_mass_that_swings_too_fast_is_not_followed(eta):
+    of = replace(PAPER, eta=F(eta), nu=F("-0.2"))
+    made = produce({"explore": BEYOND["explore"]}, of, digits=20)
+    said = {line.id: line for line in made.lines}
+    assert said["X1"].verdict.value == "REFUTED"
+    assert all("not followed" in said[claim].why for claim in ("X2", "X4", "X5"))
+
+
+def test_a_budget_ends():
+    budget = Budget(F(1, 5), seconds=0)
+    with pytest.raises(Undecided, match="stopped after 0 seconds"):
+        budget.check()
+    Budget(F(1, 5)).check()
+    assert Budget(F(1, 5), 4).grid == 2 * Budget(F(1, 5), 3).grid
+    made = produce({"explore": BEYOND["explore"]}, PAPER, digits=20, seconds=0)
+    assert "stopped after 0 seconds" in {line.id: line.why for line in made.lines}["X2"]
