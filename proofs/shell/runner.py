@@ -16,7 +16,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from intervals import Undecided
-from proofs.report.figures import FIGURES, Figure
+from proofs.report.figures import FIGURES, OWN_FIGURES, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import Parser, counting, heard, progress, share
@@ -135,7 +135,7 @@ def _parser(file: str, description: str | None, examples: str, more: More) -> Pa
 
 def _figures(file: str) -> list[Figure]:
     """Return the figures that are drawn from a certificate alone."""
-    return [figure for figure in FIGURES if figure.certificate == file]
+    return [figure for figure in (*FIGURES, *OWN_FIGURES) if figure.certificate == file]
 
 
 def _run(

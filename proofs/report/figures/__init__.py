@@ -6,6 +6,7 @@ python -m proofs.report.figures --help
 from proofs.report.figures import (
     cantor,
     circle,
+    dossier,
     impact_map,
     model,
     rectangles,
@@ -35,4 +36,6 @@ FIGURES: tuple[Figure, ...] = (
     traces.FIGURE,
 )
 
-__all__ = ["FIGURES", "Certificates", "Documents", "Figure"]
+OWN_FIGURES = (dossier.FIGURE,)  # of certificates at parameters of one's own
+
+__all__ = ["FIGURES", "OWN_FIGURES", "Certificates", "Documents", "Figure"]
