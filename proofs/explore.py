@@ -16,11 +16,13 @@ if __name__ == "__main__":
 
     launch("proofs.explore")
 
+import math
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 
+from intervals import Undecided
 from proofs.motion.system import System
 from proofs.report.markup import markdown_table
 from proofs.search.beyond import EFFORT, Budget
@@ -55,8 +57,8 @@ def _seconds(text: str) -> Fraction:
 
 OWN = {
     "effort": {"type": whole("effort", _MOST_EFFORT), "metavar": "N"}
-    | {"help": f"how much is looked at, 1 to {_MOST_EFFORT} (default {EFFORT}); each is about twice"
-       " the one before"},
+    | {"help": f"how much is looked at, 1 to {_MOST_EFFORT} (default {EFFORT}); each takes about"
+       " four times as long as the one before"},
     "seconds": {"type": _seconds, "metavar": "S"}
     | {"help": "stop looking early; what is found then depends on the machine"},
 }  # fmt: skip
@@ -64,41 +66,40 @@ OWN = {
 
 def dossier(of: Parameters, options: Namespace) -> str:
     """Return in Markdown what floating point sees on the circle, and what is special here."""
+    budget = Budget(of.eta, options.effort or EFFORT, options.seconds or math.inf)
+    told = [_TITLE, ""]
     if of.eta > FASTEST:
-        return f"{_TITLE}\n\nNothing: for eta > {FASTEST} flights are not followed."
-    system, budget = System(of.eta, of.nu), Budget(of.eta, options.effort or EFFORT)
-    if of.epsilon is not None:
-        ends = rebounding_fates(system, float(of.epsilon), budget.starts, budget.impacts)
-        return "\n".join(
-            [
-                _TITLE,
-                "",
-                f"Of {budget.starts} motions from random impacts, after {budget.impacts} more:",
-                "",
-                *(f"- {100 * fate.share:.0f} percent: {fate.name}" for fate in ends),
-            ]
-        )
-    seen = stretches(system, budget.grid, budget.farthest)
-    shown = rows(seen, _NARROW)
-    return "\n".join(
-        [
-            _TITLE,
-            "",
-            f"The circle in {len(shown)} stretches, from {budget.grid} phases, flights up to time "
-            f"{budget.farthest:g}:",
-            "",
-            *markdown_table([HEAD, *shown]),
-            "",
-            *_others(seen),
-            f"Of {budget.starts} orbits from phases all around, in up to {budget.impacts} impacts:",
-            "",
-            *(
-                f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts}"
-                for fate in fates(system, budget.starts, budget.impacts, budget.farthest)
-            ),
-            *_special(of),
-        ]
+        return "\n".join([*told, f"Nothing: for eta > {FASTEST} flights are not followed."])
+    try:
+        told += _circle(of, budget) if of.epsilon is None else _rebounding(of, budget)
+    except Undecided as failure:
+        told.append(f"Not all that was to be looked at: {failure}.")
+    return "\n".join([*told, *_special(of)])
+
+
+def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
+    """Say what motions with restitution come to."""
+    ends = rebounding_fates(
+        System(of.eta, of.nu), float(of.epsilon or 0), budget.starts, budget.impacts
     )
+    yield from (f"Of {budget.starts} motions from random impacts, after {budget.impacts} more:", "")
+    yield from (f"- {100 * fate.share:.0f} percent: {fate.name}" for fate in ends)
+
+
+def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
+    """Cut the circle into stretches, and say where orbits of the plastic map go."""
+    system = System(of.eta, of.nu)
+    seen = stretches(system, budget.grid, budget.farthest, budget.check)
+    shown = rows(seen, _NARROW)
+    yield (
+        f"The circle in {len(shown)} stretches, from {budget.grid} phases, flights up to time "
+        f"{budget.farthest:g}:"
+    )
+    yield from ("", *markdown_table([HEAD, *shown]), "", *_others(seen))
+    yield f"Of {budget.starts} orbits from phases all around, in up to {budget.impacts} impacts:"
+    yield ""
+    for fate in fates(system, budget.starts, budget.impacts, budget.farthest, budget.check):
+        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts}"
 
 
 def _others(seen: list[Stretch]) -> Iterator[str]:

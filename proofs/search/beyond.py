@@ -115,14 +115,15 @@ def _cells(parts: Sequence[Part]) -> list[dict[str, object]]:
 
 def _chaos(run: Run) -> Proof:
     """Prove a full shift, or else a covering graph of positive entropy, or two loops."""
-    seen = pieces(run.system, run.budget.grid, run.budget.farthest)
+    budget = run.budget
+    seen = pieces(run.system, budget.grid, budget.farthest, budget.check)
     with suppress(*FAILED):
         return _markov(run, full_shifts(seen))
     graph = [x for x in prove_entropy(run.prover, _TURNS, _DEPTH) if x[1].growth > 1]
     if graph:
         return [*graph]
     try:
-        return _markov(run, loops(run.system, seen))
+        return _markov(run, loops(run.system, seen, run.budget.check))
     except Undecided as failure:
         looked = f"looked at: {len(seen)} pieces of branches of f with |f'| > 1, flights up to time"
         raise Undecided(f"{failure}; {looked} {run.budget.farthest:g}") from None
@@ -210,9 +211,9 @@ def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
     """Yield about the phases and slopes of stable orbits, each once."""
     seen: list[float] = []
     for k in range(run.budget.starts):
-        run.budget.check()
         phase = math.tau * (k + 0.5) / run.budget.starts
         for _ in range(run.budget.impacts):
+            run.budget.check()
             found = next_impact(run.system, phase, run.budget.farthest)
             touches = found is not None and abs(found[2] - 1) < _NEAR  # and so on for ever
             if found is None or touches or any(abs(found[1] - x) < _RADIUS for x in seen):

@@ -15,6 +15,7 @@ from itertools import combinations, pairwise
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
+from proofs.search.portrait import Check
 from proofs.search.shifts import Piece, reach, rounded_out
 from proofs.trusted.numbers import Range
 
@@ -41,9 +42,12 @@ class _Node:
         return [] if self.target is None else [self, *self.target.way()]
 
 
-def loops(system: System, pieces: Sequence[Piece]) -> Iterator[list[Range]]:
+def loops(
+    system: System, pieces: Sequence[Piece], check: Check = lambda: None
+) -> Iterator[list[Range]]:
     """Yield the cells of two loops, in short decimals."""
     for low, high in _intervals(system):
+        check()
         for pair in combinations(_returns((low, high), pieces), 2):
             cells = _cells(system, pieces, (low, high), pair)
             if cells is not None:

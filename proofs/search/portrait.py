@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import random
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -26,6 +26,9 @@ _LONGEST = 60  # period
 _TOUCH = 1e-4  # how exactly the time of a touch is found: the gap has a double zero there
 STICKS, TOUCHES, FLIES = "sticks", "touches, no impact", "flies on"
 RISES, FALLS = "rises", "falls"
+
+
+Check = Callable[[], None]
 
 
 class Seen(NamedTuple):
@@ -65,12 +68,20 @@ def look(system: System, phase: float, farthest: float) -> Seen:
     return Seen(phase, STICKS if launch_acceleration(start) <= 0 else FLIES)
 
 
-def stretches(system: System, grid: int, farthest: float) -> list[Stretch]:
-    """Cut the circle into stretches, from a grid of phases and what lies where they differ."""
-    budget = [_MOST_ENDS]
-    points = [look(system, math.tau * (k + 0.5) / grid, farthest) for k in range(grid)]
+def stretches(
+    system: System, grid: int, farthest: float, check: Check = lambda: None
+) -> list[Stretch]:
+    """Cut the circle into stretches, from a grid of phases and what lies where they differ.
+
+    check: is called at every phase, to end the work by an exception.
+    """
+    budget, points = [_MOST_ENDS], []
+    for k in range(grid):
+        check()
+        points.append(look(system, math.tau * (k + 0.5) / grid, farthest))
     runs = [[points[0]]]
     for one, two in pairwise(points):
+        check()
         for left, right in _breaks(system, one, two, farthest, budget):
             if left is not runs[-1][-1]:
                 runs[-1].append(left)
@@ -126,12 +137,15 @@ class Fate:
     impacts: int
 
 
-def fates(system: System, starts: int, impacts: int, farthest: float) -> list[Fate]:
+def fates(
+    system: System, starts: int, impacts: int, farthest: float, check: Check = lambda: None
+) -> list[Fate]:
     """Follow orbits of phases all around the circle, and count what they come to."""
     ends: dict[str, list[int]] = {}
     for k in range(starts):
         phase, count = math.tau * (k + 0.5) / starts, 0
         while count < impacts:
+            check()
             seen = look(system, phase, farthest)
             if seen.kind not in (RISES, FALLS):
                 break

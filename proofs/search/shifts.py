@@ -15,7 +15,7 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.system import System
-from proofs.search.portrait import stretches
+from proofs.search.portrait import Check, stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
@@ -65,10 +65,15 @@ def reach(eta: Fraction) -> float:
     return _FARTHEST * min(1.0, float(_SLOW / eta))
 
 
-def pieces(system: System, grid: int = _GRID, farthest: float | None = None) -> list[Piece]:
+def pieces(
+    system: System,
+    grid: int = _GRID,
+    farthest: float | None = None,
+    check: Check = lambda: None,
+) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
     found = []
-    for stretch in stretches(system, grid, farthest or reach(system.eta)):
+    for stretch in stretches(system, grid, farthest or reach(system.eta), check):
         for steep, points in groupby(stretch.points, lambda point: abs(point.slope) >= _STEEP):
             run = list(points)
             if steep and len(run) > 2:
