@@ -2,22 +2,129 @@
 
 Asks at any eta > 0 and nu: does the mass come to rest on the table for ever (X1)? Is there a
 compact invariant set on which the impact map has positive entropy (X2)? A stable periodic motion on
-which the mass sticks and leaves again (X3)? A stable periodic orbit without sticking (X4)? Sets and
-orbits are found by themselves, then proved.
+which the mass sticks and leaves again (X3)? A stable periodic orbit without sticking (X4)? Are
+there flights without an end (X5)? With --epsilon, about impacts with restitution: is there chaos
+(X6)? A stable motion (X7)? Does every motion come to rest (X8)? Sets and orbits are found by
+themselves, then proved. Beside the verdicts, and apart from them: the circle cut into branches, as
+floating point sees it.
 """
+
+from __future__ import annotations
 
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
     launch("proofs.explore")
 
+import math
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Iterator
+from fractions import Fraction
 from functools import partial
 
-from proofs.shell.runner import run
+from intervals import Undecided
+from proofs.motion.system import System
+from proofs.report.markup import markdown_table
+from proofs.search.beyond import EFFORT, Budget
+from proofs.search.portrait import HEAD, Stretch, fates, rebounding_fates, rows, stretches
+from proofs.search.s34_chaos import FASTEST
+from proofs.shell.cli import number, whole
+from proofs.shell.runner import More, run
+from proofs.trusted.numbers import TURN, show
+from proofs.trusted.parameters import Parameters
+
+_MOST_EFFORT = 5
+_NARROW = 0.005  # of stretches that are counted only
+_SMALL = 50  # a denominator of eta after which touches are common
+
+_TITLE = "## Seen in floating point, not proved"
 
 EXAMPLES = """
   python -m proofs.explore --eta 0.25 --nu -0.3
   python -m proofs.explore --eta 0.103 --nu 0.541 --only X2
+  python -m proofs.explore --eta 0.22 --nu -0.2 --epsilon 0.05
+  python -m proofs.explore --eta 1.1009 --nu -1.2954 --effort 4 --seconds 60
 """
 
-main = partial(run, "explore", description=__doc__, examples=EXAMPLES)
+
+def _seconds(text: str) -> Fraction:
+    """Read a time for argparse."""
+    value = number(text)
+    if value <= 0:
+        raise ArgumentTypeError(f"seconds are a positive number, not {text!r}")
+    return value
+
+
+OWN = {
+    "effort": {"type": whole("effort", _MOST_EFFORT), "metavar": "N"}
+    | {"help": f"how much is looked at, 1 to {_MOST_EFFORT} (default {EFFORT}); each takes about"
+       " four times as long as the one before"},
+    "seconds": {"type": _seconds, "metavar": "S"}
+    | {"help": "stop looking early; what is found then depends on the machine"},
+}  # fmt: skip
+
+
+def dossier(of: Parameters, options: Namespace) -> str:
+    """Return in Markdown what floating point sees on the circle, and what is special here."""
+    budget = Budget(of.eta, options.effort or EFFORT, options.seconds or math.inf)
+    told = [_TITLE, ""]
+    if of.eta > FASTEST:
+        return "\n".join([*told, f"Nothing: for eta > {FASTEST} flights are not followed."])
+    try:
+        told += _circle(of, budget) if of.epsilon is None else _rebounding(of, budget)
+    except Undecided as failure:
+        told.append(f"Not all that was to be looked at: {failure}.")
+    return "\n".join([*told, *_special(of)])
+
+
+def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
+    """Say what motions with restitution come to."""
+    ends = rebounding_fates(
+        System(of.eta, of.nu), float(of.epsilon or 0), budget.starts, budget.impacts
+    )
+    yield from (f"Of {budget.starts} motions from random impacts, after {budget.impacts} more:", "")
+    yield from (f"- {100 * fate.share:.0f} percent: {fate.name}" for fate in ends)
+
+
+def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
+    """Cut the circle into stretches, and say where orbits of the plastic map go."""
+    system = System(of.eta, of.nu)
+    seen = stretches(system, budget.grid, budget.farthest, budget.check)
+    shown = rows(seen, _NARROW)
+    yield (
+        f"The circle in {len(shown)} stretches, from {budget.grid} phases, flights up to time "
+        f"{budget.farthest:g}:"
+    )
+    yield from ("", *markdown_table([HEAD, *shown]), "", *_others(seen))
+    yield f"Of {budget.starts} orbits from phases all around, in up to {budget.impacts} impacts:"
+    yield ""
+    for fate in fates(system, budget.starts, budget.impacts, budget.farthest, budget.check):
+        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts}"
+
+
+def _others(seen: list[Stretch]) -> Iterator[str]:
+    """Say what the table leaves out."""
+    widths = [each.width for each in seen if each.width > _NARROW]
+    if rest := len(seen) - len(widths):
+        share = 100 * (1 - sum(widths) / float(TURN))
+        yield f"{rest} narrower ones and what lies between them are {share:.2g} percent of it."
+
+
+def _special(of: Parameters) -> Iterator[str]:
+    """Say where arithmetic is special, and where more is known."""
+    turns = of.eta.denominator
+    hints = []
+    if of.eta == 1:
+        hints.append("eta = 1 is resonance: `python -m proofs.resonance` has f in closed form")
+    elif turns <= _SMALL:
+        hints.append(
+            f"eta = {show(of.eta)} has the small denominator {turns}: for flights that touch the "
+            f"table at the time {turns} * 2 pi = {turns * float(TURN):.6g} see X5"
+        )
+    if of.nu <= -1:
+        hints.append("nu <= -1: X5, and long flights in X2, are looked at for -1 < nu < 0 only")
+    if hints:
+        yield from ("", "What is special here:", "", *(f"- {hint}" for hint in hints))
+
+
+main = partial(run, "explore", description=__doc__, examples=EXAMPLES, more=More(OWN, dossier))

@@ -11,7 +11,8 @@ if __name__ == "__main__":
 
 from functools import partial
 
-from proofs.shell.runner import run
+from proofs.shell.cli import horizon
+from proofs.shell.runner import More, run
 
 EXAMPLES = """
   python -m proofs.horseshoe --eta 0.22 --nu -0.2      I0, I1 and the slopes are found there
@@ -19,4 +20,6 @@ EXAMPLES = """
   python -m proofs.horseshoe --only N1 N2 --epsilon 0.02
 """
 
-main = partial(run, "horseshoe", description=__doc__, examples=EXAMPLES)
+MORE = More({"horizon": {"type": horizon, "help": "longest flight looked at (default 1000)"}})
+
+main = partial(run, "horseshoe", description=__doc__, examples=EXAMPLES, more=MORE)

@@ -1,12 +1,13 @@
 """All periodic points of the plastic impact map that a horseshoe has, one for each word.
 
 A word such as 0010 says in which of I0, I1 the successive impacts lie. First the horseshoe is
-proved: f is C^1 and increasing on I0 and I1, f' > 1, both images cover I, which reaches from the
-left end of I0 to the right end of I1, and the phases between I0 and I1 leave I. So each word has
-exactly one phase with that itinerary that repeats it for ever, and no other phase in I is
-periodic with its orbit in I. Then each phase is enclosed, with its multiplier: the derivative of
-f^n there, n the length of the word (for a word such as 0101, of period 2, the square of that
-of its orbit).
+proved: f is C^1 and monotone on I0 and I1, |f'| > 1, and both images cover I, which reaches from
+the left end of I0 to the right end of I1. For sets that are given, f increases there and the phases
+between them leave I; at other eta and nu they are found if they are not given. So each word has
+exactly one phase with that itinerary that repeats it for ever, and no other phase is periodic with
+its orbit in I0 and I1. Then each phase is enclosed, with its multiplier: the derivative of f^n
+there, n the length of the word (for a word such as 0101, of period 2, the square of that of its
+orbit).
 """
 
 from __future__ import annotations
@@ -20,29 +21,38 @@ import csv
 import io
 import sys
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from itertools import islice
 from time import perf_counter
 
 from intervals import Interval, IntervalError, Undecided
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.words import Words
 from proofs.motion.horseshoe_map import ImpactMap
+from proofs.motion.impact import HORIZON
 from proofs.motion.phase import turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
 from proofs.search.s31_horseshoe import prove
+from proofs.search.shifts import pairs, pieces
+from proofs.search.steps import Prover
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number, whole
 from proofs.shell.files import write_target
-from proofs.trusted.numbers import show, show_range
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range, show, show_range
+from proofs.trusted.paper.beyond.chaos import markov_set
 from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
 from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Verdict
 
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
+_TRIES = 12  # of sets that are found
 _BOXES = 16  # of each branch, for the proof that f is C^1 there
 _LONGEST_PERIOD = 16
 _LONGEST_ORBITS = 20
@@ -63,6 +73,7 @@ examples:
   python -m proofs.orbits --period 3
   python -m proofs.orbits --word 0010 --digits 50
   python -m proofs.orbits --cycles 20 --fast --csv orbits.csv
+  python -m proofs.orbits --eta 0.103 --nu 0.541 --period 2     the sets are found there
   python -m proofs.orbits --period 12 --csv orbits.csv
   python -m proofs.orbits --period 16 --fast --json - > orbits.json
 """
@@ -86,11 +97,37 @@ def horseshoe(of: Parameters) -> ImpactMap:
     least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
     if not least > 1:
         raise Undecided("f' > 1 is not proved")
+    images = [covering.quantities[f"image_low_I{j}"] for j in (0, 1)]
+    return _impact_map(of, least, images)
+
+
+def own_horseshoe(of: Parameters) -> ImpactMap:
+    """Prove a full shift on two sets that are found, f increasing or decreasing on each.
+
+    Its theorem, `markov_set`, has f monotone and C^1 on both, |f'| > 1. Here both images must be
+    intervals of phases as well, that contain both sets: then they contain I, and the turns that are
+    left out are the same on all of a set, as in `horseshoe`.
+    """
+    system = System(of.eta, of.nu)
+    for left, right in islice(pairs(pieces(system), rising=False), _TRIES):
+        with suppress(Undecided, Unproved):
+            prover = Prover(system, _FAST_DIGITS, HORIZON)
+            parts = [prover.slopes(list(domain))[1] for domain in (left, right)]
+            shift = markov_set(parts)
+            if shift.full and all(image_arc(part).is_interval for part in parts):
+                sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
+                images = [part.images[0] for part in parts]
+                return _impact_map(sets, shift.slopes[0], images)
+    raise Undecided(f"no two sets are found at {of.place} with both images across both")
+
+
+def _impact_map(of: Parameters, least: Fraction, images: Sequence[Range]) -> ImpactMap:
+    """Return the map, images being those of the left ends of I0 and I1; |f'| >= least there."""
     system = System(of.eta, of.nu)
     covers = slope_cover(system, of.left, _BOXES), slope_cover(system, of.right, _BOXES)
     turns = []
-    for j, (cover, domain) in enumerate(zip(covers, (of.left, of.right), strict=True)):
-        image = Interval(*covering.quantities[f"image_low_I{j}"])
+    for cover, domain, ends in zip(covers, (of.left, of.right), images, strict=True):
+        image = Interval(*ends)
         whole = (cover.times[0].item() + domain[0] - image) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):
@@ -128,7 +165,9 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     began = perf_counter()
     try:
         options.tell("the horseshoe")
-        found = _found(horseshoe(of), options, places)
+        proved = horseshoe(of) if options.left else own_horseshoe(of)
+        of = proved.of
+        found = _found(proved, options, places)
     except (Undecided, IntervalError, OverflowError) as failure:
         print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
         return 1
@@ -174,8 +213,8 @@ def _parser() -> Parser:
     add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
     add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
     for name, default in (("left", LEFT), ("right", RIGHT)):
-        help_text = f"default {show(default[0])} {show(default[1])}"
-        add(f"--{name}", type=number, nargs=2, default=default, metavar=("A", "B"), help=help_text)
+        help_text = f"default {show(default[0])} {show(default[1])}; found at other eta, nu"
+        add(f"--{name}", type=number, nargs=2, metavar=("A", "B"), help=help_text)
     add("--csv", metavar="FILE", help="write all rows to a file, or - for the screen")
     add_answer(parser, 25)
     return parser
@@ -190,8 +229,17 @@ def _word(text: str) -> str:
 
 
 def _parameters(options: Namespace) -> Parameters:
-    """Return the horseshoe's numbers; f' >= 1 is what is asked of the slopes."""
-    left, right = tuple(options.left), tuple(options.right)
+    """Return the horseshoe's numbers; f' >= 1 is what is asked of the slopes.
+
+    At another oscillator than the paper's, I0 and I1 are given both, or found.
+    """
+    elsewhere = (options.eta, options.nu) != (PAPER.eta, PAPER.nu)
+    if elsewhere and (options.left is None) != (options.right is None):
+        raise ValueError(
+            "--left and --right go together at this oscillator; without, both are found"
+        )
+    left, right = tuple(options.left or LEFT), tuple(options.right or RIGHT)
+    options.left = options.left or (None if elsewhere else LEFT)
     return replace(
         PAPER,
         eta=options.eta,

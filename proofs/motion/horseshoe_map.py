@@ -25,7 +25,7 @@ _STEPS = 5  # of Newton's method, from within a box of the covers
 
 @dataclass(frozen=True)
 class ImpactMap:
-    """f on I0 and I1 for `proofs.methods.orbits`: the horseshoe `of`, proved by `horseshoe`.
+    """f on I0 and I1 for `proofs.methods.orbits`: the horseshoe `of`, proved elsewhere.
 
     On I_j, f(phi) is phi + t - 2 pi turns[j], t the time of the first impact, and covers I.
     """

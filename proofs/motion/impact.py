@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -21,6 +22,7 @@ _TINIEST = Fraction(1, 2**200)
 LEAST = 64  # bits: multiprecision costs no more than at fewer
 _ATTEMPTS = 8
 MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
+_CLOSE = Fraction(1, 1000)  # of times to that of a touch
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
 
 
@@ -40,11 +42,27 @@ class Unsettled(Undecided):
     that mass and table seem to touch, as at resonance.
     """
 
-    def __init__(self, windows: list[Range], times: list[Fraction]) -> None:
-        begin = windows[0][0]
-        super().__init__(f"an impact near time {float(begin):.9g} is neither proved nor excluded")
+    def __init__(self, windows: list[Range], times: list[Fraction], flight: Flight) -> None:
+        begin, reason = windows[0][0], touch_near(flight, windows[0])
+        near = f"an impact near time {float(begin):.9g} is neither proved nor excluded"
+        super().__init__(f"{near}{reason and f': {reason}'}")
         self.known = up_to(begin, times)
         self.hopeless = len(windows) > _TOUCHES
+
+
+def touch_near(flight: Flight, times: Range) -> str:
+    """Say that a plastic flight without an earlier impact touches the table here; "" elsewhere.
+
+    eta = p/q: after q turns of the table mass and table are where they were, with their velocities.
+    """
+    turns = flight.system.eta.denominator
+    time = math.tau * turns
+    if flight.start.kick is not None or not times[0] - _CLOSE <= time <= times[1] + _CLOSE:
+        return ""
+    return (
+        f"at time 2 pi {turns} = {time:.9g} mass and table are where they were at the launch, and "
+        "touch without relative velocity if there was no impact before"
+    )
 
 
 class Sticks(Undecided):
@@ -144,14 +162,14 @@ def march(
         now = times[-1]
         least = min(finest, now / 8)
         if len(open_pieces) > (0 if now >= horizon else 4 * _TOUCHES):
-            raise Unsettled(open_pieces, times)
+            raise Unsettled(open_pieces, times, flight)
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
         next_value = flight.gap(ahead)
         if positive_between(flight, now, value, ahead, next_value):
             if single and open_pieces:
-                raise Unsettled(open_pieces, times)
+                raise Unsettled(open_pieces, times, flight)
             step, allowed = 2 * step, least
         elif step > allowed:
             step = max(step / 2, allowed)
@@ -216,8 +234,12 @@ def locate(
         if found.transversal:
             return found
         known = found.known
+    seen = touch_near(flight, (known[-1], known[-1])) if known else ""
+    name = f"phase {float(phases[0]):.12g}"
     raise Undecided(
-        f"phase {float(phases[0]):.12g} grazes, or starts to stick, to within what was tried"
+        f"{name}: {seen}"
+        if seen
+        else f"{name} grazes, or starts to stick, to within what was tried"
     )
 
 

@@ -1,4 +1,4 @@
-"""Beyond the paper: what can be proved about the motion at any parameters. Rows X1 to X4.
+"""Beyond the paper: what can be proved about the motion at any parameters. Rows X1 to X5.
 
 Horseshoes and attractors are found in floating point; what is not proved then is left out.
 """
@@ -8,7 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from fractions import Fraction
+from time import monotonic
 from types import MappingProxyType
 
 from intervals import Undecided
@@ -16,29 +18,62 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
-from proofs.search.s34_chaos import prove_entropy
-from proofs.search.s34_circle import prove_arc
-from proofs.search.shifts import full_shifts
+from proofs.search.loops import loops
+from proofs.search.s34_chaos import FASTEST, prove_entropy
+from proofs.search.s34_circle import prove_arc, prove_longest
+from proofs.search.shifts import full_shifts, pieces, reach
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.attractors import stable_orbit, sticking_motion
 from proofs.trusted.paper.beyond.chaos import markov_set
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
-_TRIES = 6  # of full shifts
 _TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in covering graphs
-_STARTS = 24  # phases whose orbits are followed
-_IMPACTS = 200
-_FARTHEST = 400.0  # the longest flight among them
 _LONGEST = 60  # period
 _NEAR = 1e-9
 _RADIUS = 1e-5  # of the sets around the points of an orbit
 _LEAST = 1e-3  # the least |f'| that radii follow
 _THINNEST = 1e-12
 _PLACES = 14
+EFFORT = 3
 Part = tuple[str, SlopeRange]
+
+
+class Budget:
+    """How much is looked at: the same on every machine, unless it is stopped after some seconds.
+
+    effort: from 1 to 5; each doubles the phases on the circle (`grid`), orbits (`starts`), their
+    impacts, the longest flight among them (`farthest`) and the sets that are tried.
+    """
+
+    def __init__(
+        self, eta: Fraction, effort: int = EFFORT, seconds: float | Fraction = math.inf
+    ) -> None:
+        share, self._seconds = 2.0 ** (effort - EFFORT), float(seconds)
+        self.grid, self.starts, self.impacts = int(3000 * share), int(48 * share), int(400 * share)
+        self.tries, self.farthest = int(8 * share), 2 * share * reach(eta)
+        self._until = monotonic() + self._seconds
+
+    def check(self) -> None:
+        """Raise Undecided once the time is over."""
+        if monotonic() > self._until:
+            raise Undecided(f"stopped after {self._seconds:g} seconds, as asked")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run: its prover and its budget."""
+
+    prover: Prover
+    budget: Budget
+
+    @property
+    def system(self) -> System:
+        """The oscillator."""
+        return self.prover.system
 
 
 def prove(
@@ -47,18 +82,25 @@ def prove(
     *,
     digits: int = 30,
     tell: Tell = lambda stage: None,
+    effort: int = EFFORT,
+    seconds: float | Fraction = math.inf,
 ) -> Evidence:
-    """Prove what the claims asked for rest on, as far as it goes."""
+    """Prove what the claims asked for rest on, as far as it goes: see `Budget`."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
+    run = Run(prover, Budget(of.eta, effort, seconds))
     found = Evidence(prover.steps, {claim: [] for claim in claims})
     for claim in claims:
         if claim not in _SEARCHES:
+            continue
+        if of.eta > FASTEST:
+            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
             continue
         stage, search = _SEARCHES[claim]
         tell(stage)
         try:
             with prover.undone():
-                found.proofs[claim] = search(prover)
+                run.budget.check()
+                found.proofs[claim] = search(run)
         except FAILED as failure:
             found.notes[claim] = str(failure)
     return found
@@ -71,20 +113,27 @@ def _cells(parts: Sequence[Part]) -> list[dict[str, object]]:
 # -- horseshoes ------------------------------------------------------------------------------------
 
 
-def _chaos(prover: Prover) -> Proof:
-    """Prove a full shift, or else a covering graph of positive entropy."""
+def _chaos(run: Run) -> Proof:
+    """Prove a full shift, or else a covering graph of positive entropy, or two loops."""
+    budget = run.budget
+    seen = pieces(run.system, budget.grid, budget.farthest, budget.check)
     with suppress(*FAILED):
-        return _full_shift(prover)
-    graph = [x for x in prove_entropy(prover, _TURNS, _DEPTH) if x[1].growth > 1]
-    if not graph:
-        raise Undecided("no sets are seen that f maps over each other in several ways")
-    return [*graph]
+        return _markov(run, full_shifts(seen))
+    graph = [x for x in prove_entropy(run.prover, _TURNS, _DEPTH) if x[1].growth > 1]
+    if graph:
+        return [*graph]
+    try:
+        return _markov(run, loops(run.system, seen, run.budget.check))
+    except Undecided as failure:
+        looked = f"looked at: {len(seen)} pieces of branches of f with |f'| > 1, flights up to time"
+        raise Undecided(f"{failure}; {looked} {run.budget.farthest:g}") from None
 
 
-def _full_shift(prover: Prover) -> Proof:
-    """Prove a full shift (rule markov-set), on the first sets that allow it."""
-    failure = "no sets are seen with images across them all"
-    for sets, _ in zip(full_shifts(prover.system), range(_TRIES), strict=False):
+def _markov(run: Run, candidates: Iterator[list[Range]]) -> Proof:
+    """Prove a subshift (rule markov-set), on the first sets that allow it."""
+    failure, prover = "no sets are seen that f maps over each other in several ways", run.prover
+    for sets, _ in zip(candidates, range(run.budget.tries), strict=False):
+        run.budget.check()
         try:
             with prover.undone():
                 parts = [prover.slopes(list(domain)) for domain in sets]
@@ -98,12 +147,13 @@ def _full_shift(prover: Prover) -> Proof:
 # -- attractors ------------------------------------------------------------------------------------
 
 
-def _sticking(prover: Prover) -> Proof:
+def _sticking(run: Run) -> Proof:
     """Follow the motion from the separation until it sticks again (rule sticking-motion)."""
+    prover = run.prover
     name, arc = prove_arc(prover)
     parts: list[Part] = []
     if not arc.returns:
-        points = _orbit(prover.system, float(sum(arc.arrival)) / 2 % math.tau, _LONGEST)
+        points = _orbit(run, float(sum(arc.arrival)) / 2 % math.tau)
         if points is None:
             raise Undecided(f"{_LONGEST} impacts after the separation the mass has not stuck")
         steep = math.prod(max(2 * abs(slope), 1.0) for _, slope in points)
@@ -113,11 +163,11 @@ def _sticking(prover: Prover) -> Proof:
     return [(prover.add("sticking-motion", witness), found)]
 
 
-def _orbit(system: System, phase: float, most: int) -> list[tuple[float, float]] | None:
+def _orbit(run: Run, phase: float) -> list[tuple[float, float]] | None:
     """Return about the phases and slopes of an orbit that sticks in the end; None if not soon."""
     points: list[tuple[float, float]] = []
-    while len(points) < most:
-        found = next_impact(system, phase, _FARTHEST)
+    while len(points) < _LONGEST:
+        found = next_impact(run.system, phase, run.budget.farthest)
         if found is None:
             return points
         points.append((phase, found[2]))
@@ -142,10 +192,11 @@ def _decimal(value: float) -> Fraction:
     return round(Fraction(value), _PLACES)
 
 
-def _stable(prover: Prover) -> Proof:
+def _stable(run: Run) -> Proof:
     """Prove the stable orbits that orbits of many phases come to (rule stable-orbit)."""
     proof: list[tuple[str, Conclusion]] = []
-    for points in _cycles(prover.system):
+    prover = run.prover
+    for points in _cycles(run):
         with suppress(*FAILED), prover.undone():
             slope = math.prod(max(abs(slope), _LEAST) for _, slope in points)
             parts = _around(prover, points, _RADIUS, slope ** (-1 / len(points)))
@@ -156,29 +207,30 @@ def _stable(prover: Prover) -> Proof:
     return proof
 
 
-def _cycles(system: System) -> Iterator[list[tuple[float, float]]]:
+def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
     """Yield about the phases and slopes of stable orbits, each once."""
     seen: list[float] = []
-    for k in range(_STARTS):
-        phase = math.tau * (k + 0.5) / _STARTS
-        for _ in range(_IMPACTS):
-            found = next_impact(system, phase, _FARTHEST)
+    for k in range(run.budget.starts):
+        phase = math.tau * (k + 0.5) / run.budget.starts
+        for _ in range(run.budget.impacts):
+            run.budget.check()
+            found = next_impact(run.system, phase, run.budget.farthest)
             touches = found is not None and abs(found[2] - 1) < _NEAR  # and so on for ever
             if found is None or touches or any(abs(found[1] - x) < _RADIUS for x in seen):
                 break
             phase = found[1]
         else:
-            points = _cycle(system, phase)
+            points = _cycle(run, phase)
             if points:
                 seen += [phase for phase, _ in points]
                 yield points
 
 
-def _cycle(system: System, phase: float) -> list[tuple[float, float]] | None:
+def _cycle(run: Run, phase: float) -> list[tuple[float, float]] | None:
     """Return the points of a stable cycle that a phase is on; None if it is on none."""
     points, start = [], phase
     for _ in range(_LONGEST):
-        found = next_impact(system, phase, _FARTHEST)
+        found = next_impact(run.system, phase, run.budget.farthest)
         if found is None:
             return None
         points.append((phase, found[2]))
@@ -188,10 +240,11 @@ def _cycle(system: System, phase: float) -> list[tuple[float, float]] | None:
     return None
 
 
-_SEARCHES: Mapping[str, tuple[str, Callable[[Prover], Proof]]] = MappingProxyType(
+_SEARCHES: Mapping[str, tuple[str, Callable[[Run], Proof]]] = MappingProxyType(
     {
         "X2": ("horseshoes", _chaos),
         "X3": ("motions that stick", _sticking),
         "X4": ("stable orbits that do not", _stable),
+        "X5": ("flights without an end", lambda run: [prove_longest(run.prover)]),
     }
 )

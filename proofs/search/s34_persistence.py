@@ -6,40 +6,34 @@ it, for ever larger epsilon, bounces are enclosed until they are proved to end b
 
 from __future__ import annotations
 
-import math
-import random
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from itertools import islice
 
 from intervals import DomainError, Undecided
 from proofs.motion.chatter import Pushing, Settled
 from proofs.motion.covering import halves
 from proofs.motion.impact import HORIZON
-from proofs.motion.simulate import INITIAL_STATES, TURNS, Summary, late_state, transients
+from proofs.motion.simulate import INITIAL_STATES, TURNS, Summary, transients
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
+from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_border import border
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import StablePair, SuperstableMotion, stable_pair
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.parameters import Parameters
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
 _HALVINGS = 9  # of a step of epsilon
 _OTHER = Fraction(29, 100)  # an epsilon at which simulated motions find another stable orbit
-_TRIES, _IMPACTS = 20, 200  # simulated motions, and impacts until they are near an orbit
-_SAME = 1e-9  # the distance of states that are one
-_HALF = 1e-6  # half a side, in phase, of a box around a state
-_EDGE = 1e-3  # phases so close to 0 are left alone
-_GRID = 10**12  # states and half sides are multiples of 1 / _GRID
-State = tuple[Fraction, Fraction]
+_TRIES = 20  # simulated motions
 _Cell = tuple[Fraction, Settled]  # up to which epsilon, and how the bounces end
 
 
@@ -89,10 +83,12 @@ def observed(rows: Sequence[Summary]) -> str:
     )
 
 
-def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
-    """Prove that the motion from phi_s comes to rest, for as many epsilon as can be."""
+def superstable_motion(
+    prover: Prover, enough: Fraction = Fraction(1)
+) -> tuple[str, SuperstableMotion]:
+    """Prove that the motion from phi_s comes to rest, for as many epsilon as can be, or enough."""
     separation, arc = prove_arc(prover)
-    cells = _cells(Pushing(prover.system, arc.phase[0]), arc)
+    cells = _cells(Pushing(prover.system, arc.phase[0]), arc, enough)
     witness = {
         "separation": separation,
         "spread": str(_SPREAD),
@@ -111,7 +107,7 @@ def superstable_motion(prover: Prover) -> tuple[str, SuperstableMotion]:
     return prover.add("superstable-motion", witness), motion
 
 
-def _cells(pushing: Pushing, arc: Separation) -> list[_Cell]:
+def _cells(pushing: Pushing, arc: Separation, enough: Fraction) -> list[_Cell]:
     """Prove that bounces after impacts nearby end, for epsilon from 0 up to as much as can be.
 
     By steps of epsilon and ever smaller ones, until the proof fails.
@@ -122,7 +118,7 @@ def _cells(pushing: Pushing, arc: Separation) -> list[_Cell]:
     cells: list[_Cell] = []
     done = Fraction(0)
     for step in _STEPS:
-        while done + step < 1:
+        while done < enough and done + step < 1:
             try:
                 pushing.settle((done + step, done + step), phases, speeds)  # hopeless otherwise
                 cells += _halved(pushing, (done, done + step), phases, speeds, _HALVINGS)
@@ -150,66 +146,6 @@ def _halved(
     ]
 
 
-def another_orbit(of: Parameters, prover: Prover) -> list[tuple[str, StablePair]]:
-    """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found.
-
-    The half sides r of the first box are the Perron vector of |DF| |DF|, which F^2 shrinks most
-    evenly; those of the second are |DF| r, and a third of what there is to spare.
-    """
-    at = Place((of.eta, of.eta), (of.nu, of.nu), (_OTHER, _OTHER))
-    states, rebounds = _candidate(prover.system), ReboundProver(of, prover)
-    if states is None:
-        return []
-
-    def around(state: State, half: State) -> tuple[str, Rebound]:
-        phases, velocities = ((x - r, x + r) for x, r in zip(state, half, strict=True))
-        return rebounds.rebound(at, phases, velocities)
-
-    centres = [around(state, (Fraction(0), Fraction(0))) for state in states]
-    (p, q, r, s), (t, u, v, w) = (
-        [float(size(entry)) for row in step.derivative for entry in row] for _, step in centres
-    )
-    a, b, c, d = t * p + u * r, t * q + u * s, v * p + w * r, v * q + w * s
-    root = (a + d + math.hypot(a - d, 2 * math.sqrt(b * c))) / 2
-    if root >= 1 or b == 0:
-        return []
-    x, y = _HALF, _HALF * (root - a) / b
-    more = (2 + 1 / root) / 3
-    halves_of = (x, y), (more * (p * x + q * y), more * (r * x + s * y))
-    boxes = [
-        around(state, (_rounded(half[0]), _rounded(half[1])))
-        for state, half in zip(states, halves_of, strict=True)
-    ]
-    names = ("first", "at_first", "second", "at_second")
-    steps = dict(zip(names, (boxes[0], centres[0], boxes[1], centres[1]), strict=True))
-    pair = stable_pair(**{name: rebound for name, (_, rebound) in steps.items()})
-    return [(prover.add("stable-pair", {name: step for name, (step, _) in steps.items()}), pair)]
-
-
-def _candidate(system: System) -> tuple[State, State] | None:
-    """Return about the two states of a 2-periodic orbit that simulated motions tend to."""
-    generator = random.Random(1)
-    for _ in range(_TRIES):
-        start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
-        states = [late_state(system, float(_OTHER), *start, _IMPACTS)]
-        for _ in range(2):
-            if states[-1] is not None:
-                states.append(late_state(system, float(_OTHER), *states[-1], 1))
-        first, second, third = (*states, None, None)[:3]
-        if first is None or second is None or third is None:
-            continue
-        inside = all(_EDGE < phase < float(TURN) - _EDGE for phase, _ in (first, second))
-        if inside and math.dist(first, third) < _SAME < math.dist(first, second):
-            return _state(system, *first), _state(system, *second)
-    return None
-
-
-def _state(system: System, phase: float, speed: float) -> State:
-    """Return the phase and the velocity gamma before an impact with this relative speed."""
-    rate = float(system.nu) * math.cos(phase)
-    gamma = (system.side * speed - rate) / float(system.eta)
-    return _rounded(phase), _rounded(gamma)
-
-
-def _rounded(value: float) -> Fraction:
-    return Fraction(round(value * _GRID), _GRID)
+def another_orbit(of: Parameters, prover: Prover) -> Proof:
+    """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found."""
+    return list(islice(stable_cycles(ReboundProver(of, prover), _OTHER, _TRIES, 2), 1))

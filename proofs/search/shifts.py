@@ -9,19 +9,24 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import combinations, groupby, islice, pairwise
 
+from intervals import Undecided
 from proofs.motion.candidate import next_impact
+from proofs.motion.covering import cover_by_impacts
 from proofs.motion.system import System
+from proofs.search.portrait import Check, stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
 
 _GRID = 1500  # phases that are looked at
-_FARTHEST = 200.0  # the longest flight among them
+_FARTHEST = 200.0  # the longest flight among them, if eta <= _SLOW
+_SLOW = 3
 _STEEP = 1.02  # the least |f'| of a piece
 _SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
 _MOST_SYMBOLS = 8
+_MOST_PAIRS = 24
 
 
 # -- branches, in floating point -------------------------------------------------------------------
@@ -55,30 +60,25 @@ class Piece:
         return None
 
 
-def pieces(system: System, grid: int = _GRID) -> list[Piece]:
+def reach(eta: Fraction) -> float:
+    """Return how long flights are followed: shorter where the mass swings fast, for the work."""
+    return _FARTHEST * min(1.0, float(_SLOW / eta))
+
+
+def pieces(
+    system: System,
+    grid: int = _GRID,
+    farthest: float | None = None,
+    check: Check = lambda: None,
+) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
-    runs: list[list[tuple[float, float, float]]] = [[]]
-    for k in range(grid):
-        phase = math.tau * (k + 0.5) / grid
-        found = next_impact(system, phase, _FARTHEST)
-        if found is None or abs(found[2]) < _STEEP:
-            runs.append([])
-            continue
-        point = phase, phase + found[0], found[2]
-        if runs[-1] and not _continues(runs[-1][-1], point):
-            runs.append([])
-        runs[-1].append(point)
-    return [
-        Piece(tuple(x for x, _, _ in run), tuple(y for _, y, _ in run))
-        for run in runs
-        if len(run) > 2
-    ]
-
-
-def _continues(one: tuple[float, float, float], two: tuple[float, float, float]) -> bool:
-    """Whether the second of two neighbours is on the branch of the first, by the slopes."""
-    expected = (one[2] + two[2]) / 2 * (two[0] - one[0])
-    return one[2] * two[2] > 0 and abs(two[1] - one[1] - expected) < 0.3 * abs(expected) + 1e-3
+    found = []
+    for stretch in stretches(system, grid, farthest or reach(system.eta), check):
+        for steep, points in groupby(stretch.points, lambda point: abs(point.slope) >= _STEEP):
+            run = list(points)
+            if steep and len(run) > 2:
+                found.append(Piece(tuple(x.phase for x in run), tuple(x.image for x in run)))
+    return found
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
@@ -120,16 +120,16 @@ def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] |
     return found if apart else None
 
 
-def full_shifts(system: System) -> Iterator[list[Range]]:
+def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
-    found = symbols(pieces(system))
+    found = symbols(seen)
     for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
-        yield from _with_spare(family)
+        yield from islice(_with_spare(family), 1)
 
 
-def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
-    """Yield I0 and I1, likewise, on which f seems to be an increasing horseshoe."""
-    found = [x for x in symbols(pieces(system)) if x[0].images[0] < x[0].images[-1]]
+def pairs(seen: Sequence[Piece], *, rising: bool) -> Iterator[tuple[Range, Range]]:
+    """Yield I0 and I1, with ever less spare, on which f seems to be a full shift; or increases."""
+    found = [x for x in symbols(seen) if x[0].images[0] < x[0].images[-1] or not rising]
     for family in families(found, 2):
         yield from ((left, right) for left, right in _with_spare(family))
 
@@ -137,10 +137,12 @@ def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
 def own_sets(of: Parameters) -> Parameters | None:
     """Return the statement about I0 and I1 found at its oscillator, bounds of f' rounded outward.
 
+    Rather those that the flights of each set are proved for in one piece, as for the dimension.
     None where no increasing horseshoe is seen.
     """
     system = System(of.eta, of.nu)
-    for sets in rising_pairs(system):
+    found = list(islice(pairs(pieces(system), rising=True), _MOST_PAIRS))
+    for sets in [*(sets for sets in found if _in_one_piece(system, sets)), *found]:
         seen = [
             next_impact(system, float(low + (high - low) * Fraction(k, 8)))
             for low, high in sets
@@ -159,6 +161,14 @@ def own_sets(of: Parameters) -> Parameters | None:
             printed_s0=None,
         )
     return None
+
+
+def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:
+    """Whether the first impacts of each set are proved in one piece."""
+    try:
+        return all(len(cover_by_impacts(system, each, limit=4)) == 1 for each in sets)
+    except Undecided:
+        return False
 
 
 def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
@@ -180,15 +190,14 @@ def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
 
 
 def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
-    """Yield the sets of a full shift with as much spare as there is, rounded outward."""
+    """Yield the sets of a full shift, rounded outward, from the most spare that there is on."""
     for spare in _SPARES:
         sets = cells(family, spare)
         if sets:
-            yield _short(sets, spare)
-            return
+            yield rounded_out(sets, spare)
 
 
-def _short(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
+def rounded_out(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
     """Round sets outward to decimals, of the fewest places that leave room around them."""
     narrowest = min(high - low for low, high in sets)
     gap = min(two[0] - one[1] for one, two in pairwise(sets))

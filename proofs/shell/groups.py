@@ -37,22 +37,25 @@ PROVERS: Mapping[str, str] = MappingProxyType(
         "resonance": "s6_resonance",
         "explore": "beyond",
         "curves": "curves",
+        "rebounding": "beyond_restitution",
     }
 )
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
-    {group: {group: claims} for group, claims in {**GROUPS, **BEYOND}.items()}
+    {group: {group: claims} for group, claims in GROUPS.items()}
     | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
+    | {"explore": BEYOND}
 )  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)
 
 
 @dataclass(frozen=True)
 class Made:
-    """What a run made: lines for the screen, certificate, page."""
+    """What a run made: lines for the screen, certificate, page; what floating point saw beside."""
 
     lines: list[Line]
     certificate: str
     page: str
+    seen: str = ""
 
 
 def printed(bounds: Range, digits: int) -> dict[str, str]:
@@ -132,15 +135,24 @@ def produce(
             lines.append(line)
             entries.append(entry)
     proved = certificate(of, steps, entries)
-    return Made(lines, render(proved), page(next(iter(groups)), of, proved, lines))
+    first = next(iter(groups))
+    file = first if first in FILES else next(name for name, ids in FILES.items() if first in ids)
+    return Made(lines, render(proved), page(file, of, proved, lines))
 
 
 def wanted(
     file: str, of: Parameters, claims: Iterable[str] | None = None
 ) -> dict[str, tuple[str, ...]]:
-    """Return what is asked for of a file, by group; without a choice all that is asked at `of`."""
+    """Return what is asked for of a file, by group; without a choice all that is asked at `of`:
+    beyond the paper, what is about plastic impacts, or what is about those with epsilon.
+    """
+    other = {"rebounding" if of.epsilon is None else "explore"}.intersection(BEYOND, FILES[file])
     groups = {
-        group: tuple(x for x in ids if (row_of(x).is_asked(of) if claims is None else x in claims))
+        group: tuple(
+            x
+            for x in ids
+            if (row_of(x).is_asked(of) and group not in other if claims is None else x in claims)
+        )
         for group, ids in FILES[file].items()
     }
     return {group: ids for group, ids in groups.items() if ids}

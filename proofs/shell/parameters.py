@@ -9,6 +9,7 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
+from intervals import Undecided
 from proofs.shell.cli import Parser, number
 from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
@@ -29,7 +30,7 @@ HEEDED = MappingProxyType(  # by which parameters what a certificate says change
         "single": _OSCILLATOR,
         "soft": (),
         "resonance": (),
-        "explore": _OSCILLATOR,
+        "explore": (*_OSCILLATOR, "epsilon"),
         "curves": ("epsilon",),
     }
 )
@@ -46,14 +47,19 @@ _MEANING = {
 }
 
 
-def add_parameters(parser: Parser, heeded: Iterable[str]) -> None:
-    """Add the options for those numbers of a statement that are heeded, by default the paper's."""
+def add_parameters(parser: Parser, heeded: Iterable[str], *, beyond: bool) -> None:
+    """Add the options for those numbers of a statement that are heeded, by default the paper's.
+
+    beyond: whether the statement is not the paper's: then impacts are plastic if not said.
+    """
     for name in heeded:
         value, meaning = getattr(PAPER, name), _MEANING[name]
         several: dict[str, Any] = {}
         if isinstance(value, tuple):
             several = {"nargs": len(value), "metavar": ("A", "B", "C")[: len(value)]}
-        if name != "interval":
+        if name == "epsilon" and beyond:
+            meaning += " (default: plastic impacts)"
+        elif name != "interval":
             numbers = value if several else (value,)
             meaning += f" (default {' '.join(map(show, numbers))})"
         parser.add_argument(f"--{name}", type=number, help=meaning, **several)
@@ -68,7 +74,7 @@ def refusal(unknown: Sequence[str], heeded: Sequence[str]) -> str:
     return f"{names[0]} would change nothing here: what is proved depends on {taken}"
 
 
-def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
+def parameters(options: Namespace, heeded: Iterable[str], *, beyond: bool) -> Parameters:
     """Return the statement's numbers; those printed for s_0 go with the printed slopes only.
 
     At another oscillator than the paper's, I0, I1 and the slopes that are not given are found, if
@@ -80,6 +86,8 @@ def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
     left, right = given.get("left", PAPER.left), given.get("right", PAPER.right)
     interval = given.get("interval", (left[0], right[1]))
     plain = replace(PAPER, **{**given, "interval": interval}, reach=None)
+    if beyond:
+        return replace(plain, epsilon=given.get("epsilon"), velocities=None)
     of = _with_sets(plain, given, "slopes" in heeded)
     if of.slopes != PAPER.slopes:
         of = replace(of, ratios=None, printed_s0=None)
@@ -87,13 +95,21 @@ def parameters(options: Namespace, heeded: Iterable[str]) -> Parameters:
 
 
 def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
-    """Return the numbers, at another oscillator with sets that are found unless some are given."""
+    """Return the numbers, at another oscillator with sets that are found unless some are given.
+
+    Undecided where none are found: the paper's are not meant there.
+    """
     elsewhere = (of.eta, of.nu) != (PAPER.eta, PAPER.nu)
     if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
         from proofs.search.shifts import own_sets
 
         found = own_sets(of)
-        return of if found is None else replace(found, slopes=given.get("slopes", found.slopes))
+        if found is None:
+            raise Undecided(
+                f"no sets with an increasing horseshoe are seen at {of.place}: give --left and "
+                "--right, or see python -m proofs.explore"
+            )
+        return replace(found, slopes=given.get("slopes", found.slopes))
     return of
 
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from intervals import Undecided
 from proofs.report.figures import FIGURES, OWN, Figure
 from proofs.report.page import Line
 from proofs.shell import manifest
-from proofs.shell.cli import Parser, counting, heard, horizon, progress, share
+from proofs.shell.cli import Parser, counting, heard, progress, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -58,51 +59,74 @@ examples:
 """
 
 
+class More(NamedTuple):
+    """What one command has more than others.
+
+    options: for the prover, with what argparse is told of each. seen: returns what floating point
+    sees, in Markdown; it is shown beside the verdicts.
+    """
+
+    options: Mapping[str, Mapping[str, Any]]
+    seen: Callable[[Parameters, Namespace], str] | None = None
+
+    def chosen(self, options: Namespace) -> dict[str, Any]:
+        """Return the options that are given."""
+        return {name: x for name in self.options if (x := getattr(options, name)) is not None}
+
+
+NOTHING_MORE = More({})
+
+
 def run(
     file: str,
     arguments: list[str] | None = None,
     description: str | None = None,
     *,
     examples: str = "",
+    more: More = NOTHING_MORE,
 ) -> int:
     """Run the command of a certificate; return the exit status.
 
     With --figure the figures that are drawn from this certificate alone are written, too.
     """
-    parser = _parser(file, description, examples)
+    parser = _parser(file, description, examples, more)
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
         parser.error(refusal(unknown, HEEDED[file]))
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install matplotlib")
     try:
-        of = parameters(options, HEEDED[file])
+        of = parameters(options, HEEDED[file], beyond=file in BEYOND)
     except ValueError as error:
         parser.error(str(error))
+    except Undecided as failure:
+        say(f"{parser.prog}: UNDECIDED: {failure}", sys.stderr)
+        return 1
     asked = wanted(file, of, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
+    if "rebounding" in asked and of.epsilon is None:
+        parser.error(f"{' '.join(asked['rebounding'])}: with restitution: give --epsilon")
     is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
-    is_other = is_less or file in BEYOND or options.figure or options.horizon is not None
+    is_other = is_less or file in BEYOND or options.figure or bool(more.chosen(options))
     choose_folder(parser, options, is_other)
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
-    return _run(parser, file, asked, of, options)
+    return _run(parser, options, of, asked, more)
 
 
-def _parser(file: str, description: str | None, examples: str) -> Parser:
+def _parser(file: str, description: str | None, examples: str, more: More) -> Parser:
     """Return the parser of the command of a certificate."""
     claims = [claim for ids in FILES[file].values() for claim in ids]
     exact = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
     epilog = EPILOG.format(group=file, first=claims[0], own=exact if HEEDED[file] else "")
     parser = Parser(f"proofs.{file}", description, epilog + examples)
-    add_parameters(parser, HEEDED[file])
+    add_parameters(parser, HEEDED[file], beyond=file in BEYOND)
     add_outputs(parser, claims)
     parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
-    parser.set_defaults(figure=False, horizon=None)
-    if file == "horseshoe":
-        longest = "longest flight looked at (default 1000)"
-        parser.add_argument("--horizon", type=horizon, help=longest)
+    parser.set_defaults(file=file, figure=False)
+    for name, settings in more.options.items():
+        parser.add_argument(f"--{name}", **settings)
     if figures := _figures(file):
         names = ", ".join(f"{figure.name}.svg" for figure in figures)
         help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
@@ -117,16 +141,18 @@ def _figures(file: str) -> list[Figure]:
 
 def _run(
     parser: Parser,
-    file: str,
-    asked: dict[str, tuple[str, ...]],
-    of: Parameters,
     options: Namespace,
+    of: Parameters,
+    asked: dict[str, tuple[str, ...]],
+    more: More,
 ) -> int:
     """Prove the claims, write, print and check; return the exit status."""
-    more = {"horizon": options.horizon} if options.horizon else {}
-    began = perf_counter()
+    began, file, chosen = perf_counter(), options.file, more.chosen(options)
     with counting(options.stats) as counts, progress() as tell:
-        made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **more)
+        made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **chosen)
+        if more.seen is not None:
+            tell("the circle in floating point")
+            made = replace(made, seen=more.seen(of, options))
     seconds = perf_counter() - began
     drawn = dict(_drawn(parser, file, made)) if options.figure else {}
     with refusing(parser, options.out):
@@ -183,7 +209,8 @@ def claims_of(file: str) -> set[str]:
 def write(folder: Path, name: str, made: Made) -> None:
     """Write a certificate and its page, and enter it in the manifest."""
     with writing(folder) as put:
-        for kind, content in (("json", made.certificate), ("md", made.page)):
+        beside = f"\n{made.seen}\n" if made.seen else ""
+        for kind, content in (("json", made.certificate), ("md", made.page + beside)):
             if content:
                 put(f"{name}.{kind}", content)
         put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
@@ -199,7 +226,9 @@ def finish(
     """
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
-        print_lines(made.lines, options.digits or PLACES, f"{options.out}/{file}.md")
+        print_lines(made.lines, options.digits or PLACES)
+        say(f"\n{made.seen}" if made.seen else "")
+        say(f"all of it: {options.out}/{file}.md")
         summary = tally((line.verdict, not line.words) for line in made.lines)
         say(f"{summary}; proved in {seconds * 1000:.0f} ms")
     with counting(options.stats) as checking:
@@ -214,7 +243,7 @@ def finish(
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
 
-def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
+def print_lines(lines: Sequence[Line], digits: int) -> None:
     """Print the verdicts, the numbers once each, and the gist of the theorems beside them."""
     show_verdicts([Decided(x.id, x.verdict, x.statement, x.why) for x in lines])
     numbers = {name: ends for line in lines for name, ends in line.quantities.items()}
@@ -226,7 +255,6 @@ def print_lines(lines: Sequence[Line], digits: int, page: str) -> None:
     for text in dict.fromkeys(gists.values()):
         beside = ", ".join(claim for claim, same in gists.items() if same == text)
         say(f"\nTheorem beside {beside}, VERIFIED: {text}")
-    say(f"\nall of it: {page}")
 
 
 def _checked(path: Path, quiet: bool) -> bool:

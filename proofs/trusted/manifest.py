@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
 from proofs.trusted.numbers import show
-from proofs.trusted.paper import find
+from proofs.trusted.paper import BEYOND, find
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -25,15 +25,25 @@ class Listed(NamedTuple):
 
 
 _FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
+_FINDING = ("horseshoe", "sets", "dimension")  # commands that find sets
 
 
 def command(file: str, of: Parameters, claims: Sequence[str] = ()) -> str:
-    """Return the command that makes a certificate of this name, about these numbers and claims."""
-    parts = [f"python -m proofs.{file.removesuffix('.json')}"]
+    """Return the command that makes a certificate of this name, about these numbers and claims.
+
+    What is usual is left out: the paper's numbers; but sets at another oscillator, where they would
+    be found, and epsilon where impacts would be plastic.
+    """
+    group = file.removesuffix(".json")
+    parts = [f"python -m proofs.{group}"]
     options = ("eta", "nu", "left", "right", "interval", "slopes", "epsilon", "velocities", "reach")
+    unusual = {"epsilon"} if group in BEYOND else set()
+    if group in _FINDING and of.place != PAPER.place:
+        unusual = {"left", "right"}
     for name in options:
         value = getattr(of, name)
         usual = (of.left[0], of.right[1]) if name == "interval" else getattr(PAPER, name)
+        usual = None if name in unusual else usual
         if value is not None and value != usual:
             numbers = value if isinstance(value, tuple) else (value,)
             parts += [f"--{name}", *map(show, numbers)]

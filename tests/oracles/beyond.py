@@ -7,7 +7,7 @@ from math import prod
 import numpy as np
 
 from tests.oracles.circle import _released, separation_arc
-from tests.oracles.motion import TURN, Impact, inside, next_impact, sticks
+from tests.oracles.motion import TURN, Impact, flight, inside, next_impact, sticks
 from tests.oracles.plastic import _impact, lifted, points, smooth
 
 
@@ -30,6 +30,39 @@ def never_sticks(view, rng):
     return [] if _pushes(view).count(True) <= 1 else ["at some phases the mass sticks"]
 
 
+def flights_end(view, rng):
+    """After launches all around, the gap is below 0 before so many turns, or the mass sticks."""
+    told = []
+    for k in range(12):
+        found = next_impact(view.eta, view.nu, Fraction(k) / 2, TURN * view.eta.denominator)
+        if found in ("touches", "none"):
+            told.append(
+                f"after a launch at {k / 2} there is no impact in {view.eta.denominator} turns"
+            )
+    return told
+
+
+def comes_to_rest(view, rng):
+    """The table pushes at all phases; rebounds from impacts at random become weaker, to nothing."""
+    if not all(_pushes(view, 180)):
+        return ["at some phase the mass leaves"]
+    side = 1 if view.nu > 0 else -1
+    for _ in range(3):
+        phase, speed = Fraction(rng.random()) * 6, rng.uniform(0.01, 2)
+        for _ in range(200):
+            rate = float(view.nu) * np.cos(float(phase))
+            gamma = Fraction((side * speed - rate) / float(view.eta))
+            found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
+            if view.epsilon * Fraction(speed) < 1e-5 or not isinstance(found, Impact):
+                break
+            phase, speed = Fraction(found.phase), float(found.speed)
+        else:
+            return ["200 impacts later it has not come to rest"]
+        if found in ("none", "touches"):
+            return [f"after a rebound: {found}"]
+    return []
+
+
 def _over(view, cell, target):
     """Whether f maps a cell over another, or misses it; None where neither is seen."""
     ends = [lifted(view, phase) for phase in cell]
@@ -50,6 +83,8 @@ def markov_set(view, rng):
     told, cells = [], view.cells
     if any(b[0] <= a[1] for a, b in pairwise(cells)) or view.slopes[0] <= 1:
         told.append("the cells are out of order or overlap, or f does not expand")
+    if len(view.onward) != len(cells):
+        return [*told, "the arrows are not those of these cells"]
     for i, cell in enumerate(cells):
         found = _impact(view, sum(cell) / 2)
         sign = -1 if isinstance(found, Impact) and found.slope < 0 else 1
@@ -114,6 +149,8 @@ JUDGES = {
     "AtRest": at_rest,
     "Leaves": leaves,
     "NeverSticks": never_sticks,
+    "FlightsEnd": flights_end,
+    "ComesToRest": comes_to_rest,
     "MarkovSet": markov_set,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,

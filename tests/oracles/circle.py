@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from functools import lru_cache
+from itertools import pairwise
 from math import pi, sqrt
 
 import flint
@@ -198,15 +199,16 @@ def _bounces(view, state, epsilon):
     return []
 
 
-def stable_pair(view, rng):
-    """F maps the first box of states into the second, and that back."""
-    told = []
-    for one, two in ((view.first, view.second), (view.second, view.first)):
+def stable_cycle(view, rng):
+    """F maps each box of states into the next, the last into the first; they are apart."""
+    phases = sorted(box[0] for box in view.boxes)
+    told = ["the boxes meet"] if any(a[1] >= b[0] for a, b in pairwise(phases)) else []
+    for one, two in zip(view.boxes, (*view.boxes[1:], *view.boxes[:1]), strict=True):
         for _ in range(4):
             phi, gamma = (between(side, Fraction(rng.random())) for side in one)
             found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
             if isinstance(found, str):
-                told.append(f"a state of the pair: {found}")
+                told.append(f"a state of the orbit: {found}")
             elif found and not (
                 inside_mod(found.lifted, two[0]) and inside(found.velocity, two[1])
             ):
@@ -255,5 +257,5 @@ JUDGES = {
     "NeverImpacts": never_impacts,
     "Absorption": absorption,
     "SuperstableMotion": superstable_motion,
-    "StablePair": stable_pair,
+    "StableCycle": stable_cycle,
 }

@@ -38,6 +38,7 @@ ODD = (  # where the audit found falsehoods, and where the motion is of another 
     ("sets", "0.2125", "-0.2"), ("circle", "1/6", "-9/20"), ("circle", "5/22", "-19/20"),
     ("chaos", "0.2123", "-0.2"), ("nonplastic", "0.2122", "-0.2"),
     ("explore", "0.112", "-0.336"), ("explore", "0.237", "0.3"), ("explore", "0.5", "0.2"),
+    ("rebounding", "0.5", "0.2"), ("rebounding", "0.237", "0.3"),
 )  # fmt: skip
 NUMBERS = ("0", "1", "2", "1/2", "-1", "1/5", "7/5", "6/5", "3/2", "4/5", "31/5", "3", "22/7")
 PARAMETERS = {  # some of one's own

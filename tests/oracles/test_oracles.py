@@ -29,6 +29,13 @@ F = Fraction
 pytestmark = pytest.mark.slow  # all certificates are derived
 
 
+OWN = (  # beyond the paper
+    *(("explore", *at) for at in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"))),
+    ("explore", "2", "-0.2"),
+    ("rebounding", "0.5", "0.2"),
+)
+
+
 @cache
 def true_views():
     """One record of every conclusion that is proved in the tree: (where, record)."""
@@ -38,12 +45,12 @@ def true_views():
         found += [(f"{name} {step}", one, of) for step, one in known.items()]
         for claim, _, shown in committed_rows(name)[1]:
             found += [(f"{name} {claim}", one, of) for one in shown]
-    for eta, nu in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"), ("2", "-0.2")):
-        made = proved("explore", eta, nu)
+    for group, eta, nu in OWN:
+        made = proved(group, eta, nu)
         of, known = conclusions(made)
-        found += [(f"explore {eta} {step}", one, of) for step, one in known.items()]
+        found += [(f"{group} {eta} {step}", one, of) for step, one in known.items()]
         for claim, _, shown in rows(made, made["proofs"], of, known):
-            found += [(f"explore {eta} {claim}", one, of) for one in shown]
+            found += [(f"{group} {eta} {claim}", one, of) for one in shown]
     found += [(where, one, None) for where, one in lemmas()]
     found += [("by hand", one, None) for one in by_hand()]
     return [(where, view(one, of)) for where, one, of in found]
@@ -283,7 +290,11 @@ FALSE = {
         put("passes", lambda old: SimpleNamespace(**{**vars(old), "bounces": old.bounces + 1})),
         _of("motion", put("largest", F(9, 10))),
     ],
-    "StablePair": [put("first", lambda old: (off(old[0]), old[1])), put("epsilon", F(1, 2))],
+    "StableCycle": [
+        put("boxes", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
+        put("boxes", lambda old: old[:1] * 2),
+        put("epsilon", F(1, 2)),
+    ],
     "Solution": [
         offs("multiplier"),
         offs("acceleration"),
@@ -354,6 +365,8 @@ FALSE = {
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
+    "FlightsEnd": [put("nu", F("-0.2"))],
+    "ComesToRest": [put("nu", F(1)), put("nu", F("-0.2")), put("epsilon", F("0.999"))],
     "MarkovSet": [
         put("cells", lambda old: old[::-1]),
         put("cells", lambda old: (off(old[0]), *old[1:])),

@@ -7,6 +7,7 @@ from proofs.report.figures import (
     cantor,
     circle,
     curves,
+    dossier,
     impact_map,
     model,
     rectangles,
@@ -35,6 +36,6 @@ FIGURES: tuple[Figure, ...] = (
     resonance.FIGURE,
     traces.FIGURE,
 )
-OWN: tuple[Figure, ...] = (curves.FIGURE,)  # of what is no part of the report
+OWN: tuple[Figure, ...] = (curves.FIGURE, dossier.FIGURE)  # of what is no part of the report
 
 __all__ = ["FIGURES", "OWN", "Certificates", "Documents", "Figure"]

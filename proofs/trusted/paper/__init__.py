@@ -30,7 +30,11 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     }
 )
 BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {"explore": ("X1", "X2", "X3", "X4"), "curves": ("C1", "C2", "C3")}
+    {
+        "explore": ("X1", "X2", "X3", "X4", "X5"),
+        "rebounding": ("X6", "X7", "X8"),
+        "curves": ("C1", "C2", "C3"),
+    }
 )  # asked at any parameters, and not of the paper: no part of the ledger
 
 _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -59,6 +63,8 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s7_appendix": ("A1", "A2"),
         "beyond.chaos": ("X2",),
         "beyond.attractors": ("X1", "X3", "X4"),
+        "beyond.flights": ("X5",),
+        "beyond.restitution": BEYOND["rebounding"],
         "beyond.curves": ("C1", "C2", "C3"),
     }
 )

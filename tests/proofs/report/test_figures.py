@@ -14,15 +14,19 @@ from mpmath import mpf
 
 from intervals import Undecided
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper.beyond.chaos import MarkovSet
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.verify import premises
 from tests.oracles.curves import amplitude, grazing
 from tests.oracles.sources import curves as curves_of_grazing
 from tests.proofs.trusted.paper import reference
 
 pytest.importorskip("matplotlib")
 
-from proofs.report.figures import FIGURES, OWN, Certificates
+from proofs import explore
+from proofs.report.figures import FIGURES, Certificates, curves, dossier
 from proofs.report.figures.__main__ import main
+from proofs.report.figures.figure import all_of
 from proofs.report.figures.style import PROVED, style, svg_of
 
 pytestmark = pytest.mark.slow
@@ -307,7 +311,7 @@ def test_curves_of_grazing_pass_where_the_oracle_says():
     """Thick lines go through the proved pieces, the point where they meet is one of them."""
     from matplotlib import pyplot as plt
 
-    (figure,) = OWN
+    figure = curves.FIGURE
     with pytest.raises(Undecided):
         figure.plot(Context())
     made = curves_of_grazing()
@@ -323,3 +327,27 @@ def test_curves_of_grazing_pass_where_the_oracle_says():
         assert nu == pytest.approx(amplitude(2, 0.0, eta, p, side), abs=5e-3)
     (x,), (y,) = lines[1].get_data()
     assert (x, y) == pytest.approx((1.42393906912, -0.59355799944), abs=1e-10)
+
+
+# -- at parameters of one's own --------------------------------------------------------------------
+
+
+def test_the_dossier_s_boxes_are_crossed_by_f_from_edge_to_edge(tmp_path):
+    options = ["--eta", "0.22", "--nu", "-0.2", "--only", "X2", "X3", "--effort", "1", "--figure"]
+    assert explore.main([*options, "--quiet", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "figures" / "dossier.svg").read_text().count("<path") > 5
+    proved = premises((tmp_path / "explore.json").read_text())
+    (shift,) = all_of(proved, MarkovSet)
+    boxes = dossier.crossings(shift)
+    assert len(boxes) == 4
+    for domain, target in boxes:
+        ends = sorted(
+            float((phase + reference.first_impact(mpf("0.22"), NU, phase)[0]) % (2 * mpf(math.pi)))
+            for phase in (mpf(float(end)) for end in domain)
+        )
+        assert ends[0] < target[0] and target[1] < ends[1]
+
+
+def test_without_a_proof_there_is_no_dossier():
+    with pytest.raises(Undecided):
+        dossier.plot(Context(PAPER))

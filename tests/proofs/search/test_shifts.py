@@ -1,11 +1,14 @@
 """Sets found at parameters of one's own: what they are for is proved of them."""
 
+import math
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
 
 import pytest
 
 from proofs.motion.system import System
+from proofs.search.loops import loops
 from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import families, own_sets, pieces, symbols
 from proofs.shell.groups import decide
@@ -52,3 +55,23 @@ def test_families_are_told_once():
     found = families(symbols(pieces(System(F("0.2121"), F("-0.2")))), 8)
     names = [frozenset((id(piece), turn) for piece, turn in family) for family in found]
     assert max(map(len, found)) >= 3 and len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("1.1009", "-1.2954"), ("0.22", "-0.2")])
+def test_loops_are_mapped_as_a_markov_set_must_be(eta, nu):
+    """Each cell over a part of the others, and past the rest: by the oracle's own impacts."""
+    from tests.oracles.plastic import lifted
+
+    system = System(F(eta), F(nu))
+    cells = next(loops(system, pieces(system)))
+    view, covered = SimpleNamespace(eta=system.eta, nu=system.nu), []
+    for cell in cells:
+        low, high = sorted(lifted(view, end) for end in cell)
+        inside, met = 0, 0
+        for first, last in cells:
+            turns = [k * math.tau for k in range(int(low // math.tau), int(high // math.tau) + 1)]
+            inside += any(low < first + x and last + x < high for x in turns)
+            met += any(low <= last + x and first + x <= high for x in turns)
+        assert inside == met > 0
+        covered.append(inside)
+    assert set(covered) == {1, 2}  # ways from all cells, from some of them two

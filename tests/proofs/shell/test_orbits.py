@@ -270,6 +270,34 @@ def test_other_parameters():
         )
 
 
+@pytest.mark.parametrize("word", ["0", "01", "0011"])
+def test_sets_are_found_where_f_decreases(word, capsys):
+    """At (0.103, 0.541) f falls on both sets: multipliers of odd words are negative, by (10)."""
+    asked = ["--eta", "0.103", "--nu", "0.541", "--word", word, "--digits", "20"]
+    orbit = answer(capsys, *asked)["orbits"]
+    phases = [mpf(row["phase"]["lower"]) for row in orbit]
+    product, eta, nu = mpf(1), mpf("0.103"), mpf("0.541")
+    for here, ahead in zip(phases, [*phases[1:], phases[0]], strict=True):
+        time = (ahead - here) % (2 * mp.pi) if len(word) > 1 else 2 * mp.pi
+        while abs(reference.left_side_10(eta, nu, here, time)) > mpf(10) ** -17:
+            time += 2 * mp.pi
+        product *= reference.slope(eta, nu, here, time)
+    assert (product < 0) == (len(word) % 2 == 1)
+    assert abs(product / mpf(orbit[0]["multiplier"]["lower"]) - 1) < mpf(10) ** -15
+
+
+@pytest.mark.parametrize("sets", [["--left", "1.1", "1.15"], ["--right", "1.27", "1.32"]])
+def test_one_set_alone_is_not_enough_elsewhere(sets, capsys):
+    with pytest.raises(SystemExit) as leave:
+        orbits.main(["--word", "01", "--eta", "0.22", *sets])
+    assert leave.value.code == 2 and "go together" in capsys.readouterr().err
+
+
+def test_without_sets_elsewhere_the_paper_s_are_not_taken(capsys):
+    assert orbits.main(["--word", "01", "--eta", "0.25", "--nu", "-0.3"]) == 1
+    assert "no two sets are found" in capsys.readouterr().err
+
+
 def true_image(x, in_right):
     """f(x) and f'(x): the zero of (10) near the time that the scan finds, at 50 digits."""
     turns = 2 * mp.pi * (9 if in_right else 4)

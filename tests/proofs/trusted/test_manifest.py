@@ -1,6 +1,7 @@
 """MANIFEST.json: what the main job writes, and what the checker makes of a changed one."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,11 +13,13 @@ from proofs.shell.files import writing
 from proofs.shell.ledger import CLAIMS
 from proofs.trusted.certificate import MANIFEST, Malformed, digest
 from proofs.trusted.kernel.meter import DEFAULT
-from proofs.trusted.manifest import check_ledger, check_manifest
+from proofs.trusted.manifest import check_ledger, check_manifest, command
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected
 from tests.proofs.trusted import corpus
 
 ROOT = Path(__file__).parents[3]
+SETS = ["--left", "1.11", "1.15", "--right", "1.27", "1.32"]
 
 
 @pytest.fixture
@@ -62,18 +65,28 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
 
 
 def test_the_command_names_the_parameters(tmp_path, capsys):
-    words = ["--eta", "0.25", "--nu", "-0.3", "--only", "H16", "--out", str(tmp_path)]
+    words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H16", "--out", str(tmp_path)]
     assert main(words) == 0
     path = tmp_path / manifest.NAME
     made = files(tmp_path)["horseshoe.json"]["made"]
-    assert made == "python -m proofs.horseshoe --eta 0.25 --nu -0.3 --only H16"
+    named = " ".join(SETS)  # without them others would be found
+    assert made == f"python -m proofs.horseshoe --eta 0.25 --nu -0.3 {named} --only H16"
     capsys.readouterr()
     assert check([str(path)]) == 0
     assert "1 claims, 1 of them at other parameters" in capsys.readouterr().out
 
 
+def test_the_command_names_epsilon_beyond_the_paper():
+    plastic = replace(PAPER, epsilon=None, velocities=None, reach=None)
+    assert command("explore.json", plastic) == "python -m proofs.explore"
+    assert command("explore.json", replace(plastic, epsilon=PAPER.epsilon)).endswith(
+        "--epsilon 0.01"
+    )
+    assert command("nonplastic.json", PAPER) == "python -m proofs.nonplastic"
+
+
 def test_an_undecided_claim_in_a_manifest_is_status_1(tmp_path, capsys):
-    words = ["--eta", "0.25", "--nu", "-0.3", "--only", "H5", "--out", str(tmp_path)]
+    words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H5", "--out", str(tmp_path)]
     assert main(words) == 1
     capsys.readouterr()
     assert check([str(tmp_path / manifest.NAME)]) == 1

@@ -236,7 +236,7 @@ class NeverImpacts(Conclusion):
 
 
 def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
-    """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q < 1 in lowest terms.
+    """Rule `never-impacts`: {phases}, for -1 < nu < 0 and eta = p/q in lowest terms.
 
     Hypotheses: all phases are in (0, 3), and `closest_approach` gives positive numbers for them.
     Conclusion: `NeverImpacts`.
@@ -246,8 +246,8 @@ def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     if not 0 < phases[0] < phases[1] < _THREE:
         raise phases_of.fail("phases between 0 and 3 are expected")
     eta, nu = context.of.eta, context.of.nu
-    if not -1 < nu < 0 < eta < 1:
-        raise Unproved("closest approaches are known for -1 < nu < 0 and eta < 1")
+    if not -1 < nu < 0:
+        raise Unproved("closest approaches are known for -1 < nu < 0")
     start, away = Motion(eta, nu, phases, BITS).start(), Enclosure.of(*phases, BITS) - pi(BITS) / 2
     bounds = closest_approach(eta, rational(nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):
@@ -272,8 +272,8 @@ def closest_approach(
     (1) In an oscillation m that p does not divide, w + 2 pi m q/p is 2 pi/p - |w| or more from all
     multiples of 2 pi: no impact if (|w| + |u| + |s|)^2 <= 2 (w^2 + T) < (2 pi/p)^2.
     (2) In the others, by periodicity m = 0: where s^2 <= S, gap'' = n cos(u) + R eta^2 cos(eta s)
-    >= n (1 - S - w^2) - (a + r) eta^2, R = a + r. If that is > 0 the gap is convex there, 0 with
-    its derivative at launch: > 0 elsewhere.
+    >= n (1 - S - w^2) + a eta^2 - (a + r) eta^4 S/2, R = a + r and cos x >= 1 - x^2/2. If that is
+    > 0 the gap is convex there, 0 with its derivative at launch: > 0 elsewhere.
     Below r is bounded by (R^2 - a^2) / (2a), and w by away + rate / (eta^2 (1 + lift)); the
     numbers are the differences in (1) and (2), n c and a eta^2 d.
     """
@@ -287,5 +287,6 @@ def closest_approach(
     reach = near + 2 * excess / table
     turn = 2 * half_turn / eta.numerator
     passes = turn * turn - 2 * (lag * lag + reach)
-    convex = size * (1 - near - lag * lag) - (deepest + excess) * square
+    bent = (deepest + excess) * square * near / 2
+    convex = size * (1 - near - lag * lag) + square * (deepest - bent)
     return passes, convex, table, mass

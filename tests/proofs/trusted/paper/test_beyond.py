@@ -5,6 +5,8 @@ from fractions import Fraction
 
 import pytest
 
+from intervals import Undecided
+from proofs.search.beyond import Budget
 from proofs.shell.groups import produce
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
@@ -19,6 +21,8 @@ from proofs.trusted.paper.beyond.attractors import (
     sticking_motion,
 )
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
+from proofs.trusted.paper.beyond.flights import FlightsEnd
+from proofs.trusted.paper.beyond.restitution import ComesToRest
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
@@ -154,6 +158,46 @@ def test_a_box_of_oscillators_is_none():
             (AtRest if nu[0] > 0 else NeverSticks)(Place((F(1, 2),) * 2, nu))
 
 
+@pytest.mark.parametrize(
+    ("eta", "nu"), [(("1/5", "1/5"), ("-1/5", "-1/5")), (("1/5", "1/4"), ("1/5", "1/5"))]
+)
+def test_flights_end_at_one_eta_and_above_nu_0(eta, nu):
+    with pytest.raises(Unproved):
+        FlightsEnd(Place(tuple(map(F, eta)), tuple(map(F, nu))))
+    assert "5 turns" in FlightsEnd(Place.plastic(F(1, 5), F(1, 5))).sentence
+
+
+def restituting(eta, nu, epsilon):
+    eta, nu, epsilon = map(F, (eta, nu, epsilon))
+    return Place((eta, eta), (nu, nu), (epsilon, epsilon))
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "epsilon", "holds"),
+    [
+        ("1/2", "1/5", "0", True),
+        ("1/2", "1/5", "0.4999", True),
+        ("1/2", "1/5", "1/2", False),  # 1/4 of 0.4 is 0.1
+        ("1/2", "1/5", "0.5001", False),
+        ("1", "7", "0.999", True),  # A = b: the table does not change its push
+        ("1/2", "1/3", "1/10", False),  # no push at one phase
+        ("1/2", "-1/5", "1/10", False),
+    ],
+)
+def test_motions_with_restitution_come_to_rest(eta, nu, epsilon, holds):
+    at = restituting(eta, nu, epsilon)
+    if holds:
+        assert "comes to rest" in ComesToRest(at).sentence
+    else:
+        with pytest.raises(Unproved):
+            ComesToRest(at)
+
+
+def test_the_greatest_epsilon_of_a_range_counts():
+    with pytest.raises(Unproved):
+        ComesToRest(replace(restituting("1/2", "1/5", "0"), epsilon=(F(0), F("0.6"))))
+
+
 # -- motions that stick ----------------------------------------------------------------------------
 
 
@@ -243,19 +287,57 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 
 # -- from parameters to verdicts, by the search and the checker ------------------------------------
 
-ASKED = [  # verdicts of X1 to X4; X2 and X4 by simulation in the oracles
-    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED"),
-    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED"),
-    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED"),
-    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED"),
-    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED"),
+ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
+    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED"),
+    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED"),
+    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED"),
+    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED"),
+    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED"),
+    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED"),
 ]
+
+
+REBOUNDING = [  # verdicts of X6 to X8; by simulation in the oracles
+    ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED"),
+    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED"),
+    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED"),
+    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED"),
+    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED"),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("eta", "nu", "epsilon", "verdicts"), REBOUNDING)
+def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
+    of = replace(PAPER, eta=F(eta), nu=F(nu), epsilon=F(epsilon), reach=None)
+    made = produce({"rebounding": BEYOND["rebounding"]}, of, digits=20, effort=1)
+    assert [line.verdict.value for line in made.lines] == verdicts.split()
+    assert len(check(made.certificate).claims) == 3
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu", "verdicts"), ASKED)
 def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu))
-    made = produce(BEYOND, of, digits=20)
+    made = produce({"explore": BEYOND["explore"]}, of, digits=20, effort=2)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
-    assert len(check(made.certificate).claims) == 4
+    assert len(check(made.certificate).claims) == 5
+
+
+@pytest.mark.parametrize("eta", ["1e30", "101"])
+def test_a_mass_that_swings_too_fast_is_not_followed(eta):
+    of = replace(PAPER, eta=F(eta), nu=F("-0.2"))
+    made = produce({"explore": BEYOND["explore"]}, of, digits=20)
+    said = {line.id: line for line in made.lines}
+    assert said["X1"].verdict.value == "REFUTED"
+    assert all("not followed" in said[claim].why for claim in ("X2", "X4", "X5"))
+
+
+def test_a_budget_ends():
+    budget = Budget(F(1, 5), seconds=0)
+    with pytest.raises(Undecided, match="stopped after 0 seconds"):
+        budget.check()
+    Budget(F(1, 5)).check()
+    assert Budget(F(1, 5), 4).grid == 2 * Budget(F(1, 5), 3).grid
+    made = produce({"explore": BEYOND["explore"]}, PAPER, digits=20, seconds=0)
+    assert "stopped after 0 seconds" in {line.id: line.why for line in made.lines}["X2"]

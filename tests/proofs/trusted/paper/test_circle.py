@@ -38,6 +38,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
+from tests.oracles.motion import flight
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited, texts
 
@@ -285,7 +286,7 @@ def test_the_longest_interval_is_accepted(never):
 
 
 FURTHER, TURN = Fraction(1, 10**7), Fraction("6.283185307")
-STICKS = {"eta": Fraction(1, 2), "nu": Fraction(-1, 10)}  # acceleration 0.075 - 0.25 at pi/2
+FASTER = {"eta": Fraction(5), "nu": Fraction(-1, 5)}  # an impact after phase 0.94
 
 
 @pytest.mark.parametrize(
@@ -297,7 +298,9 @@ STICKS = {"eta": Fraction(1, 2), "nu": Fraction(-1, 10)}  # acceleration 0.075 -
         (lambda low, high: (low, low), {}),  # one phase is no interval that is lost: G4, M6
         (lambda low, high: (low + TURN, high + TURN), {}),
         (lambda low, high: (low - TURN, high - TURN), {}),
-        (lambda low, high: (Fraction("1.57"), Fraction("1.571")), STICKS),
+        (lambda low, high: (Fraction("0.94"), Fraction("1.571")), FASTER),
+        (lambda low, high: (low, high), {"nu": Fraction(-6, 5)}),
+        (lambda low, high: (low, high), {"nu": Fraction(1, 5)}),
     ],
 )
 def test_other_intervals_are_refused(never, change, of):
@@ -316,6 +319,22 @@ def test_another_frequency_has_another_interval(never):
     assert found.phases[1] - found.phases[0] > 100 * (never[1].phases[1] - never[1].phases[0])
     with pytest.raises(Unproved):
         apply("never-impacts", wide.steps["never-impacts-1"]["witness"])
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu"),
+    [("3/2", "-9/10"), ("5", "-1/5"), ("7/3", "-1/5"), ("1/2", "-1/10"), ("1", "-1/2")],
+)
+def test_flights_without_an_end_whatever_the_frequency(eta, nu):
+    """By arithmetic of their own the oracles see each launch fly until all is where it was."""
+    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
+    prover = Prover(System(of.eta, of.nu), 30, HORIZON)
+    name, found = circle.prove_longest(prover)
+    assert apply("never-impacts", prover.steps[name]["witness"], of=of) == found
+    low, high = found.phases
+    assert high - low > Fraction(1, 4)
+    for k in range(5):
+        assert flight(of.eta, of.nu, low + (high - low) * k / 4, latest=1000) == "touches"
 
 
 # -- the circle ----------------------------------------------------------------------------------

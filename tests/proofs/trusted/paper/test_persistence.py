@@ -23,13 +23,12 @@ from proofs.trusted.certificate import SCHEMA, Malformed, parameters_to_json, re
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import find
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import (
-    StablePair,
     SuperstableMotion,
     bounce,
-    stable_pair,
 )
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
@@ -38,7 +37,7 @@ from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, derive, edited, exact
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
-ARC, MOTION, PAIR = "separation-1", "superstable-motion-1", "stable-pair-1"
+ARC, MOTION, PAIR = "separation-1", "superstable-motion-1", "stable-cycle-1"
 
 
 @cache
@@ -129,7 +128,7 @@ def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
 def test_the_boxes_of_the_other_orbit_are_mapped_into_each_other_by_the_printed_equations():
     pair = dict(evidence().proofs["G7"])[PAIR]
     assert pair.at.epsilon == (Fraction("0.29"),) * 2
-    for source, target in ((pair.first, pair.second), (pair.second, pair.first)):
+    for source, target in (pair.boxes, pair.boxes[::-1]):
         for corner in ((0, 0), (0, 1), (1, 1)):
             phi, gamma = (ends[k] for ends, k in zip(source, corner, strict=True))
             state = exact_number(phi), exact_number(gamma)
@@ -148,12 +147,17 @@ def rebounds():
     """The four steps that the pair rests on, in the order of the theorem."""
     known = derive({k: v for k, v in evidence().steps.items() if v["rule"] == "rebound"})
     witness = evidence().steps[PAIR]["witness"]
-    return [known[witness[name]] for name in ("first", "at_first", "second", "at_second")]
+    return [known[witness[kind][k]] for k in (0, 1) for kind in ("boxes", "centres")]
+
+
+def cycle(steps):
+    """The theorem about boxes and centres in turn."""
+    return stable_cycle(steps[::2], steps[1::2])
 
 
 def no_pair(steps):
     with pytest.raises(Unproved):
-        stable_pair(*steps)
+        cycle(steps)
     return True
 
 
@@ -190,7 +194,10 @@ def test_a_pair_of_invented_boxes():
         to, back = sum(second) / 2, sum(low) / 2
         return [*box_of(low, slope, to), *box_of(second, slope, back)]
 
-    assert stable_pair(*steps(half)).second == (high, (-1, 0))
+    assert cycle(steps(half)).boxes[1] == (high, (-1, 0))
+    assert cycle(box_of(low, half, Fraction(3, 2))).boxes == ((low, (-1, 0)),)
+    assert no_pair(box_of(low, half, Fraction(5, 2))), "it leads elsewhere"
+    assert no_pair([]), "no orbit"
     assert no_pair(steps(one)), "an isometry contracts nothing"
     assert no_pair(steps(half, low)), "a fixed point is no 2-periodic orbit"
     wide = replace(steps(half)[0].at, eta=(PAPER.eta, PAPER.eta + Fraction(1, 100)))
@@ -215,7 +222,7 @@ def test_conclusions_that_do_not_contract_prove_no_pair(change, index):
 
 def test_the_pair_alone_decides_nothing():
     motion, pair = (step for _, step in evidence().proofs["G7"])
-    assert isinstance(motion, SuperstableMotion) and isinstance(pair, StablePair)
+    assert isinstance(motion, SuperstableMotion) and isinstance(pair, StableCycle)
     assert find("G7").decide(PAPER, [pair]).verdict is Verdict.UNDECIDED
     assert "F^2 contracts" not in find("G7").decide(PAPER, [motion]).theorem
 

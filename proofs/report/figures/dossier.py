@@ -1,0 +1,78 @@
+"""The impact map on the circle at parameters of one's own, with all that is proved there."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from intervals import Undecided
+from proofs.motion.system import System
+from proofs.report.figures.circle import on_circle
+from proofs.report.figures.figure import Figure, all_of
+from proofs.report.figures.sampled import graph
+from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Phases
+from proofs.trusted.paper.beyond.attractors import StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.chaos import MarkovSet
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
+_SAMPLES = 1200
+_BELOW = (-0.12, 0.0)  # where sets of phases are marked
+
+
+def crossings(found: MarkovSet) -> list[tuple[Phases, Phases]]:
+    """Return a box for each arrow: f crosses it from its lower to its upper edge, or down."""
+    return [(found.cells[i], found.cells[j]) for i, after in enumerate(found.onward) for j in after]
+
+
+def steps(cells: tuple[Phases, ...]) -> list[tuple[Phases, Phases]]:
+    """Return boxes that hold f on each of these sets, which is mapped into the next."""
+    return list(pairwise(cells))
+
+
+def plot(proved: Context) -> Drawing:
+    """Draw f, and the sets of all conclusions."""
+    of = proved.of
+    kinds = (MarkovSet, EntropyBound, StableOrbit, StickingMotion, NeverImpacts)
+    if not any(all_of(proved, kind) for kind in kinds):
+        raise Undecided("the certificate proves nothing about sets of phases")
+    drawing, axes = sheet(5.2)
+    for arc in all_of(proved, Separation):
+        sticking = [(part, _BELOW) for part in on_circle((arc.start[1], arc.phase[0]))]
+        proved_boxes(axes, sticking, ORANGE, "the mass sticks, proved")
+    for none in all_of(proved, NeverImpacts):
+        label = "no impact ever, proved"
+        proved_boxes(axes, [(none.phases, (0, math.tau))], RED, label, lw=0.8)
+    for shift in all_of(proved, MarkovSet):
+        proved_boxes(axes, crossings(shift), "#C6E5F7", "crossed by f, proved", lw=0.3)
+    for graph_found in all_of(proved, EntropyBound):
+        branches = [(branch.phases, _BELOW) for branch in graph_found.branches]
+        proved_boxes(axes, branches, BLUE, "branches of a covering graph, proved")
+    for orbit in all_of(proved, StableOrbit):
+        boxes = steps((*orbit.cells, orbit.cells[0]))
+        proved_boxes(axes, boxes, BLUE, "a stable orbit, proved", lw=4)
+    for motion in all_of(proved, StickingMotion):
+        proved_boxes(axes, steps(motion.cells), ORANGE, "its impacts, proved", lw=4)
+    dots(axes, graph(System(of.eta, of.nu), 0.0, math.tau, _SAMPLES), "f, sampled")
+    axes.plot([0, math.tau], [0, math.tau], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+    axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]")
+    axes.set(xlim=(0, math.tau), ylim=(_BELOW[0], math.tau))
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return drawing
+
+
+FIGURE = Figure(
+    "dossier",
+    "The impact map on the circle",
+    ("X2", "X3", "X4", "X5"),
+    "explore",
+    "Here a sticking mass is mapped to the phase at which it leaves. Filled: proved. Dots: f in "
+    "floating point.",
+    plot,
+)

@@ -1,0 +1,96 @@
+"""Beyond the paper, with restitution: what can be proved at any parameters. Rows X6 to X8."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+from types import MappingProxyType
+
+from intervals import Undecided
+from proofs.motion.impact import HORIZON
+from proofs.motion.system import System
+from proofs.search.beyond import EFFORT, Budget
+from proofs.search.evidence import FAILED, Evidence, Proof, Tell
+from proofs.search.s33_cycles import stable_cycles
+from proofs.search.s33_own import rectangles
+from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_chaos import FASTEST
+from proofs.search.s34_persistence import superstable_motion
+from proofs.search.shifts import pieces, symbols
+from proofs.search.steps import Prover
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.parameters import Parameters, Place
+
+
+def prove(
+    of: Parameters,
+    claims: Sequence[str],
+    *,
+    digits: int = 30,
+    tell: Tell = lambda stage: None,
+    effort: int = EFFORT,
+    seconds: float | Fraction = math.inf,
+) -> Evidence:
+    """Prove what the claims asked for rest on, as far as it goes."""
+    prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
+    budget, found = Budget(of.eta, effort, seconds), Evidence(prover.steps)
+    for claim in claims:
+        found.proofs[claim] = []
+        if claim in _SEARCHES and of.eta > FASTEST:
+            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
+        elif claim in _SEARCHES and of.epsilon is not None:
+            stage, search = _SEARCHES[claim]
+            tell(stage)
+            try:
+                with prover.attempt():
+                    budget.check()
+                    found.proofs[claim] = search(prover, budget)
+            except FAILED as failure:
+                found.notes[claim] = str(failure)
+    found.steps = prover.steps
+    return found
+
+
+def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
+    """Prove a horseshoe on rectangles that are found (rule rectangle-horseshoe)."""
+    system, of = prover.plain.system, prover.of
+    epsilon = of.epsilon or Fraction(0)
+    at = Place((of.eta,) * 2, (of.nu,) * 2, (epsilon,) * 2)
+    seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
+    failure = "no two rectangles are seen that F maps across both, left to left"
+    for (sets, velocities), _ in zip(
+        rectangles(system, epsilon, seen), range(budget.tries), strict=False
+    ):
+        budget.check()
+        prover.of = replace(of, velocities=velocities)
+        try:
+            name = prover.horseshoe(at, sets)
+        except Unproved as error:
+            failure = str(error)
+        else:
+            return [(name, prover.known[name])]
+        finally:
+            prover.of = of
+    raise Undecided(failure)
+
+
+def _stable(prover: ReboundProver, budget: Budget) -> Proof:
+    """Prove the motion that rests and leaves again, and stable orbits of transversal impacts."""
+    epsilon = prover.of.epsilon or Fraction(0)
+    proof: Proof = []
+    with suppress(*FAILED), prover.plain.undone():
+        name, motion = superstable_motion(prover.plain, epsilon)
+        if motion.largest >= epsilon:
+            proof.append((name, motion))
+    proof += stable_cycles(prover, epsilon, budget.starts)
+    if not proof:
+        raise Undecided("no motion is seen to come to a stable one, or none is proved")
+    return proof
+
+
+_SEARCHES: Mapping[str, tuple[str, Callable[[ReboundProver, Budget], Proof]]] = MappingProxyType(
+    {"X6": ("rectangles", _chaos), "X7": ("stable motions", _stable)}
+)

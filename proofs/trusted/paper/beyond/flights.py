@@ -1,0 +1,56 @@
+"""Flights without an end, at any parameters. Row X5."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.paper.beyond.attractors import first_proved
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+
+@dataclass(frozen=True)
+class FlightsEnd(Conclusion):
+    """Theorem. Let nu > 0, eta = p/q. Then what the sentence says.
+
+    Proof. After a plastic impact gap = (1 + lift) cos(eta t) + (rate / eta) sin(eta t) - 1
+    - nu sin(phi + t) as long as there is no other. It has the period 2 pi q and the mean -1 over
+    it, as its waves have whole numbers of periods in it: it is < 0 at some time before 2 pi q.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        if self.at.nu[0] <= 0 or self.at.eta[0] != self.at.eta[1]:
+            raise Unproved("nu > 0 and one eta are expected")
+
+    @property
+    def sentence(self) -> str:
+        turns = self.at.eta[0].denominator
+        return (
+            f"no flight after a plastic impact lasts for {turns} turn{'s' if turns > 1 else ''} of "
+            "the table: before that it would be where the mass is, and beyond."
+        )
+
+
+def _flies(of: Parameters, found: Found) -> Decision:
+    never, none = found.first(NeverImpacts), first_proved(of.place, FlightsEnd)
+    if never is not None:
+        return decided(Verdict.VERIFIED, never)
+    return undecided("none are proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+ROWS = (
+    Row(
+        "X5",
+        "beyond",
+        "",
+        "At (eta, nu) = ({eta}, {nu}), for plastic impacts: there is an interval of phases from "
+        "which the mass leaves the table and never makes an impact again (a touch without relative "
+        "velocity is none).",
+        _flies,
+    ),
+)

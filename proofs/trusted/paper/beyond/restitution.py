@@ -1,0 +1,102 @@
+"""Motions with restitution, at any parameters: chaos, stable motions, rest. Rows X6 to X8."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+
+@dataclass(frozen=True)
+class ComesToRest(Conclusion):
+    """Theorem. Let nu > 0, A = eta^2 + nu |1 - eta^2|, b = eta^2 - nu |1 - eta^2| > 0 and
+    epsilon^2 A < b. Then what the sentence says.
+
+    Proof. The relative acceleration a of a free mass at the table lies in [-A, -b] at all phases.
+    In flight gap >= 0 and gap'' = a - eta^2 gap <= -b: each flight ends with an impact, after a
+    rebound w within 2 w / b, and its speed is v <= sqrt(A / b) w as in the chatter lemma of
+    `superstable-motion`. So the next rebound is epsilon v <= r w, r = epsilon sqrt(A / b) < 1: the
+    times sum to at most 2 w / (b (1 - r)), the speeds tend to 0. Then the mass is at rest on the
+    table, and stays, as a < 0.
+    """
+
+    at: Place
+
+    def __post_init__(self) -> None:
+        (eta, last), (nu, most) = self.at.eta, self.at.nu
+        if (eta, nu) != (last, most) or nu < 0:
+            raise Unproved("one eta and one nu > 0 are expected")
+        push, change = eta * eta, nu * abs(1 - eta * eta)
+        if restitution(self.at)[1] ** 2 * (push + change) >= push - change:
+            raise Unproved("the speeds of the rebounds are not proved to shrink")
+
+    @property
+    def sentence(self) -> str:
+        return (
+            "after its first impact every motion comes to rest on the table within a finite time, "
+            "and stays there for ever: the table pushes at all phases, and rebounds become weaker."
+        )
+
+
+def _at(of: Parameters) -> Place:
+    epsilon = of.epsilon or Fraction(0)
+    return Place((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
+
+
+def _rest(of: Parameters) -> Conclusion | None:
+    return first_proved(_at(of), ComesToRest)
+
+
+def _chaotic(of: Parameters, found: Found) -> Decision:
+    horseshoe, none = found.first(RectangleHorseshoe), _rest(of)
+    if horseshoe is not None:
+        return decided(Verdict.VERIFIED, horseshoe)
+    return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+def _stable(of: Parameters, found: Found) -> Decision:
+    motions = [*found.all(SuperstableMotion), *found.all(StableCycle)]
+    if motions:
+        return decided(Verdict.VERIFIED, *motions)
+    none = _rest(of)
+    return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+def _rests(of: Parameters, found: Found) -> Decision:
+    del found
+    rest, leaves = _rest(of), first_proved(of.place, Leaves)
+    if rest is not None:
+        return decided(Verdict.VERIFIED, rest)
+    if leaves is not None:
+        return decided(Verdict.REFUTED, leaves)
+    return undecided("whether rebounds become weaker is not proved")
+
+
+_AT = "At (eta, nu) = ({eta}, {nu}), epsilon = {epsilon}: "
+ROWS = (
+    Row(
+        "X6",
+        "beyond",
+        "",
+        _AT + "the map F from one impact to the next has a compact invariant set of positive "
+        "topological entropy.",
+        _chaotic,
+    ),
+    Row(
+        "X7",
+        "beyond",
+        "",
+        _AT + "there is a periodic motion with impacts that attracts an open set of others.",
+        _stable,
+    ),
+    Row("X8", "beyond", "", _AT + "every motion comes to rest on the table for ever.", _rests),
+)

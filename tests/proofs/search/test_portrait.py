@@ -1,0 +1,54 @@
+"""What floating point sees of the circle, against a scan of the equation of motion."""
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+
+from proofs.motion.system import System
+from proofs.search.portrait import FALLS, FLIES, RISES, STICKS, TOUCHES, fates, rows, stretches
+from tests.oracles.motion import Impact, flight
+
+F = Fraction
+KINDS = {"sticks": STICKS, "touches": TOUCHES, "none": FLIES}
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu"), [("0.2121", "-0.2"), ("0.25", "-0.3"), ("5", "-0.2"), ("0.5", "0.9")]
+)
+def test_stretches_are_what_the_oracle_sees(eta, nu):
+    system = System(F(eta), F(nu))
+    seen = stretches(system, 300, 100.0)
+    assert all(a.points[-1].phase < b.points[0].phase for a, b in pairwise(seen))
+    for stretch in seen:
+        if stretch.width < 0.05:
+            continue
+        point = stretch.points[len(stretch.points) // 2]
+        found = flight(system.eta, system.nu, F(point.phase), latest=100)
+        if isinstance(found, Impact):
+            assert stretch.kind == (RISES if found.slope > 0 else FALLS)
+            assert point.image - point.phase == pytest.approx(float(found.time), abs=1e-5)
+        else:
+            assert stretch.kind == KINDS[found]
+        slopes = [x.slope for x in stretch.points]
+        assert stretch.kind not in (RISES, FALLS) or min(slopes) > 0 or max(slopes) < 0
+
+
+def test_the_circle_of_figure_5_has_its_arc_and_its_jumps():
+    """f is constant on (3.38, 6.04), by figure 5; it jumps at 1.2, where flights graze."""
+    table = rows(stretches(System(F("0.2121"), F("-0.2")), 1500, 200.0), 0.005)
+    (arc,) = (row for row in table if row[1] == STICKS)
+    low, high = map(float, arc[0].strip("[]").split(","))
+    assert abs(low - 3.3793) < 1e-3 and abs(high - 6.0454) < 1e-3
+    assert any("1.199986]" in row[0] and row[-1] == "grazes" for row in table)
+    assert table[0][-2] == table[-1][-1] == "phase 0"
+
+
+def test_fates_count_all_orbits():
+    found = {fate.name: fate.share for fate in fates(System(F("5"), F("-0.2")), 24, 50, 100.0)}
+    assert found == {"it only touches the table, again and again": 1.0}
+    stable = fates(System(F("0.237"), F("0.3")), 24, 300, 100.0)
+    assert sum(fate.share for fate in stable) == pytest.approx(1)
+    assert any("stable orbit of period" in fate.name for fate in stable)
+    assert math.isclose(sum(fate.share for fate in fates(System(F(1), F(1)), 7, 5, 9.0)), 1)
