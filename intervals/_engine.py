@@ -1,8 +1,8 @@
 """Which library computes for `Interval`: mpmath, or python-flint where it is installed.
 
 Both give the same results, to the bit, and raise the same exceptions; FLINT is faster. With
-INTERVALS_ENGINE=mpmath in the environment it stays unused. It is imported after some operations
-only: fewer take less time than its import.
+INTERVALS_ENGINE=mpmath in the environment it stays unused. It is imported after many operations
+only: fewer are done sooner without it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _REPLACED = (
     *("__add__", "__radd__", "__sub__", "__mul__", "__rmul__", "__truediv__", "__neg__", "__abs__"),
     *("__pow__", "sqr", "sqrt", "exp", "log", "sin", "cos", "sincos", "_monotone", "_bounds"),
 )
-_PATIENCE = 500
+_PATIENCE = 5_000_000  # bits of operands: about a second, of which the import takes a part
 BY_MPMATH: dict[str, Method] = {}  # the operations as `Interval` defines them
 
 
@@ -27,12 +27,14 @@ def arrange(interval: type) -> None:
     BY_MPMATH.update({name: getattr(interval, name) for name in _REPLACED})
     if os.environ.get("INTERVALS_ENGINE") == "mpmath":
         return
-    calls = iter(range(_PATIENCE))
+    computed = 0
 
     def counted(name: str) -> Method:
         @wraps(BY_MPMATH[name])
         def method(self: Any, *arguments: Any) -> Any:
-            if next(calls, None) is None:
+            nonlocal computed
+            computed += self.precision
+            if computed > _PATIENCE:
                 use(interval, fastest())
             return BY_MPMATH[name](self, *arguments)
 

@@ -174,7 +174,9 @@ def main(arguments: list[str] | None = None) -> int:
             put("ledger.json", text)
             put(manifest.NAME, manifest.entered(options.out, certificates))
         with progress() as tell:
-            pages = report.built(options.out, tell, only_text=bool(report.missing()))
+            known = {one.job.name: one.report.context for one in settled}
+            only_text = bool(report.missing())
+            pages = report.built(options.out, tell, only_text, known=known)
         write_files(options.out, pages)
     write_target(parser, options.json, lambda: text)
     if heard(options):
