@@ -16,6 +16,8 @@ def fraction(value: Exact) -> Fraction:
     TypeError: 0.2121 typed as a float is not 2121/10000, use `from_float` where the binary
     number itself is meant. Text that is no number raises ValueError.
     """
+    if type(value) is Fraction:
+        return value
     if isinstance(value, str):
         return _read(value)
     if isinstance(value, float):

@@ -4,7 +4,8 @@ Endpoints are dyadic rationals held as libmp numbers; + - * / sqrt are libmp's w
 rounding, sin cos exp log are this package's own with proved remainders, rounded to the next
 number. So each of these, sqr and x**n (n >= 0) return the tightest enclosure of the range at their
 precision, and X within Y implies op(X) within op(Y). The precision in bits travels with the
-number: a result has the larger precision of its operands.
+number: a result has the larger precision of its operands. Where python-flint is installed it does
+the same to the bit: see `_engine`.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from mpmath.libmp import (
     mpf_sub,
 )
 
-from intervals import display
+from intervals import _engine, display
 from intervals.elementary import tightest
 from intervals.elementary.constants import pi_fixed
 from intervals.elementary.steps import STEPS
@@ -66,7 +67,8 @@ class Interval(Relations[bool], Elementary):
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
 
-    __slots__ = ("_hi", "_lo", "precision")
+    __slots__ = ("_balls", "_hi", "_lo", "precision")  # _balls: see `_engine_flint`
+    _balls: Any
     _lo: _Raw
     _hi: _Raw
     precision: int
@@ -577,3 +579,6 @@ def _with_extrema(
     if (n_high - top - 2) // 4 > (n_low - top - 2) // 4:
         low = _MINUS_ONE
     return _make(low, high, precision)
+
+
+_engine.arrange(Interval)

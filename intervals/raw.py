@@ -10,7 +10,11 @@ from intervals.elementary.tightest import Bounds, Raw
 
 def rounded(value: Fraction, precision: int, direction: str) -> Raw:
     """Return a rational rounded to `precision` bits."""
-    raw: Raw = from_rational(value.numerator, value.denominator, precision, direction)
+    top, bottom = value.numerator, value.denominator
+    if bottom & (bottom - 1):
+        raw: Raw = from_rational(top, bottom, precision, direction)
+    else:  # a power of 2: no division
+        raw = from_man_exp(top, 1 - bottom.bit_length(), precision, direction)
     return raw
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.report import graph
 from proofs.report.checker import checker
-from proofs.report.figures import Certificates
+from proofs.report.figures.figure import Certificates, Documents
 from proofs.report.findings import findings
 from proofs.report.ledger import ledger
 from proofs.report.pictures import pictures
@@ -30,15 +31,17 @@ def built(
     tell: Tell = lambda stage: None,
     only_text: bool = False,
     pyodide: Path | None = None,
+    known: Documents = MappingProxyType({}),
 ) -> dict[str, str]:
     """Return the files of the report, by their names in the folder; nothing is proved again.
 
     only_text: without the page and the figures of matplotlib, for which packages may be missing.
-    pyodide: where it is, for a page with a checker in it, too.
+    pyodide: where it is, for a page with a checker in it, too. known: what was derived from
+    certificates of the folder just now, by name.
     Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
     certificates do not prove.
     """
-    documents = Certificates(folder)
+    documents = Certificates(folder, known)
     tell("certificates")
     found = findings(folder, documents)
     shown = pictures(documents, [claim.id for claim in found.claims])

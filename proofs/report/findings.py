@@ -9,6 +9,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -105,7 +106,7 @@ class Statement:
     conclusion: Conclusion
     claim: str
 
-    @property
+    @cached_property
     def text(self) -> str:
         """It in full, with the parameters that it is about."""
         return told([self.conclusion])

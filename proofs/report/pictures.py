@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from proofs.report.figures import FIGURES, Figure
+from proofs.report.figures import figures
+from proofs.report.figures.figure import Figure
 from proofs.report.findings import section_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import find
@@ -40,6 +41,6 @@ def pictures(documents: Mapping[str, Context], claims: Iterable[str]) -> list[Pi
     present = set(claims)
     return [
         Picture(figure, tuple(claim for claim in figure.claims if claim in present))
-        for figure in FIGURES
+        for figure in figures()
         if present.intersection(figure.claims) and figure.certificate in documents
     ]

@@ -14,6 +14,7 @@ from time import perf_counter
 from typing import Any
 
 from proofs.report import build as report
+from proofs.report import current
 from proofs.shell import manifest, runner
 from proofs.shell.cli import Parser, counting, heard, progress
 from proofs.shell.counting import Counts, show
@@ -173,9 +174,7 @@ def main(arguments: list[str] | None = None) -> int:
         with writing(options.out) as put:
             put("ledger.json", text)
             put(manifest.NAME, manifest.entered(options.out, certificates))
-        with progress() as tell:
-            pages = report.built(options.out, tell, only_text=bool(report.missing()))
-        write_files(options.out, pages)
+        pages = _pages(options.out, settled, fresh)
     write_target(parser, options.json, lambda: text)
     if heard(options):
         _print(rows, settled)
@@ -187,6 +186,19 @@ def main(arguments: list[str] | None = None) -> int:
     for one in settled if options.stats else ():
         show(one.counts, one.job.claims, quiet=not heard(options))
     return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
+
+
+def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
+    """Have the pages of a folder made, if they are not there already, and return their names."""
+    made_from = current.inputs(folder)
+    there = None if fresh else current.pages(folder, made_from)
+    if there is not None:
+        return there
+    known = {one.job.name: one.report.context for one in settled}
+    with progress() as tell:
+        made = report.built(folder, tell, bool(report.missing()), known=known)
+    write_files(folder, {**made, current.NAME: current.record(made_from, made)})
+    return set(made)
 
 
 def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:

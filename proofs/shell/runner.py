@@ -16,7 +16,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from intervals import Undecided
-from proofs.report.figures import FIGURES, OWN, Figure
+from proofs.report.figures import figures, names
 from proofs.report.page import Line
 from proofs.shell import manifest
 from proofs.shell.cli import Parser, counting, heard, progress, share
@@ -127,16 +127,11 @@ def _parser(file: str, description: str | None, examples: str, more: More) -> Pa
     parser.set_defaults(file=file, figure=False)
     for name, settings in more.options.items():
         parser.add_argument(f"--{name}", **settings)
-    if figures := _figures(file):
-        names = ", ".join(f"{figure.name}.svg" for figure in figures)
-        help_text = f"draw {names} in DIR/figures, too (needs matplotlib)"
+    if drawn := names(file):
+        pictures = ", ".join(f"{name}.svg" for name in drawn)
+        help_text = f"draw {pictures} in DIR/figures, too (needs matplotlib)"
         parser.add_argument("--figure", action="store_true", help=help_text)
     return parser
-
-
-def _figures(file: str) -> list[Figure]:
-    """Return the figures that are drawn from a certificate alone."""
-    return [figure for figure in (*FIGURES, *OWN) if figure.certificate == file]
 
 
 def _run(
@@ -164,7 +159,7 @@ def _run(
 def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
     """Draw the figures for which the certificate proves enough; say why another is not drawn."""
     documents = {file: premises(made.certificate)}
-    for figure in _figures(file):
+    for figure in figures(file):
         try:
             yield f"{figure.name}.svg", figure.svg(documents)
         except (Undecided, OverflowError) as failure:

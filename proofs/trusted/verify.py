@@ -52,11 +52,19 @@ class Checked:
 
 @dataclass(frozen=True)
 class Report:
-    """All that a file proves: claims of the catalogue; sentences, where it has no parameters."""
+    """All that a file proves: claims of the catalogue; sentences, where it has no parameters.
 
-    parameters: Parameters | None
+    context: the conclusion of every step.
+    """
+
+    context: Context
     claims: tuple[Checked, ...] = ()
     sentences: tuple[str, ...] = ()
+
+    @property
+    def parameters(self) -> Parameters | None:
+        """The numbers that the claims are about."""
+        return self.context.parameters
 
     @property
     def is_paper(self) -> bool:
@@ -124,11 +132,11 @@ def _conclude(context: Context, claims_of: Reader, used: set[str]) -> Report:
             length += len(sentences[-1])
             if length > _MAX_TEXT:
                 raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
-        return Report(None, sentences=tuple(sentences))
+        return Report(context, sentences=tuple(sentences))
     claims = tuple(_check_claim(context, entry, used) for entry in entries)
     if len({claim.id for claim in claims}) != len(claims):
         raise claims_of.fail("a claim appears twice")
-    return Report(context.parameters, claims)
+    return Report(context, claims)
 
 
 def _check_claim(context: Context, entry: Reader, used: set[str]) -> Checked:

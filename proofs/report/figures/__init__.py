@@ -1,41 +1,50 @@
-"""The figures of the report: `FIGURES`, each drawn from a certificate that is there.
+"""The figures of the report, each drawn from a certificate that is there.
 
 python -m proofs.report.figures --help
 """
 
-from proofs.report.figures import (
-    cantor,
-    circle,
-    curves,
-    dossier,
-    impact_map,
-    model,
-    rectangles,
-    resonance,
-    restitution,
-    soft,
-    three_sets,
-    traces,
-    transients,
-    windows,
-)
-from proofs.report.figures.figure import Certificates, Documents, Figure
+from __future__ import annotations
 
-FIGURES: tuple[Figure, ...] = (
-    model.FIGURE,
-    impact_map.FIGURE,
-    cantor.FIGURE,
-    rectangles.FIGURE,
-    circle.FIGURE,
-    transients.FIGURE,
-    three_sets.FIGURE,
-    restitution.FIGURE,
-    windows.FIGURE_A,
-    windows.FIGURE_B,
-    soft.FIGURE,
-    resonance.FIGURE,
-    traces.FIGURE,
-)
-OWN: tuple[Figure, ...] = (curves.FIGURE, dossier.FIGURE)  # of what is no part of the report
+from collections.abc import Mapping
+from importlib import import_module
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
-__all__ = ["FIGURES", "OWN", "Certificates", "Documents", "Figure"]
+if TYPE_CHECKING:
+    from proofs.report.figures.figure import Figure
+
+_PLACES: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        "figure-1": ("foundations", "model.FIGURE"),
+        "figure-2": ("horseshoe", "impact_map.FIGURE"),
+        "figure-3": ("dimension", "cantor.FIGURE"),
+        "figure-4": ("horseshoe", "rectangles.FIGURE"),
+        "figure-5": ("circle", "circle.FIGURE"),
+        "figure-6": ("circle", "transients.FIGURE"),
+        "three-sets": ("chaos", "three_sets.FIGURE"),
+        "restitution": ("persistence", "restitution.FIGURE"),
+        "figure-7a": ("single", "windows.FIGURE_A"),
+        "figure-7b": ("single", "windows.FIGURE_B"),
+        "section-5": ("soft", "soft.FIGURE"),
+        "figure-8": ("resonance", "resonance.FIGURE"),
+        "figure-10": ("resonance", "traces.FIGURE"),
+    }
+)  # of each its certificate and where it is
+_OWN: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {"curves": ("curves", "curves.FIGURE"), "dossier": ("explore", "dossier.FIGURE")}
+)  # of what is no part of the report
+
+
+def names(certificate: str = "") -> list[str]:
+    """Return the names of the report's figures, or of all that one certificate alone gives."""
+    places = {**_PLACES, **_OWN} if certificate else _PLACES
+    return [name for name, (of, _) in places.items() if certificate in ("", of)]
+
+
+def figures(certificate: str = "") -> list[Figure]:
+    """Return the report's figures, or all that one certificate alone gives."""
+    found = []
+    for name in names(certificate):
+        module, _, attribute = {**_PLACES, **_OWN}[name][1].partition(".")
+        found.append(getattr(import_module(f"{__name__}.{module}"), attribute))
+    return found

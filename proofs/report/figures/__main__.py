@@ -6,20 +6,21 @@ import argparse
 import sys
 from pathlib import Path
 
-from proofs.report.figures import FIGURES, Certificates
+from proofs.report.figures import figures, names
+from proofs.report.figures.figure import Certificates
 from proofs.shell.files import writing
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Draw the figures asked for; return the exit status."""
     parser = argparse.ArgumentParser("proofs.report.figures", description=__doc__)
-    names = [figure.name for figure in FIGURES]
-    parser.add_argument("--only", nargs="+", choices=names, metavar="NAME", help=", ".join(names))
+    known = names()
+    parser.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=", ".join(known))
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     options = parser.parse_args(arguments)
     documents = Certificates(options.out)
     with writing(options.out / "figures") as put:
-        for figure in FIGURES:
+        for figure in figures():
             if not options.only or figure.name in options.only:
                 put(f"{figure.name}.svg", figure.svg(documents))
     return 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeVar
 
 from intervals import Undecided
@@ -48,11 +49,14 @@ class Figure:
 
 
 class Certificates(Mapping[str, Context]):
-    """What the certificates of a folder prove, by name; each is derived once, when asked for."""
+    """What the certificates of a folder prove, by name; each is derived once, when asked for.
 
-    def __init__(self, folder: Path) -> None:
+    known: what was derived from some of them just now.
+    """
+
+    def __init__(self, folder: Path, known: Documents = MappingProxyType({})) -> None:
         self._folder = folder
-        self._known: dict[str, Context] = {}
+        self._known = dict(known)
 
     def __getitem__(self, name: str) -> Context:
         if name not in self._known:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from proofs.report.figures import Certificates
+from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
 from proofs.report.pictures import pictures
 

@@ -9,7 +9,7 @@ import pytest
 
 from proofs.report import __main__ as command
 from proofs.report.checker import NoPyodide, checker, runtime, trusted
-from proofs.report.figures import Certificates
+from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
 from tests.proofs.report.test_browser import CHROMIUM
 

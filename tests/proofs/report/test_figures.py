@@ -24,14 +24,15 @@ from tests.proofs.trusted.paper import reference
 pytest.importorskip("matplotlib")
 
 from proofs import explore
-from proofs.report.figures import FIGURES, Certificates, curves, dossier
+from proofs.report.figures import curves, dossier, figures, names
 from proofs.report.figures.__main__ import main
-from proofs.report.figures.figure import all_of
+from proofs.report.figures.figure import Certificates, all_of
 from proofs.report.figures.style import PROVED, style, svg_of
 
 pytestmark = pytest.mark.slow
 
 REPORTS = Path(__file__).parents[3] / "reports"
+FIGURES = figures()
 BY_NAME = {figure.name: figure for figure in FIGURES}
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 
@@ -127,6 +128,13 @@ def test_each_is_small_and_whole_and_names_nothing_twice(drawings):
         ids.update(own)
         assert figure.name not in names
         names.add(figure.name)
+
+
+def test_each_is_found_by_its_name_and_by_its_certificate():
+    assert [figure.name for figure in FIGURES] == names()
+    for certificate in {figure.certificate for figure in FIGURES}:
+        own = [figure for figure in FIGURES if figure.certificate == certificate]
+        assert figures(certificate) == own and names(certificate) == [each.name for each in own]
 
 
 def test_each_belongs_to_claims_the_first_decided_by_its_certificate(ledger):

@@ -4,6 +4,9 @@ import json
 
 import pytest
 
+from proofs.report import build as report
+from proofs.report import current
+from proofs.shell import files
 from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.verify import check
@@ -41,6 +44,57 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
     assert (tmp_path / "horseshoe.json").stat().st_mtime_ns == before
     assert run(tmp_path, "--fresh") == 0
     assert "proved and checked" in capsys.readouterr().out
+
+
+def test_pages_are_made_again_only_where_something_has_changed(tmp_path, monkeypatch, capsys):
+    made = []
+
+    def built(folder, *arguments, **known):
+        made.append(folder)
+        return {"ledger.md": (folder / "ledger.json").read_text()}
+
+    monkeypatch.setattr(report, "built", built)
+    for times, more in ((1, ()), (1, ()), (2, ("--fresh",))):
+        assert run(tmp_path, *more) == 0
+        assert len(made) == times
+        assert (tmp_path / "ledger.md").read_text() == (tmp_path / "ledger.json").read_text()
+        assert f"{tmp_path}/ledger.md" in capsys.readouterr().out
+
+
+def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkeypatch):
+    (tmp_path / "one.json").write_text("{}")
+    texts = {"ledger.md": "text", "figures/one.svg": "<svg/>"}
+
+    def there():
+        return current.pages(tmp_path, current.inputs(tmp_path))
+
+    def write():
+        made = {**texts, current.NAME: current.record(current.inputs(tmp_path), texts)}
+        files.write_files(tmp_path, made)
+
+    assert there() is None
+    write()
+    assert there() == set(texts)
+    for change in (
+        lambda: (tmp_path / "ledger.md").write_text("edited"),
+        lambda: (tmp_path / "figures" / "one.svg").unlink(),
+        lambda: (tmp_path / "one.json").write_text("[]"),
+        lambda: (tmp_path / "two.json").write_text("{}"),
+        lambda: (tmp_path / current.NAME).write_text("{"),
+        lambda: monkeypatch.setattr(current, "_version", lambda package: "another"),
+        lambda: monkeypatch.setattr(current, "_digests", without("report/html.py")),
+        lambda: monkeypatch.setattr(current, "_digests", without("templates/page.html")),
+        lambda: monkeypatch.setattr(current, "_digests", without("interval.py")),
+    ):
+        change()
+        assert there() is None
+        write()
+        assert there() == set(texts)
+
+
+def without(name, digests=current._digests):
+    """The digests of all files but one."""
+    return lambda *of: [text for text in digests(*of) if name not in text]
 
 
 @pytest.mark.slow
