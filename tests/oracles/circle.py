@@ -18,7 +18,7 @@ from tests.oracles.motion import (
     separation,
     sticks,
 )
-from tests.oracles.plastic import between, points
+from tests.oracles.plastic import between, full_shift, points
 
 _SAMPLE = 96
 _LONGEST = 2.0e6  # time for which a flight that never impacts is watched
@@ -138,26 +138,48 @@ def absorption(view, rng):
             found = impacts_before_rest(view.eta, view.nu, phase, steps)
             if found is not None and found > steps:
                 told.append(f"{phase:.12g} is not absorbed within {steps} impacts")
-    return told + (sink(view, view.sink, counts, rng) if view.sink else [])
+    return told + (sink(view.sink, rng) if view.sink else [])
 
 
-def sink(view, kept, counts, rng):
+def sink(view, rng):
     """No impact after phases of an interval, one at the outer ends; what comes there is not too
     much: not absorbed, but for chance.
     """
-    told = never_impacts(kept.never, rng, 1)
-    (low, first), (last, high) = kept.ends
-    if (first, last) != tuple(kept.never.phases):
+    told = never_impacts(view.never, rng, 1)
+    (low, first), (last, high) = view.ends
+    if (first, last) != tuple(view.never.phases):
         told.append("the brackets are not at the ends of the interval")
     for phase in (low, high):
         found = flight(view.eta, view.nu, phase, latest=_LONGEST)
         if found and not isinstance(found, Impact):
             told.append(f"after {float(phase):.12g}: {found}")
-    share = sum(n <= min(len(view.rest) - 1, 12) for n in counts) / max(1, len(counts))
+    counts = [n for n in basin(view.eta, view.nu, 12) if n is not None]
+    share = sum(n <= 12 for n in counts) / max(1, len(counts))
     error = 0.02 + 4 * sqrt(share * (1 - share) / max(1, len(counts)))
-    if not kept.measure <= TURN * (1 - share + error):
+    if not view.measure <= TURN * (1 - share + error):
         told.append(f"about {share:.3g} of the circle is absorbed")
     return told
+
+
+def long_transients(view, rng):
+    """Phases in the interval of a full shift stick, soon, and none there at once."""
+    told = full_shift(view.shift, rng)
+    low, high = view.shift.interval
+    if not low <= view.inside[0] < view.inside[1] <= high:
+        told.append("phases outside of the interval")
+    for phase in points((low, high), rng, 4):
+        if sticks(view.eta, view.nu, phase):
+            told.append(f"at {float(phase):.9g} the mass sticks")
+    for phase in points(view.inside, rng, 4):
+        count = impacts_before_rest(view.eta, view.nu, float(phase), view.steps)
+        if count is not None and count > view.steps:
+            told.append(f"{float(phase):.9g} does not stick within {view.steps} impacts")
+    return told
+
+
+def touching_family(view, rng):
+    """Plastic flights from the phases never end, and leave the table at once."""
+    return never_impacts(view, rng, 1)
 
 
 def superstable_motion(view, rng):
@@ -256,6 +278,9 @@ JUDGES = {
     "Lands": lands,
     "NeverImpacts": never_impacts,
     "Absorption": absorption,
+    "Sink": sink,
+    "LongTransients": long_transients,
+    "TouchingFamily": touching_family,
     "SuperstableMotion": superstable_motion,
     "StableCycle": stable_cycle,
 }

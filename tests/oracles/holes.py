@@ -123,33 +123,6 @@ def equal_ratios():
     return {**_with(ratios=["1/5", "1/5"], printed_s0=None), "proofs": {"H15": []}}
 
 
-def no_linear_set():
-    """Hole 4: H14 where the ratios 2/3 and 5/6 sum to more than 1."""
-    sets = {"left": ["1/10", "1"], "right": ["5", "31/5"], "interval": ["1/10", "31/5"]}
-    made = _with(slopes=["6/5", "3/2"], ratios=None, printed_s0=None, **sets)
-    made["steps"] = {
-        "lone": {
-            "rule": "moran-root",
-            "witness": {"ratios": ["2/3", "5/6"], "root": _moran("2/3", "5/6")},
-        },
-        "more": {
-            "rule": "excess",
-            "witness": {"root": "lone", "level": "1"},
-        },
-    }
-    return {**made, "proofs": {"H14": ["more"]}}
-
-
-def _moran(*ratios):
-    """A narrow bracket of the root of r0^s + r1^s = 1, as texts."""
-    pair, low, high = [float(Fraction(ratio)) for ratio in ratios], 0.0, 64.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if sum(r**middle for r in pair) > 1 else (low, middle)
-    middle = Fraction(round(low * 10**9), 10**9)
-    return _texts(middle - Fraction(1, 10**8), middle + Fraction(1, 10**8))
-
-
 def no_linear_cover():
     """Hole 4: H17 with the ratios 7/10 and 4/5, of which no linear Cantor set is made."""
     return {**_with(ratios=["7/10", "4/5"], printed_s0=None), "proofs": {"H17": []}}
@@ -210,7 +183,6 @@ HOLES = (
         "as printed it is True",
         (EQUAL,),
     ),
-    Hole("no linear set, H14", "H14", "REFUTED", no_linear_set, "linear Cantor set", (GAP,)),
     Hole("no linear set, H17", "H17", "REFUTED", no_linear_cover, "linear Cantor set", (GAP,)),
     Hole(
         "one phase that never impacts",

@@ -273,6 +273,14 @@ FALSE = {
         _of("sink", put("ends", lambda old: ((old[0][0] + F(1, 10**5), old[0][1]), old[1]))),
         _of("sink", put("ends", lambda old: (old[0], (old[1][0], old[1][1] - F(1, 10**5))))),
     ],
+    "Sink": [put("measure", F(2)), _of("never", put("phases", (F("1.2"), F("1.25"))))],
+    "LongTransients": [
+        put("inside", (F("1.3"), F("1.34"))),
+        put("inside", (F(1), F("1.1"))),
+        put("steps", 0),
+        _of("shift", offs("slopes")),
+    ],
+    "TouchingFamily": [put("phases", (F("1.2"), F("1.25")))],
     "SuperstableMotion": [
         *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),
         put("rest", F(1)),

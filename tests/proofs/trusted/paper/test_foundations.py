@@ -179,7 +179,7 @@ def test_only_what_is_asked_for_is_proved():
 
 def test_phases_without_an_end_are_named_at_the_parameters_given(document):
     (entry,) = (one for one in document["claims"] if one["id"] == "A1")
-    assert "[1.570570442, 1.571022212]" in entry["corrected"]
+    assert "[1.570570441202, 1.571022212388]" in entry["corrected"]
     changed = json.loads(render(document))
     changed["parameters"]["nu"] = "-3/10"
     rejected(changed)
