@@ -149,14 +149,14 @@ class Inverses:
     have one sign for x = g_v(z), |y - y_w(z)| <= r = radii[w], |Gamma_y| >= c, any two of its
     values be at most k c apart, k < 1, and |Gamma(y_w(z), x)| <= e c, e + k r <= r. Then for z in E
     there is one y with |y - y_w(z)| <= r and Gamma(y, g_v(z)) = 0, analytic in z; it is within
-    e / (1 - k).
-    Let its derivative have a positive real part on the boundary: then so it has in E.
+    e / (1 - k). Let its derivative have a positive real part on the boundary: then so it has in E.
 
     Proof. A(z) = Gamma_y(y_w(z), g_v(z)) is not 0 in E, by the sign of its real part on the
     boundary. N(z, y) = y - Gamma(y, g_v(z)) / A(z) has |dN/dy| <= k on the boundary, so for each
     d, |d| <= r, at y = y_w(z) + d in all of E (maximum principle), and as well
     |N(z, y_w(z)) - y_w(z)| <= e: N contracts the disc. Its iterates from y_w are analytic in z and
-    converge uniformly. On [a, b] y is real, since its conjugate is a zero as well.
+    converge uniformly; on the boundary y is analytic too (implicit functions), so that it may be
+    differentiated by the angle. On [a, b] y is real, since its conjugate is a zero as well.
     """
 
     letters: tuple[Letter, ...]

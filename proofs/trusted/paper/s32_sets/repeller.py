@@ -126,9 +126,8 @@ def dimension(context: Context, reader: Reader) -> Repeller:
     Hypotheses: F' > 0, by sin(eta t) < 0 in the window, and F passes hull = [a, b] once on each
     domain (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b and `rho`; those
     of the theorem `kernel.transfer.growth` for the g_w of the words, `exponent`, `growth`, with the
-    test function h of the coefficients `test` by Chebyshev's polynomials, divided by the first, the
-    numbers of `arcs` and
-    `nodes`, and in so many `bits`; g_w' < 1.
+    test function h whose coefficients by Chebyshev's polynomials are `test`, divided by the first,
+    so many `arcs` and `nodes`, and in so many `bits`; g_w' < 1.
 
     Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson), its dimension
     by the theorem `kernel.transfer.Growth.dimension`.

@@ -13,11 +13,12 @@ from proofs.search import s32_dimension as dimension
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.s32_sets.dimension import FULL
-from proofs.trusted.paper.s32_sets.inverses import Letter
+from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import _read
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
@@ -271,6 +272,29 @@ def test_branches_on_arcs_by_newton_s_method():
                 for box, value in ((y, y0), (rate, slope)):
                     for (low, high), part in zip(box.ranges, (value.real, value.imag), strict=True):
                         assert float(low) - 1e-7 < part < float(high) + 1e-7
+
+
+def test_a_branch_of_two_letters_is_as_far_off_as_the_first_one_makes_it():
+    """Paths that fit each other, both a little beside the branches: boxes hold the true ones."""
+    known, *_ = dimension_read(witness())
+    inner, move = known.paths["1"], Fraction(1, 2000)
+    centre = float(HULL[0] + HULL[1]) / 2
+    first = root_at(mpf(centre), 9, "1.29")
+    second = root_at(first), root_at(first + 0.0005)
+    slope = Fraction(float(second[1] - second[0])) / move
+    shifted = inner[0] + move, *inner[1:]
+    outer = Fraction(float(second[1])), *(slope * c for c in inner[1:])
+    ellipse = Ellipse(HULL, Fraction(11, 10))
+    paths = {"1": shifted, "01": outer}
+    branches = Inverses(known.letters, ("1", "01"), ellipse, paths, dict.fromkeys(paths, move * 4))
+    count = 128
+    for arc in ellipse.arcs(count)[:: count // 4]:
+        y = branches.over(arc)[1][0]
+        w = mp.expjpi((arc.j + mpf(1) / 2) / count) * float(ellipse.rho)
+        x = centre + float(ellipse.coordinates[1]) * (w + 1 / w) / 2
+        true = root_at(root_at(x, 9, "1.29"))
+        for (low, high), part in zip(y.ranges, (true.real, true.imag), strict=True):
+            assert float(low) < part < float(high)
 
 
 def known_with(**change):
