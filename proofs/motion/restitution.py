@@ -147,7 +147,7 @@ def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
         return impact_time(found, flight.phases, bits)
     low, high = found.window
     # until what bisection may still gain is small beside the narrowest side of the box
-    halvings = 7 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
+    halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
     return bisected(flight, found.window, halvings)
 
 
