@@ -23,6 +23,7 @@ from proofs.trusted.certificate import (
 )
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
@@ -133,8 +134,9 @@ def _counted(listed: list[Listed]) -> str:
 def report_lines(name: str, report: Report, digest_of: str) -> list[str]:
     """Return what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
-    about = "about formulas" if report.parameters is None else whose
-    said = [f"{name}: accepted, {about}, {digest_of}"]
+    if not isinstance(report.parameters, Parameters):
+        whose = "about formulas" if report.parameters is None else "about a box of parameters"
+    said = [f"{name}: accepted, {whose}, {digest_of}"]
     for claim in report.claims:
         said.append(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
         if claim.corrected is not None:

@@ -64,6 +64,8 @@ RULES: Mapping[str, str] = MappingProxyType(
         "markov-set": "paper.beyond.chaos.prove_markov_set",
         "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
+        "settles": "paper.beyond.boxes.prove_settles",
+        "covering-shift": "paper.beyond.boxes.prove_covering_shift",
     }
 )
 

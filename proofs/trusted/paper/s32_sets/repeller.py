@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.flights import FirstImpact, Motion, bits_for, transversal_step, whole_turns
+from proofs.trusted.flights import FirstImpact, bits_for, excess, transversal_step, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -68,22 +68,8 @@ class _Branch:
     bits: int
 
     def excess(self, phase: Fraction, image: Range) -> int:
-        """Return the sign of F(phase) - x for all x in `image`, 0 where it is not decided.
-
-        Let T = x - phase + 2 pi turns, t the time of the impact. F(phase) > x means T < t. In the
-        window the gap has the one zero t; it is positive before that and negative after.
-        """
-        low, high = whole_turns(self.turns, self.bits)
-        time = (image[0] - phase + low, image[1] - phase + high)
-        begin, end = self.step.windows[0]
-        if time[1] < begin or time[0] > end:
-            return 1 if time[1] < begin else -1
-        motion = self.step.motion
-        thin = Motion(motion.eta, motion.nu, (phase, phase), self.bits)
-        height = thin.gap(thin.start(), time)
-        if height.lo > 0 and time[1] <= end:
-            return 1
-        return -1 if height.hi < 0 and begin <= time[0] else 0
+        """Return the sign of F(phase) - x for all x in `image`, 0 where it is not decided."""
+        return excess(self.step, phase, image, self.turns, self.bits)
 
     def brackets(self, around: Range, image: Range) -> bool:
         """Whether for each x in `image` the domain has one y with F(y) = x, and it is around."""
@@ -98,7 +84,7 @@ class _Branch:
         sin(eta t) / eta times the launch acceleration.
         """
         motion = self.step.motion
-        eta, nu = (Series.constant(rational(z, self.bits)) for z in (motion.eta, motion.nu))
+        eta, nu = (Series.constant(rational(z, self.bits)) for z in motion.at.point)
         ahead = x + Series.constant(pi(self.bits) * (2 * self.turns))
         known = [Enclosure.of(*value, self.bits)]
         while (m := len(known)) <= order:

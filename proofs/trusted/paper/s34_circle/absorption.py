@@ -18,7 +18,7 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import FirstImpact, Motion, lifted, whole_turns
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
@@ -266,7 +266,7 @@ def _cells(context: Context, reader: Reader, origin: Fraction) -> list[Cell]:
 def _stretch(motion: Motion, time: Range) -> Fraction | None:
     """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
     sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
-    along = sin / rational(motion.eta, motion.bits) * push
+    along = sin / motion.eta * push
     if along.lo <= 0 <= along.hi:
         return None
     ratio: Enclosure = motion.gap_of(time, 1) / along

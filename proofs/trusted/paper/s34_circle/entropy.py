@@ -65,7 +65,7 @@ class Branch(Conclusion):
 
     def motion(self, phases: Range) -> Motion:
         """Return the flights from some of the phases."""
-        return Motion(self.at.eta[0], self.at.nu[0], phases, BITS)
+        return Motion(self.at, phases, BITS)
 
     def image(self, phase: Fraction, time: Range) -> Range:
         """Enclose phase + the time of the first impact, which is proved to be in `time`.
@@ -108,7 +108,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     of, phases = context.of, Phases(cuts[0], cuts[-1])
     if not -1 < of.nu < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(of.eta, of.nu, phases, BITS)
+    whole = Motion(of.place, phases, BITS)
     meetings, launched = Meetings.of(whole), leaves(whole)
     for low, high in meetings.before(int(turn)):
         if high > launched:

@@ -129,7 +129,7 @@ def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
 
 def _push(of: Parameters, phases: Range) -> Range:
     """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(of.eta, of.nu, phases, COVER_BITS).start())
+    push: Enclosure = launch_acceleration(Motion(of.place, phases, COVER_BITS).start())
     return push.range
 
 
@@ -151,7 +151,7 @@ def _bounce(of: Parameters, phases: Range, kicks: Range, time: Range) -> tuple[R
     """
     if time[0] <= 0 or of.eta * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    motion = Motion(of.eta, of.nu, phases, COVER_BITS)
+    motion = Motion(of.place, phases, COVER_BITS)
     kick = Enclosure.of(*kicks, COVER_BITS) * motion.side
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
     if not brackets(gap_of, time):
