@@ -21,7 +21,6 @@ from intervals import Undecided
 from proofs.methods.basin import Cuts, Sampled
 from proofs.motion.flight import Flight
 from proofs.motion.impact import first_impact
-from proofs.motion.kernel import float_clock, float_launch
 from proofs.motion.landing import (
     Cutting,
     prove_cells,
@@ -29,6 +28,7 @@ from proofs.motion.landing import (
     reduced,
     short,
 )
+from proofs.motion.many import float_clock, float_launch
 from proofs.motion.phase import lifted
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, Candidates

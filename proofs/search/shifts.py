@@ -11,7 +11,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 
+import numpy as np
+
 from proofs.motion.candidate import next_impact
+from proofs.motion.many import next_impacts
 from proofs.motion.system import System
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
@@ -58,13 +61,12 @@ class Piece:
 def pieces(system: System, grid: int = _GRID) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
     runs: list[list[tuple[float, float, float]]] = [[]]
-    for k in range(grid):
-        phase = math.tau * (k + 0.5) / grid
-        found = next_impact(system, phase, _FARTHEST)
-        if found is None or abs(found[2]) < _STEEP:
+    phases = math.tau * (np.arange(grid) + 0.5) / grid
+    found = next_impacts(system.side, float(system.eta), float(system.nu), phases, _FARTHEST)
+    for point in zip(phases.tolist(), found.images.tolist(), found.slopes.tolist(), strict=True):
+        if not abs(point[2]) >= _STEEP:
             runs.append([])
             continue
-        point = phase, phase + found[0], found[2]
         if runs[-1] and not _continues(runs[-1][-1], point):
             runs.append([])
         runs[-1].append(point)
