@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import combinations, islice, pairwise
 
 import numpy as np
 
@@ -126,14 +126,14 @@ def full_shifts(system: System) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
     found = symbols(pieces(system))
     for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
-        yield from _with_spare(family)
+        yield from islice(with_spare(family), 1)
 
 
 def rising_pairs(system: System) -> Iterator[tuple[Range, Range]]:
     """Yield I0 and I1, likewise, on which f seems to be an increasing horseshoe."""
     found = [x for x in symbols(pieces(system)) if x[0].images[0] < x[0].images[-1]]
     for family in families(found, 2):
-        yield from ((left, right) for left, right in _with_spare(family))
+        yield from ((left, right) for left, right in islice(with_spare(family), 1))
 
 
 def own_sets(of: Parameters) -> Parameters | None:
@@ -181,13 +181,12 @@ def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
     return grown
 
 
-def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
-    """Yield the sets of a full shift with as much spare as there is, rounded outward."""
+def with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
+    """Yield the sets of a full shift, those with most spare first, rounded outward."""
     for spare in _SPARES:
         sets = cells(family, spare)
         if sets:
             yield _short(sets, spare)
-            return
 
 
 def _short(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:

@@ -142,6 +142,19 @@ class Motion:
         value: Enclosure = gap(start, self.clock(time), order)
         return value
 
+    def height(self, time: Range) -> Enclosure:
+        """Enclose the gap; over a range of eta by the mean value theorem, too."""
+        direct, (low, high) = self.gap(self.start(), time), self.at.eta
+        if low == high:
+            return direct
+        middle = (low + high) / 2
+        centre = replace(self, at=replace(self.at, eta=(middle, middle)))
+        moving = Dual(self.eta, rational(Fraction(1), self.bits))
+        t = Enclosure.of(*time, self.bits)
+        along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t))
+        reach = Enclosure.of(low - middle, high - middle, self.bits)
+        return direct.meet(centre.gap(centre.start(), time) + along.derivative * reach)
+
     @property
     def gap_of(self) -> Gap:
         """The gap as a function of time and order."""
@@ -266,8 +279,7 @@ def excess(step: FirstImpact, phase: Fraction, image: Range, turns: int, bits: i
     begin, end = step.windows[0]
     if time[1] < begin or time[0] > end:
         return 1 if time[1] < begin else -1
-    thin = replace(step.motion, phases=(phase, phase), bits=bits)
-    height = thin.gap(thin.start(), time)
+    height = replace(step.motion, phases=(phase, phase), bits=bits).height(time)
     if height.lo > 0 and time[1] <= end:
         return 1
     return -1 if height.hi < 0 and begin <= time[0] else 0
