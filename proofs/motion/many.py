@@ -42,6 +42,12 @@ def _clock(eta: Any, times: Floats) -> Clock:
     return Clock(np.sin(mass), np.cos(mass), np.sin(times), np.cos(times))
 
 
+def float_gap(side: int, eta: Any, nu: Any, phases: Any, times: Any) -> Floats:
+    """Return about the gap at times after launches; arrays broadcast."""
+    found: Floats = gap(_launch(side, eta, nu, phases), _clock(eta, times))
+    return found
+
+
 def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> Impacts:
     """Return about the next impacts, as `candidate.next_impact` finds them; arrays broadcast."""
     eta, nu, phases = (np.asarray(x, float) for x in np.broadcast_arrays(eta, nu, phases))

@@ -41,7 +41,7 @@ def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Cell
         for made, sets in _proposals(region.question, region.box(key), hints):
             try:
                 row = cell(region, key, made.certificate())
-                return row._replace(sets=horseshoe.sets_to_text(sets) if sets else "")
+                return row._replace(sets=sets.text if sets else "")
             except (Rejected, Exhausted) as failure:
                 why = str(failure).rpartition(": ")[2]
     except (Undecided, ArithmeticError) as failure:
@@ -56,6 +56,6 @@ def _proposals(
 ) -> Iterator[tuple[Steps, Sets | None]]:
     """Yield certificates that seem to answer a question."""
     if question == "horseshoe":
-        yield from horseshoe.propose(box, [horseshoe.sets_from_text(hint) for hint in hints])
+        yield from horseshoe.propose(box, [Sets.of(hint) for hint in hints])
     else:
         yield from ((made, None) for made in settling.propose(box))

@@ -21,22 +21,27 @@ from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.floating[Any]]
-_UNIT = Fraction(1, 8)  # of the grid of times
-_SPANS = (1, 2, 3, 5, 8, 12, 18, 26, 36, 48)  # lengths of pieces, in units
+COARSE, FINE = Fraction(1, 4), Fraction(1, 16)
+_SPANS = (1, 2, 3, 5, 8, 12, 16, 22, 32, 48, 64, 88)  # lengths of pieces, in units
+_LONGEST = Fraction(11, 2)  # piece
 _SPARE = 1.02  # by which a gap must be above what the checker asks for
 _EARLIEST = 8  # halvings of the first time
 _SHARE = 0.3  # of the height from which the gap falls, where the window of the impact begins
-_FINE = 64  # parts of the window of an impact
+_PARTS = 64  # parts of the window of an impact
 _BITS = 80
 
 
 @dataclass(frozen=True)
 class Flights:
-    """The flights of all launches in `phases`, of all oscillators in `box`."""
+    """The flights of all launches in `phases`, of all oscillators in `box`.
+
+    unit: of the grid of times.
+    """
 
     box: Place
     phases: Range
     separating: bool = False
+    unit: Fraction = COARSE
 
     @cached_property
     def _eta(self) -> IntervalArray:
@@ -59,10 +64,9 @@ class Flights:
         Raises Undecided where none seem to prove a transversal first impact.
         """
         first = self._first()
-        count = int(latest / float(_UNIT)) + 6
-        grid = float(_UNIT) * np.arange(count + max(_SPANS), dtype=np.float64)
+        grid = np.arange(0.0, latest + float(_LONGEST) + 1, float(self.unit))
         heights = self.gap(grid, grid)
-        begin = int(np.ceil(float(first / _UNIT)))
+        begin = int(np.ceil(float(first / self.unit)))
         clear, below = heights.inf > 0, heights.sup < 0
         ends = np.flatnonzero(below & (np.arange(grid.size) > begin))
         if not ends.size or not clear[begin]:
@@ -70,13 +74,13 @@ class Flights:
         end = int(ends[0])
         window = self._window(grid, heights.inf, begin, end)
         steps = [begin, *self._pieces(grid, heights.inf, begin, window)]
-        early = [first] if first < begin * _UNIT else []
-        return [*early, *(k * _UNIT for k in steps), end * _UNIT]
+        early = [first] if first < begin * self.unit else []
+        return [*early, *(k * self.unit for k in steps), end * self.unit]
 
     def bracket(self, times: list[Fraction]) -> Range:
         """Return a bracket of all first impacts, in the last of the pieces between `times`."""
         low, high = times[-2:]
-        grid = [low + (high - low) * Fraction(k, _FINE) for k in range(_FINE + 1)]
+        grid = [low + (high - low) * Fraction(k, _PARTS) for k in range(_PARTS + 1)]
         floats = np.array([float(time) for time in grid])
         heights = self.gap(floats, floats)
         up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
@@ -105,12 +109,12 @@ class Flights:
 
     def _pieces(self, grid: Floats, least: Floats, begin: int, last: int) -> Iterator[int]:
         """Yield the ends of pieces from `begin` to `last` on which the gap stays up."""
-        spans = np.array(_SPANS)
+        unit, spans = float(self.unit), np.array([k for k in _SPANS if k * self.unit <= _LONGEST])
         low = np.broadcast_to(grid[begin:last], (spans.size, last - begin))
-        bends = self.gap(low, low + float(_UNIT) * spans[:, None], 2).sup
+        bends = self.gap(low, low + unit * spans[:, None], 2).sup
         ahead = np.minimum(np.arange(begin, last) + spans[:, None], least.size - 1)
         sides = np.minimum(least[begin:last], least[ahead])
-        need = np.maximum(bends, 0) * (float(_UNIT) * spans[:, None]) ** 2 / 8
+        need = np.maximum(bends, 0) * (unit * spans[:, None]) ** 2 / 8
         closed = (sides > _SPARE * need) & (ahead <= last)
         here = begin
         while here < last:

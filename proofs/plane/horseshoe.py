@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.many import next_impacts
+from proofs.motion.many import float_gap, next_impacts
 from proofs.motion.system import System
 from proofs.plane.settling import settles
 from proofs.plane.steps import Steps, corners, side
@@ -21,27 +21,37 @@ from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
-Sets = list[Range]  # two or more, in order
 
 _GRID = 800  # phases that are looked at
 _FARTHEST = 200.0
-_LEAST = 1e-4  # by which images must seem to reach beyond the sets, and the share of how they vary
-_SHARE = 0.2
-_BEST = 0.8
+_LEAST = 1e-4  # by which images must seem to reach beyond the sets
+_SHARE, _BEST = 0.2, 0.8  # least and best, of that in units of how images differ over a box
 _TRIES = 3
 
 
-class Reach(NamedTuple):
-    """How sets fit a box, in floating point.
+class Sets(NamedTuple):
+    """Sets that f seems to map over them all, in order.
 
-    margin: by how much, at least, images of ends are beyond the sets at the centre and at the
-    corners, in units of by how much they differ there; turns: those that the images of each set
-    are less; latest: its longest flight.
+    turns: those that the images of each are less; latest: the longest flight from each.
     """
 
-    margin: float
-    turns: list[int]
-    latest: list[float]
+    phases: tuple[Range, ...]
+    turns: tuple[int, ...]
+    latest: tuple[float, ...]
+
+    @property
+    def text(self) -> str:
+        """The sets in a line."""
+        rows = zip(self.phases, self.turns, self.latest, strict=True)
+        return " ".join(f"{low} {high} {turns} {time:.6g}" for (low, high), turns, time in rows)
+
+    @classmethod
+    def of(cls, text: str) -> Sets:
+        """Read what `text` gives."""
+        words = text.split()
+        phases = zip(map(Fraction, words[::4]), map(Fraction, words[1::4]), strict=True)
+        turns, latest = map(int, words[2::4]), map(float, words[3::4])
+        return cls(tuple(phases), tuple(turns), tuple(latest))
 
 
 def propose(box: Place, hints: Sequence[Sets]) -> Iterator[tuple[Steps, Sets | None]]:
@@ -52,71 +62,67 @@ def propose(box: Place, hints: Sequence[Sets]) -> Iterator[tuple[Steps, Sets | N
     with suppress(Undecided):
         yield settles(box), None
         return
-    tried = [(reach.margin, sets, reach) for sets, reach in _fitting(box, hints)]
-    if not tried:
-        tried = [(reach.margin, sets, reach) for sets, reach in _fitting(box, _seen(box))]
     failure = "no two sets are seen that f maps over each other all over the box"
-    for _, sets, reach in sorted(tried, key=lambda each: abs(math.log(each[0] / _BEST)))[:_TRIES]:
+    tried = [sets for sets in hints if _holds(box, sets)] or _seen(box)
+    for sets in tried[:_TRIES]:
         try:
-            yield _covering(box, sets, reach), sets
+            yield _covering(box, sets), sets
         except Undecided as error:
             failure = str(error)
     raise Undecided(failure)
 
 
+def _holds(box: Place, sets: Sets) -> bool:
+    """Whether the images of the ends seem to be beyond the sets at the corners of a box."""
+    etas, nus = (np.array(each)[:, None] for each in corners(box))
+    target = np.array([float(sets.phases[0][0]), float(sets.phases[-1][1])])
+    for phases, turns in zip(sets.phases, sets.turns, strict=True):
+        sides = []
+        for end in map(float, phases):
+            times = target + math.tau * turns - end
+            below, above = float_gap(side(box), etas, nus, end, times).T
+            sides.append(-int((below < 0).all()) + int((above > 0).all()))
+        if sorted(sides) != [-1, 1]:
+            return False
+    return True
+
+
 def _seen(box: Place) -> list[Sets]:
-    """Return pairs of sets that are seen at the centre of the box."""
+    """Return pairs of sets that are seen at the centre, and seem to fit all over a box."""
     (eta, last), (nu, most) = box.eta, box.nu
-    system = System((eta + last) / 2, (nu + most) / 2)
-    found = symbols(pieces(system, _GRID))
-    return [sets for family in families(found, 2) for sets in with_spare(family)]
-
-
-def _fitting(box: Place, candidates: Sequence[Sets]) -> list[tuple[Sets, Reach]]:
-    """Return the candidates that seem to fit all over a box."""
-    if not candidates:
+    found = symbols(pieces(System((eta + last) / 2, (nu + most) / 2), _GRID))
+    pairs = [sets for family in families(found, 2) for sets in with_spare(family)]
+    if not pairs:
         return []
     etas, nus = corners(box)
-    ends = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in candidates], float)
-    found = next_impacts(side(box), etas, nus, ends[..., None], _FARTHEST)
+    points = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in pairs], float)
+    flights = next_impacts(side(box), etas, nus, points[..., None], _FARTHEST)
     fits = []
-    for sets, images, times in zip(candidates, found.images, found.times, strict=True):
-        reach = _reach(sets, images, times)
-        if reach.margin > _SHARE:
-            fits.append((sets, reach))
-    return fits
+    for phases, images, times in zip(pairs, flights.images, flights.times, strict=True):
+        turns = np.floor(images[:, 2, 0] / math.tau)
+        margin = _margin(phases, images[:, :2] - math.tau * turns[:, None, None])
+        if margin > _SHARE:
+            latest = tuple(float(x) for x in times.max(axis=(1, 2)))
+            sets = Sets(tuple(phases), tuple(int(x) for x in turns), latest)
+            fits.append((abs(math.log(margin / _BEST)), sets))
+    return [sets for _, sets in sorted(fits)]
 
 
-def _reach(sets: Sets, images: Floats, times: Floats) -> Reach:
-    """Return how sets fit, by images and times of their ends and middles at some oscillators."""
+def _margin(phases: Sequence[Range], images: Floats) -> float:
+    """Return by how much the images of ends are beyond all sets, in units of how they differ."""
     if not np.isfinite(images).all():
-        return Reach(-math.inf, [], [])
-    first, last = float(sets[0][0]), float(sets[-1][1])
-    turns = np.floor(images[:, 2, 0] / math.tau)
-    ends = np.sort(images[:, :2, :], axis=1) - math.tau * turns[:, None, None]
+        return -math.inf
+    first, last, ends = float(phases[0][0]), float(phases[-1][1]), np.sort(images, axis=1)
     margin = min(float((first - ends[:, 0]).min()), float((ends[:, 1] - last).min()))
-    spread = float(np.ptp(ends, axis=2).max())
-    latest = [float(x) for x in times.max(axis=(1, 2))]
-    return Reach(margin / (spread + _LEAST), [int(x) for x in turns], latest)
+    return margin / (float(np.ptp(ends, axis=2).max()) + _LEAST)
 
 
-def _covering(box: Place, sets: Sets, reach: Reach) -> Steps:
+def _covering(box: Place, sets: Sets) -> Steps:
     """Return the steps for rule `covering-shift`."""
     made = Steps(box)
     cells = [
         {"flights": made.impacts(phases, latest), "turns": str(turns)}
-        for phases, turns, latest in zip(sets, reach.turns, reach.latest, strict=True)
+        for phases, turns, latest in zip(*sets, strict=True)
     ]
     made.add("covering-shift", {"cells": cells})
     return made
-
-
-def sets_to_text(sets: Sets) -> str:
-    """Write sets, to be tried elsewhere."""
-    return " ".join(str(end) for phases in sets for end in phases)
-
-
-def sets_from_text(text: str) -> Sets:
-    """Read them."""
-    ends = [Fraction(end) for end in text.split()]
-    return list(zip(ends[::2], ends[1::2], strict=True))

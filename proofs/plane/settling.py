@@ -148,8 +148,7 @@ def _cell(made: Steps, phases: Range) -> Cell:
     seen = next_impacts(side(made.box), etas, nus, ends[:, None], _FARTHEST).times
     if not np.isfinite(seen).all():
         raise Undecided("an impact is not seen to be followed by another one")
-    times = Flights(made.box, phases).times(float(seen.max()))
-    flight = made.add("first-impact", {"phases": texts(phases), "times": texts(times)})
+    flight, times = made.impact(phases, float(seen.max()))
     brackets = {
         part: Flights(made.box, part).bracket(times)
         for part in ((phases[0],) * 2, (phases[1],) * 2, phases)

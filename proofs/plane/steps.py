@@ -8,12 +8,12 @@ from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.plane.flights import Flights
+from proofs.plane.flights import FINE, Flights
 from proofs.trusted.certificate import SCHEMA, box_to_json, render, texts
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
-_HALVINGS = 2  # of phases whose flights are too different
+_HALVINGS = 1  # of phases whose flights are too different
 
 
 @dataclass
@@ -29,15 +29,21 @@ class Steps:
         self.steps[name] = {"rule": rule, "witness": witness}
         return name
 
-    def impact(self, phases: Range, latest: float) -> str:
-        """Add the first impacts after launches in `phases`, which come until `latest` or so."""
-        times = Flights(self.box, phases).times(latest)
-        return self.add("first-impact", {"phases": texts(phases), "times": texts(times)})
+    def impact(self, phases: Range, latest: float) -> tuple[str, list[Fraction]]:
+        """Add the first impacts after launches in `phases`; return the step and its times.
+
+        latest: about when the last of them comes.
+        """
+        try:
+            times = Flights(self.box, phases).times(latest)
+        except Undecided:
+            times = Flights(self.box, phases, unit=FINE).times(latest)
+        return self.add("first-impact", {"phases": texts(phases), "times": texts(times)}), times
 
     def impacts(self, phases: Range, latest: float, halvings: int = _HALVINGS) -> list[str]:
         """Add the same in parts where that must be; return their names, in order."""
         try:
-            return [self.impact(phases, latest)]
+            return [self.impact(phases, latest)[0]]
         except Undecided:
             if not halvings:
                 raise

@@ -143,17 +143,19 @@ class Motion:
         return value
 
     def height(self, time: Range) -> Enclosure:
-        """Enclose the gap; over a range of eta by the mean value theorem, too."""
-        direct, (low, high) = self.gap(self.start(), time), self.at.eta
-        if low == high:
-            return direct
+        """Enclose the gap."""
+        return self.gap(self.start(), time)
+
+    def sharp_height(self, time: Range) -> Enclosure:
+        """Enclose the gap over a range of eta by the mean value theorem."""
+        low, high = self.at.eta
         middle = (low + high) / 2
         centre = replace(self, at=replace(self.at, eta=(middle, middle)))
         moving = Dual(self.eta, rational(Fraction(1), self.bits))
         t = Enclosure.of(*time, self.bits)
         along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t))
         reach = Enclosure.of(low - middle, high - middle, self.bits)
-        return direct.meet(centre.gap(centre.start(), time) + along.derivative * reach)
+        return centre.height(time) + along.derivative * reach
 
     @property
     def gap_of(self) -> Gap:
@@ -279,10 +281,14 @@ def excess(step: FirstImpact, phase: Fraction, image: Range, turns: int, bits: i
     begin, end = step.windows[0]
     if time[1] < begin or time[0] > end:
         return 1 if time[1] < begin else -1
-    height = replace(step.motion, phases=(phase, phase), bits=bits).height(time)
-    if height.lo > 0 and time[1] <= end:
-        return 1
-    return -1 if height.hi < 0 and begin <= time[0] else 0
+    motion = replace(step.motion, phases=(phase, phase), bits=bits)
+    for height_of in (motion.height, motion.sharp_height):
+        height = height_of(time)
+        if height.lo > 0 and time[1] <= end:
+            return 1
+        if height.hi < 0 and begin <= time[0]:
+            return -1
+    return 0
 
 
 # -- phases ----------------------------------------------------------------------------------------

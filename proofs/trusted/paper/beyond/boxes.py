@@ -45,12 +45,12 @@ class Sheet(NamedTuple):
         """Return on which sides of the target, -1 and 1, the images of the two ends are."""
         found = set()
         for step, phase in zip((self.flights[0], self.flights[-1]), self.cell, strict=True):
-            low, high = (
-                excess(step, phase, (end, end), self.turns, step.motion.bits) for end in target
-            )
-            if low >= 0 >= high:
+            for sign, end in zip((-1, 1), target, strict=True):
+                if excess(step, phase, (end, end), self.turns, step.motion.bits) == sign:
+                    found.add(sign)
+                    break
+            else:
                 raise Unproved("the image of a cell's end is not proved to be beyond the cells")
-            found.add(-1 if low < 0 else 1)
         return found
 
 
