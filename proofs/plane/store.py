@@ -95,6 +95,7 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
         if own is None or region not in (None, own):
             raise Held(f"{path} is about another region or question")
         yield Store(connection, own)
+        connection.execute("PRAGMA journal_mode = DELETE")  # one file again, to be read anywhere
 
 
 @contextmanager

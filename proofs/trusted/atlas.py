@@ -33,7 +33,6 @@ from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 
 SCHEMA = "impact-proofs.atlas/1"
-MAGIC = b"SQLite format 3\0"
 SPLIT = "SPLIT"
 DEEPEST = 40
 
@@ -155,7 +154,8 @@ def area(box: Place) -> Fraction:
 class Cell(NamedTuple):
     """A row of the store: a cell, its verdict or SPLIT, and for a verdict what proves it.
 
-    conclusion: in words; where the cell is undecided, why. seconds: of work on it. sets: what may
+    kind, conclusion: of the conclusion that decides it, the name and the words; where the cell is
+    undecided, "" and why. seconds: of work on it. sets: what may
     help its neighbours.
     """
 
@@ -163,6 +163,7 @@ class Cell(NamedTuple):
     eta: str
     nu: str
     verdict: str
+    kind: str
     conclusion: str
     certificate: bytes | None
     sha256: str | None
@@ -180,14 +181,17 @@ def cell(region: Region, key: str, source: str, work: float = DEFAULT) -> Cell:
         raise Rejected(f"cell {key}: the certificate does not answer the question")
     packed = source.encode()
     return without_proof(region, key, verdict.value, report.sentences[0])._replace(
-        certificate=zlib.compress(packed), sha256=sha256(packed).hexdigest()
+        kind=type(report.conclusions[0]).__name__,
+        certificate=zlib.compress(packed),
+        sha256=sha256(packed).hexdigest(),
     )
 
 
 def without_proof(region: Region, key: str, verdict: str, why: str) -> Cell:
     """Return the row of a cell that is split or undecided."""
     box = region.box(key)
-    return Cell(key, show_range(box.eta), show_range(box.nu), verdict, why, None, None, 0.0, "")
+    sides = show_range(box.eta), show_range(box.nu)
+    return Cell(key, *sides, verdict, "", why, None, None, 0.0, "")
 
 
 def check_cell(region: Region, work: float, row: tuple[Any, ...]) -> tuple[str, Fraction]:
