@@ -6,18 +6,22 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
+from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
+from proofs.motion.candidate import next_impact
 from proofs.motion.many import next_impacts
+from proofs.motion.system import System
 from proofs.plane.flights import Flights
 from proofs.plane.steps import Steps, corners, side
 from proofs.trusted.certificate import texts
+from proofs.trusted.equations import launch, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, hull
+from proofs.trusted.numbers import TURN, Range, hull
 from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.parameters import Place
 
@@ -27,9 +31,10 @@ _SOON = 3 / 7  # eta at most, for rule `settles`
 _PLACES = 6  # decimals of phases
 _ROOM = Fraction(1, 10**5)  # around phases that are seen
 _MOST_IMPACTS = 12
+_LATER = 1e-3  # after the separation, where floats tell that the mass leaves
 _GRID, _TRANSIENT = 600, 64  # phases whose orbits are followed, and for how long
-_CLOSER = 12
-_NEAR = 1e-4
+_CLOSER, _TRIES = 80, 3
+_NEAR = 1e-6
 
 
 class Cell(NamedTuple):
@@ -40,14 +45,37 @@ class Cell(NamedTuple):
 
 
 def propose(box: Place) -> Iterator[Steps]:
-    """Yield certificates that seem to prove an attractor all over a box."""
-    failure = "no attractor is seen all over the box"
-    for search in (rests, sticks, stays_stable):
-        try:
-            yield search(box)
-        except Undecided as error:
-            failure = str(error)
-    raise Undecided(failure)
+    """Yield certificates that seem to prove an attractor all over a box.
+
+    Where the motion from the separation seems to stick again at the centre, smaller boxes will have
+    a proof of that, and stable orbits, which take longer, are not looked for.
+    """
+    with suppress(Undecided):
+        yield rests(box)
+        return
+    try:
+        yield sticks(box)
+    except Undecided:
+        if _sticks_at_centre(box):
+            raise
+    yield stays_stable(box)
+
+
+def _sticks_at_centre(box: Place) -> bool:
+    """Whether the motion from the separation seems to stick again soon, at the centre of a box."""
+    (eta, last), (nu, most) = box.eta, box.nu
+    system = System((eta + last) / 2, (nu + most) / 2)
+    try:
+        phase = float(_separations(Place.plastic(system.eta, system.nu))[0]) + _LATER
+    except Undecided:
+        return False
+    for _ in range(_MOST_IMPACTS):
+        found = next_impact(system, phase, _FARTHEST)
+        if found is None:
+            start = launch(system.side, float(system.eta), float(system.nu), phase)
+            return bool(launch_acceleration(start) <= 0)
+        phase = found[1]
+    return False
 
 
 def rests(box: Place) -> Steps:
@@ -107,7 +135,7 @@ def _separation(made: Steps) -> tuple[str, Range]:
     """Add the separation; return where the mass has its next impact, as phase + time."""
     seen, (etas, nus) = _separations(made.box), corners(made.box)
     phase = _rounded(float(seen.min()), float(seen.max()))
-    after = next_impacts(side(made.box), etas, nus, float(phase[1]) + 1e-3, _FARTHEST).times
+    after = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(after).all():
         raise Undecided("a flight from the separation is not seen to end")
     flights = Flights(made.box, phase, separating=True)
@@ -128,8 +156,11 @@ def _on_arc(box: Place, arrival: Range, turns: int | None = None) -> bool:
 
 
 def _rounded(low: float, high: float) -> Range:
-    """Return decimals around phases, with some room."""
-    return round(Fraction(low) - _ROOM, _PLACES), round(Fraction(high) + _ROOM, _PLACES)
+    """Return decimals around phases, with some room; Undecided where that passes phase 0."""
+    ends = round(Fraction(low) - _ROOM, _PLACES), round(Fraction(high) + _ROOM, _PLACES)
+    if not 0 <= ends[0] < ends[1] <= TURN:
+        raise Undecided("an interval of phases passes phase 0")
+    return ends
 
 
 def _around(arrival: Range) -> Range:
@@ -180,15 +211,19 @@ def stays_stable(box: Place) -> Steps:
 def _orbits(box: Place) -> Iterator[list[Range]]:
     """Yield cells around stable orbits that are seen at the centre and the corners of a box."""
     etas, nus = corners(box)
-    for cycle in _cycles(side(box), etas[0], nus[0]):
+    for cycle in islice(_cycles(side(box), etas[0], nus[0]), _TRIES):
         phases = np.array([cycle] * len(etas)).T
         for _ in range(_CLOSER):
             found = next_impacts(side(box), etas, nus, phases, _FARTHEST)
-            phases = np.roll(found.images % math.tau, 1, axis=0)
+            before, phases = phases, np.roll(found.images % math.tau, 1, axis=0)
+            moved = float(np.abs(phases - before).max())
+            if not moved > _NEAR:
+                break
         steep = np.abs(found.slopes)
-        moved = np.roll(found.images % math.tau, 1, axis=0) - phases
-        if np.abs(moved).max() < _NEAR and (steep.prod(axis=0) < 1).all():
-            yield _cells(phases, steep)
+        if moved <= _NEAR and (steep.prod(axis=0) < 1).all():
+            apart = np.abs(phases[1:] - phases[0]).max(axis=1)
+            period = 1 + int(np.append(np.flatnonzero(apart < 100 * _NEAR), len(apart))[0])
+            yield _cells(phases[:period], steep[:period])
 
 
 def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
@@ -217,7 +252,7 @@ def _cells(points: Floats, steep: Floats) -> list[Range]:
     low, high, slopes = points.min(axis=1), points.max(axis=1), steep.max(axis=1)
     room = np.full(len(low), float(_ROOM))
     for _ in range(_TRANSIENT):  # f sends what is w + r from an orbit to s (w + r) from the next
-        room = np.maximum(room, 1.1 * np.roll(slopes * (high - low + room), 1) + 2 * float(_ROOM))
+        room = np.maximum(room, 1.2 * np.roll(slopes * (high - low + room), 1) + 2 * float(_ROOM))
         if room.max() > 1:
             raise Undecided("a stable orbit moves too much over the box")
     return [_rounded(float(a - r), float(b + r)) for a, b, r in zip(low, high, room, strict=True)]

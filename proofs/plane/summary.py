@@ -96,7 +96,8 @@ def picture(store: Store) -> Drawing:
             sides = [(box.eta, box.nu) for box in boxes]
             style.proved_boxes(axes, sides, colour, _WORDS[kind], lw=0)
     axes.set(xlabel="eta", ylabel="nu", xlim=_ends(region.eta), ylim=_ends(region.nu))
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
+    if found:
+        axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
     return drawing
 
 
@@ -106,16 +107,12 @@ def _ends(side: tuple[Fraction, Fraction]) -> tuple[float, float]:
 
 def merged(keys: Iterable[str]) -> list[str]:
     """Return fewer cells that are the same part of the plane: four quarters are one cell."""
-    left, whole = set(keys), list[str]()
-    while left:
-        parents = {key[:-1] for key in left if not key.endswith("/")}
-        full = {key for key in parents if left.issuperset(quarters(key))}
-        inside = {part for key in full for part in quarters(key)}
-        whole += left - inside
-        left = full
-        if not full:
-            break
-    return sorted(whole)
+    left = set(keys)
+    for length in range(max(map(len, left), default=0), 2, -1):
+        for parent in {key[:-1] for key in left if len(key) == length and key[-1] != "/"}:
+            if left.issuperset(quarters(parent)):
+                left = left.difference(quarters(parent)) | {parent}
+    return sorted(left)
 
 
 def at(store: Store, eta: Fraction, nu: Fraction) -> Cell | None:

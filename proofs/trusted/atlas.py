@@ -106,9 +106,9 @@ class Region:
 
     def box(self, key: str) -> Place:
         """Return the box of a cell; Malformed where it is none."""
-        number, _, path = key.partition("/")
+        number, slash, path = key.partition("/")
         roots = {f"{i}": root for i, root in enumerate(self.roots)}
-        if number not in roots or not set(path) <= set("0123") or len(path) > DEEPEST:
+        if not slash or number not in roots or not set(path) <= set("0123") or len(path) > DEEPEST:
             raise Malformed(f"no cell: {key[:60]!r}")
         parts = 2 ** len(path)
         sides = []
