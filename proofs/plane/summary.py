@@ -96,7 +96,7 @@ def picture(store: Store) -> Drawing:
             sides = [(box.eta, box.nu) for box in boxes]
             style.proved_boxes(axes, sides, colour, _WORDS[kind], lw=0)
     axes.set(xlabel="eta", ylabel="nu", xlim=_ends(region.eta), ylim=_ends(region.nu))
-    if found:
+    if any(found.values()):
         axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
     return drawing
 

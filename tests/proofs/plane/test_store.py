@@ -6,16 +6,31 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
+from fractions import Fraction
 
 import pytest
 
 from proofs import atlas
 from proofs.check import main as check
+from proofs.plane import summary
+from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
+from proofs.report.figures.style import style
 from proofs.trusted.atlas import check_store
+from proofs.trusted.verdicts import Verdict
 
+F = Fraction
 SMALL = ["--eta", "0.2115", "0.2127", "--nu", "-0.201", "-0.199", "--ask", "horseshoe"]
 LARGE = ["--eta", "0.211", "0.2134", "--nu", "-0.204", "-0.2", "--ask", "horseshoe"]
+
+
+@pytest.fixture(autouse=True)
+def draw(monkeypatch):
+    """Pictures take longer than all else here: what makes one is returned, not done."""
+    made = atlas._draw
+    monkeypatch.setattr(atlas, "_draw", lambda folder, store: None)
+    return made
 
 
 def start(folder, *more):
@@ -39,6 +54,27 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     assert "about a box of parameters" in capsys.readouterr().out
 
 
+def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
+    with opened(
+        tmp_path, atlas.Region((F("0.5"), F("0.6")), (F("0.1"), F("0.6")), "horseshoe")
+    ) as store:
+        run(store, 2, (Here(), 1), 16)
+        with style("atlas"):
+            (path,) = summary.picture(store).axes[0].patches
+        draw(tmp_path, store)
+        proved = {cell.key for cell in store.cells(Verdict.REFUTED)}
+        inside = [path.get_path().contains_point(middle(store.region.box(key))) for key in proved]
+        left = [cell.key for cell in store.cells(Verdict.UNDECIDED)]
+    assert proved and all(inside) and left
+    assert not any(path.get_path().contains_point(middle(store.region.box(key))) for key in left)
+    assert (tmp_path / "atlas.png").read_bytes().startswith(b"\x89PNG")
+    assert "every motion comes to rest" in (tmp_path / "atlas.svg").read_text()
+
+
+def middle(box):
+    return float(sum(box.eta)) / 2, float(sum(box.nu)) / 2
+
+
 def test_it_goes_on_and_deeper(tmp_path, capsys):
     out = ["--out", str(tmp_path)]
     assert atlas.main([*SMALL, "--depth", "1", *out]) == 1
@@ -60,7 +96,7 @@ def survives(tmp_path, kills, seed):
         process.wait()
         if (tmp_path / NAME).exists() and (tmp_path / NAME).stat().st_size:
             with opened(tmp_path, None) as store:
-                now = sum(1 for _ in store.cells(*atlas.Verdict))
+                now = sum(1 for _ in store.cells(*Verdict))
             assert now >= rows  # what was there is there
             rows = now
     assert start(tmp_path).wait() in (0, 1)
@@ -86,9 +122,6 @@ def test_a_head_that_is_killed_fifty_times(tmp_path):
 
 def test_a_worker_that_dies_loses_its_chunk_alone(tmp_path):
     """What breaks the pool ends the run; what was written stays, and the next run goes on."""
-    from concurrent.futures import Future
-
-    from proofs.plane.head import Here, run
 
     class Breaks(Here):
         left = 3
