@@ -34,7 +34,7 @@ def draw(monkeypatch):
 
 
 def start(folder, *more):
-    command = [sys.executable, "-m", "proofs.atlas", *LARGE, "--depth", "4", "--chunk", "3"]
+    command = [sys.executable, "-m", "proofs.atlas", *LARGE, "--depth", "3", "--chunk", "3"]
     return subprocess.Popen([*command, "--out", str(folder), "--quiet", *more])
 
 
@@ -91,7 +91,7 @@ def survives(tmp_path, kills, seed):
     rng, rows = random.Random(seed), 0
     for _ in range(kills):
         process = start(tmp_path)
-        time.sleep(rng.uniform(0.3, 1.2))
+        time.sleep(rng.uniform(0.3, 1))
         process.send_signal(signal.SIGKILL)
         process.wait()
         if (tmp_path / NAME).exists() and (tmp_path / NAME).stat().st_size:
@@ -114,10 +114,10 @@ def test_a_head_that_is_killed_five_times(tmp_path):
 
 @pytest.mark.long
 def test_a_head_that_is_killed_fifty_times(tmp_path):
-    for run in range(5):
-        folder = tmp_path / str(run)
+    for seed in range(5):
+        folder = tmp_path / str(seed)
         folder.mkdir()
-        assert whole(survives(folder, 10, run))
+        assert whole(survives(folder, 10, seed))
 
 
 def test_a_worker_that_dies_loses_its_chunk_alone(tmp_path):
