@@ -67,9 +67,10 @@ def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> I
         now = _clock(here.eta, times[left])
         height, speed = gap(here, now), gap(here, now, 1)
         met = height < rounding[left]
-        found[left[met]] = times[left[met]]
-        with np.errstate(all="ignore"):
-            slopes[left[met]] = slope(here, now)[met]
+        if met.any():
+            found[left[met]] = times[left[met]]
+            with np.errstate(all="ignore"):
+                slopes[left[met]] = slope(here, now)[met]
         ahead, speed, height = left[~met], speed[~met], height[~met]
         times[ahead] += (speed + np.sqrt(speed**2 + 2 * bend[ahead] * height)) / bend[ahead]
         left = ahead[times[ahead] < horizon]
