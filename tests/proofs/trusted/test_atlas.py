@@ -174,6 +174,15 @@ def test_a_certificate_of_another_box_or_about_something_else(path):
             check_store(path)
 
 
+def test_what_is_proved_of_another_box_is_not_of_this_one(path):
+    """The whole proof of a neighbour in the place of a cell's, words and digest with it."""
+    names = "kind", "conclusion", "certificate", "sha256"
+    taken = ", ".join(f"{x} = (SELECT {x} FROM cells WHERE key = '0/11')" for x in names)
+    edit(path, f"UPDATE cells SET {taken} WHERE key = '0/12'")
+    with pytest.raises(Rejected, match="other parameters"):
+        check_store(path)
+
+
 def test_another_region_or_none(path):
     region = Region((F("0.2115"), F("0.2128")), REGION.nu, "horseshoe")
     edit(path, "UPDATE region SET text = ?", region.text)

@@ -6,14 +6,17 @@ import random
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
+from mpmath import mpf
 
 from proofs.motion.many import next_impacts
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, sticks
 from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phases
@@ -22,6 +25,8 @@ from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, co
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verify import Rejected, check, premises
 from tests.oracles.judge import oracle
+from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.steps import exact
 
 F = Fraction
 BOX = Place((F("0.2119"), F("0.2122")), (F("-0.2004"), F("-0.1996")))
@@ -49,6 +54,27 @@ def sheets():
 def rejected(document, match=None, error=Rejected):
     with pytest.raises(error, match=match):
         check(json.dumps(document))
+
+
+# -- enclosures ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("time", ["3", "25.5", "56.25"])
+def test_the_gap_over_a_box_contains_that_of_each_of_its_oscillators(time):
+    """By equation (10), in mpmath; at the corners and inside."""
+    whole = Motion(BOX, (F("1.1"), F("1.1")))
+    times = F(time), F(time)
+    found = [each(times).range for each in (whole.height, whole.sharp_height)]
+    assert found[1][1] - found[1][0] < found[0][1] - found[0][0] + F(1, 10**9)
+    shares = [F(k, 4) for k in range(5)]
+    for eta, nu in product(*([low + (high - low) * x for x in shares] for low, high in sides())):
+        true = exact(reference.left_side_10(mpf(float(eta)), mpf(float(nu)), mpf("1.1"), mpf(time)))
+        for low, high in found:  # nu < 0: the gap is the negative
+            assert low - F(1, 10**12) < -true < high + F(1, 10**12)
+
+
+def sides():
+    return BOX.eta, BOX.nu
 
 
 # -- a full shift ----------------------------------------------------------------------------------
@@ -94,6 +120,7 @@ def test_the_oracle_agrees_and_finds_what_is_made_false():
         ("eta", ["2119/10000", "2130/10000"], None),  # f is known of fewer oscillators
         ("eta", ["2/10", "2001/10000"], None),  # of others
         ("nu", ["-3/10", "-499/2500"], None),
+        ("nu", ["-501/2500", "-19/100"], None),
     ],
 )
 def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
