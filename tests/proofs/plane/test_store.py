@@ -47,6 +47,7 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
     assert check([str(tmp_path / NAME)]) == 0
     assert "16 VERIFIED cells, all as their certificates prove" in capsys.readouterr().out
+    assert check([str(tmp_path / NAME), "--jobs", "2", "--quiet"]) == 0
     assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 0
     assert "VERIFIED: At eta in [0.2121, 0.2124], nu in [-0.2005, -0.2]" in capsys.readouterr().out
     (path,) = tmp_path.glob("cell-*.json")
