@@ -65,7 +65,8 @@ def run(
     done = 0
     while waiting or out:
         while waiting and len(out) < _AHEAD * count:
-            todo = [waiting.pop() for _ in range(min(chunk, len(waiting)))]
+            size = min(chunk, -(-len(waiting) // count))  # few cells are for all workers
+            todo = [waiting.pop() for _ in range(size)]
             out.add(pool.submit(decide, store.region, depth, todo))
         ready, out = wait(out, return_when=FIRST_COMPLETED)
         for future in ready:
