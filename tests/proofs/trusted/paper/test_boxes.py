@@ -15,16 +15,19 @@ from mpmath import mpf
 from proofs.motion.many import next_impacts
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, sticks
-from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, covering_shift
 from proofs.trusted.parameters import PAPER, Place
+from proofs.trusted.rules import find_rule
 from proofs.trusted.verify import Rejected, check, premises
 from tests.oracles.judge import oracle
+from tests.oracles.sources import REPORTS
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import exact
 
@@ -157,6 +160,39 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
         witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
         branch(Context(BOX, {}, known), Reader(witness))
+
+
+ALL_OVER_A_BOX = {
+    "avoids", "first-impact", "fixed-point", "full-shift", "horseshoe", "itinerary", "point",
+    "separation", "slope-range", "staying-orbit",
+}  # fmt: skip
+ONE_OSCILLATOR = {
+    "bounces-end", "branch", "dimension", "excess", "grazing", "lands", "linear-set",
+    "never-impacts", "superstable-motion",
+}  # fmt: skip
+
+
+def test_which_rules_of_committed_certificates_hold_all_over_a_box():
+    """In boxes so small that no enclosure is in the way, and none of the rules may think so."""
+    holds, fails, small = set(), set(), F(1, 10**60)
+    for name in ("chaos", "circle", "dimension", "entropy", "horseshoe", "persistence", "sets"):
+        made = parse((REPORTS / f"{name}.json").read_text())
+        _, parameters, functions, steps, _ = made.fields(*FIELDS)
+        of = parameters_from_json(parameters)
+        box = Place((of.eta, of.eta + small), (of.nu, of.nu + small))
+        context = Context(box, {x: read_function(x, each) for x, each in functions.members()})
+        for step, each in steps.members():
+            rule, witness = each.fields("rule", "witness")
+            try:
+                context.known[step] = find_rule(rule.string())(context, witness)
+            except Unproved:
+                fails.add(rule.string())
+            except Malformed as error:
+                assert "names no earlier step" in str(error)
+            else:
+                if context.known[step].place == box:
+                    holds.add(rule.string())
+    assert (holds, fails) == (ALL_OVER_A_BOX, ONE_OSCILLATOR)
 
 
 @pytest.mark.parametrize("turns", ["0", "3", "5", "9"])
