@@ -126,6 +126,11 @@ def _of(field, change):
     return lambda record: change(getattr(record, field))
 
 
+def _first_box_off(record):
+    (phases, velocities), *others = record.boxes
+    record.boxes = (off(phases), velocities), *others
+
+
 def _narrow(record):
     """Cut velocities of rectangles, so that images leave them."""
     sets = record.strips
@@ -300,9 +305,15 @@ FALSE = {
         _of("motion", put("largest", F(9, 10))),
     ],
     "StableCycle": [
-        put("boxes", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
+        _first_box_off,
         put("boxes", lambda old: old[:1] * 2),
         put("epsilon", F(1, 2)),
+    ],
+    "TwoAttractors": [
+        put("cycles", lambda old: (*old[:2], *old[3:])),
+        put("cycles", lambda old: old[:-1]),
+        _of("motion", put("largest", F(29, 100))),
+        lambda record: [_first_box_off(each) for each in record.cycles],
     ],
     "Solution": [
         offs("multiplier"),
