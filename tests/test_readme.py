@@ -53,12 +53,15 @@ def test_section_5_is_counted_by_the_ledger():
 
 
 def test_numbers_are_those_of_the_ledger():
-    quantities = {name: x for row in ROWS for name, x in row["quantities"].items()}
+    quantities = {row["id"]: row["quantities"] for row in ROWS}
     (share,) = re.findall(r"([\d.]+) % of the circle at least", README)
-    bounds = [Fraction(quantities["basin_fraction"][end]) for end in ("lower", "upper")]
+    bounds = [Fraction(quantities["G4"]["basin_fraction"][end]) for end in ("lower", "upper")]
     assert bounds[0] - Fraction(1, 10**5) < Fraction(share) / 100 <= bounds[0] <= bounds[1] < 1
     (largest,) = re.findall(r"yes for epsilon <= ([\d.]+),", README)
-    assert Fraction(largest) == Fraction(quantities["epsilon_max"]["lower"])
+    assert Fraction(largest) == Fraction(quantities["G7"]["epsilon_max"]["lower"])
+    (window,) = re.findall(r"every epsilon in \[([\d.]+), ([\d.]+)\] \(G16\)", README)
+    ends = (quantities["G16"][f"epsilon_{end}"]["lower"] for end in ("min", "max"))
+    assert tuple(map(Fraction, window)) == tuple(map(Fraction, ends))
     (entropy,) = re.findall(r"entropy >= ([\d.]+) \(G9\)", README)
     assert any(f">= {entropy}" in row["why"] for row in ROWS if row["id"] == "G9")
     dimensions = re.findall(r"\| (0\.\d+)\.\.\., and (0\.\d+)\.\.\. for", README)[0]
