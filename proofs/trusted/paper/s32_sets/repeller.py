@@ -64,10 +64,12 @@ class Repeller(Conclusion):
     @property
     def sentence(self) -> str:
         return (
-            f"let g_0, ..., g_{len(self.domains) - 1} be the inverse branches of f from "
-            f"{show_range(self.hull)} into {', '.join(map(show_range, self.domains))}, and K the "
-            f"compact set that is the union of its images by {', '.join(self.words)}, which are "
-            f"disjoint. K has a Hausdorff dimension in {between(self.dimension, 12)}; with "
+            f"let g_0, ..., g_{len(self.domains) - 1} take phases of {show_range(self.hull)} back "
+            f"to those of {', '.join(map(show_range, self.domains))} that f maps to them, where "
+            "there are such; for a word w = jv let g_w be g_j after g_v. On all of "
+            f"{show_range(self.hull)} g_w is defined for w = {', '.join(self.words)}, with images "
+            "there that are disjoint. The compact set K that is the union of its images by these "
+            f"has a Hausdorff dimension in {between(self.dimension, 12)}; with "
             f"s = {show(self.exponent)} and some h > 0, the sum of (g_w')^s h(g_w) over these "
             f"words w lies between {floor_text(self.growth[0], 12)} h and "
             f"{ceil_text(self.growth[1], 12)} h on {show_range(self.hull)}."

@@ -72,10 +72,10 @@ class Grazing(Conclusion):
             there = f"f is C^1 and {rises}, with the limit {between(self.other, _PLACES)}"
         return (
             f"one phase phi_g in {show_range(self.phases)} is followed by a graze, at the phase "
-            f"f_g in {between(self.graze, _PLACES)}, before any impact. For the phases {side} it f "
-            f"is C^1 and {rises}: f = f_g - a |phi - phi_g|^(1/2) + O(phi - phi_g), |f'| = b "
-            f"|phi - phi_g|^(-1/2) + O(1), a in {between(self.root, _PLACES)}, b = a/2 in "
-            f"{between((low, high), _PLACES)}; for those {rest} it {there}."
+            f"f_g in {between(self.graze, _PLACES)}, before any impact. For the phases of this "
+            f"interval {side} it f is C^1 and {rises}: f = f_g - a |phi - phi_g|^(1/2) + O(phi - "
+            f"phi_g), |f'| = b |phi - phi_g|^(-1/2) + O(1), a in {between(self.root, _PLACES)}, "
+            f"b = a/2 in {between((low, high), _PLACES)}; for those of it {rest} phi_g {there}."
         )
 
     @property

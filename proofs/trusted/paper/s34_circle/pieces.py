@@ -92,6 +92,12 @@ class Pieces(Conclusion):
         grazes = [isinstance(each, Grazing) for each in self.arcs]
         if any(grazes[::2]) or not all(grazes[1::2]) or grazes[-1]:
             raise Unproved("parts without and with a graze do not take turns")
+        for before, grazing, after in zip(self.arcs, self.arcs[1:], self.arcs[2:], strict=False):
+            if isinstance(grazing, Grazing):
+                sides = (before, after) if grazing.below else (after, before)
+                for part, turn in zip(sides, (grazing.turn, grazing.beyond), strict=True):
+                    if isinstance(part, Branch) and part.turn != turn:
+                        raise Unproved("images beside a graze are counted from different turns")
 
     @property
     def at(self) -> Place:

@@ -17,7 +17,7 @@ from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phases
-from proofs.trusted.paper.s32_sets.dimension import FULL
+from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import _read
 from proofs.trusted.parameters import PAPER
@@ -187,6 +187,13 @@ WIDE = {
     "few nodes": put(nodes="4"),
     "another growth": put(growth="999/1000"),
 }
+
+
+def test_a_letter_that_ends_no_word_need_not_be_an_inverse_on_the_hull():
+    """f maps I0 of the paper's I over a part of it only, so the sentence must not say all."""
+    sentence = replace(proved()[2], words=WITHOUT_000, slopes=(proved()[2].slopes[0],) * 3).sentence
+    assert "that f maps to them, where there are such" in sentence
+    assert f"is defined for w = {', '.join(WITHOUT_000)}, with" in sentence
 
 
 @pytest.mark.parametrize("name", WIDE)

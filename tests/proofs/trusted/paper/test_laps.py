@@ -599,6 +599,25 @@ def test_images_longer_than_the_circle_are_refused(known):
 # -- what conclusions refuse -----------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("place", "field"), [(1, "turn"), (1, "beyond"), (9, "turn"), (11, "turn")]
+)
+def test_a_piece_and_its_grazes_count_images_from_the_same_turn(known, place, field):
+    (pieces,) = only(Pieces, known)
+    arcs = list(pieces.arcs)
+    arcs[place] = replace(arcs[place], **{field: getattr(arcs[place], field) + 1})
+    with pytest.raises(Unproved, match="different turns"):
+        replace(pieces, arcs=tuple(arcs))
+
+
+def test_the_sides_of_a_graze_are_those_in_its_interval(known):
+    """At 0.21 f decreases beyond some grazes, and increases beyond others."""
+    for one in only(Grazing, known):
+        side, rest = ("below", "above") if one.below else ("above", "below")
+        assert f"For the phases of this interval {side} it f is C^1" in one.sentence
+        assert f"for those of it {rest} phi_g " in one.sentence
+
+
 def test_a_flight_from_the_arc_that_does_not_return_is_no_end(known):
     (pieces,) = only(Pieces, known)
     away = replace(pieces.arc, arrival=(F(1), F(1)))
