@@ -8,6 +8,7 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
+from mpmath.ctx_mp_python import _constant
 from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
 
 from intervals.elementary.tightest import DOWN, UP, Raw
@@ -41,6 +42,10 @@ def _parts(value: Any) -> tuple[Raw, Raw, Raw]:
             from_man_exp(*map(int, part.man_exp())) for part in (value.mid(), value.rad())
         )
         return middle, mpf_neg(radius), radius
+    if isinstance(value, _constant):  # its _mpf_ is only near pi, say
+        raise TypeError(
+            f"not the number that it stands for: {value!r}; see Interval.pi, or mpmath.iv"
+        )
     point = getattr(value, "_mpf_", None)
     bounds = getattr(value, "_mpi_", point and (point, point))
     if not bounds:

@@ -68,3 +68,15 @@ def test_what_is_no_bounded_number():
     for value in (0.5, 1, Fraction(1, 2), "0.5", Interval(1), None, mpmath.mpc(1, 2), flint.acb(1)):
         with pytest.raises(TypeError):
             convert.interval(value)
+
+
+@pytest.mark.parametrize("name", ["pi", "e", "ln2", "euler"])
+def test_a_constant_of_mpmath_is_not_the_float_near_it(name):
+    with pytest.raises(TypeError, match="stands for"):
+        convert.interval(getattr(mpmath.mp, name))
+    near = convert.interval(+getattr(mpmath.mp, name))
+    assert near.inf == near.sup
+
+
+def test_pi_of_mpmath_s_intervals_holds_pi():
+    assert Interval.pi(precision=200).subset(convert.interval(mpmath.iv.pi))
