@@ -229,9 +229,9 @@ def log(value: Fraction, bits: int) -> Enclosure:
 
 
 def log_of(x: Enclosure) -> Enclosure:
-    """Enclose log X = y + log(X exp(-y)), X in (2^-60, 2^60), y about the logarithm of a middle."""
-    if x.lo <= 0:
-        raise Unproved("the logarithm of an enclosure that leaves (0, oo)")
+    """Enclose log X = y + log(X exp(-y)), X in (2^-90, 2^90), y about the logarithm of a middle."""
+    if not (1 << x.bits) >> 90 < x.lo <= x.hi < 1 << (x.bits + 90):
+        raise Unproved("the logarithm of an enclosure that leaves (2^-90, 2^90)")
     about = Fraction(math.log((x.lo + x.hi) / (2 << x.bits)))
     y = rational(about, x.bits)
     ratio = x * exp(-y)

@@ -169,6 +169,12 @@ def test_logarithms_of_enclosures(bits):
             log_of(Enclosure(low << bits, high << bits, bits))
 
 
+@pytest.mark.parametrize("end", [1, 1 << 1900, 1 << 3500])
+def test_numbers_beyond_floating_point_have_no_logarithm(end):
+    with pytest.raises(Unproved, match="leaves"):
+        log_of(Enclosure(end, end, 2000))
+
+
 @pytest.mark.parametrize("bits", [64, 511, 512, 1000])
 def test_sines_of_many_bits_and_of_narrow_enclosures(bits):
     chance = random.Random(bits)
