@@ -244,11 +244,11 @@ class Coding(Conclusion):
     def sentence(self) -> str:
         lower = self.entropy.lower
         return (
-            f"{self.expansion.sentence} Which sequences of intervals are followed by orbits that "
-            "stay in them lies between two sofic shifts: those of the paths in a graph with "
-            f"{lower.states} states all are, and all that are belong to paths in a graph with "
-            f"{self.entropy.states} states; their entropies are log {show(lower.growth)} or more "
-            f"and log {show(self.entropy.growth)} or less."
+            f"{self.expansion.sentence} Which sequences of the intervals on which f is monotone "
+            "are followed by orbits that stay in them lies between two sofic shifts: those of the "
+            f"paths in a graph with {lower.states} states all are, and all that are belong to "
+            f"paths in a graph with {self.entropy.states} states; their entropies are log "
+            f"{show(lower.growth)} or more and log {show(self.entropy.growth)} or less."
         )
 
     @property

@@ -97,10 +97,13 @@ def _jump(graze: Grazing) -> Range:
 def _roots(of: Parameters, found: Found) -> Decision:
     """H18: by narrow grazes near each of the phases asked about, in their order."""
     del of
-    known = [x for x in found.all(Grazing) if x.root[1] - x.root[0] <= _NARROW and x.other]
+    narrow = [x for x in found.all(Grazing) if x.root[1] - x.root[0] <= _NARROW and x.other]
+    known = [x for x in narrow if not _jump(x)[0] <= 0 <= _jump(x)[1]]
     near = [[x for x in known if abs(x.phases[0] - end) <= _NEAR] for end in ENDS]
     if not all(near):
-        return undecided("not at each of these phases the square root is enclosed narrowly")
+        return undecided(
+            "not at each of these phases a jump and its square root are enclosed narrowly"
+        )
     best = [group[0] for group in near]
     values = {
         f"{name}_{index}": value

@@ -197,11 +197,16 @@ def test_h18_needs_each_of_its_grazes_narrowly(roots):
     own = [conclusion for _, conclusion in roots.proofs["H18"]]
     for i, one in enumerate(own):
         wide = replace(one, root=(one.root[0], one.root[1] + F(1, 10**8)))
+        flat = replace(one, landing=one.time, beyond=one.turn)  # no jump
+        assert (
+            find("H18").decide(PAPER, [*own[:i], flat, *own[i + 1 :]]).verdict.value == "UNDECIDED"
+        )
         none = replace(one, landing=None)
         for few in (
             own[:i] + own[i + 1 :],
             [*own[:i], wide, *own[i + 1 :]],
             [*own[:i], none, *own[i + 1 :]],
+            [*own[:i], flat, *own[i + 1 :]],
         ):
             assert find("H18").decide(PAPER, few).verdict is Verdict.UNDECIDED
     assert find("H18").decide(OF, own).verdict is Verdict.UNDECIDED
