@@ -9,8 +9,13 @@ if __name__ == "__main__":
 
 import argparse
 import sys
+from collections.abc import Callable
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
+from time import perf_counter
 
+from proofs.shell.entry import workers
 from proofs.shell.screen import Arguments, fitted, say
 from proofs.trusted.certificate import (
     LEDGER,
@@ -23,10 +28,13 @@ from proofs.trusted.certificate import (
 )
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
+from proofs.trusted.numbers import floor_text
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
 PIPED = Path("-")
+STORE = b"SQLite format 3\0"
 FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
 exit status: 0 every claim in every file is decided as stated (SIMULATED is no proof)
@@ -37,6 +45,7 @@ examples:
   python -m proofs.check reports/horseshoe.json
   python -m proofs.horseshoe --json - | python -m proofs.check -
   python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
+  python -m proofs.check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
   python -m proofs.check --rules                  what may be inferred, and from what
 """
 
@@ -51,6 +60,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--stats", action="store_true", help="count what is evaluated")
     help_text = f"how much work a file may take (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
+    jobs = "processes that check the cells of an atlas (default 1)"
+    parser.add_argument("--jobs", type=_work, default=1, metavar="N", help=jobs)
     options = parser.parse_args(arguments)
     if options.rules:
         from proofs.report.specification import specification
@@ -58,7 +69,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(fitted(specification(), sys.stdout), end="")
     elif not options.files:
         parser.error("no file to check")
-    examine = check_counting if options.stats else check_file
+    examine: Callable[[Path, int, bool], int] = check_counting
+    if not options.stats:
+        examine = partial(check_file, jobs=options.jobs)
     checks = (examine(path, options.work, options.quiet) for path in options.files)
     return max(checks, default=0)
 
@@ -88,10 +101,12 @@ def printable(path: Path) -> str:
     return str(path) if str(path).isprintable() else ascii(str(path))
 
 
-def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False) -> int:
+def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: int = 1) -> int:
     """Check one file, print a line a claim; return its exit status."""
     name = printable(path)
     try:
+        if path != PIPED and _is_store(path):
+            return _check_store(path, name, work, jobs, is_quiet)
         source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
         schema = schema_of(source)
         if schema in FOLDERS:
@@ -117,6 +132,31 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False) -> int:
     return int(Verdict.UNDECIDED in verdicts)
 
 
+def _is_store(path: Path) -> bool:
+    """Whether a file is of SQLite's format, as an atlas is."""
+    with path.open("rb") as file:
+        return file.read(len(STORE)) == STORE
+
+
+def _check_store(path: Path, name: str, work: int, jobs: int, is_quiet: bool) -> int:
+    """Check an atlas, in several processes; print what is proved where."""
+    from proofs.trusted.atlas import check_store  # with sqlite3, which nothing else needs
+
+    began = perf_counter()
+    with nullcontext() if jobs == 1 else workers(jobs) as pool:
+        found = check_store(path, work, partial(pool.map, chunksize=16) if pool else map)
+    if not is_quiet:
+        each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(found.cells.items()))
+        share = floor_text(found.areas[Verdict.UNDECIDED.value] / found.whole)
+        rate = sum(found.cells.values()) / (perf_counter() - began)
+        say(
+            f"{name}: an atlas of {each} cells, all as their certificates prove; undecided "
+            f"{share} of the area, not looked at {floor_text(found.missing / found.whole)}; "
+            f"{rate:.0f} cells a second"
+        )
+    return int(found.cells[Verdict.UNDECIDED.value] > 0 or found.missing > 0)
+
+
 def _refused(status: int, line: str) -> int:
     say(line, sys.stderr)
     return status
@@ -133,8 +173,9 @@ def _counted(listed: list[Listed]) -> str:
 def report_lines(name: str, report: Report, digest_of: str) -> list[str]:
     """Return what a certificate was found to prove."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
-    about = "about formulas" if report.parameters is None else whose
-    said = [f"{name}: accepted, {about}, {digest_of}"]
+    if not isinstance(report.parameters, Parameters):
+        whose = "about formulas" if report.parameters is None else "about a box of parameters"
+    said = [f"{name}: accepted, {whose}, {digest_of}"]
     for claim in report.claims:
         said.append(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
         if claim.corrected is not None:

@@ -67,7 +67,7 @@ def plan(source: str) -> Plan:
     report = check(source)
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
-    if of is None or not claims:
+    if not isinstance(of, Parameters) or not claims:
         raise Malformed("$.claims: no certificate of python -m proofs.horseshoe")
     known = premises(source).known
     proofs = {

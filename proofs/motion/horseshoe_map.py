@@ -12,7 +12,8 @@ import numpy as np
 from intervals import Interval, IntervalArray, Undecided
 from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
-from proofs.motion.kernel import Launches, enclose_times, float_clock, float_launch
+from proofs.motion.kernel import Launches, enclose_times
+from proofs.motion.many import float_clock, float_launch
 from proofs.motion.phase import turn
 from proofs.motion.slope_cover import SlopeCover
 from proofs.motion.system import System

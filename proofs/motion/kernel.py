@@ -22,6 +22,7 @@ from intervals.bilinear import bilinear
 from intervals.rounding import outward, outward_sum
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
+from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 
@@ -232,18 +233,6 @@ def _signs(launches: Launches, low: Floats, high: Floats) -> Mask:
     """Return masks, shape (2, n): on which boxes gap(low) > 0, and on which gap(high) < 0."""
     heights = launches.heights(np.stack((low, high)))
     return np.stack((heights[0].certainly_positive(), heights[1].certainly_negative()))
-
-
-def float_launch(system: System, phases: Floats) -> Launch:
-    """Return launches in floating point: for candidates, never evidence."""
-    nu = float(system.nu)
-    return Launch(system.side, float(system.eta), nu * np.sin(phases), nu * np.cos(phases))
-
-
-def float_clock(system: System, times: Floats) -> Clock:
-    """Return the functions of time in floating point, likewise."""
-    mass = float(system.eta) * times
-    return Clock(np.sin(mass), np.cos(mass), np.sin(times), np.cos(times))
 
 
 def find_times(system: System, phases: Floats) -> Floats:

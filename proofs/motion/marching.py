@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from proofs.motion.kernel import Floats, float_clock, float_launch
+from proofs.motion.many import Floats, float_clock, float_launch
 from proofs.motion.system import System
 from proofs.trusted.equations import gap
 

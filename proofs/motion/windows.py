@@ -39,7 +39,7 @@ def prove_branch(
     The theorem is rule `branch` of `s34_circle.entropy`.
     """
     whole = Flight(system, (cuts[0], cuts[-1]), BITS)
-    windows = Meetings.of(Motion(system.eta, system.nu, whole.phases, BITS))
+    windows = Meetings.of(Motion(Place.plastic(system.eta, system.nu), whole.phases, BITS))
     launched = _launched(whole)
     for low, high in windows.before(turn):
         if high > launched:

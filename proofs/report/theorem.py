@@ -11,6 +11,7 @@ from proofs.report.names import verdict_name
 from proofs.report.typeset import markdown
 from proofs.trusted.numbers import floor_text, show
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
 
 CLAUSES = (
     ("Where the mass sticks, and where it is never hit", ("G1", "M6")),
@@ -38,14 +39,18 @@ def theorem(findings: Findings) -> str:
         if here:
             parts.append(f"## {number} {title}")
         for claim in here:
-            parts += [_clause(findings, each) for each in _proved(findings, claim)]
+            for each in _proved(findings, claim):
+                if (clause := _clause(findings, each)) not in parts:
+                    parts.append(clause)
             parts.append(_source(claim))
     return "\n\n".join(parts) + "\n"
 
 
 def _proved(findings: Findings, claim: Finding) -> list[Statement]:
-    """Return the theorems that stand at a claim, not what refutes others."""
-    return [each for each in findings.at(claim.id) if each.kind == "Theorem"]
+    """Return the theorems of a claim: what verifies it, or what is true in its place."""
+    because, corrected = claim.decision.because, claim.decision.corrected
+    kept = corrected if claim.verdict is Verdict.REFUTED else (*because, *corrected)
+    return [findings.statements[each] for each in dict.fromkeys(kept)]
 
 
 def _clause(findings: Findings, statement: Statement) -> str:

@@ -7,15 +7,14 @@ import random
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from functools import reduce
 
 from intervals import Undecided
 from proofs.motion.simulate import late_state
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver
-from proofs.trusted.numbers import TURN
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle, stable_cycle
+from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.parameters import Place
 
@@ -42,48 +41,65 @@ def stable_cycles(
             continue
         seen += states
         with suppress(*FAILED), prover.attempt():
-            yield _proved(prover, at, states)
+            yield prove_cycle(prover, at, _state(System(eta, nu), *states[0]), len(states))
 
 
-def _proved(prover: ReboundProver, at: Place, states: Sequence[Floats]) -> tuple[str, StableCycle]:
-    """Prove a stable orbit (rule stable-cycle).
+def prove_cycle(
+    prover: ReboundProver, at: Place, state: State, period: int
+) -> tuple[str, StableCycle]:
+    """Prove a stable orbit near a state, for all oscillators of a box (rule stable-cycle).
 
-    The half sides r of the first box are (1 - c M)^-1 (1, 1), M the product of the |DF|, c > 1 so
-    that c M still contracts: M r < r / c. Each next box is a little larger than the image.
+    The half sides r of the first box are (1 - c |D|)^-1 (c s + h (1, 1)), D the derivative of F^k,
+    s how far F^k leads from the state, c > 1 so that c |D| still contracts: c (s + |D| r) < r.
     """
-
-    def around(state: State, half: State) -> tuple[str, Rebound]:
-        phases, velocities = ((x - r, x + r) for x, r in zip(state, half, strict=True))
-        return prover.rebound(at, phases, velocities)
-
-    exact = [_state(System(at.eta[0], at.nu[0]), *state) for state in states]
-    centres = [around(state, (Fraction(0), Fraction(0))) for state in exact]
-    sizes = [[float(size(x)) for row in step.derivative for x in row] for _, step in centres]
-    p, q, r, s = reduce(_times, sizes)
-    root = (p + s + math.hypot(p - s, 2 * math.sqrt(q * r))) / 2
+    centres = follow(prover, at, [(x, x) for x in state], period)
+    ((p, q), (r, s)), root = _sizes([step for _, step in centres])
     if root >= 1:
         raise Undecided("the orbit is not seen to contract")
     more = min(4.0, max(root, 1e-9) ** -0.5)
     across = (1 - more * p) * (1 - more * s) - more * more * q * r
-    x, y = (1 - more * (s - q)) / across, (1 - more * (p - r)) / across
-    half = _HALF * x / max(x, y), _HALF * y / max(x, y)
-    each, halves = more ** (1 / len(states)), [half]
-    for p, q, r, s in sizes[:-1]:
-        halves.append((each * (p * half[0] + q * half[1]), each * (r * half[0] + s * half[1])))
-        half = halves[-1]
-    boxes = [
-        around(state, (_up(half[0]), _up(half[1])))
-        for state, half in zip(exact, halves, strict=True)
+
+    def box(x: float, y: float) -> Floats:
+        return (
+            ((1 - more * s) * x + more * q * y) / across,
+            (more * r * x + (1 - more * p) * y) / across,
+        )
+
+    end = centres[-1][1]
+    away = [
+        more * float(max(high - x, x - low))
+        for x, (low, high) in zip(state, (end.phase, end.velocity), strict=True)
     ]
+    least, reach = box(1, 1), box(away[0], away[1])
+    half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
+    around = [(x - r, x + r) for x, r in zip(state, half, strict=True)]
+    boxes = follow(prover, at, around, period)
     found = stable_cycle([step for _, step in boxes], [step for _, step in centres])
     names = {"boxes": [name for name, _ in boxes], "centres": [name for name, _ in centres]}
     return prover.plain.add("stable-cycle", names), found
 
 
-def _times(before: Sequence[float], after: Sequence[float]) -> list[float]:
-    """Return the product of two matrices, given by rows: first the one, then the other."""
-    (a, b, c, d), (p, q, r, s) = before, after
-    return [p * a + q * c, p * b + q * d, r * a + s * c, r * b + s * d]
+def root_from(prover: ReboundProver, at: Place, state: State, period: int) -> float:
+    """Return about the spectral radius of |D|, as seen from this state of an orbit."""
+    return _sizes([step for _, step in follow(prover, at, [(x, x) for x in state], period)])[1]
+
+
+def _sizes(steps: Sequence[Rebound]) -> tuple[list[list[float]], float]:
+    """Return about |D|, D the derivative of F^k, and its spectral radius."""
+    (p, q), (r, s) = product = [[float(size(entry.range)) for entry in row] for row in loop(steps)]
+    return product, (p + s + math.hypot(p - s, 2 * math.sqrt(q * r))) / 2
+
+
+def follow(
+    prover: ReboundProver, at: Place, box: Sequence[Range], count: int
+) -> list[tuple[str, Rebound]]:
+    """Prove impacts of a box of states, of one that contains its image, and so on."""
+    steps: list[tuple[str, Rebound]] = []
+    for _ in range(count):
+        steps.append(prover.rebound(at, box[0], box[1]))
+        image = steps[-1][1]
+        box = [(-rounded(-low), rounded(high)) for low, high in (image.phase, image.velocity)]
+    return steps
 
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:
@@ -110,5 +126,6 @@ def _state(system: System, phase: float, speed: float) -> State:
     return Fraction(round(phase * _GRID), _GRID), Fraction(round(gamma * _GRID), _GRID)
 
 
-def _up(value: float) -> Fraction:
-    return Fraction(math.ceil(value * _GRID) + 1, _GRID)
+def rounded(value: Fraction | float) -> Fraction:
+    """Round up to a multiple of 1 / _GRID."""
+    return Fraction(math.ceil(Fraction(value) * _GRID), _GRID)

@@ -19,8 +19,8 @@ import numpy as np
 
 from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
 from proofs.motion import landing
-from proofs.motion.kernel import float_clock, float_launch
 from proofs.motion.landing import impact_before, prove_cells, prove_lands, short
+from proofs.motion.many import float_clock, float_launch
 from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
 from proofs.motion.windows import BITS, Candidates

@@ -169,8 +169,8 @@ def record(
     landing: Range | None,
 ) -> tuple[str, Grazing]:
     """Prove and record a step `grazing`."""
-    motion = Motion(prover.system.eta, prover.system.nu, phases, BITS)
-    found = graze(motion, prover.at, turns, times, landing)
+    motion = Motion(prover.at, phases, BITS)
+    found = graze(motion, turns, times, landing)
     witness = {
         "phases": texts(phases),
         "turn": str(turns[0]),
@@ -189,7 +189,7 @@ def rise(system: System, time: Fraction) -> Fraction:
 
 def flight(prover: Prover, phase: Fraction) -> Motion:
     """Return the flight from one phase, for Newton's method."""
-    return Motion(prover.system.eta, prover.system.nu, (phase, phase), FINE)
+    return Motion(prover.at, (phase, phase), FINE)
 
 
 def middle(x: Enclosure) -> Fraction:

@@ -1,7 +1,8 @@
 """Section 3.4 with restitution: the stable orbit persists, with infinitely many impacts a period.
 
-Claims G7, G8, G12 and G15. The flight from the separation phase does not depend on epsilon; after
-it, for ever larger epsilon, bounces are enclosed until they are proved to end before that phase.
+Claims G7, G8, G12, G15 and G16. The flight from the separation phase does not depend on epsilon;
+after it, for ever larger epsilon, bounces are enclosed until they are proved to end before that
+phase.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_attractors import branch
 from proofs.search.s34_border import border
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
@@ -46,7 +48,7 @@ def prove(
 ) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
     prover, found = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
-    if {"G7", "G12", "G15"}.intersection(claims):
+    if {"G7", "G12", "G15", "G16"}.intersection(claims):
         with suppress(*FAILED):  # what is not proved the claims do not say
             tell("the flight from the separation phase, and bounces for ever larger epsilon")
             motion = superstable_motion(prover)
@@ -55,9 +57,15 @@ def prove(
             if "G15" in claims:
                 tell("where bounces do not come to an end any more")
                 found.proofs["G15"] = [*proof, *border(prover, motion)]
-            if found.proofs.keys() & {"G7", "G12"}:
+            if {"G7", "G12", "G16"}.intersection(claims):
                 tell("another stable orbit")
-                proof += another_orbit(of, prover)
+                rebounds = ReboundProver(of, prover)
+                others = list(islice(stable_cycles(rebounds, _OTHER, _TRIES, 2), 1))
+                if "G16" in claims:
+                    tell("the same orbit for other epsilon")
+                    cycles = [each for _, other in others for each in branch(rebounds, other)]
+                    found.proofs["G16"] = [*proof, *cycles]
+                proof += others
     if "G8" in claims:
         tell("simulated motions")
         found.notes["G8"] = observed(transients(prover.system))
@@ -144,8 +152,3 @@ def _halved(
         for half in halves(epsilon)
         for cell in _halved(pushing, half, phases, speeds, halvings - 1)
     ]
-
-
-def another_orbit(of: Parameters, prover: Prover) -> Proof:
-    """Prove that F has a stable 2-periodic orbit at epsilon = _OTHER; [] if none is found."""
-    return list(islice(stable_cycles(ReboundProver(of, prover), _OTHER, _TRIES, 2), 1))

@@ -124,14 +124,14 @@ def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
     found = symbols(seen)
     for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
-        yield from islice(_with_spare(family), 1)
+        yield from islice(with_spare(family), 1)
 
 
 def pairs(seen: Sequence[Piece], *, rising: bool) -> Iterator[tuple[Range, Range]]:
     """Yield I0 and I1, with ever less spare, on which f seems to be a full shift; or increases."""
     found = [x for x in symbols(seen) if x[0].images[0] < x[0].images[-1] or not rising]
     for family in families(found, 2):
-        yield from ((left, right) for left, right in _with_spare(family))
+        yield from ((left, right) for left, right in islice(with_spare(family), 1))
 
 
 def own_sets(of: Parameters) -> Parameters | None:
@@ -189,7 +189,7 @@ def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
     return grown
 
 
-def _with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
+def with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
     """Yield the sets of a full shift, rounded outward, from the most spare that there is on."""
     for spare in _SPARES:
         sets = cells(family, spare)

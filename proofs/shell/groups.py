@@ -43,7 +43,8 @@ PROVERS: Mapping[str, str] = MappingProxyType(
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
     {group: {group: claims} for group, claims in GROUPS.items()}
     | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
-    | {"explore": BEYOND}
+    | {"explore": {group: BEYOND[group] for group in ("explore", "rebounding")}}
+    | {"curves": {"curves": BEYOND["curves"]}}
 )  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)
 

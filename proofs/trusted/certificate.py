@@ -1,7 +1,8 @@
 """The form of a certificate, and a reader that takes nothing on faith.
 
-- A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (null
-  in a file about formulas alone), `functions` (name to {`variables`, `values`}), `steps` (name to
+- A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (of a
+  statement; {`eta`, `nu`}, two ranges, in a file about all plastic oscillators of a box; null in a
+  file about formulas alone), `functions` (name to {`variables`, `values`}), `steps` (name to
   {`rule`, `witness`}, in the order of the proof) and `claims` (a list, not empty).
 - Every number is a string, a rational in lowest terms such as "111/100" or "-7", of at most 3000
   characters, 400 in `parameters`; bounds of quantities are plain decimals. Bare JSON numbers are
@@ -26,9 +27,10 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.parameters import Parameters, Place
 
 SCHEMA = "impact-proofs.certificate/3"
 FIELDS = ("schema", "parameters", "functions", "steps", "claims")
@@ -286,9 +288,31 @@ def parameters_from_json(reader: Reader) -> Parameters:
         raise
     except ValueError as error:
         raise reader.fail(str(error)) from None
+    _require_short(reader)
+    return parameters
+
+
+def box_to_json(box: Place) -> dict[str, Any]:
+    """Write the box of plastic oscillators that a file is about."""
+    return {"eta": texts(box.eta), "nu": texts(box.nu)}
+
+
+def subject_from_json(reader: Reader) -> Parameters | Place | None:
+    """Read and validate what a file is about: one statement's numbers, a box, formulas alone."""
+    if reader.is_null():
+        return None
+    if {name for name, _ in reader.entries()} != {"eta", "nu"}:
+        return parameters_from_json(reader)
+    _require_short(reader)
+    try:
+        return Place(*(side.range() for side in reader.fields("eta", "nu")))
+    except Unproved as error:
+        raise reader.fail(str(error)) from None
+
+
+def _require_short(reader: Reader) -> None:
     if any(len(number) > _MAX_DIGITS_OF_PARAMETERS for number in reader.mentioned()):
         raise reader.fail(f"a number of more than {_MAX_DIGITS_OF_PARAMETERS} digits")
-    return parameters
 
 
 def _three(reader: Reader) -> tuple[Fraction, Fraction, Fraction]:

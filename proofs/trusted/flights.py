@@ -23,6 +23,7 @@ from proofs.trusted.parameters import Place
 COVER_BITS = 64
 MAX_BITS = 4000
 LATEST = 10**6
+_HALVINGS = 4  # of a window, to prove that the gap falls
 _ZERO = Fraction(0)
 Gap = Callable[[Range, int], Enclosure]
 
@@ -94,7 +95,7 @@ def first_windows(
         raise Unproved("the launches are not proved to leave the table")
     windows = open_windows(gap_of, times)
     single = len(windows) == 1 and windows[0][1] == times[-1]
-    return tuple(windows), single and falls(gap_of, windows[0])
+    return tuple(windows), single and falls(gap_of, windows[0], _HALVINGS)
 
 
 # -- plastic impacts -------------------------------------------------------------------------------
@@ -102,17 +103,26 @@ def first_windows(
 
 @dataclass(frozen=True)
 class Motion:
-    """The gap of all launches in `phases`, in the checker's arithmetic."""
+    """The gap of all launches in `phases`, of all oscillators, in the checker's arithmetic."""
 
-    eta: Fraction
-    nu: Fraction
+    at: Place
     phases: Range
     bits: int = COVER_BITS
 
     @property
     def side(self) -> int:
         """The sign of nu."""
-        return 1 if self.nu > 0 else -1
+        return 1 if self.at.nu[0] > 0 else -1
+
+    @property
+    def eta(self) -> Enclosure:
+        """An enclosure of eta."""
+        return Enclosure.of(*self.at.eta, self.bits)
+
+    @property
+    def nu(self) -> Enclosure:
+        """An enclosure of nu."""
+        return Enclosure.of(*self.at.nu, self.bits)
 
     def start(self) -> Launch:
         """Return the launch states."""
@@ -120,17 +130,32 @@ class Motion:
 
     def launch(self, phi: Enclosure | Dual) -> Launch:
         """Return the state after a launch at a phase."""
-        return launch(self.side, rational(self.eta, self.bits), rational(self.nu, self.bits), phi)
+        return launch(self.side, self.eta, self.nu, phi)
 
     def clock(self, time: Range | Dual) -> Clock:
         """Return the time functions over an interval of times."""
         t = time if isinstance(time, Dual) else Enclosure.of(*time, self.bits)
-        return clock(rational(self.eta, self.bits), t)
+        return clock(self.eta, t)
 
     def gap(self, start: Launch, time: Range, order: int = 0) -> Enclosure:
         """Enclose a time derivative of the gap."""
         value: Enclosure = gap(start, self.clock(time), order)
         return value
+
+    def height(self, time: Range) -> Enclosure:
+        """Enclose the gap."""
+        return self.gap(self.start(), time)
+
+    def sharp_height(self, time: Range) -> Enclosure:
+        """Enclose the gap over a range of eta by the mean value theorem."""
+        low, high = self.at.eta
+        middle = (low + high) / 2
+        centre = replace(self, at=replace(self.at, eta=(middle, middle)))
+        moving = Dual(self.eta, rational(Fraction(1), self.bits))
+        t = Enclosure.of(*time, self.bits)
+        along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t))
+        reach = Enclosure.of(low - middle, high - middle, self.bits)
+        return centre.height(time) + along.derivative * reach
 
     @property
     def gap_of(self) -> Gap:
@@ -200,9 +225,9 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     at t_n, with gap' < 0 on it.
     """
     phases_of, times_of = reader.fields("phases", "times")
-    times, of = read_times(times_of), context.of
-    motion = Motion(of.eta, of.nu, read_phases(phases_of), bits_for_pieces(times))
-    return FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 2))
+    times, at = read_times(times_of), context.place
+    motion = Motion(at, read_phases(phases_of), bits_for_pieces(times))
+    return FirstImpact(at, motion, *first_windows(motion.gap_of, times, 2))
 
 
 def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpact:
@@ -244,6 +269,26 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
         if brackets(inner.gap_of, time):
             return inner, time
     raise Unproved("a bracket does not have the signs +, - at its ends")
+
+
+def excess(step: FirstImpact, phase: Fraction, image: Range, turns: int, bits: int) -> int:
+    """Return the sign of phase + t - 2 pi turns - x for all x in `image`, 0 if undecided.
+
+    t is the time of the phase's transversal first impact; let T = x - phase + 2 pi turns. In the
+    window the gap has the one zero t; it is positive before that and negative after. T < t: 1.
+    """
+    time = lifted((image[0] - phase, image[1] - phase), turns, bits)
+    begin, end = step.windows[0]
+    if time[1] < begin or time[0] > end:
+        return 1 if time[1] < begin else -1
+    motion = replace(step.motion, phases=(phase, phase), bits=bits)
+    for height_of in (motion.height, motion.sharp_height):
+        height = height_of(time)
+        if height.lo > 0 and time[1] <= end:
+            return 1
+        if height.hi < 0 and begin <= time[0]:
+            return -1
+    return 0
 
 
 # -- phases ----------------------------------------------------------------------------------------

@@ -70,8 +70,8 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
         text = _beside(folder, name, entry)
         report = check(text, work)
         of = report.parameters
-        if of is None:
-            raise Rejected(f"{entry.path}: a file about formulas decides no claim")
+        if not isinstance(of, Parameters):
+            raise Rejected(f"{entry.path}: a file about formulas or a box decides no claim")
         _same(digest_of, digest(text))
         _same(parameters, parameters_to_json(of))
         _same(checked, checking(name))

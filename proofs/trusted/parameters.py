@@ -33,6 +33,14 @@ class Place:
         """Return one oscillator with plastic impacts."""
         return cls((eta, eta), (nu, nu))
 
+    @property
+    def point(self) -> tuple[Fraction, Fraction]:
+        """The one eta and the one nu, or Unproved: what a rule needs that knows no boxes."""
+        (eta, last), (nu, most) = self.eta, self.nu
+        if (eta, nu) != (last, most):
+            raise Unproved("one eta and one nu are expected")
+        return eta, nu
+
     def holds(self, of: Parameters) -> bool:
         """Whether these oscillators are, or are among, those that a statement is about."""
         if self.epsilon is None:

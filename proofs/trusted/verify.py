@@ -4,8 +4,9 @@ Each step is proved by the rule that it names, from its witness and the conclusi
 that it names. A claim is {`id`, `statement`, `verdict`, `proof`: names of steps, `why`, `witness`,
 `corrected`, `quantities`: name to {`lower`, `upper`}}. The row of that id says what the conclusions
 of its proof make of it, at these parameters; verdict and texts must be what the row gives, and each
-bound of a quantity must contain the enclosure that is proved. In a file without parameters a claim
-is the name of a step, whose conclusion is printed as a sentence.
+bound of a quantity must contain the enclosure that is proved. In a file without such parameters,
+about a box of oscillators or about formulas, a claim is the name of a step, whose conclusion is
+printed as a sentence.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from proofs.trusted.certificate import (
     FIELDS,
     SCHEMA,
     Reader,
-    parameters_from_json,
     parse,
+    subject_from_json,
     used_steps,
 )
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -28,9 +29,9 @@ from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.kernel.meter import DEFAULT, metered
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import find
-from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.rules import RULES, find_rule
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, told
 
 _MAX_TEXT = 1_000_000
 
@@ -52,18 +53,23 @@ class Checked:
 
 @dataclass(frozen=True)
 class Report:
-    """All that a file proves: claims of the catalogue; sentences, where it has no parameters.
+    """All that a file proves: claims of the catalogue about parameters; else conclusions.
 
     context: the conclusion of every step.
     """
 
     context: Context
     claims: tuple[Checked, ...] = ()
-    sentences: tuple[str, ...] = ()
+    conclusions: tuple[Conclusion, ...] = ()
 
     @property
-    def parameters(self) -> Parameters | None:
-        """The numbers that the claims are about."""
+    def sentences(self) -> tuple[str, ...]:
+        """The conclusions in words, each after the oscillators that it is about, if any."""
+        return tuple(_said(each) for each in self.conclusions)
+
+    @property
+    def parameters(self) -> Parameters | Place | None:
+        """The numbers that the claims are about; or the box of oscillators, None for formulas."""
         return self.context.parameters
 
     @property
@@ -98,7 +104,7 @@ def premises(source: str) -> Context:
     if schema.string() != SCHEMA:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     context = Context(
-        None if parameters_of.is_null() else parameters_from_json(parameters_of),
+        subject_from_json(parameters_of),
         {name: read_function(name, each) for name, each in functions_of.members()},
     )
     derive(context, steps_of)
@@ -124,19 +130,21 @@ def derive(context: Context, steps_of: Reader) -> None:
 def _conclude(context: Context, claims_of: Reader, used: set[str]) -> Report:
     """Return what the claims of a file are: of the catalogue, or the sentences of its steps."""
     entries = claims_of.items(least=1)
-    if context.parameters is None:
-        names = _named(context, claims_of, used)
-        sentences, length = [], 0
-        for name in names:
-            sentences.append(context.known[name].sentence)
-            length += len(sentences[-1])
+    if not isinstance(context.parameters, Parameters):
+        known, length = _conclusions(context, claims_of, used), 0
+        for each in known:
+            length += len(_said(each))
             if length > _MAX_TEXT:
                 raise Rejected(f"$: sentences of more than {_MAX_TEXT} characters")
-        return Report(context, sentences=tuple(sentences))
+        return Report(context, conclusions=tuple(known))
     claims = tuple(_check_claim(context, entry, used) for entry in entries)
     if len({claim.id for claim in claims}) != len(claims):
         raise claims_of.fail("a claim appears twice")
     return Report(context, claims)
+
+
+def _said(conclusion: Conclusion) -> str:
+    return conclusion.sentence if conclusion.place is None else told([conclusion])
 
 
 def _check_claim(context: Context, entry: Reader, used: set[str]) -> Checked:

@@ -43,7 +43,7 @@ class Meetings:
     @classmethod
     def of(cls, motion: Motion) -> Meetings:
         """Find delta, sigma and tau in floating point, and prove the hypotheses."""
-        start, bits, table = motion.start(), motion.bits, rational(motion.nu, motion.bits)
+        start, bits, table = motion.start(), motion.bits, motion.nu
         along, across = 1 + start.lift, start.rate / start.eta
         try:
             delta = _near(math.atan2(*(float(sum(x.range)) for x in (across, along))))
@@ -70,7 +70,7 @@ class Meetings:
 
         u / (2 pi) lies in eta k + [low, high], tau / (2 pi) included: is a whole number in there?
         """
-        bits, eta = self.motion.bits, self.motion.eta
+        bits, (eta, _) = self.motion.bits, self.motion.at.point
         first = self.window(0)
         shifts = -self.delta - self.tau, -self.delta + self.tau
         bounds = Enclosure.of(eta * first[0] + shifts[0], eta * first[1] + shifts[1], bits)

@@ -12,7 +12,7 @@ SYSTEMS = {system.name: system for system in systems()}
 QUICK = [
     "Broyden tridiagonal 4",
     "Broyden banded 3",
-    "Brown almost linear 3",
+    "Brown almost linear 5",
     "Bratu 4",
     "discrete boundary value 12",
     "discrete integral 3",

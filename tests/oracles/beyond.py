@@ -105,6 +105,35 @@ def markov_set(view, rng):
     return told
 
 
+def covering_shift(view, rng):
+    """On disjoint cells f does not jump, and maps each over the interval from first to last."""
+    told, cells = [], view.cells
+    if len(cells) < 2 or any(b[0] <= a[1] for a, b in pairwise(cells)):
+        told.append("the cells are out of order or overlap")
+    for cell in cells:
+        if _over(view, cell, (cells[0][0], cells[-1][1])) in (False, None):
+            told.append(f"f does not map {cell} over all cells")
+        found = [_impact(view, phase) for phase in points(cell, rng, 5)]
+        slopes = [each.slope for each in found if isinstance(each, Impact)]
+        if len(slopes) < len(found):
+            told.append(f"launches from {cell} without a transversal impact")
+        steep = [float(slope) for slope in slopes] or [0.0]
+        bounds = min(steep) - 1 - abs(min(steep)) / 2, max(steep) + 1 + abs(max(steep)) / 2
+        told += smooth(view, cell, bounds, rng, 5)
+    return told
+
+
+def all_stick(view, rng):
+    """After an impact the mass sticks, or at the latest after its next one."""
+    told = separation_arc(view.arc, rng)
+    for phase in [Fraction(k, 8) for k in range(51)]:
+        if not sticks(view.arc.eta, view.arc.nu, float(phase)):
+            found = next_impact(view.arc.eta, view.arc.nu, phase)
+            if isinstance(found, Impact) and not sticks(view.arc.eta, view.arc.nu, found.phase):
+                told.append(f"after an impact at {found.phase:.9g} the mass does not stick")
+    return told
+
+
 def _in_cell(phase, cell, slack=1e-9):
     return float(cell[0]) - slack < phase < float(cell[1]) + slack
 
@@ -146,7 +175,9 @@ def stable_orbit(view, rng):
 
 
 JUDGES = {
+    "AllStick": all_stick,
     "AtRest": at_rest,
+    "CoveringShift": covering_shift,
     "Leaves": leaves,
     "NeverSticks": never_sticks,
     "FlightsEnd": flights_end,

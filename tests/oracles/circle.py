@@ -222,19 +222,41 @@ def _bounces(view, state, epsilon):
 
 
 def stable_cycle(view, rng):
-    """F maps each box of states into the next, the last into the first; they are apart."""
+    """F maps each box of states into the next but the last, F^k the first into itself."""
     phases = sorted(box[0] for box in view.boxes)
     told = ["the boxes meet"] if any(a[1] >= b[0] for a, b in pairwise(phases)) else []
-    for one, two in zip(view.boxes, (*view.boxes[1:], *view.boxes[:1]), strict=True):
-        for _ in range(4):
-            phi, gamma = (between(side, Fraction(rng.random())) for side in one)
+    for _ in range(4):
+        phi, gamma = (between(side, Fraction(rng.random())) for side in view.boxes[0])
+        for target in (*view.boxes[1:], view.boxes[0]):
             found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
             if isinstance(found, str):
                 told.append(f"a state of the orbit: {found}")
             elif found and not (
-                inside_mod(found.lifted, two[0]) and inside(found.velocity, two[1])
+                inside_mod(found.lifted, target[0]) and inside(found.velocity, target[1])
             ):
                 told.append(f"F leads to ({found.phase:.9g}, {float(found.velocity):.9g})")
+            if not isinstance(found, Impact):
+                break
+            phi, gamma = found.lifted.mid(), found.velocity.mid()
+    return told
+
+
+def two_attractors(view, rng, count=4):
+    """Stable cycles for intervals of epsilon, one after the other, and the motion that rests."""
+    told = superstable_motion(view.motion, rng)
+    reached = view.box[2][0]
+    for one, two in pairwise(view.cycles):
+        if any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one.boxes[0], two.boxes[0], strict=True)):
+            told.append("two orbits")
+    for cycle in view.cycles:
+        if cycle.box[2][0] != reached or cycle.box[:2] != view.motion.box[:2]:
+            told.append(f"no cycle from epsilon = {float(reached):.6g} on")
+        reached = cycle.box[2][1]
+    for cycle in rng.sample(view.cycles, min(count, len(view.cycles))):
+        cycle.epsilon = between(cycle.box[2], Fraction(rng.random()))
+        told += stable_cycle(cycle, rng)
+    if not 0 < view.box[2][0] < reached == view.box[2][1] <= view.motion.largest:
+        told.append("not as far as said")
     return told
 
 
@@ -283,4 +305,5 @@ JUDGES = {
     "TouchingFamily": touching_family,
     "SuperstableMotion": superstable_motion,
     "StableCycle": stable_cycle,
+    "TwoAttractors": two_attractors,
 }

@@ -99,6 +99,29 @@ def lemmas():
         yield from ((f"{name}.{key}", x) for key, x in premises(text(name)).known.items())
 
 
+def boxes():
+    """The conclusions about boxes of oscillators, by step."""
+    from proofs.plane import horseshoe, settling
+    from proofs.trusted.parameters import Place
+    from proofs.trusted.verify import premises
+
+    full, short, stable = (
+        Place(*(tuple(map(Fraction, side)) for side in sides))
+        for sides in (
+            (("0.2119", "0.2122"), ("-0.2004", "-0.1996")),
+            (("0.3", "0.302"), ("0.19", "0.192")),
+            (("0.237", "0.2372"), ("0.3", "0.3002")),
+        )
+    )
+    for name, made in {
+        "full": next(horseshoe.propose(full, []))[0],
+        "sticking": next(settling.propose(full)),
+        "all stick": settling.settles(short),
+        "stable": next(settling.propose(stable)),
+    }.items():
+        yield from ((f"{name} {x}", one) for x, one in premises(made.certificate()).known.items())
+
+
 def classes():
     """The names of all classes of conclusions that say something; tests may have their own."""
     import proofs.trusted

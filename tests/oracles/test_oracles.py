@@ -13,6 +13,7 @@ from tests.oracles.judge import JUDGES, judge
 from tests.oracles.motion import TURN, ball
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
+    boxes,
     certificates,
     classes,
     committed_conclusions,
@@ -51,7 +52,7 @@ def true_views():
         found += [(f"{group} {eta} {step}", one, of) for step, one in known.items()]
         for claim, _, shown in rows(made, made["proofs"], of, known):
             found += [(f"{group} {eta} {claim}", one, of) for one in shown]
-    found += [(where, one, None) for where, one in lemmas()]
+    found += [(where, one, None) for where, one in (*lemmas(), *boxes())]
     found += [("by hand", one, None) for one in by_hand()]
     return [(where, view(one, of)) for where, one, of in found]
 
@@ -123,6 +124,11 @@ def _swap(field):
 def _of(field, change):
     """Change a record inside of a record."""
     return lambda record: change(getattr(record, field))
+
+
+def _first_box_off(record):
+    (phases, velocities), *others = record.boxes
+    record.boxes = (off(phases), velocities), *others
 
 
 def _narrow(record):
@@ -299,9 +305,15 @@ FALSE = {
         _of("motion", put("largest", F(9, 10))),
     ],
     "StableCycle": [
-        put("boxes", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
+        _first_box_off,
         put("boxes", lambda old: old[:1] * 2),
         put("epsilon", F(1, 2)),
+    ],
+    "TwoAttractors": [
+        put("cycles", lambda old: (*old[:2], *old[3:])),
+        put("cycles", lambda old: old[:-1]),
+        _of("motion", put("largest", F(29, 100))),
+        lambda record: [_first_box_off(each) for each in record.cycles],
     ],
     "Solution": [
         offs("multiplier"),
@@ -370,7 +382,14 @@ FALSE = {
     "Entropy": [put("growth", lambda old: 100 * old)],
     "Conjugacy": [_never_disjoint],
     "Theorem": [put("text", "")],
+    "AllStick": [_of("arc", offs("arrival")), _of("arc", put("nu", F(1)))],
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
+    "CoveringShift": [
+        put("cells", lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
+        put("cells", lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
+        put("cells", lambda old: old[::-1]),
+        put("eta", F("0.2")),
+    ],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
     "FlightsEnd": [put("nu", F("-0.2"))],

@@ -9,7 +9,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.formulas import Formulas
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.parameters import Parameters, Place
 
 C = TypeVar("C", bound=Conclusion)
 
@@ -18,16 +18,21 @@ C = TypeVar("C", bound=Conclusion)
 class Context:
     """The premises of a step: the statement's numbers, the file's functions, the steps before."""
 
-    parameters: Parameters | None = None
+    parameters: Parameters | Place | None = None
     functions: dict[str, Formulas] = field(default_factory=dict)
     known: dict[str, Conclusion] = field(default_factory=dict)
 
     @property
     def of(self) -> Parameters:
         """The statement's numbers; Unproved in a file that has none."""
-        if self.parameters is None:
-            raise Unproved("the rule is about an oscillator, and the file has no parameters")
+        if not isinstance(self.parameters, Parameters):
+            raise Unproved("the rule is about one oscillator, and the file is not")
         return self.parameters
+
+    @property
+    def place(self) -> Place:
+        """The oscillators: that of the statement, or all of the box that the file is about."""
+        return self.parameters if isinstance(self.parameters, Place) else self.of.place
 
     def function(self, name: Reader) -> Formulas:
         """Return the function of that name."""

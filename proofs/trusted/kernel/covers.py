@@ -96,16 +96,17 @@ class LocalMap:
         """Enclose f' = B^-1 F'(x_(k-1)) ... F'(x_0) A (chain rule)."""
         points, product = self._points(x), _rows(self.source.matrix, x)
         for _ in range(self.power):
-            product = _multiply(self.map.jacobian(points), product)
+            product = multiply(self.map.jacobian(points), product)
             points = self.map.values(points)
-        return _multiply(_rows(self.target.inverse, x), product)
+        return multiply(_rows(self.target.inverse, x), product)
 
     def _points(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         rows = zip(self.source.centre, _rows(self.source.matrix, x), strict=True)
         return [add(rational(c, x[0].bits), row, x) for c, row in rows]
 
 
-def _multiply(a: Matrix, b: Matrix) -> Matrix:
+def multiply(a: Matrix, b: Matrix) -> Matrix:
+    """Enclose a product of matrices."""
     columns = list(zip(*b, strict=True))
     return [[add(a[0][0] * 0, row, column) for column in columns] for row in a]
 

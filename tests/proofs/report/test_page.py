@@ -13,6 +13,7 @@ from proofs.report.layout import enclosure, sentences
 from proofs.report.ledger import ledger, statement_text
 from proofs.report.theorem import CLAUSES, theorem
 from proofs.report.typeset import html, markdown
+from proofs.trusted.verdicts import Verdict
 from tests.proofs.report.conftest import REPORTS
 
 VOID = {"meta", "link", "input", "br", "hr", "img", "mspace"}
@@ -129,11 +130,15 @@ def test_the_theorem_has_what_its_claims_prove_and_leads_to_the_ledger(found):
     for _, link in re.findall(r"(!?)\[[^\]]*\]\(([^)\s]*)\)", text):
         anchor = link.removeprefix("ledger.md#")
         assert link == "ledger.md" or f'<a id="{anchor}"></a>' in whole, link
-    proved = [each for each in found.statements.values() if each.claim in asked]
-    assert len([each for each in proved if each.kind == "Theorem"]) == text.count("\n**")
-    for statement in proved:
-        shown = f"**{statement.label}.** {statement_text(found, statement, 'ledger.md')}" in text
-        assert shown == (statement.kind == "Theorem")
+    for claim in (each for each in found.claims if each.id in asked):
+        decision = claim.decision
+        for each in (*decision.because, *decision.corrected):
+            statement = found.statements[each]
+            count = text.count(
+                f"\n**{statement.label}.** {statement_text(found, statement, 'ledger.md')}\n"
+            )
+            refutes = claim.verdict is Verdict.REFUTED and each not in decision.corrected
+            assert count == 1 or (refutes and count == 0), statement.label
 
 
 def test_a_small_folder_makes_a_page_of_its_own(small, capsys):

@@ -56,7 +56,7 @@ LENGTHY = {  # that take seconds, some in processes of their own
     "stress": ["--cases", "100000"],
 }
 WRITES = {*COMMANDS} - {"benchmark", "check", "__main__", "stress"}
-WRITES -= {"impact", "orbits", "period_doubling", "resonance", "single_impact"}
+WRITES -= {"atlas", "impact", "orbits", "period_doubling", "resonance", "single_impact"}
 
 
 def started(name, arguments, **streams):

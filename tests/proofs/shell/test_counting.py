@@ -19,7 +19,7 @@ from proofs.motion import single_orbits
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.flight import Flight
 from proofs.motion.impact import bisected, first_impact
-from proofs.motion.kernel import float_clock, float_launch
+from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
 from proofs.shell import counting
 from proofs.shell.counting import (

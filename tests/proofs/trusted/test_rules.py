@@ -347,7 +347,7 @@ def test_curvature():
     reach = Fraction(1, 10**30)
     centre = exact(flight_time("1.15"))
     phases = (Fraction("1.15"), Fraction("1.15"))
-    motion = Motion(PAPER.eta, PAPER.nu, phases, 200)
+    motion = Motion(PAPER.place, phases, 200)
     low, high = motion.curvature((centre - reach, centre + reach)).range
 
     def time(phase):

@@ -33,16 +33,20 @@ def _named(cells: Sequence[Phases]) -> str:
 
 
 def _has_an_arc(at: Place) -> bool:
-    """Whether |nu| |1 - eta^2| > eta^2, eta and nu being numbers: A, below, takes both signs.
+    """Whether |nu| |1 - eta^2| > eta^2, for all oscillators or for none: A takes both signs.
 
     A = nu (1 - eta^2) sin(phi) - eta^2 is the relative acceleration of a free mass at the table, in
     units of the sign of nu: the mass sticks where sign(nu) A < 0 (`sticking`, in section 2). Where
     A = 0 = cos(phi) the gap begins with its fourth derivative, -sign(nu) eta^2.
     """
-    (eta, last), (nu, most) = at.eta, at.nu
-    if (eta, nu) != (last, most):
-        raise Unproved("one eta and one nu are expected")
-    return abs(nu * (1 - eta * eta)) > eta * eta
+    ratios = [abs(1 - eta**2) / eta**2 for eta in at.eta]  # 0 at 1, monotone beside
+    sizes = [abs(nu) for nu in at.nu]
+    least = Fraction(0) if at.eta[0] < 1 < at.eta[1] else min(ratios)
+    if least * min(sizes) > 1:
+        return True
+    if max(ratios) * max(sizes) > 1:
+        raise Unproved("the mass sticks somewhere, or leaves somewhere, at some of the oscillators")
+    return False
 
 
 @dataclass(frozen=True)

@@ -97,14 +97,14 @@ class Letter:
     def over(self, y: Complex, x: Complex) -> tuple[Launch, Clock]:
         """Return the state after a launch at y, and the clock at x, for complex numbers."""
         motion, turn = self.motion, pi(BITS) * (2 * self.turns)
-        eta, nu = Complex.of(motion.eta), Complex.of(motion.nu)
+        eta, nu = map(Complex.of, motion.at.point)
         ahead = x - y + Complex(turn, Enclosure(0, 0, BITS))
         return launch(motion.side, eta, nu, y), clock(eta, ahead)
 
     def at(self, y: Enclosure, x: Enclosure) -> tuple[Launch, Clock]:
         """Return the same for real numbers."""
         motion, bits = self.motion, y.bits
-        eta, nu = rational(motion.eta, bits), rational(motion.nu, bits)
+        eta, nu = (rational(number, bits) for number in motion.at.point)
         ahead = x - y + pi(bits) * (2 * self.turns)
         return launch(motion.side, eta, nu, y), clock(eta, ahead)
 

@@ -11,17 +11,22 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.covers import multiply
+from proofs.trusted.kernel.enclose import Matrix, enclosed
 from proofs.trusted.numbers import Range, show_range, within
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, restitution, size
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.parameters import Place
 
 _MOST_IMPACTS = 100
+_BITS = 128  # of the derivative of F^k
 Box = tuple[Range, Range]
 
 
 @dataclass(frozen=True)
 class StableCycle(Conclusion):
-    """F maps each box of states, phases x velocities, into the next, the last into the first."""
+    """F maps each of k boxes of states, phases x velocities, but the last one into the next; F^k
+    maps the first into itself, and contracts it.
+    """
 
     at: Place
     boxes: tuple[Box, ...]
@@ -54,44 +59,71 @@ class StableCycle(Conclusion):
 
 
 def stable_cycle(boxes: Sequence[Rebound], centres: Sequence[Rebound]) -> StableCycle:
-    """Theorem. Let `Rebound`s be about F on boxes B_1, ..., B_k and at a point c_i of each, for one
-    oscillator. Let F(c_i) + DF(B_i) (B_i - c_i) lie in B_(i+1), B_(k+1) = B_1; let the phases of
-    the boxes be disjoint; let |DF(B_k)| ... |DF(B_1)| r < r, r the sides of B_1 and |D| the largest
-    absolute values of entries. Then `StableCycle`.
+    """Theorem. Let `Rebound`s be about F on boxes B_1, ..., B_k and on boxes C_i in B_i, for the
+    same oscillators, with the same turns. Let F(B_i) lie in B_(i+1) and F(C_i) in C_(i+1) for
+    i < k; let the phases of the B_i be disjoint. With D = DF(B_k) ... DF(B_1), intervals, let
+    F(C_k) + D (B_1 - C_1) lie in B_1, and |D| r < r: r the sides of B_1, |D| the largest absolute
+    values of entries. Then `StableCycle`.
 
-    Proof. By the mean value theorem F(B_i) lies in B_(i+1), and F^k contracts the convex B_1 in the
-    norm max |x_i| / r_i: it has one fixed point there, by Banach, which attracts B_1. The boxes are
-    apart, so that its period is k.
+    Proof, for each oscillator. F^k(C_1) lies in F(C_k). On B_1 the derivative of F^k is in D, and
+    so are its means. By the mean value theorem F^k maps the convex B_1 into itself, and contracts
+    it in the norm max |x_i| / r_i: it has one fixed point there, by Banach, which attracts B_1. The
+    boxes are apart, so that its period is k.
     """
     if not boxes or len({step.at for step in (*boxes, *centres)}) > 1:
-        raise Unproved("the steps are about more than one oscillator, or there are none")
-    at = boxes[0].at
-    if any(low < high for low, high in (at.eta, at.nu, restitution(at))):
-        raise Unproved("the steps are about more than one oscillator")
-    for on, point, target in zip(boxes, centres, (*boxes[1:], boxes[0]), strict=True):
-        box, centre = (on.phases, on.velocities), (point.phases, point.velocities)
-        reach = [max(b - c, d - a) for (a, b), (c, d) in zip(box, centre, strict=True)]
-        more, less = _moved(on, reach)
-        phases = point.phase[0] - more, point.phase[1] + more
-        velocities = point.velocity[0] - less, point.velocity[1] + less
-        inside = all(
-            map(within, (*centre, phases, velocities), (*box, target.phases, target.velocities))
-        )
-        if on.turns != point.turns or not inside:
+        raise Unproved("the steps are not about the same oscillators, or there are none")
+    for on, inside in zip(boxes, centres, strict=True):
+        if on.turns != inside.turns or not _in(_states(inside), _states(on)):
+            raise Unproved("a centre is not in its box")
+    for before, after in pairwise(boxes):
+        if not _in(_image(before), _states(after)):
             raise Unproved("a box is not proved to be mapped into the next")
-    sides = [high - low for low, high in (boxes[0].phases, boxes[0].velocities)]
-    shrunk: Sequence[Fraction] = sides
-    for on in boxes:
-        shrunk = _moved(on, shrunk)
-    if not all(after < before for after, before in zip(shrunk, sides, strict=True)):
+    for before, after in pairwise(centres):
+        if not _in(_image(before), _states(after)):
+            raise Unproved("a centre is not proved to be mapped into the next")
+    product = loop(boxes)
+    reach = [
+        max(b - c, d - a)
+        for (a, b), (c, d) in zip(_states(boxes[0]), _states(centres[0]), strict=True)
+    ]
+    image = [
+        (low - more, high + more)
+        for (low, high), more in zip(_image(centres[-1]), _moved(product, reach), strict=True)
+    ]
+    if not _in(image, _states(boxes[0])):
+        raise Unproved("the first box is not proved to be mapped into itself")
+    sides = [high - low for low, high in _states(boxes[0])]
+    if not all(after < side for after, side in zip(_moved(product, sides), sides, strict=True)):
         raise Unproved("the loop is not proved to contract the first box")
-    return StableCycle(at, tuple((box.phases, box.velocities) for box in boxes))
+    return StableCycle(boxes[0].at, tuple(map(_states, boxes)))
 
 
-def _moved(step: Rebound, sides: Sequence[Fraction]) -> tuple[Fraction, Fraction]:
-    """Return |DF| times a vector with entries >= 0."""
-    (p, q), (r, s) = ([size(entry) for entry in row] for row in step.derivative)
-    return p * sides[0] + q * sides[1], r * sides[0] + s * sides[1]
+def _states(step: Rebound) -> Box:
+    return step.phases, step.velocities
+
+
+def _image(step: Rebound) -> Box:
+    return step.phase, step.velocity
+
+
+def _in(inner: Sequence[Range], outer: Sequence[Range]) -> bool:
+    return all(map(within, inner, outer))
+
+
+def loop(boxes: Sequence[Rebound]) -> Matrix:
+    """Enclose DF(B_k) ... DF(B_1)."""
+    first, *rest = ([enclosed(row, _BITS) for row in box.derivative] for box in boxes)
+    for after in rest:
+        first = multiply(after, first)
+    return first
+
+
+def _moved(matrix: Matrix, sides: Sequence[Fraction]) -> list[Fraction]:
+    """Return |D| times a vector with entries >= 0."""
+    return [
+        sum((size(entry.range) * side for entry, side in zip(row, sides, strict=True)), Fraction(0))
+        for row in matrix
+    ]
 
 
 def prove_stable_cycle(context: Context, reader: Reader) -> StableCycle:

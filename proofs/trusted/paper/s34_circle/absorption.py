@@ -245,8 +245,9 @@ def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enc
         raise Unproved("a bracket leaves the window of the first impact")
     motion = branch.motion((phase, phase))
     start, now = motion.start(), motion.clock((time, time))
-    eta, size = motion.eta, abs(motion.nu)
-    most, bits = BRACKET * (size + eta * size + eta * eta * (1 + size)), motion.bits
+    eta, nu = motion.at.point
+    size, bits = abs(nu), motion.bits
+    most = BRACKET * (size + eta * size + eta * eta * (1 + size))
     height, fall = motion.gap(start, (time, time)), gap(start, now, 1)
     if height.lo <= 0 or height.range[1] + BRACKET * (fall.range[1] + most) >= 0:
         raise Unproved("a bracket does not have the signs +, - at its ends")

@@ -99,7 +99,7 @@ def _check_flight(of: Parameters, arc: Separation, phases: Range, kicks: Range) 
     time = arc.phase[0] - phases[1], arc.phase[1] - phases[0]
     if of.eta * time[1] > 3:
         raise Unproved("a flight is longer than its lemma allows")
-    motion = Motion(of.eta, of.nu, phases, _BITS)
+    motion = Motion(of.place, phases, _BITS)
     start = motion.start()._replace(kick=Enclosure.of(*kicks, _BITS) * motion.side)
     if motion.gap(start, time).lo <= 0:
         raise Unproved("the mass is not proved to be in flight at the separation phase")

@@ -66,7 +66,7 @@ class Branch(Conclusion):
 
     def motion(self, phases: Range) -> Motion:
         """Return the flights from some of the phases."""
-        return Motion(self.at.eta[0], self.at.nu[0], phases, BITS)
+        return Motion(self.at, phases, BITS)
 
     def window(self, phase: Fraction) -> Range:
         """Return the times between which the first impact after a launch at a phase comes."""
@@ -134,7 +134,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     of, phases = context.of, Phases(cuts[0], cuts[-1])
     if not -1 < of.nu < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(of.eta, of.nu, phases, BITS)
+    whole = Motion(of.place, phases, BITS)
     meetings, launched = Meetings.of(whole), leaves(whole)
     for low, high in meetings.before(turn):
         if high > launched:

@@ -10,7 +10,7 @@ from itertools import pairwise
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion, lifted
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
@@ -130,7 +130,7 @@ def part(branch: Branch, phases: Range, image: Range) -> Part:
 def stretch(motion: Motion, time: Range) -> Fraction | None:
     """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
     sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
-    along = sin / rational(motion.eta, motion.bits) * push
+    along = sin / motion.eta * push
     if along.lo <= 0 <= along.hi:
         return None
     ratio: Enclosure = motion.gap_of(time, 1) / along

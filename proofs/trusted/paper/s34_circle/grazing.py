@@ -56,7 +56,7 @@ class Grazing(Conclusion):
     @property
     def motion(self) -> Motion:
         """The flights from these phases."""
-        return Motion(self.at.eta[0], self.at.nu[0], self.phases, BITS)
+        return Motion(self.at, self.phases, BITS)
 
     def _after(self, time: Range, turns: int) -> Range:
         return lifted((self.phases[0] + time[0], self.phases[1] + time[1]), -turns, BITS)
@@ -113,12 +113,11 @@ def grazing(context: Context, reader: Reader) -> Grazing:
         raise times_of.fail("times must increase")
     landing = None if landing_of.is_null() else landing_of.range()
     turns = read_turn(turn_of), read_turn(beyond_of)
-    return graze(Motion(of.eta, of.nu, phases, BITS), of.place, turns, times, landing)
+    return graze(Motion(of.place, phases, BITS), turns, times, landing)
 
 
 def graze(
     motion: Motion,
-    at: Place,
     turns: tuple[int, int],
     times: Sequence[Fraction],
     landing: Range | None,
@@ -146,12 +145,13 @@ def graze(
             raise Unproved("f is not proved to be monotone alike on both sides")
     elif not _returns(motion, final[0], beyond):
         raise Unproved("an impact within q turns is not excluded")
-    push = launch_acceleration(motion.start()) / rational(motion.eta, BITS)
+    push = launch_acceleration(motion.start()) / motion.eta
     along = motion.clock((first, last)).mass_sin * push
     _separates(motion, (first + last) / 2, bend, below)
     root = sqrt((-along if below else along) * 2 / bend).range
     phases = Phases(*motion.phases)
-    return Grazing(at, phases, turn, before, (first, last), below, beyond, landing, root)
+    time = first, last
+    return Grazing(motion.at, phases, turn, before, time, below, beyond, landing, root)
 
 
 def _falling(motion: Motion, time: Range) -> bool:
@@ -174,7 +174,8 @@ def _lands(motion: Motion, begin: Fraction, landing: Range) -> None:
 def _returns(motion: Motion, begin: Fraction, turns: int) -> bool:
     """Whether the gap is convex from a time on, up to 2 pi q, eta = p/q, where it is 0."""
     end = whole_turns(turns, BITS)[1]
-    return turns == motion.eta.denominator and motion.gap_of((begin, end), 2).lo > 0
+    eta, _ = motion.at.point
+    return turns == eta.denominator and motion.gap_of((begin, end), 2).lo > 0
 
 
 def _separates(motion: Motion, time: Fraction, bend: Enclosure, below: bool) -> None:

@@ -122,13 +122,13 @@ def separation(context: Context, reader: Reader) -> Separation:
     and until it falls through its first zero, in `time`.
     """
     phase_of, times_of, time_of = reader.fields("phase", "times", "time")
-    phase, times, of = Phase(*phase_of.range()), read_times(times_of), context.of
+    phase, times, at = Phase(*phase_of.range()), read_times(times_of), context.place
     bits = bits_for(phase)
-    low, high = (launch_acceleration(Motion(of.eta, of.nu, (x, x), bits).start()) for x in phase)
+    low, high = (launch_acceleration(Motion(at, (x, x), bits).start()) for x in phase)
     if not low.hi < 0 < high.lo:
         raise Unproved("the launch acceleration does not change sign in the bracket")
-    motion = Motion(of.eta, of.nu, phase, bits)
-    step = FirstImpact(of.place, motion, *first_windows(motion.gap_of, times, 3))
+    motion = Motion(at, phase, bits)
+    step = FirstImpact(at, motion, *first_windows(motion.gap_of, times, 3))
     if not step.transversal:
         raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
     thin, time = bracketed(step, phase, time_of)
@@ -138,7 +138,7 @@ def separation(context: Context, reader: Reader) -> Separation:
     turns = 1 + (impact[1] - phase[0]) // whole_turns(1, bits)[0]
     start, arrival = (ends[0] - phase[1], ends[1] - phase[0]), lifted(impact, -turns, bits)
     speed: Enclosure = -thin.gap_of(time, 1)
-    return Separation(of.place, start, phase, time, turns, arrival, speed.range)
+    return Separation(at, start, phase, time, turns, arrival, speed.range)
 
 
 # -- landing on it ---------------------------------------------------------------------------------
@@ -187,7 +187,7 @@ def lands(context: Context, reader: Reader) -> Lands:
         raise Unproved("the launches are not proved to stay up until the sticking arc")
     start, end = (lifted(each, int(turns), BITS) for each in (arc.start, arc.phase))
     for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
-        motion = Motion(context.of.eta, context.of.nu, (low, high), BITS)
+        motion = Motion(context.of.place, (low, high), BITS)
         if turns:
             if end[0] - high <= start[1] - low:
                 raise Unproved("a piece is longer than the sticking arc")
@@ -248,7 +248,8 @@ def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     eta, nu = context.of.eta, context.of.nu
     if not -1 < nu < 0:
         raise Unproved("closest approaches are known for -1 < nu < 0")
-    start, away = Motion(eta, nu, phases, BITS).start(), Enclosure.of(*phases, BITS) - pi(BITS) / 2
+    start = Motion(context.of.place, phases, BITS).start()
+    away = Enclosure.of(*phases, BITS) - pi(BITS) / 2
     bounds = closest_approach(eta, rational(nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):
         raise Unproved("an impact is not excluded")

@@ -129,7 +129,7 @@ def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
 
 def _push(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Range:
     """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(of.eta, of.nu, phases, bits).start())
+    push: Enclosure = launch_acceleration(Motion(of.place, phases, bits).start())
     return push.range
 
 
@@ -153,7 +153,7 @@ def bounce(
     """
     if time[0] <= 0 or of.eta * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    motion = Motion(of.eta, of.nu, phases, bits)
+    motion = Motion(of.place, phases, bits)
     kick = Enclosure.of(*kicks, bits) * motion.side
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
     if not brackets(gap_of, time):

@@ -204,7 +204,7 @@ def single_solution(context: Context, reader: Reader) -> Solution:
         raise Unproved("the bracket is not proved to contain a solution of (16)")
     if along.derivative.lo <= 0 <= along.derivative.hi:
         raise Unproved("the bracket is not proved to contain one solution of (16) alone")
-    motion = Motion(eta, nu, phase, bits)
+    motion = Motion(at, phase, bits)
     start, whole = motion.start(), pi(bits) * (2 * n)
     early = None if early_of.is_null() else early_of.number()
     if early is not None and not 0 < early < whole.range[0]:

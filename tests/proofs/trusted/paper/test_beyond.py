@@ -158,12 +158,6 @@ def test_leaving_is_said_of_a_mass_at_rest():
     assert "a mass that rests on the table" in find("X8").decide(of, ()).witness
 
 
-def test_a_box_of_oscillators_is_none():
-    for nu in ((F(1, 9), F(1, 5)), (F(-1, 5), F(-1, 9))):
-        with pytest.raises(Unproved, match="one eta"):
-            (AtRest if nu[0] > 0 else NeverSticks)(Place((F(1, 2),) * 2, nu))
-
-
 @pytest.mark.parametrize(
     ("eta", "nu"), [(("1/5", "1/5"), ("-1/5", "-1/5")), (("1/5", "1/4"), ("1/5", "1/5"))]
 )

@@ -355,7 +355,7 @@ def test_another_set_is_decided_by_what_stays_in_the_printed_interval(claim, one
 @pytest.mark.parametrize(("phase", "turns"), [("1.25", 60), ("1.45", 60), ("1.6", 900)])
 def test_every_meeting_is_in_a_window(phase, turns):
     """Where brute force has the mass on or below the table, the windows must look."""
-    motion = Motion(PAPER.eta, PAPER.nu, (F(phase), F(phase)), BITS)
+    motion = Motion(PAPER.place, (F(phase), F(phase)), BITS)
     found = list(Meetings.of(motion).before(turns))
     last = 2 * math.pi * (turns - 1)
     times = [i * math.pi / 50 for i in range(10, int(50 * last / math.pi))]

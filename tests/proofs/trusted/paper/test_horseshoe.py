@@ -248,7 +248,7 @@ def test_a_failing_write_keeps_the_old_certificate(monkeypatch, tmp_path):
 def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     from proofs.trusted.verify import Rejected
 
-    def refuse(_):
+    def refuse(*_):
         raise Rejected("on purpose")
 
     monkeypatch.setattr(runner, "check", refuse)

@@ -1,0 +1,159 @@
+"""The plane of parameters in cells, with what is proved at all oscillators of each.
+
+An adaptive quadtree of boxes of (eta, nu), impacts being plastic: each cell has a proof of what is
+asked, or of its opposite, or is cut in four down to the depth; what is left is undecided. Results
+are rows of DIR/atlas.sqlite, with their certificates; a run that was ended in any way goes on
+where it was.
+"""
+
+from __future__ import annotations
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.atlas")
+
+import io
+import json
+from argparse import ArgumentTypeError, Namespace
+from importlib.util import find_spec
+from pathlib import Path
+
+from proofs.plane import summary
+from proofs.plane.head import executor, run
+from proofs.plane.store import NAME, Held, Store, opened
+from proofs.shell.cli import Parser, number, progress, share, whole
+from proofs.shell.files import check_folder, write_target, writing
+from proofs.shell.screen import say
+from proofs.trusted.atlas import DEEPEST, QUESTIONS, Region, unpacked
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.verdicts import Verdict
+
+FOLDER = Path("runs/atlas")
+_DEPTH, _CHUNK, _MOST_JOBS = 5, 16, 1000
+EPILOG = """\
+Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. A depth of 5 makes cells of a
+32nd of the region's sides at the smallest; a greater depth goes on with what is undecided.
+
+DIR has atlas.sqlite, which `proofs.check` proves again, cell by cell; atlas.json, areas and a
+digest; and, with matplotlib, atlas.svg and atlas.png. --executor dask:HOST:PORT sends the cells to
+a Dask scheduler, dask: to one of this machine (pip install 'impact-proofs[cluster]').
+
+exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
+
+examples:
+  python -m proofs.atlas --eta 0.2112 0.2136 --nu -0.202 -0.198 --ask horseshoe
+  python -m proofs.atlas --eta 0.2 0.22 --nu -0.22 -0.2 --ask attractor --depth 6 --jobs 2
+  python -m proofs.atlas --out runs/atlas --cell 0.2121 -0.2
+  python -m proofs.check runs/atlas/atlas.sqlite
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Make an atlas, go on with one, or look up a cell; return the exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    region = _region(parser, options)
+    check_folder(parser, options.out)
+    try:
+        with opened(options.out, region) as store:
+            if options.cell:
+                return _show_cell(parser, options, store)
+            return _make(parser, options, store)
+    except (Held, Malformed) as failure:
+        parser.error(str(failure))
+
+
+def _parser() -> Parser:
+    parser = Parser("proofs.atlas", __doc__, EPILOG)
+    parser.add_argument("--eta", type=number, nargs=2, metavar=("A", "B"), help="frequency ratios")
+    parser.add_argument("--nu", type=number, nargs=2, metavar=("A", "B"), help="amplitudes -beta/p")
+    parser.add_argument("--ask", choices=QUESTIONS, help="what is asked in each cell")
+    depth = f"how often cells are cut at most (default {_DEPTH})"
+    parser.add_argument("--depth", type=_depth, default=_DEPTH, metavar="D", help=depth)
+    jobs = "processes (default 1)"
+    parser.add_argument(
+        "--jobs", type=whole("--jobs", _MOST_JOBS), default=1, metavar="N", help=jobs
+    )
+    parser.add_argument("--executor", type=_executor, default="here", metavar="dask:ADDRESS")
+    chunk = f"cells that go out together (default {_CHUNK})"
+    parser.add_argument(
+        "--chunk", type=whole("--chunk", 10_000), default=_CHUNK, metavar="N", help=chunk
+    )
+    cell = "say what is proved in the cell that holds this point, and write its certificate"
+    parser.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
+    share(parser, "--out", "--json", "--quiet")
+    parser.set_defaults(out=FOLDER)
+    return parser
+
+
+def _depth(text: str) -> int:
+    if text == "0":
+        return 0
+    return whole("a depth", DEEPEST)(text)
+
+
+def _executor(text: str) -> str:
+    if text != "here" and not text.startswith("dask:"):
+        raise ArgumentTypeError(f"here, dask: or dask:ADDRESS is expected, not {text[:40]!r}")
+    if text != "here" and find_spec("distributed") is None:
+        raise ArgumentTypeError("needs dask: pip install 'impact-proofs[cluster]'")
+    return text
+
+
+def _region(parser: Parser, options: Namespace) -> Region | None:
+    """Return the region asked for; None where an atlas that is there is meant."""
+    given = [options.eta, options.nu, options.ask]
+    if not any(given):
+        return None
+    if not all(given):
+        parser.error("--eta, --nu and --ask go together")
+    try:
+        return Region(tuple(options.eta), tuple(options.nu), options.ask)
+    except ValueError as failure:
+        parser.error(str(failure))
+
+
+def _make(parser: Parser, options: Namespace, store: Store) -> int:
+    """Do what is left to do, then print and write what there is."""
+    with progress() as tell, executor(options.jobs, options.executor) as doing:
+        done = run(store, options.depth, doing, options.chunk, tell)
+    made = summary.summary(store)
+    with writing(options.out) as put:
+        put("atlas.json", json.dumps(made, indent=1) + "\n")
+    if find_spec("matplotlib"):
+        _draw(options.out, store)
+    write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
+    if not options.quiet and options.json != "-":
+        for line in summary.lines(made, store.region):
+            say(line)
+        say(f"{done} cells looked at now; all of it: {options.out / NAME}")
+    return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
+
+
+def _draw(folder: Path, store: Store) -> None:
+    from proofs.report.figures.style import style, svg_of
+
+    with style("atlas"):
+        drawing, image = summary.picture(store), io.BytesIO()
+        drawing.savefig(image, format="png", dpi=200)
+        with writing(folder) as put:
+            put("atlas.svg", svg_of(drawing, "atlas", "What is proved where"))
+        (folder / "atlas.png").write_bytes(image.getvalue())
+
+
+def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
+    """Print what is proved in a cell, and write its certificate."""
+    cell = summary.at(store, *options.cell)
+    if cell is None:
+        parser.error("no cell of this atlas holds the point")
+    if not options.quiet:
+        say(f"{cell.verdict}: {cell.conclusion}")
+    if cell.certificate is None:
+        return 1
+    name = f"cell-{cell.key.replace('/', '-')}.json"
+    with writing(options.out) as put:
+        put(name, unpacked(cell))
+    if not options.quiet:
+        say(f"python -m proofs.check {options.out / name}")
+    return 0

@@ -1,0 +1,1 @@
+"""The plane of parameters: what is proved in boxes of (eta, nu)."""

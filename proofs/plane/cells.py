@@ -1,0 +1,61 @@
+"""The work on cells, as it is sent out in chunks: what is proved in each, as rows of the store."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from time import process_time
+
+from intervals import Undecided
+from proofs.plane import horseshoe, settling
+from proofs.plane.horseshoe import Sets
+from proofs.plane.steps import Steps
+from proofs.trusted.atlas import SPLIT, Cell, Region, cell, without_proof
+from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.parameters import Place
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import Rejected
+
+_HINTS = 3  # sets of neighbours that are tried
+
+
+def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[Cell]:
+    """Return the rows of cells, given by key and sets that may help; undecided ones are split.
+
+    The last depth is never split. Cells in order are neighbours: each tries the sets of the last.
+    """
+    hints: list[str] = []
+    rows = []
+    for key, sets in todo:
+        began = process_time()
+        near = list(dict.fromkeys(each for each in (sets, *hints) if each))[:_HINTS]
+        row = _decided(region, depth, key, near)
+        rows.append(row._replace(seconds=process_time() - began, sets=row.sets or sets))
+        if row.sets:
+            hints = [row.sets, *(each for each in hints if each != row.sets)][:_HINTS]
+    return rows
+
+
+def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Cell:
+    why = "no proof is found"
+    try:
+        for made, sets in _proposals(region.question, region.box(key), hints):
+            try:
+                row = cell(region, key, made.certificate())
+                return row._replace(sets=sets.text if sets else "")
+            except (Rejected, Exhausted) as failure:
+                why = str(failure).rpartition(": ")[2]
+    except (Undecided, ArithmeticError) as failure:
+        why = str(failure)
+    if len(key.partition("/")[2]) < depth:
+        return without_proof(region, key, SPLIT, "")
+    return without_proof(region, key, Verdict.UNDECIDED.value, why)
+
+
+def _proposals(
+    question: str, box: Place, hints: Sequence[str]
+) -> Iterator[tuple[Steps, Sets | None]]:
+    """Yield certificates that seem to answer a question."""
+    if question == "horseshoe":
+        yield from horseshoe.propose(box, [Sets.of(hint) for hint in hints])
+    else:
+        yield from ((made, None) for made in settling.propose(box))

@@ -1,0 +1,128 @@
+"""Is there a horseshoe? Two sets for each box of oscillators, and where there is none."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from intervals import Undecided
+from proofs.motion.many import float_gap, next_impacts
+from proofs.motion.system import System
+from proofs.plane.settling import settles
+from proofs.plane.steps import Steps, corners, side
+from proofs.search.shifts import families, pieces, symbols, with_spare
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Place
+
+Floats = NDArray[np.float64]
+
+_GRID = 800  # phases that are looked at
+_FARTHEST = 200.0
+_LEAST = 1e-4  # by which images must seem to reach beyond the sets
+_SHARE, _BEST = 0.2, 0.8  # least and best, of that in units of how images differ over a box
+_TRIES = 3
+
+
+class Sets(NamedTuple):
+    """Sets that f seems to map over them all, in order.
+
+    turns: those that the images of each are less; latest: the longest flight from each.
+    """
+
+    phases: tuple[Range, ...]
+    turns: tuple[int, ...]
+    latest: tuple[float, ...]
+
+    @property
+    def text(self) -> str:
+        """The sets in a line."""
+        rows = zip(self.phases, self.turns, self.latest, strict=True)
+        return " ".join(f"{low} {high} {turns} {time:.6g}" for (low, high), turns, time in rows)
+
+    @classmethod
+    def of(cls, text: str) -> Sets:
+        """Read what `text` gives."""
+        words = text.split()
+        phases = zip(map(Fraction, words[::4]), map(Fraction, words[1::4]), strict=True)
+        turns, latest = map(int, words[2::4]), map(float, words[3::4])
+        return cls(tuple(phases), tuple(turns), tuple(latest))
+
+
+def propose(box: Place, hints: Sequence[Sets]) -> Iterator[tuple[Steps, Sets | None]]:
+    """Yield certificates that seem to answer the question, with the sets that they are about.
+
+    hints: sets of neighbours, to be tried first.
+    """
+    with suppress(Undecided):
+        yield settles(box), None
+        return
+    failure = "no two sets are seen that f maps over each other all over the box"
+    tried = [sets for sets in hints if _holds(box, sets)] or _seen(box)
+    for sets in tried[:_TRIES]:
+        try:
+            yield _covering(box, sets), sets
+        except Undecided as error:
+            failure = str(error)
+    raise Undecided(failure)
+
+
+def _holds(box: Place, sets: Sets) -> bool:
+    """Whether the images of the ends seem to be beyond the sets at the corners of a box."""
+    etas, nus = (np.array(each)[:, None] for each in corners(box))
+    target = np.array([float(sets.phases[0][0]), float(sets.phases[-1][1])])
+    for phases, turns in zip(sets.phases, sets.turns, strict=True):
+        sides = []
+        for end in map(float, phases):
+            times = target + math.tau * turns - end
+            below, above = float_gap(side(box), etas, nus, end, times).T
+            sides.append(-int((below < 0).all()) + int((above > 0).all()))
+        if sorted(sides) != [-1, 1]:
+            return False
+    return True
+
+
+def _seen(box: Place) -> list[Sets]:
+    """Return pairs of sets that are seen at the centre, and seem to fit all over a box."""
+    (eta, last), (nu, most) = box.eta, box.nu
+    found = symbols(pieces(System((eta + last) / 2, (nu + most) / 2), _GRID))
+    pairs = [sets for family in families(found, 2) for sets in with_spare(family)]
+    if not pairs:
+        return []
+    etas, nus = corners(box)
+    points = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in pairs], float)
+    flights = next_impacts(side(box), etas, nus, points[..., None], _FARTHEST)
+    fits = []
+    for phases, images, times in zip(pairs, flights.images, flights.times, strict=True):
+        turns = np.floor(images[:, 2, 0] / math.tau)
+        margin = _margin(phases, images[:, :2] - math.tau * turns[:, None, None])
+        if margin > _SHARE:
+            latest = tuple(float(x) for x in times.max(axis=(1, 2)))
+            sets = Sets(tuple(phases), tuple(int(x) for x in turns), latest)
+            fits.append((abs(math.log(margin / _BEST)), sets))
+    return [sets for _, sets in sorted(fits)]
+
+
+def _margin(phases: Sequence[Range], images: Floats) -> float:
+    """Return by how much the images of ends are beyond all sets, in units of how they differ."""
+    if not np.isfinite(images).all():
+        return -math.inf
+    first, last, ends = float(phases[0][0]), float(phases[-1][1]), np.sort(images, axis=1)
+    margin = min(float((first - ends[:, 0]).min()), float((ends[:, 1] - last).min()))
+    return margin / (float(np.ptp(ends, axis=2).max()) + _LEAST)
+
+
+def _covering(box: Place, sets: Sets) -> Steps:
+    """Return the steps for rule `covering-shift`."""
+    made = Steps(box)
+    cells = [
+        {"flights": made.impacts(phases, latest), "turns": str(turns)}
+        for phases, turns, latest in zip(*sets, strict=True)
+    ]
+    made.add("covering-shift", {"cells": cells})
+    return made

@@ -1,0 +1,258 @@
+"""Attractors: rest, motions that stick, stable orbits, for boxes of oscillators."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from fractions import Fraction
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from intervals import Undecided
+from proofs.motion.candidate import next_impact
+from proofs.motion.many import next_impacts
+from proofs.motion.system import System
+from proofs.plane.flights import Flights
+from proofs.plane.steps import Steps, corners, side
+from proofs.trusted.certificate import texts
+from proofs.trusted.equations import launch, launch_acceleration
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import TURN, Range, hull
+from proofs.trusted.paper.beyond.attractors import AtRest
+from proofs.trusted.parameters import Place
+
+Floats = NDArray[np.float64]
+_FARTHEST = 200.0
+_SOON = 3 / 7  # eta at most, for rule `settles`
+_PLACES = 6  # decimals of phases
+_ROOM = Fraction(1, 10**5)  # around phases that are seen
+_MOST_IMPACTS = 12
+_LATER = 1e-3  # after the separation, where floats tell that the mass leaves
+_GRID, _TRANSIENT = 600, 64  # phases whose orbits are followed, and for how long
+_CLOSER, _TRIES = 80, 3
+_NEAR = 1e-6
+
+
+class Cell(NamedTuple):
+    """A cell of phases in the certificate, and where f sends it."""
+
+    witness: dict[str, Any]
+    image: Range
+
+
+def propose(box: Place) -> Iterator[Steps]:
+    """Yield certificates that seem to prove an attractor all over a box.
+
+    Where the motion from the separation seems to stick again at the centre, smaller boxes will have
+    a proof of that, and stable orbits, which take longer, are not looked for.
+    """
+    with suppress(Undecided):
+        yield rests(box)
+        return
+    try:
+        yield sticks(box)
+    except Undecided:
+        if _sticks_at_centre(box):
+            raise
+    yield stays_stable(box)
+
+
+def _sticks_at_centre(box: Place) -> bool:
+    """Whether the motion from the separation seems to stick again soon, at the centre of a box."""
+    (eta, last), (nu, most) = box.eta, box.nu
+    system = System((eta + last) / 2, (nu + most) / 2)
+    try:
+        phase = float(_separations(Place.plastic(system.eta, system.nu))[0]) + _LATER
+    except Undecided:
+        return False
+    for _ in range(_MOST_IMPACTS):
+        found = next_impact(system, phase, _FARTHEST)
+        if found is None:
+            start = launch(system.side, float(system.eta), float(system.nu), phase)
+            return bool(launch_acceleration(start) <= 0)
+        phase = found[1]
+    return False
+
+
+def rests(box: Place) -> Steps:
+    """Return the steps for rule `settles`, the mass being at rest."""
+    made = Steps(box)
+    try:
+        AtRest(box)
+    except Unproved as failure:
+        raise Undecided(str(failure)) from None
+    made.add("settles", {"separation": None})
+    return made
+
+
+def settles(box: Place) -> Steps:
+    """Return the steps for rule `settles`; Undecided where motions seem to go on."""
+    with suppress(Undecided):
+        return rests(box)
+    if box.nu[0] < 0 or box.eta[1] > _SOON:
+        raise Undecided("not all motions are seen to come to rest, or to stick")
+    made = Steps(box)
+    name, arrival = _separation(made)
+    if not _on_arc(box, arrival, turns=1):
+        raise Undecided("the flight from the separation is not seen to end soon on the arc")
+    made.add("settles", {"separation": name})
+    return made
+
+
+# -- motions that stick ----------------------------------------------------------------------------
+
+
+def sticks(box: Place) -> Steps:
+    """Return the steps for rule `sticking-motion`."""
+    made = Steps(box)
+    name, arrival = _separation(made)
+    cells: list[Cell] = []
+    while not _on_arc(box, arrival):
+        if len(cells) == _MOST_IMPACTS:
+            raise Undecided("the mass is not seen to stick again soon")
+        cells.append(_cell(made, _around(arrival)))
+        arrival = cells[-1].image
+    witness = {"separation": name, "cells": [cell.witness for cell in cells]}
+    made.add("sticking-motion", witness)
+    return made
+
+
+def _separations(box: Place) -> Floats:
+    """Return about the phases at which the mass leaves, at the centre and the corners of a box."""
+    eta, nu = map(np.array, corners(box))
+    with np.errstate(all="ignore"):
+        phases = np.arcsin(eta**2 / (nu * (1 - eta**2)))
+    if not np.isfinite(phases).all():
+        raise Undecided("the mass sticks nowhere, or everywhere, at some of the oscillators")
+    return np.asarray(np.where(eta < 1, phases, math.pi - phases) % math.tau)
+
+
+def _separation(made: Steps) -> tuple[str, Range]:
+    """Add the separation; return where the mass has its next impact, as phase + time."""
+    seen, (etas, nus) = _separations(made.box), corners(made.box)
+    phase = _rounded(float(seen.min()), float(seen.max()))
+    after = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
+    if not np.isfinite(after).all():
+        raise Undecided("a flight from the separation is not seen to end")
+    flights = Flights(made.box, phase, separating=True)
+    times = flights.times(float(after.max()))
+    time = flights.bracket(times)
+    witness = {"phase": texts(phase), "times": texts(times), "time": texts(time)}
+    return made.add("separation", witness), (phase[0] + time[0], phase[1] + time[1])
+
+
+def _on_arc(box: Place, arrival: Range, turns: int | None = None) -> bool:
+    """Whether phases seem to be inside the arc where the mass sticks, after so many turns."""
+    seen = _separations(box)
+    odd = math.pi * (1 + 2 * ((seen / math.pi - 0.5) // 1))
+    first, last = float((odd - seen).max()), float(seen.min())
+    low, high = map(float, arrival)
+    count = math.ceil((high - last) / math.tau) if turns is None else turns
+    return first < low - count * math.tau and high - count * math.tau < last
+
+
+def _rounded(low: float, high: float) -> Range:
+    """Return decimals around phases, with some room; Undecided where that passes phase 0."""
+    ends = round(Fraction(low) - _ROOM, _PLACES), round(Fraction(high) + _ROOM, _PLACES)
+    if not 0 <= ends[0] < ends[1] <= TURN:
+        raise Undecided("an interval of phases passes phase 0")
+    return ends
+
+
+def _around(arrival: Range) -> Range:
+    """Return decimals around what is phase + time."""
+    turns = math.tau * (float(arrival[0]) // math.tau)
+    return _rounded(float(arrival[0]) - turns, float(arrival[1]) - turns)
+
+
+# -- cells, and orbits that do not stick -----------------------------------------------------------
+
+
+def _cell(made: Steps, phases: Range) -> Cell:
+    """Add what encloses f' on a cell (rule slope-range), f being monotone."""
+    etas, nus = corners(made.box)
+    ends = np.array([float(end) for end in phases])
+    seen = next_impacts(side(made.box), etas, nus, ends[:, None], _FARTHEST).times
+    if not np.isfinite(seen).all():
+        raise Undecided("an impact is not seen to be followed by another one")
+    flight, times = made.impact(phases, float(seen.max()))
+    brackets = {
+        part: Flights(made.box, part).bracket(times)
+        for part in ((phases[0],) * 2, (phases[1],) * 2, phases)
+    }
+    points = [
+        {"flight": flight, "phase": str(end), "time": texts(brackets[end, end])} for end in phases
+    ]
+    piece = {"flight": flight, "time": texts(brackets[phases])}
+    name = made.add("slope-range", {"points": points, "pieces": [piece]})
+    images = [(end + time[0], end + time[1]) for end in phases for time in [brackets[end, end]]]
+    return Cell({"slopes": name, "domain": texts(phases)}, hull(images))
+
+
+def stays_stable(box: Place) -> Steps:
+    """Return the steps for rule `stable-orbit`."""
+    failure = "no stable orbit is seen all over the box"
+    for orbit in _orbits(box):
+        made = Steps(box)
+        try:
+            cells = [_cell(made, phases) for phases in orbit]
+        except Undecided as error:
+            failure = str(error)
+            continue
+        made.add("stable-orbit", {"cells": [cell.witness for cell in cells]})
+        return made
+    raise Undecided(failure)
+
+
+def _orbits(box: Place) -> Iterator[list[Range]]:
+    """Yield cells around stable orbits that are seen at the centre and the corners of a box."""
+    etas, nus = corners(box)
+    for cycle in islice(_cycles(side(box), etas[0], nus[0]), _TRIES):
+        phases = np.array([cycle] * len(etas)).T
+        for _ in range(_CLOSER):
+            found = next_impacts(side(box), etas, nus, phases, _FARTHEST)
+            before, phases = phases, np.roll(found.images % math.tau, 1, axis=0)
+            moved = float(np.abs(phases - before).max())
+            if not moved > _NEAR:
+                break
+        steep = np.abs(found.slopes)
+        if moved <= _NEAR and (steep.prod(axis=0) < 1).all():
+            apart = np.abs(phases[1:] - phases[0]).max(axis=1)
+            period = 1 + int(np.append(np.flatnonzero(apart < 100 * _NEAR), len(apart))[0])
+            yield _cells(phases[:period], steep[:period])
+
+
+def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
+    """Yield cycles of a grid of phases, each sent to the one next to its image, that contract."""
+    phases = math.tau * (np.arange(_GRID) + 0.5) / _GRID
+    found = next_impacts(sign, eta, nu, phases, _FARTHEST)
+    none = np.isnan(found.images)
+    onward = np.where(none, 0, found.images % math.tau / math.tau * _GRID).astype(int) % _GRID
+    onward = np.append(np.where(none, _GRID, onward), _GRID)
+    points = np.arange(_GRID)
+    for _ in range(_TRANSIENT):
+        points = onward[points]
+    seen = {_GRID}
+    for start in np.unique(points).tolist():
+        cycle, here = [], start
+        while here not in seen:
+            seen.add(here)
+            cycle.append(here)
+            here = int(onward[here])
+        if cycle and here == start and np.abs(found.slopes[cycle]).prod() < 1:
+            yield [float(phases[k]) for k in cycle]
+
+
+def _cells(points: Floats, steep: Floats) -> list[Range]:
+    """Return intervals around the points of orbits, wide enough to be sent into the next."""
+    low, high, slopes = points.min(axis=1), points.max(axis=1), steep.max(axis=1)
+    room = np.full(len(low), float(_ROOM))
+    for _ in range(_TRANSIENT):  # f sends what is w + r from an orbit to s (w + r) from the next
+        room = np.maximum(room, 1.2 * np.roll(slopes * (high - low + room), 1) + 2 * float(_ROOM))
+        if room.max() > 1:
+            raise Undecided("a stable orbit moves too much over the box")
+    return [_rounded(float(a - r), float(b + r)) for a, b, r in zip(low, high, room, strict=True)]

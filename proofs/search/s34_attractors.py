@@ -1,0 +1,78 @@
+"""Section 3.4 with restitution: a stable orbit is continued in epsilon, claim G16.
+
+From an epsilon at which it is known, both ways, in steps as long as a proof goes through.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from proofs.search.evidence import FAILED, Proof
+from proofs.search.s33_cycles import State, follow, prove_cycle, root_from, rounded
+from proofs.search.s33_steps import ReboundProver
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop
+from proofs.trusted.paper.s33_restitution.rebounds import sides
+from proofs.trusted.parameters import Place
+
+_UNIT = Fraction(1, 10**6)  # epsilons are multiples
+_FIRST, _LEAST = 250, 24  # units: the first step, and the last one
+_MOST = 100  # tries each way
+
+
+def branch(prover: ReboundProver, known: StableCycle, tries: int = _MOST) -> Proof:
+    """Prove a stable orbit for epsilon around one at which it is known, as far as it goes."""
+    start = sides(known.at)[2][0]
+    at = replace(known.at, epsilon=(start, start))
+    state = min(
+        ((_mean(phases), _mean(velocities)) for phases, velocities in known.boxes),
+        key=lambda state: root_from(prover, at, state, len(known.boxes)),
+    )
+    return [
+        cycle for way in (-1, 1) for cycle in _continued(prover, known, (start, state), way, tries)
+    ]
+
+
+def _continued(
+    prover: ReboundProver,
+    known: StableCycle,
+    start: tuple[Fraction, State],
+    way: int,
+    tries: int,
+) -> Proof:
+    """Prove stable orbits on intervals of epsilon, one after the other, upwards or downwards."""
+    (epsilon, state), size, proof = start, _FIRST, Proof()
+    period = len(known.boxes)
+    for _ in range(tries):
+        onward = epsilon + way * size * _UNIT
+        ends = min(epsilon, onward), max(epsilon, onward)
+        middle = (epsilon + onward) / 2
+        try:
+            with prover.attempt():
+                near = _orbit(prover, replace(known.at, epsilon=(middle, middle)), state, period)
+                cycle = prove_cycle(prover, replace(known.at, epsilon=ends), near, period)
+        except FAILED:
+            size = size * 3 // 4
+            if size < _LEAST:
+                break
+        else:
+            proof.append(cycle)
+            epsilon, state, size = onward, near, size * 9 // 8
+    return proof
+
+
+def _orbit(prover: ReboundProver, at: Place, state: State, period: int) -> State:
+    """Return about the orbit's state near another, by one step of Newton's method."""
+    steps = [step for _, step in follow(prover, at, [(x, x) for x in state], period)]
+    (p, q), (r, s) = ([_mean(x.range) for x in row] for row in loop(steps))
+    a, b = _mean(steps[-1].phase) - state[0], _mean(steps[-1].velocity) - state[1]
+    across = (1 - p) * (1 - s) - q * r
+    return (
+        rounded(state[0] + ((1 - s) * a + q * b) / across),
+        rounded(state[1] + (r * a + (1 - p) * b) / across),
+    )
+
+
+def _mean(values: Range) -> Fraction:
+    return (values[0] + values[1]) / 2

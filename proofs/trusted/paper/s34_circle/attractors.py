@@ -1,0 +1,118 @@
+"""Section 3.4 with restitution: two attractors. Claim G16 of our own.
+
+For epsilon in a window the map F has a stable periodic orbit of transversal impacts, beside the
+motion of claim G7, which comes to rest on the table in every turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range, between, common, hull, show_range, within
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.rebounds import sides
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+
+@dataclass(frozen=True)
+class TwoAttractors(Conclusion):
+    """Stable cycles for intervals of epsilon > 0, each from the end of the one before, are one
+    orbit; the motion that rests is another one.
+
+    Theorem. Let cycles have as many boxes each, for the same eta and nu; let first boxes of
+    neighbours have a state in common. Then their orbits depend continuously on epsilon, as one.
+    Proof. 1. On an interval F^k contracts one box into itself, by one rate for all its epsilon, and
+    depends continuously on epsilon there; so does its fixed point. 2. At the common epsilon of two
+    intervals F^k maps both first boxes into themselves, so what they have in common, too: there it
+    has a fixed point, which is the only one of both. 3. The motion has infinitely many impacts in
+    a period, the orbit k.
+    """
+
+    motion: SuperstableMotion
+    cycles: tuple[StableCycle, ...]
+
+    def __post_init__(self) -> None:
+        if not self.cycles or sides(self.cycles[0].at)[2][0] <= 0:
+            raise Unproved("no stable cycle for epsilon > 0")
+        for each in self.cycles:
+            if sides(each.at)[:2] != sides(self.motion.at)[:2]:
+                raise Unproved("the motions are about different oscillators")
+        for before, after in pairwise(self.cycles):
+            if sides(before.at)[2][1] != sides(after.at)[2][0]:
+                raise Unproved("the cycles leave a hole in epsilon, or overlap")
+            if len(before.boxes) != len(after.boxes):
+                raise Unproved("the cycles have different periods")
+            for one, two in zip(before.boxes[0], after.boxes[0], strict=True):
+                common(one, two)
+        if not within(sides(self.at)[2], sides(self.motion.at)[2]):
+            raise Unproved("the motion is not known to come to rest for all these epsilon")
+
+    @property
+    def at(self) -> Place:
+        """The oscillators."""
+        first, last = (sides(self.cycles[k].at)[2] for k in (0, -1))
+        return replace(self.cycles[0].at, epsilon=(first[0], last[1]))
+
+    @property
+    def sentence(self) -> str:
+        count = len(self.cycles[0].boxes)
+        states = [
+            [hull(values) for values in zip(*boxes, strict=True)]
+            for boxes in zip(*(each.boxes for each in self.cycles), strict=True)
+        ]
+        impacts = ", ".join(" x ".join(map(between, state)) for state in states)
+        return (
+            f"for every one of these epsilon F has a {count}-periodic orbit of transversal "
+            f"impacts, which depends continuously on epsilon, with an impact in each of {impacts} "
+            "(phases x velocities gamma), in this order; it is asymptotically stable: for "
+            f"{len(self.cycles)} intervals of epsilon, one after the other, F^{count} contracts a "
+            "box of states into itself, so that it attracts every motion with an impact there. "
+            "Beside it there is the motion that leaves the table at the separation phase and comes "
+            "to rest, after infinitely many impacts, before the first one after it lands; it "
+            "attracts an open set of states, too: there are two attractors at least."
+        )
+
+    @property
+    def brief(self) -> str:
+        return (
+            f"for every epsilon in {show_range(sides(self.at)[2])} a stable "
+            f"{len(self.cycles[0].boxes)}-periodic orbit, beside the motion that comes to rest"
+        )
+
+    @property
+    def quantities(self) -> Mapping[str, Range]:
+        low, high = sides(self.at)[2]
+        return {"epsilon_min": (low, low), "epsilon_max": (high, high)}
+
+
+def _coexist(of: Parameters, found: Found) -> Decision:
+    """G16: all stable cycles at this eta and nu, in the order of epsilon."""
+    at = (of.eta, of.eta), (of.nu, of.nu)
+    motions = [x for x in found.elsewhere(SuperstableMotion) if sides(x.at)[:2] == at]
+    cycles = [x for x in found.elsewhere(StableCycle) if sides(x.at)[:2] == at]
+    if not motions or not cycles:
+        return undecided("no motion is known that comes to rest, or no stable cycle")
+    cycles.sort(key=lambda each: sides(each.at)[2])
+    both = TwoAttractors(motions[0], tuple(cycles))
+    if not sides(both.at)[2][0] < sides(both.at)[2][1]:
+        return undecided("a stable cycle is known at one epsilon only")
+    return decided(Verdict.VERIFIED, both, corrected=[both])
+
+
+ROWS = (
+    Row(
+        "G16",
+        "3.4, for larger epsilon",
+        "",
+        "At (eta, nu) = ({eta}, {nu}): for all coefficients of restitution of an interval the map "
+        "F has a stable periodic orbit, continuous in epsilon, beside the stable motion with "
+        "infinitely many impacts in each period (claim G7): there is more than one attractor.",
+        _coexist,
+    ),
+)

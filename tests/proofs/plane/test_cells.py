@@ -1,0 +1,120 @@
+"""What is sent out and comes back: proposals, hints, executors, merged cells."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from intervals import Undecided
+from proofs.motion.candidate import next_impact
+from proofs.motion.many import next_impacts
+from proofs.motion.system import System
+from proofs.plane import settling
+from proofs.plane.cells import decide
+from proofs.plane.flights import FINE, Flights
+from proofs.plane.head import Here, executor
+from proofs.plane.horseshoe import Sets, propose
+from proofs.plane.summary import merged
+from proofs.trusted.atlas import Region
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.parameters import Place
+from proofs.trusted.verify import check
+
+F = Fraction
+REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
+
+
+def box(eta, nu, width="0.0002"):
+    return Place((F(eta), F(eta) + F(width)), (F(nu), F(nu) + F(width)))
+
+
+def test_next_impacts_of_many_are_those_of_one():
+    phases = np.linspace(0.05, 6.2, 60)
+    for eta, nu in (("0.2121", "-0.2"), ("0.3", "0.5"), ("1.7", "0.9")):
+        system = System(F(eta), F(nu))
+        found = next_impacts(system.side, float(eta), float(nu), phases, 60.0)
+        for phase, time, image, slope in zip(phases, *found, strict=True):
+            one = next_impact(system, float(phase), 60.0)
+            if one is None:
+                assert math.isnan(time) and math.isnan(image) and math.isnan(slope)
+            else:
+                assert time == pytest.approx(one[0], abs=1e-6)
+                assert image % math.tau == pytest.approx(one[1], abs=1e-6)
+                assert slope == pytest.approx(one[2], rel=1e-4, abs=1e-4)
+
+
+def test_times_are_those_of_the_rule_and_none_where_flights_differ():
+    times = Flights(box("0.212", "-0.2"), (F("1.1"), F("1.12"))).times(25.5)
+    assert times == sorted(times) and 23 < times[-2] < times[-1] < 26
+    with pytest.raises(Undecided):  # some of these graze the table, and fly on
+        Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3")), unit=FINE).times(60.0)
+    with pytest.raises(Undecided):  # some stick
+        Flights(box("0.212", "-0.2"), (F("3.2"), F("3.6"))).times(60.0)
+
+
+def test_sets_of_a_neighbour_are_tried_first():
+    made, sets = next(propose(box("0.212", "-0.2"), []))
+    hint = Sets.of(sets.text)
+    assert hint.phases == sets.phases and hint.turns == sets.turns
+    again, same = next(propose(box("0.2121", "-0.2"), [hint]))
+    assert same.phases == sets.phases and again.certificate() != made.certificate()
+    far = hint._replace(phases=tuple((low - 1, high - 1) for low, high in hint.phases))
+    _, other = next(propose(box("0.212", "-0.2"), [far]))
+    assert other.phases == sets.phases
+
+
+@pytest.mark.parametrize(
+    ("place", "kind", "impacts"),
+    [
+        (box("0.212", "-0.2"), StickingMotion, 0),
+        (box("0.5", "0.2"), AtRest, 0),
+        (box("0.237", "0.3"), StableOrbit, 1),
+    ],
+)
+def test_attractors(place, kind, impacts):
+    (found,) = check(next(settling.propose(place)).certificate()).conclusions
+    assert isinstance(found, kind) and found.at == place
+    assert len(getattr(found, "cells", ())) == impacts
+
+
+def test_a_cell_without_a_proof_is_split_and_undecided_at_the_last_depth():
+    nowhere = Region((F("0.2522"), F("0.2526")), (F("-0.1151"), F("-0.1147")), "horseshoe")
+    (row,) = decide(nowhere, 1, [("0/", "")])
+    assert (row.verdict, row.conclusion, row.certificate) == ("SPLIT", "", None)
+    (row,) = decide(nowhere, 0, [("0/", "")])
+    assert (row.verdict, row.kind) == ("UNDECIDED", "") and "sets" in row.conclusion
+
+
+def test_no_horseshoe_where_all_comes_to_rest():
+    rest = Region((F("0.5"), F("0.6")), (F("0.1"), F("0.2")), "horseshoe")
+    (row,) = decide(rest, 0, [("0/", "")])
+    assert (row.verdict, row.kind) == ("REFUTED", "AtRest")
+
+
+def test_every_executor_gives_the_same_rows():
+    todo = [("0/00", ""), ("0/31", "")]
+    here = decide(REGION, 2, todo)
+    with executor(2, "here") as (pool, count):
+        there = pool.submit(decide, REGION, 2, todo).result()
+    assert count == 2 and isinstance(here[0].certificate, bytes)
+    assert [row._replace(seconds=0) for row in there] == [row._replace(seconds=0) for row in here]
+    assert Here().submit(math.sqrt, 4).result() == 2
+
+
+@pytest.mark.slow
+def test_a_dask_cluster_of_two_processes():
+    pytest.importorskip("distributed")
+    todo = [("0/00", ""), ("0/31", "")]
+    with executor(2, "dask:") as (pool, count):
+        there = pool.submit(decide, REGION, 2, todo).result()
+    assert count == 2
+    here = decide(REGION, 2, todo)
+    assert [row._replace(seconds=0) for row in there] == [row._replace(seconds=0) for row in here]
+
+
+def test_four_quarters_are_one_part_of_the_picture():
+    keys = ["0/00", "0/01", "0/02", "0/03", "0/1", "0/2", "0/3", "1/0"]
+    assert merged(keys) == ["0/", "1/0"]
+    assert merged(keys[1:]) == sorted(keys[1:])
+    assert merged([]) == []

@@ -1,0 +1,297 @@
+"""What is said of all oscillators of a box: only what holds at each of them."""
+
+import copy
+import json
+import random
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+import numpy as np
+import pytest
+from mpmath import mpf
+
+from proofs.motion.many import next_impacts
+from proofs.plane.horseshoe import propose
+from proofs.plane.settling import settles, sticks
+from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.numbers import Phases
+from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks
+from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, covering_shift
+from proofs.trusted.parameters import PAPER, Place
+from proofs.trusted.rules import find_rule
+from proofs.trusted.verify import Rejected, check, premises
+from tests.oracles.judge import oracle
+from tests.oracles.sources import REPORTS
+from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.steps import exact
+
+F = Fraction
+BOX = Place((F("0.2119"), F("0.2122")), (F("-0.2004"), F("-0.1996")))
+SHORT = Place((F("0.3"), F("0.302")), (F("0.19"), F("0.192")))  # the flight ends within a turn
+
+
+@cache
+def text(box=BOX):
+    return next(propose(box, []))[0].certificate()
+
+
+def document():
+    return json.loads(text())
+
+
+def sheets():
+    known = premises(text()).known
+    flights = [json.loads(text())["steps"][name]["witness"] for name in known]
+    (cells,) = [each["cells"] for each in flights if "cells" in each]
+    return [
+        Sheet(tuple(known[name] for name in each["flights"]), int(each["turns"])) for each in cells
+    ]
+
+
+def rejected(document, match=None, error=Rejected):
+    with pytest.raises(error, match=match):
+        check(json.dumps(document))
+
+
+# -- enclosures ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("time", ["3", "25.5", "56.25"])
+def test_the_gap_over_a_box_contains_that_of_each_of_its_oscillators(time):
+    """By equation (10), in mpmath; at the corners and inside."""
+    whole = Motion(BOX, (F("1.1"), F("1.1")))
+    times = F(time), F(time)
+    found = [each(times).range for each in (whole.height, whole.sharp_height)]
+    assert found[1][1] - found[1][0] < found[0][1] - found[0][0] + F(1, 10**9)
+    shares = [F(k, 4) for k in range(5)]
+    for eta, nu in product(*([low + (high - low) * x for x in shares] for low, high in sides())):
+        true = exact(reference.left_side_10(mpf(float(eta)), mpf(float(nu)), mpf("1.1"), mpf(time)))
+        for low, high in found:  # nu < 0: the gap is the negative
+            assert low - F(1, 10**12) < -true < high + F(1, 10**12)
+
+
+def sides():
+    return BOX.eta, BOX.nu
+
+
+# -- a full shift ----------------------------------------------------------------------------------
+
+
+def test_a_full_shift_for_all_oscillators_of_a_box():
+    report = check(text())
+    (found,) = report.conclusions
+    assert isinstance(found, CoveringShift) and report.parameters == found.at == BOX
+    (sentence,) = report.sentences
+    assert sentence.startswith("At eta in [0.2119, 0.2122], nu in [-0.2004, -0.1996], epsilon = 0:")
+    assert str(found.cells[1][0])[0] == "1" and "full shift on 2 symbols" in sentence
+    assert found.entropy[0] < F("0.69314718056") < found.entropy[1] + F(1, 10**9)
+
+
+def test_the_images_are_beyond_the_sets_at_oscillators_of_the_box():
+    """By simulation in floating point, at random oscillators and at the corners."""
+    (found,) = check(text()).conclusions
+    rng = np.random.default_rng(1)
+    etas = np.concatenate([np.array(BOX.eta, float).repeat(2), rng.uniform(*BOX.eta, 30)])
+    nus = np.concatenate([np.tile(np.array(BOX.nu, float), 2), rng.uniform(*BOX.nu, 30)])
+    for cell in found.cells:
+        phases = np.linspace(float(cell[0]), float(cell[1]), 60)
+        images = next_impacts(-1, etas, nus, phases[:, None], 200.0).images
+        assert np.isfinite(images).all() and np.abs(np.diff(images, axis=0)).max() < 0.05
+        assert (np.ptp(np.floor(images[30] / (2 * np.pi))) == 0).all()
+        images = np.sort((images - 2 * np.pi * np.floor(images[30] / (2 * np.pi)))[[0, -1]], axis=0)
+        assert (images[0] < float(found.cells[0][0])).all()
+        assert (images[1] > float(found.cells[-1][1])).all()
+
+
+def test_the_oracle_agrees_and_finds_what_is_made_false():
+    (found,) = check(text()).conclusions
+    assert oracle(found, random.Random(1)) == []
+    moved = tuple(Phases(low + F("0.1"), high + F("0.1")) for low, high in found.cells)
+    assert oracle(replace(found, cells=moved), random.Random(1))
+    assert oracle(replace(found, at=Place((F("0.2"),) * 2, (F("-0.2"),) * 2)), random.Random(1))
+
+
+@pytest.mark.parametrize(
+    ("side", "ends", "match"),
+    [
+        ("eta", ["2119/10000", "2130/10000"], None),  # f is known of fewer oscillators
+        ("eta", ["2/10", "2001/10000"], None),  # of others
+        ("nu", ["-3/10", "-499/2500"], None),
+        ("nu", ["-501/2500", "-19/100"], None),
+    ],
+)
+def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
+    made = document()
+    made["parameters"][side] = [str(F(end)) for end in ends]
+    rejected(made, match)
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "1/5"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "0"]},
+        {"eta": ["0", "1/4"], "nu": ["-1/5", "-1/6"]},
+        {"eta": ["1/4", "1/5"], "nu": ["-1/5", "-1/6"]},
+        {"eta": ["1/5", "1/4"]},
+        {"eta": ["1/5", "1/4"], "nu": "-1/5"},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["0", "1/2"]},
+        {"eta": ["1/5", "1/" + "9" * 500], "nu": ["-1/5", "-1/6"]},
+        {},
+    ],
+)
+def test_what_is_no_box_is_malformed(parameters):
+    rejected(document() | {"parameters": parameters}, r"^\$\.parameters", Malformed)
+
+
+def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
+    made = document()
+    made["claims"] = [{"id": "X2"}]
+    rejected(made, "string", Malformed)
+    known = copy.deepcopy(premises(text()).known)
+    with pytest.raises(Unproved, match="one oscillator"):
+        from proofs.trusted.paper.s34_circle.entropy import branch
+
+        witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
+        branch(Context(BOX, {}, known), Reader(witness))
+
+
+ALL_OVER_A_BOX = {
+    "avoids", "first-impact", "fixed-point", "full-shift", "horseshoe", "itinerary", "point",
+    "separation", "slope-range", "staying-orbit",
+}  # fmt: skip
+ONE_OSCILLATOR = {
+    "bounces-end", "branch", "dimension", "excess", "grazing", "lands", "linear-set",
+    "never-impacts", "superstable-motion",
+}  # fmt: skip
+
+
+def test_which_rules_of_committed_certificates_hold_all_over_a_box():
+    """In boxes so small that no enclosure is in the way, and none of the rules may think so."""
+    holds, fails, small = set(), set(), F(1, 10**60)
+    for name in ("chaos", "circle", "dimension", "entropy", "horseshoe", "persistence", "sets"):
+        made = parse((REPORTS / f"{name}.json").read_text())
+        _, parameters, functions, steps, _ = made.fields(*FIELDS)
+        of = parameters_from_json(parameters)
+        box = Place((of.eta, of.eta + small), (of.nu, of.nu + small))
+        context = Context(box, {x: read_function(x, each) for x, each in functions.members()})
+        for step, each in steps.members():
+            rule, witness = each.fields("rule", "witness")
+            try:
+                context.known[step] = find_rule(rule.string())(context, witness)
+            except Unproved:
+                fails.add(rule.string())
+            except Malformed as error:
+                assert "names no earlier step" in str(error)
+            else:
+                if context.known[step].place == box:
+                    holds.add(rule.string())
+    assert (holds, fails) == (ALL_OVER_A_BOX, ONE_OSCILLATOR)
+
+
+@pytest.mark.parametrize("turns", ["0", "3", "5", "9"])
+def test_images_after_other_turns_are_elsewhere(turns):
+    made = document()
+    (step,) = [each for each in made["steps"].values() if each["rule"] == "covering-shift"]
+    step["witness"]["cells"][0]["turns"] = turns
+    rejected(made, "beyond the cells|same side")
+
+
+def test_an_earlier_impact_must_be_excluded():
+    """The second set's flights pass close to the table at the first set's impacts."""
+    made = document()
+    flights = [each["witness"] for each in made["steps"].values() if "times" in each["witness"]]
+    times = flights[-1]["times"]
+    flights[-1]["times"] = [each for each in times if not 20 < F(each) < 30]
+    assert len(flights[-1]["times"]) < len(times)
+    rejected(made)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda x: [x[0]],
+        lambda x: [x[0], x[0]],
+        lambda x: [x[0], x[1]._replace(turns=x[1].turns + 1)],
+        lambda x: [x[0], x[1]._replace(flights=(replace(x[1].flights[0], transversal=False),))],
+        lambda x: [x[0], x[1]._replace(flights=x[1].flights * 2)],
+        lambda x: [
+            x[0],
+            x[1]._replace(flights=(replace(x[1].flights[0], at=PAPER.place), *x[1].flights[1:])),
+        ],
+    ],
+)
+def test_no_hypothesis_of_the_full_shift_is_dropped(change):
+    assert covering_shift(sheets()[::-1]) == covering_shift(sheets())
+    with pytest.raises(Unproved):
+        covering_shift(change(sheets()))
+
+
+def test_sets_that_are_not_mapped_over_each_other():
+    """f maps the lower half of a set over the lower half of them all, at most."""
+    made = document()
+    flights = [each["witness"] for each in made["steps"].values() if "times" in each["witness"]]
+    low, high = map(F, flights[0]["phases"])
+    flights[0]["phases"] = [str(low), str((low + high) / 2)]
+    rejected(made, "beyond the cells")
+
+
+# -- rest, and motions that all stick --------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("eta", "nu", "holds"),
+    [
+        (("1/2", "3/5"), ("1/9", "1/3"), {AtRest}),  # 1/3 * 3/4 = 1/4 at one corner
+        (("1/2", "3/5"), ("1/9", "0.334"), set()),  # at that corner the mass leaves
+        (("1/5", "1/2"), ("1/3", "1/2"), set()),
+        (("1/5", "2/5"), ("1/3", "1/2"), {Leaves}),
+        (("1/2", "2"), ("1/9", "1/4"), {AtRest}),  # eta = 1 is inside
+        (("4/5", "3"), ("1/9", "2"), set()),
+        (("1/2", "2"), ("-1/4", "-1/9"), {Leaves, NeverSticks}),
+        (("2/5", "2"), ("-1/4", "-1/9"), {Leaves}),
+    ],
+)
+def test_rest_in_boxes(eta, nu, holds):
+    """A box is inside, outside, or across the curve |nu| |1 - eta^2| = eta^2."""
+    at = Place(tuple(map(F, eta)), tuple(map(F, nu)))
+    for kind in (AtRest, Leaves, NeverSticks):
+        if kind in holds:
+            assert oracle(kind(at), random.Random(2)) == []
+        else:
+            with pytest.raises(Unproved):
+                kind(at)
+
+
+def test_all_motions_stick():
+    (found,) = check(settles(SHORT).certificate()).conclusions
+    assert isinstance(found, AllStick) and found.arc.turns == 1
+    assert oracle(found, random.Random(1)) == []
+    assert oracle(replace(found, arc=replace(found.arc, at=PAPER.place)), random.Random(1))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda arc: replace(arc, turns=2),
+        lambda arc: replace(arc, arrival=(arc.phase[0] - 1, arc.phase[0])),
+        lambda arc: replace(arc, arrival=(arc.start[1], arc.phase[0] - 1)),
+        lambda arc: replace(arc, at=Place((F("0.3"), F("0.43")), SHORT.nu)),
+    ],
+)
+def test_no_hypothesis_of_all_sticking_is_dropped(change):
+    (found,) = check(settles(SHORT).certificate()).conclusions
+    with pytest.raises(Unproved):
+        AllStick(change(found.arc))
+
+
+def test_a_motion_that_sticks_for_all_oscillators_of_a_box():
+    (found,) = check(sticks(BOX).certificate()).conclusions
+    assert found.at == BOX and found.cells == ()
+    assert oracle(found, random.Random(3)) == []
