@@ -86,7 +86,10 @@ class Leaves(Conclusion):
 
     @property
     def sentence(self) -> str:
-        return "after a plastic impact the mass leaves the table, within one turn at the latest."
+        return (
+            "a mass that rests on the table, as after a plastic impact, leaves it within one turn "
+            "at the latest."
+        )
 
 
 @dataclass(frozen=True)

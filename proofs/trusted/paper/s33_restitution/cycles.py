@@ -54,7 +54,8 @@ class StableCycle(Conclusion):
 
     @property
     def brief(self) -> str:
-        return f"F has a stable {len(self.boxes)}-periodic orbit of transversal impacts"
+        count = len(self.boxes)
+        return f"at {self.at} F has a stable {count}-periodic orbit of transversal impacts"
 
 
 def stable_cycle(boxes: Sequence[Rebound], centres: Sequence[Rebound]) -> StableCycle:

@@ -13,7 +13,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.cones import Cone, Rates, rates
 from proofs.trusted.paper.s33_restitution.rebounds import sides, size
 from proofs.trusted.paper.s33_restitution.rectangles import (
@@ -91,7 +91,7 @@ class RectangleHorseshoe(Conclusion):
     @property
     def sentence(self) -> str:
         least, most = sides(self.at)[2]
-        text = f"{self.strips.smooth}. F maps each across both; {self.brief}."
+        text = f"{self.strips.smooth}. {self.strips.CROSSED}; {self.brief}."
         if most > 0:
             text += f" {FULL_SHIFT.format(self.rates)}"
         if least == 0:
@@ -137,21 +137,21 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     two-sided shift. If epsilon = 0, phases alone are a map f, and each one-sided sequence is the
     itinerary of exactly one phase.
 
-    Proof. 1. Call the graph of a function gamma(phi) over the phases of N_i a curve, if all its
-    chords are in the cone. By 3 chords go to chords in the cone: the image of a curve is such a
-    graph, over an interval that contains the phases of each next N_j, and there with velocities in
-    those of N_j: it contains a curve of N_j. So finite paths are followed, by compactness all. Full
-    orbits in V1 and V2 follow the arrows: only next rectangles hold the images. 2. Let z_n be the
-    differences of two orbits of one itinerary, both in the same rectangle for each n; z_(n+1) is D
-    times z_n, D a mean of DF. Were one z_n != 0 in the cone, then all after it, by (1) of `rates`,
-    and they would grow without bound. So all z_n != 0 are outside, and by (2) |y| of z_n is at most
-    contraction^k times that of z_(n-k), for all k: z_n = 0. No arrow leads from an edge, and a
-    state of A is an image: by hypothesis 2 its velocity is in the interior. 3. F is one-to-one for
-    epsilon > 0: from the state before an impact the flight is run back to its launch, the last zero
-    of the gap before; phase and velocity there determine gamma, as epsilon != 0. The itinerary is
-    then a continuous bijection of compact sets. 4. For epsilon = 0 F depends on phi alone, p = f' >
-    1. See Gidea and Zgliczynski, Covering relations for multidimensional dynamical systems, J.
-    Differential Equations 202 (2004).
+    Proof. 1. Call a compact connected part of N_i that meets its left and its right edge a crossing
+    set, as N_i is itself. By 2 its image, connected, reaches beyond each next N_j on both sides,
+    and where it has phases of N_j, it has velocities of N_j: so it contains a crossing set of N_j
+    (boundary bumping). So finite paths are followed, by compactness all. Full orbits in V1 and V2
+    follow the arrows: only next rectangles hold the images. 2. Let z_n be the differences of two
+    orbits of one itinerary, both in the same rectangle for each n; z_(n+1) is D times z_n, D a mean
+    of DF. Were one z_n != 0 in the cone, then all after it, by (1) of `rates`, and they would grow
+    without bound. So all z_n != 0 are outside, and by (2) |y| of z_n is at most contraction^k times
+    that of z_(n-k), for all k: z_n = 0. No arrow leads from an edge, and a state of A is an image:
+    by hypothesis 2 its velocity is in the interior. 3. F is one-to-one for epsilon > 0: from the
+    state before an impact the flight is run back to its launch, the last zero of the gap before;
+    phase and velocity there determine gamma, as epsilon != 0. The itinerary is then a continuous
+    bijection of compact sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See Gidea and
+    Zgliczynski, Covering relations for multidimensional dynamical systems, J. Differential
+    Equations 202 (2004).
     """
     names, cone_of = reader.fields("rectangles", "cone")
     maps, cone = read_maps(context, names, 4), Cone(*cone_of.numbers(2, 2))
@@ -194,6 +194,11 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
 # -- as epsilon grows ------------------------------------------------------------------------------
 
 
+def _listed(shoe: RectangleHorseshoe) -> str:
+    epsilon, slope = show_range(sides(shoe.at)[2]), show(shoe.rates.cone.slope)
+    return f"epsilon in {epsilon}: {shoe.strips.named}, e = {slope}"
+
+
 @dataclass(frozen=True)
 class HorseshoeFamily(Conclusion):
     """Horseshoes for intervals of epsilon, each from the end of the one before, from 0 on."""
@@ -226,14 +231,14 @@ class HorseshoeFamily(Conclusion):
         )
         return (
             "for each epsilon there are disjoint sets V1 and V2 of states, each one rectangle of "
-            f"phases x velocities or the union of two, as listed for {len(self.shoes)} intervals "
-            f"of epsilon: all their states are physically possible (gap' <= 0), F is smooth on "
-            f"them and maps each across both; {self.brief}. "
+            "phases x velocities or the union of two, closed, and a number e, as listed here: "
+            f"{'; '.join(map(_listed, self.shoes))}. All their states are physically possible "
+            "(gap' <= 0), and F is smooth on them. Where they are one rectangle each, "
+            f"{Strips.CROSSED}; where they are unions, {Blocks.CROSSED}; {self.brief}. "
             + FULL_SHIFT.format(
                 "uniformly hyperbolic: unstable directions are stretched at least "
                 f"{floor_text(least.expansion, 2)} times in phase by each step, stable ones "
-                f"shrink to at most {ceil_text(least.contraction, 3)} times in |dgamma - e dphi|, "
-                "e a number for each interval"
+                f"shrink to at most {ceil_text(least.contraction, 3)} times in |dgamma - e dphi|"
             )
             + f" {ONE_SIDED.format(floor_text(self.shoes[0].rates.expansion, 2))}"
         )

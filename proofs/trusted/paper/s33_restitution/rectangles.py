@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import ClassVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -16,6 +17,7 @@ Maps = Sequence[RectangleMap]
 Box = tuple[Phases, Range]  # a rectangle: phases x velocities
 Arrows = Sequence[Sequence[int]]  # from each rectangle to these
 SMOOTH = "all their states are physically possible (gap' <= 0), and F is smooth on them"
+_CLOSED = " (closed, phases x velocities)"
 ALL = (0, 1), (0, 1)  # the arrows of two rectangles that are mapped across both
 
 
@@ -26,6 +28,7 @@ class Strips:
     left: Phases
     right: Phases
     velocities: Range
+    CROSSED: ClassVar[str] = "F maps each across both"
 
     def __post_init__(self) -> None:
         if self.left[1] >= self.right[0] or self.velocities[0] >= self.velocities[1]:
@@ -36,9 +39,14 @@ class Strips:
         """The phases of the left edge of V1 and of the right edge of V2."""
         return self.left[0], self.right[1]
 
-    def __str__(self) -> str:
+    @property
+    def named(self) -> str:
+        """V1 and V2, written."""
         left, right, gamma = map(show_range, (self.left, self.right, self.velocities))
-        return f"V1 = {left} x {gamma}, V2 = {right} x {gamma} (closed, phases x velocities)"
+        return f"V1 = {left} x {gamma}, V2 = {right} x {gamma}"
+
+    def __str__(self) -> str:
+        return self.named + _CLOSED
 
     @property
     def smooth(self) -> str:
@@ -56,6 +64,10 @@ class Blocks:
 
     after_first: tuple[Box, Box]
     after_second: tuple[Box, Box]
+    CROSSED: ClassVar[str] = (
+        "F maps both rectangles of V1 across the first ones of V1 and of V2, and both of V2 across "
+        "the second ones"
+    )
 
     def __post_init__(self) -> None:
         for left, right in (self.after_first, self.after_second):
@@ -67,12 +79,17 @@ class Blocks:
         if one[0] <= two[1] and two[0] <= one[1]:
             raise Unproved("velocities after V1 and after V2 are not apart")
 
-    def __str__(self) -> str:
+    @property
+    def named(self) -> str:
+        """V1 and V2, written."""
         sets = (
             " union ".join(" x ".join(map(show_range, box)) for box in boxes)
             for boxes in zip(self.after_first, self.after_second, strict=True)
         )
-        return "V1 = {}, V2 = {} (closed, phases x velocities)".format(*sets)
+        return "V1 = {}, V2 = {}".format(*sets)
+
+    def __str__(self) -> str:
+        return self.named + _CLOSED
 
     @property
     def smooth(self) -> str:

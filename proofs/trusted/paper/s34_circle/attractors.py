@@ -74,8 +74,8 @@ class TwoAttractors(Conclusion):
             f"{len(self.cycles)} intervals of epsilon, one after the other, F^{count} contracts a "
             "box of states into itself, so that it attracts every motion with an impact there. "
             "Beside it there is the motion that leaves the table at the separation phase and comes "
-            "to rest before the next one after infinitely many impacts; it attracts an open set of "
-            "states, too: there are two attractors at least."
+            "to rest, after infinitely many impacts, before the first one after it lands; it "
+            "attracts an open set of states, too: there are two attractors at least."
         )
 
     @property

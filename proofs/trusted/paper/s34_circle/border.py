@@ -49,7 +49,7 @@ class BouncesEnd(Conclusion):
     def sentence(self) -> str:
         return (
             f"the mass that leaves the table at phi_s with relative velocity 0 {self.brief}, the "
-            "next separation phase."
+            "first separation phase after it lands."
         )
 
     @property
@@ -135,10 +135,10 @@ class Border(Conclusion):
         low, high = show(self.rests.epsilon), show(self.passes.epsilon)
         return (
             "the motion that leaves the table at the separation phase phi_s with relative velocity "
-            f"0 comes to rest before the next phi_s, and is periodic, for every epsilon up to "
-            f"{show(self.motion.largest)}, and at epsilon = {low}. At epsilon = {high} it does "
-            f"not: it {self.passes.brief}. The set of all epsilon at which it comes to rest before "
-            f"phi_s has a boundary point in [{low}, {high}]."
+            "0 comes to rest before the first phi_s after it lands, and is periodic, for every "
+            f"epsilon up to {show(self.motion.largest)}, and at epsilon = {low}. At epsilon = "
+            f"{high} it does not: it {self.passes.brief}. The set of all epsilon at which it comes "
+            f"to rest before that phi_s has a boundary point in [{low}, {high}]."
         )
 
     @property

@@ -10,7 +10,7 @@ from proofs.search.beyond import Budget
 from proofs.shell.groups import produce
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
-from proofs.trusted.paper import BEYOND
+from proofs.trusted.paper import BEYOND, find
 from proofs.trusted.paper.beyond.attractors import (
     AtRest,
     Leaves,
@@ -150,6 +150,12 @@ def test_the_mass_rests_leaves_or_never_sticks(eta, nu, holds):
         else:
             with pytest.raises(Unproved):
                 kind(at)
+
+
+def test_leaving_is_said_of_a_mass_at_rest():
+    """X8 is refuted by it for epsilon > 0, too, where no impact is plastic."""
+    of = replace(PAPER, eta=F("0.2121"), nu=F("-0.2"), epsilon=F("0.3"))
+    assert "a mass that rests on the table" in find("X8").decide(of, ()).witness
 
 
 @pytest.mark.parametrize(

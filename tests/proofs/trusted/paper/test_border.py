@@ -46,6 +46,8 @@ def test_what_is_said():
     low, high = decision.quantities["epsilon_border"]
     assert low < Fraction("0.361113") < high < low + Fraction(1, 10**5)
     assert "boundary point in [0.361112, 0.361115]" in decision.theorem
+    assert known()[PASSES].arc.turns > 1  # in flight it passes phi_s first, more than once
+    assert "before the first phi_s after it lands" in decision.theorem
 
 
 @pytest.mark.parametrize(

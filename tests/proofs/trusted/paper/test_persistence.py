@@ -227,6 +227,7 @@ def test_the_pair_alone_decides_nothing():
     assert isinstance(motion, SuperstableMotion) and isinstance(pair, StableCycle)
     assert find("G7").decide(PAPER, [pair]).verdict is Verdict.UNDECIDED
     assert "F^2 contracts" not in find("G7").decide(PAPER, [motion]).theorem
+    assert "epsilon = 0.29" in pair.brief  # it stands beside claims about other epsilons
 
 
 # -- the verdicts ----------------------------------------------------------------------------------

@@ -186,6 +186,8 @@ def test_four_rectangles():
     assert found.rates[:2] == (5, 0) and found.rates.cone == Cone(Fraction(1, 50), Fraction(1))
     assert "V1 = [1, 1.25] x [-0.02, 0.05] union [1, 1.25] x [0.06, 0.12]" in found.sentence
     assert "|dgamma - 0.02 dphi| <= 1 |dphi|" in found.sentence
+    assert "both rectangles of V1 across the first ones" in found.sentence
+    assert "each across both" not in found.sentence  # no image of V1 has states of the second ones
 
 
 @pytest.mark.parametrize(
@@ -251,6 +253,13 @@ def test_a_family_has_the_worst_bounds():
     assert family.at == Place(POINT, POINT, pair_of(0, "1/5"))
     assert "from 0 to 0.2; edges overshoot by at least 0.111111" in family.sentence
     assert "stretched at least 4 times" in family.sentence and "f' >= 4;" in family.sentence
+
+
+def test_a_family_names_all_its_sets():
+    one, two = at_epsilon(0, "1/10"), at_epsilon("1/10", "1/5", left=(Fraction(9, 10), LEFT[1]))
+    sentence = HorseshoeFamily((one, two)).sentence
+    assert f"epsilon in [0, 0.1]: {one.strips.named}, e = 0; epsilon in [0.1, 0.2]: " in sentence
+    assert f"{two.strips.named}, e = 0. All" in sentence and one.strips != two.strips
 
 
 @pytest.mark.parametrize(
