@@ -32,7 +32,7 @@ class FlightsEnd(Conclusion):
         turns = self.at.eta[0].denominator
         return (
             f"no flight after a plastic impact lasts for {turns} turn{'s' if turns > 1 else ''} of "
-            "the table: before that it would be where the mass is, and beyond."
+            "the table: before that the table would reach the mass, and pass it."
         )
 
 
