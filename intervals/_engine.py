@@ -8,7 +8,8 @@ only: fewer are done sooner without it.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from typing import Any
 
@@ -57,3 +58,14 @@ def use(interval: type, operations: dict[str, Method]) -> None:
     """Have Interval compute by these."""
     for name, operation in operations.items():
         setattr(interval, name, operation)
+
+
+@contextmanager
+def by_mpmath(interval: type) -> Iterator[None]:
+    """Have Interval compute by mpmath inside the `with`: to the same bits, where it is watched."""
+    before = {name: getattr(interval, name) for name in BY_MPMATH}
+    use(interval, BY_MPMATH)
+    try:
+        yield
+    finally:
+        use(interval, before)

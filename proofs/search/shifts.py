@@ -131,7 +131,7 @@ def pairs(seen: Sequence[Piece], *, rising: bool) -> Iterator[tuple[Range, Range
     """Yield I0 and I1, with ever less spare, on which f seems to be a full shift; or increases."""
     found = [x for x in symbols(seen) if x[0].images[0] < x[0].images[-1] or not rising]
     for family in families(found, 2):
-        yield from ((left, right) for left, right in islice(with_spare(family), 1))
+        yield from ((left, right) for left, right in with_spare(family))
 
 
 def own_sets(of: Parameters) -> Parameters | None:

@@ -24,6 +24,9 @@ from contextlib import contextmanager
 from types import CodeType, FrameType
 from typing import Any, NamedTuple
 
+from intervals import Interval
+from intervals._engine import by_mpmath
+
 GAP, RATES, SLOPE, SECOND, MATRIX = "gap", "gap', gap'', along jets", "f'", "f''", "DF"
 GRID = "gap and gap'', phases x times"
 FORMULAS = "other formulas"
@@ -62,7 +65,8 @@ def counted() -> Iterator[Counts]:
     before = sys.getprofile()
     sys.setprofile(_observer(counts))
     try:
-        yield counts
+        with by_mpmath(Interval):  # whose operations are watched here
+            yield counts
     finally:
         sys.setprofile(before)
 
