@@ -40,7 +40,7 @@ def zeros(
     box: Given,
     *,
     where: Function | None = None,
-    tolerance: float = 2.0**-44,
+    tolerance: float = 2.0**-38,
     limit: int = 100_000,
 ) -> list[SystemResult]:
     """Return boxes that together contain all zeros of f in the given box, sorted.
