@@ -5,10 +5,10 @@ Boxes are n IntervalArrays of the shape (N,): the i-th sides of N boxes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from typing import TypeAlias, TypeVar, cast
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,16 @@ def select(boxes: Boxes, index: slice | Mask) -> Boxes:
 def join(parts: Sequence[Boxes]) -> Boxes:
     """Return all boxes of the parts."""
     return tuple(concatenated(sides) for sides in zip(*parts, strict=True))
+
+
+def all_of(masks: Iterable[Any]) -> Mask:
+    """Return where all masks hold."""
+    return np.asarray(np.logical_and.reduce([np.asarray(mask) for mask in masks]))
+
+
+def meets(boxes: Iterable[Any], other: Iterable[Any]) -> Mask:
+    """Return which boxes have a point in common with another one."""
+    return all_of(~x.disjoint(y) for x, y in zip(boxes, other, strict=True))
 
 
 def concatenated(arrays: Sequence[IntervalArray], axis: int = 0) -> IntervalArray:

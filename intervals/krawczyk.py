@@ -31,13 +31,14 @@ Equations, 1990, chapter 5.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple, TypeAlias, cast, overload
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals.array import IntervalArray, Mask
+from intervals.branch import all_of
 from intervals.generic import meet, middle, where
 from intervals.interval import Interval
 from intervals.miranda import signs_on_faces
@@ -156,16 +157,12 @@ def _contract(f: Function, box: Box, image: _Image, steps: int) -> _State:
         pairs = list(zip(image(f, box, inverse, derivatives), box, strict=True))
         for y, x, value in zip(*zip(*pairs, strict=True), values, strict=True):
             none = none | y.disjoint(x) | np.logical_not(value.contains_zero())
-        unique = unique | _all(y.subset(x) & np.logical_not(y.equal(x)) for y, x in pairs)
+        unique = unique | all_of(y.subset(x) & np.logical_not(y.equal(x)) for y, x in pairs)
         box = tuple(meet(x, y) for y, x in pairs)
-        stalled = _all(4 * y.wid >= 3 * x.wid for y, (_, x) in zip(box, pairs, strict=True))
+        stalled = all_of(4 * y.wid >= 3 * x.wid for y, (_, x) in zip(box, pairs, strict=True))
         if (none | stalled).all():
             break
     return _State(none, unique, tuple(box), inverse, derivatives)
-
-
-def _all(masks: Iterable[Any]) -> Mask:
-    return cast(Mask, np.logical_and.reduce([np.asarray(mask) for mask in masks]))
 
 
 def _krawczyk_image(f: Function, box: Box, inverse: Matrix, derivatives: Matrix) -> list[Any]:

@@ -5,7 +5,6 @@ See `search` for what a box and a function may be.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import partial
 from math import inf
 from typing import TypeAlias
@@ -16,10 +15,12 @@ from intervals.array import IntervalArray, Mask
 from intervals.branch import (
     Boxes,
     Given,
+    all_of,
     as_box,
     clusters,
     evaluated,
     join,
+    meets,
     one_box,
     select,
     split,
@@ -79,7 +80,7 @@ def zeros(
         small.append(select(waiting, ~cut))
         waiting = halves
     zero, unclear = _distinct(f, join(found))
-    small.append(_common(select(unclear, _meets(unclear, given)), given))
+    small.append(_common(select(unclear, meets(unclear, given)), given))
     results = [r for one in _each(zero) for r in _in_given(f, one, given)]
     results += _examined(f, join(small), zero)
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
@@ -119,7 +120,7 @@ def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
             continue
         none, unique, image = final
         found += _each(select(around, unique))
-        rest.append(select(_common(here, image), ~none & ~unique & _meets(here, image)))
+        rest.append(select(_common(here, image), ~none & ~unique & meets(here, image)))
     return found, join(rest)
 
 
@@ -150,16 +151,7 @@ def _common(boxes: Boxes, other: Boxes) -> Boxes:
 
 def _inside(boxes: Boxes, other: Boxes) -> Mask:
     """Return which boxes are subsets of another one."""
-    return _all(x.subset(y) for x, y in zip(boxes, other, strict=True))
-
-
-def _meets(boxes: Boxes, other: Boxes) -> Mask:
-    """Return which boxes have a point in common with another one."""
-    return _all(~x.disjoint(y) for x, y in zip(boxes, other, strict=True))
-
-
-def _all(masks: Iterable[Mask]) -> Mask:
-    return np.asarray(np.logical_and.reduce(list(masks)))
+    return all_of(x.subset(y) for x, y in zip(boxes, other, strict=True))
 
 
 def _distinct(f: Function, around: Boxes) -> tuple[Boxes, Boxes]:
@@ -172,7 +164,7 @@ def _distinct(f: Function, around: Boxes) -> tuple[Boxes, Boxes]:
     for i, (one, near) in enumerate(zip(_each(zero), _each(around), strict=True)):
         same = _inside(one, around) | _inside(zero, near)
         if not (same & distinct).any():
-            unclear[i] = (_meets(zero, one) & distinct).any()
+            unclear[i] = (meets(zero, one) & distinct).any()
             distinct[i] = not unclear[i]
     return select(zero, distinct), select(zero, unclear)
 
@@ -182,7 +174,7 @@ def _in_given(f: Function, zero: Boxes, given: Boxes) -> list[SystemResult]:
     reason = "exactly one zero in a larger box"
     if _inside(zero, given):
         return [SystemResult(Roots.UNIQUE, as_box(zero, 0), reason)]
-    if not _meets(zero, given):
+    if not meets(zero, given):
         return []
     outcome, box, why = krawczyk(f, as_box(_common(zero, given), 0))
     if outcome is Roots.NONE:
@@ -206,7 +198,7 @@ def _examined(f: Function, boxes: Boxes, zero: Boxes) -> list[SystemResult]:
         if outcome is Roots.UNIQUE:
             if _inside(zero, hull).any():
                 continue
-            if _meets(zero, hull).any():
+            if meets(zero, hull).any():
                 outcome, reason = Roots.UNDECIDED, "perhaps the zero of another box"
         if outcome is not Roots.NONE:
             results.append(SystemResult(outcome, box, reason))

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from intervals import Interval, IntervalArray
 from intervals.array import Mask
-from intervals.branch import Boxes, evaluated, one_box, select
+from intervals.branch import Boxes, all_of, evaluated, one_box, select
 from intervals.generic import meet, middle
 from intervals.systems import Function, components, dot, jacobian
 from proofs.methods.formulas import Intervals
@@ -75,12 +75,12 @@ class Region:
     def contains(self, boxes: Boxes) -> Mask:
         """Which boxes are proved to lie in the region."""
         inside = [x.subset(side) for x, side in zip(boxes, self.box, strict=True)]
-        return _all([*inside, *(v.inf >= 0 for v in self._values(boxes))])
+        return all_of([*inside, *(v.inf >= 0 for v in self._values(boxes))])
 
     def misses(self, boxes: Boxes) -> Mask:
         """Which boxes are proved to have no point in it."""
         meets = [~x.disjoint(side) for x, side in zip(boxes, self.box, strict=True)]
-        return ~_all([*meets, *(v.sup >= 0 for v in self._values(boxes))])
+        return ~all_of([*meets, *(v.sup >= 0 for v in self._values(boxes))])
 
     def _values(self, boxes: Boxes) -> list[IntervalArray]:
         return components(self.g(*boxes)) if self.g else []
@@ -245,7 +245,3 @@ def _parts(ends: Floats, x: IntervalArray) -> tuple[Indices, Indices]:
     first = np.searchsorted(ends[1:], x.inf, side="left")
     last = np.searchsorted(ends[:-1], x.sup, side="right") - 1
     return first.astype(np.int64), last.astype(np.int64)
-
-
-def _all(masks: Sequence[Any]) -> Mask:
-    return np.asarray(np.logical_and.reduce([np.asarray(mask) for mask in masks]))

@@ -30,7 +30,7 @@ import numpy as np
 
 from intervals import Interval, IntervalArray, Undecided
 from intervals.array import Mask
-from intervals.branch import Boxes, as_box, select
+from intervals.branch import Boxes, as_box, meets, select
 from intervals.krawczyk import contract
 from intervals.newton import Roots
 from intervals.systems import Function, components, jacobian
@@ -160,7 +160,7 @@ def _periods(cover: Cover, period: int, points: list[Boxes]) -> dict[int, int]:
         turned = [*points[k:], *points[:k]]
         for i in np.flatnonzero(~(points[k][0].inf > points[0][0].sup)).tolist():
             here = [select(point, slice(i, i + 1)) for point in turned]
-            for j in np.flatnonzero(_meet(here, points)).tolist():
+            for j in np.flatnonzero(meets(_flat(here), _flat(points))).tolist():
                 if not _same(system, here, [select(point, slice(j, j + 1)) for point in points]):
                     raise Undecided(f"whether two orbits are one, in {as_box(here[0], 0)}")
                 if i != j:
@@ -168,12 +168,6 @@ def _periods(cover: Cover, period: int, points: list[Boxes]) -> dict[int, int]:
                 elif i in found:
                     found[i] = min(k, found[i])
     return found
-
-
-def _meet(points: list[Boxes], other: list[Boxes]) -> Mask:
-    """Return where all points have boxes that meet."""
-    pairs = zip(_flat(points), _flat(other), strict=True)
-    return np.asarray(np.logical_and.reduce([~x.disjoint(y) for x, y in pairs]))
 
 
 def _same(system: Function, points: list[Boxes], other: list[Boxes]) -> bool:

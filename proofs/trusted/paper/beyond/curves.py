@@ -27,7 +27,6 @@ TRACE = (
     f"(cos{X}**2*((1 - epsilon)**2 - (1 + epsilon)**2*nu*sin(phi)/(1 + nu*sin(phi))/eta**2)"
     " + 2*epsilon)"
 )
-_BY_A = "({0}D({1}, a) - {0}D({1}, delta))"
 _MATRIX = (
     f"z*(D({E14}, b) + D({E14}, delta)) + D({E14}, a) - D({E14}, delta)",
     f"D({E14}, gamma)",
