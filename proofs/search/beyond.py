@@ -6,10 +6,11 @@ Horseshoes and attractors are found in floating point; what is not proved then i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from time import monotonic
 from types import MappingProxyType
 
@@ -17,7 +18,7 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, Evidence, Proof, Tell
+from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.loops import loops
 from proofs.search.s34_chaos import FASTEST, prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
@@ -62,6 +63,13 @@ class Budget:
         if monotonic() > self._until:
             raise Undecided(f"stopped after {self._seconds:g} seconds, as asked")
 
+    @contextmanager
+    def attempt(self, undone: Callable[[], AbstractContextManager[None]]) -> Iterator[None]:
+        """One search within the budget: nothing is left of it if it fails."""
+        with undone():
+            self.check()
+            yield
+
 
 @dataclass(frozen=True)
 class Run:
@@ -89,21 +97,19 @@ def prove(
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
     run = Run(prover, Budget(of.eta, effort, seconds))
     found = Evidence(prover.steps, {claim: [] for claim in claims})
-    for claim in claims:
-        if claim not in _SEARCHES:
-            continue
-        if of.eta > FASTEST:
-            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
-            continue
-        stage, search = _SEARCHES[claim]
-        tell(stage)
-        try:
-            with prover.undone():
-                run.budget.check()
-                found.proofs[claim] = search(run)
-        except FAILED as failure:
-            found.notes[claim] = str(failure)
-    return found
+    if too_fast(of, found, _SEARCHES):
+        return found
+    within = partial(run.budget.attempt, prover.undone)
+    return search_each(found, claims, _SEARCHES, tell, run, within=within)
+
+
+def too_fast(of: Parameters, found: Evidence, searches: Iterable[str]) -> bool:
+    """Whether eta is too large for any search, which is noted at each claim that asks for one."""
+    if of.eta <= FASTEST:
+        return False
+    note = f"for eta > {FASTEST} flights are not followed"
+    found.notes |= dict.fromkeys(found.proofs.keys() & set(searches), note)
+    return True
 
 
 def _cells(parts: Sequence[Part]) -> list[dict[str, object]]:

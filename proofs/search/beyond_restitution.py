@@ -7,17 +7,17 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.beyond import EFFORT, Budget
-from proofs.search.evidence import FAILED, Evidence, Proof, Tell
+from proofs.search.beyond import EFFORT, Budget, too_fast
+from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
-from proofs.search.s34_chaos import FASTEST
 from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
@@ -36,20 +36,11 @@ def prove(
 ) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
-    budget, found = Budget(of.eta, effort, seconds), Evidence(prover.steps)
-    for claim in claims:
-        found.proofs[claim] = []
-        if claim in _SEARCHES and of.eta > FASTEST:
-            found.notes[claim] = f"for eta > {FASTEST} flights are not followed"
-        elif claim in _SEARCHES and of.epsilon is not None:
-            stage, search = _SEARCHES[claim]
-            tell(stage)
-            try:
-                with prover.attempt():
-                    budget.check()
-                    found.proofs[claim] = search(prover, budget)
-            except FAILED as failure:
-                found.notes[claim] = str(failure)
+    budget = Budget(of.eta, effort, seconds)
+    found = Evidence(prover.steps, {claim: [] for claim in claims})
+    if not too_fast(of, found, _SEARCHES) and of.epsilon is not None:
+        within = partial(budget.attempt, prover.attempt)
+        search_each(found, claims, _SEARCHES, tell, prover, budget, within=within)
     found.steps = prover.steps
     return found
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -26,3 +27,28 @@ class Evidence:
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     proofs: dict[str, Proof] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
+
+
+def search_each(
+    found: Evidence,
+    claims: Iterable[str],
+    searches: Mapping[str, tuple[str, Callable[..., Proof]]],
+    tell: Tell,
+    *about: Any,
+    within: Callable[[], AbstractContextManager[object]] = nullcontext,
+) -> Evidence:
+    """Search for what each claim rests on, within a context of its own; note what fails.
+
+    searches: what is told of a claim, and the function that proves steps, given what it is about.
+    """
+    for claim in claims:
+        if claim not in searches:
+            continue
+        stage, search = searches[claim]
+        tell(stage)
+        try:
+            with within():
+                found.proofs[claim] = search(*about)
+        except FAILED as failure:
+            found.notes[claim] = str(failure)
+    return found

@@ -19,7 +19,7 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.landing import short
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
-from proofs.search.evidence import FAILED, Evidence, Proof
+from proofs.search.evidence import FAILED, Evidence, Proof, search_each
 from proofs.search.s34_chaos import prove_covering
 from proofs.search.s34_laps import FINE, NEWTON, Images, Laps, flight, middle, record, rise, zero
 from proofs.search.steps import Prover
@@ -64,15 +64,7 @@ def prove(
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
     evidence = Evidence(prover.steps, {claim: [] for claim in claims})
-    whole = _Whole(prover)
-    for claim in claims:
-        stage, search = _SEARCHES[claim]
-        tell(stage)
-        try:
-            evidence.proofs[claim] = search(whole)
-        except FAILED as failure:
-            evidence.notes[claim] = str(failure)
-    return evidence
+    return search_each(evidence, claims, _SEARCHES, tell, _Whole(prover))
 
 
 @dataclass
