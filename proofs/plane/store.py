@@ -32,7 +32,7 @@ def quarters(key: str) -> list[str]:
 
 
 class Held(ValueError):
-    """Another run writes to the store, or it is about another region."""
+    """A store is not to be had: another run writes to it, or it is about another region."""
 
 
 class Store:
@@ -88,7 +88,7 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
     path = folder / NAME
     if region is None and not path.is_file():
         raise Held(f"there is no {path}")
-    with _locked(folder), closing(sqlite3.connect(path)) as connection:
+    with _locked(folder), _told(path), closing(sqlite3.connect(path)) as connection:
         connection.executescript(_TABLES)
         known = connection.execute("SELECT text FROM region").fetchone()
         if known is None and region is not None:
@@ -99,7 +99,17 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
         if own is None or region not in (None, own):
             raise Held(f"{path} is about another region or question")
         yield Store(connection, own)
-        connection.execute("PRAGMA journal_mode = DELETE")  # one file again, to be read anywhere
+        with suppress(sqlite3.OperationalError):  # it is read just now, as by the checker
+            connection.execute("PRAGMA journal_mode = DELETE")  # one file again
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn what SQLite says, of a full disk or a file that is no store, into one line."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        raise Held(f"{path}: {error}") from None
 
 
 @contextmanager

@@ -3,10 +3,12 @@
 import json
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
 from concurrent.futures import Future
+from contextlib import closing
 from fractions import Fraction
 
 import pytest
@@ -17,6 +19,7 @@ from proofs.plane import picture, summary
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
 from proofs.report.figures.style import style
+from proofs.report.layout import percent
 from proofs.trusted.atlas import check_store
 from proofs.trusted.verdicts import Verdict
 
@@ -74,7 +77,7 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
     words, share = "every motion comes to rest", made["share_of_area"]["AtRest"]
     for name in ("atlas.svg", "atlas.html"):
         text = (tmp_path / name).read_text()
-        assert words in text and picture.percent(share) in text
+        assert words in text and percent(share) in text
     assert "cut in four" in (tmp_path / "cost.svg").read_text()
 
 
@@ -161,6 +164,31 @@ def test_a_second_head_is_refused(tmp_path, capsys):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert "another run writes to" in done.stderr
+
+
+def test_a_store_may_be_read_while_a_run_ends(tmp_path):
+    """As the checker reads it, row by row; a run that begins meanwhile is refused in a line."""
+    assert atlas.main([*SMALL, "--depth", "1", "--quiet", "--out", str(tmp_path)]) == 1
+    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
+        with opened(tmp_path, None) as store:
+            reading = reader.execute("SELECT key FROM cells")
+            assert reading.fetchone()
+            store.reopen(2)
+        assert len(reading.fetchall()) == 4
+    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
+        assert reader.execute("PRAGMA journal_mode = DELETE").fetchone() == ("delete",)
+        reading = reader.execute("SELECT key FROM cells")
+        assert reading.fetchone()
+        with pytest.raises(Held, match="locked"), opened(tmp_path, None):
+            pass
+
+
+def test_what_is_no_store_is_one_line(tmp_path, capsys):
+    (tmp_path / NAME).write_text("no store, and long enough for a header of a hundred bytes" * 9)
+    with pytest.raises(SystemExit) as left:
+        atlas.main([*SMALL, "--out", str(tmp_path)])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "not a database" in said and said.count("\n") == 1
 
 
 @pytest.mark.parametrize(
