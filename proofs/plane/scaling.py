@@ -43,13 +43,16 @@ examples:
 
 
 class Spent(NamedTuple):
-    """Of a run: cells, their CPU seconds, those of workers and of the head, seconds."""
+    """Of a run: cells, their CPU seconds, those of workers and of the head, seconds; and the share
+    of the seconds in which workers have work.
+    """
 
     cells: int
     work: float
     workers: float
     head: float
     seconds: float
+    busy: float
 
     @property
     def line(self) -> str:
@@ -57,15 +60,17 @@ class Spent(NamedTuple):
         overhead = (self.head + self.workers) / self.work - 1
         return (
             f"{self.cells} cells, {self.work:.2f} CPU s on them; workers {self.workers:.2f}, head "
-            f"{self.head:.2f} CPU s: overhead {100 * overhead:.1f} %; {self.seconds:.2f} s"
+            f"{self.head:.2f} CPU s: overhead {100 * overhead:.1f} %; {self.seconds:.2f} s, "
+            f"workers have work for {100 * self.busy:.0f} % of it"
         )
 
 
 class Metered(Executor):
-    """Another executor, with the CPU time of each of its processes."""
+    """Another executor, with the CPU time of each of its processes, and how long it has work."""
 
     def __init__(self, inner: Executor) -> None:
         self._inner, self._ends = inner, dict[int, tuple[float, float]]()
+        self.seconds = 0.0
 
     def submit(self, work: Callable[..., Any], /, *data: Any, **more: Any) -> Future[Any]:
         """Return what the work gives, and note what its process had used before and after."""
@@ -75,7 +80,8 @@ class Metered(Executor):
             if (error := timed.exception()) is not None:
                 result.set_exception(error)
                 return
-            process, began, ended, given = timed.result()
+            process, began, ended, seconds, given = timed.result()
+            self.seconds += seconds
             first, last = self._ends.get(process, (began, ended))
             self._ends[process] = min(first, began), max(last, ended)
             result.set_result(given)
@@ -90,10 +96,10 @@ class Metered(Executor):
         return sum(last - first for first, last in others)
 
 
-def _timed(work: Callable[..., Any], *data: Any) -> tuple[int, float, float, Any]:
-    began = process_time()
+def _timed(work: Callable[..., Any], *data: Any) -> tuple[int, float, float, float, Any]:
+    clock, began = perf_counter(), process_time()
     given = work(*data)
-    return os.getpid(), began, process_time(), given
+    return os.getpid(), began, process_time(), perf_counter() - clock, given
 
 
 class Replay(Here):
@@ -113,6 +119,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("folder", type=Path, metavar="DIR")
     pairs = "how often each is measured (default 1)"
     parser.add_argument("--pairs", type=whole("--pairs", 100), default=1, metavar="N", help=pairs)
+    chunk = f"cells that go out together (default {_CHUNK})"
+    parser.add_argument(
+        "--chunk", type=whole("--chunk", 10_000), default=_CHUNK, metavar="N", help=chunk
+    )
     options = parser.parse_args(arguments)
     try:
         with opened(options.folder, None) as store:
@@ -122,19 +132,19 @@ def main(arguments: list[str] | None = None) -> int:
     if not rows:
         parser.error(f"{options.folder / NAME} has no cells")
     with progress() as tell:
-        for line in _lines(region, rows, options.pairs, tell):
+        for line in _lines(region, rows, options.pairs, options.chunk, tell):
             say(line)
     return 0
 
 
 def _lines(
-    region: Region, rows: dict[str, Cell], pairs: int, tell: Callable[[str], None]
+    region: Region, rows: dict[str, Cell], pairs: int, chunk: int, tell: Callable[[str], None]
 ) -> Iterator[str]:
     size = sum(len(pickle.dumps(row)) for row in rows.values()) / len(rows)
     for name, (jobs, where) in pairs * [*_WAYS.items()]:
         if where == "here" or find_spec("distributed") is not None:
             tell(name)
-            yield f"{name}: {_again(region, rows, jobs, where).line}"
+            yield f"{name}: {_again(region, rows, chunk, jobs, where).line}"
     tell("the head")
     spent, stored = _replayed(region, rows)
     yield f"the head alone: {spent / len(rows) * 1e6:.0f} CPU microseconds a row"
@@ -148,7 +158,7 @@ def _lines(
         )
 
 
-def _again(region: Region, rows: dict[str, Cell], jobs: int, where: str) -> Spent:
+def _again(region: Region, rows: dict[str, Cell], chunk: int, jobs: int, where: str) -> Spent:
     """Compute all cells again, in a store of their own."""
     depth = max(len(key.partition("/")[2]) for key in rows)
     with (
@@ -159,9 +169,10 @@ def _again(region: Region, rows: dict[str, Cell], jobs: int, where: str) -> Spen
         wait([pool.submit(_warm) for _ in range(4 * count)])
         metered = Metered(pool)
         clock, head = perf_counter(), process_time()
-        cells = run(store, depth, (metered, count), _CHUNK)
+        cells = run(store, depth, (metered, count), chunk)
         head, seconds = process_time() - head, perf_counter() - clock
-        return Spent(cells, store.seconds(), metered.workers, head, seconds)
+        busy = metered.seconds / (count * seconds)
+        return Spent(cells, store.seconds(), metered.workers, head, seconds, busy)
 
 
 def _warm() -> None:

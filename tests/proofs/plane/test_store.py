@@ -17,12 +17,14 @@ import pytest
 from proofs import atlas
 from proofs.check import main as check
 from proofs.plane import picture, summary
+from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
 from proofs.report.figures.style import style
 from proofs.report.layout import percent
 from proofs.trusted.atlas import SPLIT, check_store, without_proof
 from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import check as prove
 
 F = Fraction
 SMALL = ["--eta", "0.2115", "0.2127", "--nu", "-0.201", "-0.199", "--ask", "horseshoe"]
@@ -222,14 +224,64 @@ def test_memory_does_not_grow_with_the_number_of_cells(tmp_path):
 
     region = atlas.Region((F("0.2"), F("0.3")), (F("0.1"), F("0.2")), "horseshoe")
     peaks, counts = [], []
-    for depth in (4, 6):
+    for depth in (3, 5):
         with opened(tmp_path, region) as store:
             tracemalloc.start()
             counts.append(run(store, depth, (Cuts(), 1), 16))
             peaks.append(tracemalloc.get_traced_memory()[1])
             tracemalloc.stop()
         (tmp_path / NAME).unlink()
-    assert counts == [341, 5461] and peaks[1] < 2 * peaks[0]
+    assert counts == [85, 1365] and peaks[1] < 2 * peaks[0]
+
+
+@pytest.fixture
+def small(tmp_path):
+    """An atlas with two cells that are proved, and two that are not."""
+    region = atlas.Region((F("0.2121"), F("0.2122")), (F("-0.2"), F("-0.1999")), "horseshoe")
+    with opened(tmp_path, region) as store:
+        store.put([without_proof(region, "0/", SPLIT, "")])
+        store.put([without_proof(region, key, "UNDECIDED", "why") for key in ("0/0", "0/3")])
+        store.put(decide(region, 1, [("0/1", ""), ("0/2", "")]))
+    return tmp_path
+
+
+def test_cells_as_a_table_are_those_of_the_store(small, capsys, monkeypatch):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    monkeypatch.setattr("proofs.plane.export._AT_A_TIME", 3)
+    path = small / "cells.parquet"
+    assert atlas.main(["--out", str(small), "--export", str(path)]) == 0
+    assert f"4 cells: {path}" in capsys.readouterr().out
+    table = parquet.read_table(path)
+    assert json.loads(table.schema.metadata[b"atlas"])["question"] == "horseshoe"
+    rows = {row["key"]: row for row in table.to_pylist()}
+    with opened(small, None) as store:
+        cells = {cell.key: cell for cell in store.rows() if cell.verdict != SPLIT}
+        region = store.region
+    assert rows.keys() == cells.keys() and rows["0/0"]["certificate"] is None
+    for key, row in rows.items():
+        cell, box = cells[key], region.box(key)
+        assert all(
+            row[name] == getattr(cell, name)
+            for name in row.keys() & {*cell._fields} - {"certificate"}
+        )
+        assert (row["eta_from"], row["eta_to"]) == tuple(map(float, box.eta))
+        assert (row["nu_from"], row["nu_to"]) == tuple(map(float, box.nu))
+        if key in ("0/1", "0/2"):
+            assert prove(row["certificate"]).parameters == box
+
+
+def test_a_table_that_cannot_be_written_is_one_line(small, capsys, monkeypatch):
+    monkeypatch.setattr(atlas, "find_spec", lambda name: None)
+    with pytest.raises(SystemExit) as left:
+        atlas.main(["--out", str(small), "--export", "cells.parquet"])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "impact-proofs[parquet]" in said and said.count("\n") == 1
+    monkeypatch.undo()
+    pytest.importorskip("pyarrow")
+    with pytest.raises(SystemExit) as left:
+        atlas.main(["--out", str(small), "--export", str(small)])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "not a regular file" in said and said.count("\n") == 1
 
 
 @pytest.mark.parametrize(
