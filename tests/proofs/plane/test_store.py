@@ -15,6 +15,7 @@ from fractions import Fraction
 import pytest
 
 from proofs import atlas
+from proofs.check import _mapped
 from proofs.check import main as check
 from proofs.plane import picture, summary
 from proofs.plane.cells import decide
@@ -282,6 +283,26 @@ def test_a_table_that_cannot_be_written_is_one_line(small, capsys, monkeypatch):
         atlas.main(["--out", str(small), "--export", str(small)])
     said = capsys.readouterr().err
     assert left.value.code == 2 and "not a regular file" in said and said.count("\n") == 1
+
+
+def test_a_check_without_a_reader_blames_no_file(small, monkeypatch):
+    """Where output is not buffered, as by python -u: the file can be read, the line not written."""
+
+    def closed(text, stream=None):
+        if stream is None:
+            raise BrokenPipeError
+
+    monkeypatch.setattr("proofs.check.say", closed)
+    with pytest.raises(BrokenPipeError):
+        check([str(small / NAME)])
+
+
+def test_the_checker_reads_few_rows_ahead_and_keeps_their_order():
+    read = []
+    rows = (read.append(k) or k for k in range(10_000))
+    found = _mapped(Here(), 2, str, rows)
+    assert [next(found) for _ in range(5)] == ["0", "1", "2", "3", "4"] and len(read) < 500
+    assert list(found) == [str(k) for k in range(5, 10_000)]
 
 
 @pytest.mark.parametrize(
