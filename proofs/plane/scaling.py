@@ -151,9 +151,9 @@ def _lines(
     yield f"a row: {size:.0f} bytes on the way, {stored / len(rows):.0f} in the store"
     if find_spec("distributed") is not None:
         tell("the scheduler")
-        spent, seconds = _scheduled(int(_CHUNK * size))
+        spent, seconds = _scheduled(int(chunk * size))
         yield (
-            f"Dask's scheduler: {_TASKS} chunks of {_CHUNK} rows without work, "
+            f"Dask's scheduler: {_TASKS} chunks of {chunk} rows without work, "
             f"{spent / _TASKS * 1e3:.2f} CPU milliseconds each, {_TASKS / seconds:.0f} a second"
         )
 

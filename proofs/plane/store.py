@@ -22,8 +22,8 @@ _TABLES = f"""
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = NORMAL;
 CREATE TABLE IF NOT EXISTS region (text TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS cells ({_COLUMNS}) WITHOUT ROWID;
-"""
+CREATE TABLE IF NOT EXISTS cells ({_COLUMNS});
+"""  # WITHOUT ROWID would put each certificate on a page of its own, four times its size
 _LEFT = """
 WITH digits (digit) AS (VALUES ('0'), ('1'), ('2'), ('3'))
 SELECT key || digit, sets FROM cells, digits WHERE verdict = ?
