@@ -232,7 +232,7 @@ def test_f_between_grazes_and_the_horseshoe_that_they_carry(known):
         m for m in range(1, len(ends)) if all(a < ends[0] and ends[m] < b for a, b in images[:m])
     ]
     assert between.full == max(fulls) == 2
-    assert "every sequence of 2 symbols" in between.sentence
+    assert "each infinite sequence of them" in between.sentence
 
 
 def test_pieces_between_other_grazes_are_not_told_of(known, roots):
@@ -245,8 +245,12 @@ def test_pieces_between_other_grazes_are_not_told_of(known, roots):
     last = [x for x in pieces.arcs if isinstance(x, Grazing) and not x.below]
     with pytest.raises(Unproved, match="no piece"):
         Between(pieces, tuple(last))
+    with pytest.raises(Unproved, match="the same turns"):
+        Between(pieces, (grazes[0], replace(grazes[1], turn=grazes[1].turn + 1)))
+    with pytest.raises(Unproved, match="the same turns"):
+        Between(pieces, (replace(grazes[0], landing=None), grazes[1]))
     assert Between(pieces, grazes[2:]).full < 2
-    assert "symbols" not in Between(pieces, grazes[2:]).sentence
+    assert "sequence" not in Between(pieces, grazes[2:]).sentence
 
 
 # -- lies ------------------------------------------------------------------------------------------
