@@ -24,10 +24,10 @@ class Between(Conclusion):
     """Theorem. Let grazes, in order, be those at the ends of pieces that follow one another, with
     f' > 0, the impacts after a piece in one window. Then what the sentence says.
 
-    Proof. On a piece f is monotone, between its limits at the grazes, less the same turns. Let the first m pieces all
-    have images that contain the phases from phi_1 to phi_(m+1). Each has a compact part that f maps
-    onto these, apart from the grazes, whose limits are beyond; so for each sequence of pieces the
-    phases that follow it for n steps are compact, not empty, and nested.
+    Proof. On a piece f is monotone, between its limits at the grazes, less the same turns. Let the
+    first m pieces all have images that contain the phases from phi_1 to phi_(m+1). Each has a
+    compact part that f maps onto these, apart from the grazes, whose limits are beyond; so for each
+    sequence of pieces the phases that follow it for n steps are compact, not empty, and nested.
     """
 
     pieces: Pieces
