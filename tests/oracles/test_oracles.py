@@ -34,6 +34,7 @@ OWN = (  # beyond the paper
     *(("explore", *at) for at in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"))),
     ("explore", "2", "-0.2"),
     ("rebounding", "0.5", "0.2"),
+    ("rebounding", "0.7", "-0.4"),
 )
 
 

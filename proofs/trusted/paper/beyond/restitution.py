@@ -1,4 +1,4 @@
-"""Motions with restitution, at any parameters: chaos, stable motions, rest. Rows X6 to X8."""
+"""Motions with restitution, at any parameters: chaos, stable motions, rest. Rows X6 to X9."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.touching import touching_family
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -81,6 +83,13 @@ def _rests(of: Parameters, found: Found) -> Decision:
     return undecided("whether rebounds become weaker is not proved")
 
 
+def _touches(of: Parameters, found: Found) -> Decision:
+    never = found.first(NeverImpacts)
+    if never is None or not of.epsilon or of.epsilon >= 1:
+        return undecided("for 0 < epsilon < 1, no flights without an end are proved")
+    return decided(Verdict.VERIFIED, touching_family(never))
+
+
 _AT = "At (eta, nu) = ({eta}, {nu}), epsilon = {epsilon}: "
 ROWS = (
     Row(
@@ -99,4 +108,12 @@ ROWS = (
         _stable,
     ),
     Row("X8", "beyond", "", _AT + "every motion comes to rest on the table for ever.", _rests),
+    Row(
+        "X9",
+        "beyond",
+        "",
+        _AT + "an open set of states is attracted to motions that touch the table for ever, "
+        "without relative velocity.",
+        _touches,
+    ),
 )

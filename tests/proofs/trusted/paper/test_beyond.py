@@ -297,12 +297,14 @@ ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
 ]
 
 
-REBOUNDING = [  # verdicts of X6 to X8; by simulation in the oracles
-    ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED"),
-    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED"),
-    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED"),
-    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED"),
-    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED"),
+REBOUNDING = [  # verdicts of X6 to X9; by simulation in the oracles
+    ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED VERIFIED"),
+    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED VERIFIED"),
+    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED UNDECIDED"),
+    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED UNDECIDED"),
+    ("0.7", "-0.4", "0", "UNDECIDED UNDECIDED REFUTED UNDECIDED"),
+    ("0.7", "-0.4", "0.2", "UNDECIDED UNDECIDED REFUTED VERIFIED"),
 ]
 
 
@@ -312,7 +314,7 @@ def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu), epsilon=F(epsilon), reach=None)
     made = produce({"rebounding": BEYOND["rebounding"]}, of, digits=20, effort=1)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
-    assert len(check(made.certificate).claims) == 3
+    assert len(check(made.certificate).claims) == 4
 
 
 @pytest.mark.slow
