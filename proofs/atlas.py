@@ -13,15 +13,16 @@ if __name__ == "__main__":
 
     launch("proofs.atlas")
 
-import io
 import json
 from argparse import ArgumentTypeError, Namespace
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from proofs.plane import summary
 from proofs.plane.head import executor, run
 from proofs.plane.store import NAME, Held, Store, opened
+from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, number, progress, share, whole
 from proofs.shell.files import check_folder, write_target, writing
 from proofs.shell.screen import say
@@ -36,8 +37,10 @@ Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. A depth of 5
 32nd of the region's sides at the smallest; a greater depth goes on with what is undecided.
 
 DIR has atlas.sqlite, which `proofs.check` proves again, cell by cell; atlas.json, areas and a
-digest; and, with matplotlib, atlas.svg and atlas.png. --executor dask:HOST:PORT sends the cells to
-a Dask scheduler, dask: to one of this machine (pip install 'impact-proofs[cluster]').
+digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of single-impact orbits on
+top; cost.svg, what cells cost; atlas.html, where each cell says what is proved in it.
+--executor dask:HOST:PORT sends the cells to a Dask scheduler, dask: to one of this machine (pip
+install 'impact-proofs[cluster]').
 
 exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
 
@@ -121,8 +124,12 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     made = summary.summary(store)
     with writing(options.out) as put:
         put("atlas.json", json.dumps(made, indent=1) + "\n")
-    if find_spec("matplotlib"):
-        _draw(options.out, store)
+    if packages := missing():
+        say(f"{parser.prog}: no pictures and page, {', '.join(packages)} missing: {INSTALL}")
+    else:
+        with progress() as tell:
+            tell("pictures")
+            _draw(options.out, store, made)
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
     if not options.quiet and options.json != "-":
         for line in summary.lines(made, store.region):
@@ -131,15 +138,25 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
 
 
-def _draw(folder: Path, store: Store) -> None:
+def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
+    """Write the pictures, and the page with all cells unless these are too many."""
+    from proofs.plane import cost, page, picture
     from proofs.report.figures.style import style, svg_of
 
+    files: dict[str, str | bytes] = {}
+    shown = picture.shown(store, made)
     with style("atlas"):
-        drawing, image = summary.picture(store), io.BytesIO()
-        drawing.savefig(image, format="png", dpi=200)
-        with writing(folder) as put:
-            put("atlas.svg", svg_of(drawing, "atlas", "What is proved where"))
-        (folder / "atlas.png").write_bytes(image.getvalue())
+        drawing = picture.picture(store.region, shown)
+        files["atlas.png"] = picture.png(drawing)
+        files["atlas.svg"] = svg_of(drawing, "atlas", made["holds"])
+    with style("cost"):
+        files["cost.svg"] = spent = svg_of(cost.figure(cost.costs(store)), "cost", "CPU time")
+    if sum(made["cells"].values()) <= page.MOST:
+        beside = sorted(path.name for path in folder.glob("cell-*.json"))
+        files["atlas.html"] = page.page(store, shown, spent, beside)
+    with writing(folder) as put:
+        for name, content in files.items():
+            put(name, content)
 
 
 def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:

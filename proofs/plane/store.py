@@ -70,6 +70,10 @@ class Store:
         query = f"SELECT {_FIELDS} FROM cells WHERE verdict IN ({marks}) ORDER BY key"
         yield from map(Cell._make, self._rows.execute(query, [x.value for x in verdicts]))
 
+    def costs(self) -> Iterator[tuple[str, str, float]]:
+        """Yield key, verdict and seconds of all rows."""
+        yield from self._rows.execute("SELECT key, verdict, seconds FROM cells")
+
     def seconds(self) -> float:
         """Return the work on all cells."""
         return float(self._rows.execute("SELECT total(seconds) FROM cells").fetchone()[0])

@@ -1,13 +1,14 @@
-"""What an atlas amounts to: areas, work, a digest; and its picture."""
+"""What an atlas amounts to: areas, work, a digest."""
 
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from hashlib import sha256
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from proofs.plane.store import Store, quarters
 from proofs.trusted.atlas import QUESTIONS, Cell, Region, area
@@ -15,10 +16,9 @@ from proofs.trusted.certificate import box_to_json
 from proofs.trusted.numbers import floor_text, show_range
 from proofs.trusted.verdicts import Verdict
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
-
 LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
+NOT_YET = "not looked at"
+_VERDICTS = [verdict.value for verdict in LEAVES]
 _WORDS = {
     "CoveringShift": "a full shift on two symbols is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
@@ -28,33 +28,45 @@ _WORDS = {
 }
 
 
+def words(kind: str) -> str:
+    """Return what a conclusion of a kind says, in a few words."""
+    return _WORDS.get(kind, re.sub(r"(?<!^)(?=[A-Z])", " ", kind).lower())
+
+
+def kinds(names: Iterable[str]) -> list[str]:
+    """Return kinds of conclusions in the order in which they are shown."""
+    return sorted(names, key=lambda name: (name not in _WORDS, [*_WORDS, name].index(name), name))
+
+
 def summary(store: Store) -> dict[str, Any]:
     """Return what is proved on which area, of all cells so far.
 
     digest: SHA-256 of the lines "key verdict digest-of-the-certificate", in the order of the keys.
     """
     region, digest = store.region, sha256()
-    cells, kinds, areas = Counter[str](), Counter[str](), defaultdict[str, Fraction](Fraction)
+    cells, counts, areas = Counter[str](), Counter[str](), defaultdict[str, Fraction](Fraction)
     reasons = Counter[str]()
     for cell in store.cells(*LEAVES):
         size = area(region.box(cell.key))
         cells[cell.verdict] += 1
         areas[cell.verdict] += size
         if cell.kind:
-            kinds[cell.kind] += 1
+            counts[cell.kind] += 1
+            areas[cell.kind] += size
         else:
             reasons[cell.conclusion] += 1
         digest.update(f"{cell.key} {cell.verdict} {cell.sha256 or '-'}\n".encode())
     whole = sum(map(area, region.roots), Fraction(0))
-    shares = {x.value: floor_text(areas[x.value] / whole) for x in LEAVES}
+    shares = {name: floor_text(areas[name] / whole) for name in (*_VERDICTS, *kinds(counts))}
+    left = 1 - sum(areas[name] for name in _VERDICTS) / whole
     return {
         **json.loads(region.text),
         "holds": QUESTIONS[region.question].holds,
         "opposite": QUESTIONS[region.question].opposite,
         "parts": [box_to_json(root) for root in region.roots],
         "cells": dict(cells),
-        "share_of_area": shares | {"not looked at": floor_text(1 - sum(areas.values()) / whole)},
-        "kinds": dict(kinds),
+        "share_of_area": shares | {NOT_YET: floor_text(left)},
+        "kinds": {kind: counts[kind] for kind in kinds(counts)},
         "undecided_because": dict(reasons.most_common(8)),
         "cpu_seconds": f"{store.seconds():.1f}",
         "digest": f"sha256:{digest.hexdigest()}",
@@ -73,36 +85,12 @@ def lines(made: dict[str, Any], region: Region) -> Iterator[str]:
         count, share = made["cells"].get(verdict.value, 0), made["share_of_area"][verdict.value]
         yield f"{verdict.value:10} {count:8} cells, {share} of the area"
     for kind, count in made["kinds"].items():
-        yield f"  {count} cells: {_WORDS[kind]}"
+        yield f"  {count} cells, {made['share_of_area'][kind]} of the area: {words(kind)}"
     for why, count in made["undecided_because"].items():
         yield f"  {count} cells undecided: {why}"
-    if made["share_of_area"]["not looked at"] != "0":
-        yield f"not looked at yet: {made['share_of_area']['not looked at']} of the area"
+    if made["share_of_area"][NOT_YET] != "0":
+        yield f"not looked at yet: {made['share_of_area'][NOT_YET]} of the area"
     yield f"{made['cpu_seconds']} CPU seconds on cells; {made['digest']}"
-
-
-def picture(store: Store) -> Drawing:
-    """Draw the cells, each in the colour of what is proved in it; what is blank is undecided."""
-    from proofs.report.figures import style
-
-    region, found = store.region, defaultdict[str, list[str]](list)
-    for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
-        found[cell.kind].append(cell.key)
-    colours = style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.GREY
-    drawing, axes = style.sheet(4.6)
-    for kind, colour in zip(_WORDS, colours, strict=True):
-        boxes = [region.box(key) for key in merged(found[kind])]
-        if boxes:
-            sides = [(box.eta, box.nu) for box in boxes]
-            style.proved_boxes(axes, sides, colour, _WORDS[kind], lw=0)
-    axes.set(xlabel="eta", ylabel="nu", xlim=_ends(region.eta), ylim=_ends(region.nu))
-    if any(found.values()):
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
-    return drawing
-
-
-def _ends(side: tuple[Fraction, Fraction]) -> tuple[float, float]:
-    return float(side[0]), float(side[1])
 
 
 def merged(keys: Iterable[str]) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -47,6 +48,23 @@ def page(
     checker: Checker | None = None,
 ) -> str:
     """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs."""
+    return rendered(
+        "page.html",
+        view=View(findings, figures, inlined(drawn)),
+        RESTS=RESTS,
+        title=PAPER_TITLE,
+        policy=_POLICY_OF_CHECKER if checker else POLICY,
+        summary=summary(findings),
+        sections=list(findings.sections()),
+        graph=Markup(graph.svg(findings)),
+        falling=graph.falling(findings),
+        figures=figures,
+        checker=checker,
+    )
+
+
+def rendered(template: str, **known: Any) -> str:
+    """Return a page by a template, which may include other files of its folder as they are."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
         autoescape=True,
@@ -54,22 +72,14 @@ def page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    view = View(findings, figures, inlined(drawn))
-    environment.globals.update(view=view, RESTS=RESTS)
+    known = {"policy": POLICY, **known}
+    environment.globals.update(known, text_of=_text_of)
     environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
-    return environment.get_template("page.html").render(
-        title=PAPER_TITLE,
-        policy=_POLICY_OF_CHECKER if checker else POLICY,
-        summary=summary(findings),
-        sections=list(findings.sections()),
-        style=Markup((_TEMPLATES / "style.css").read_text(encoding="utf-8")),
-        script=Markup((_TEMPLATES / "page.js").read_text(encoding="utf-8")),
-        graph=Markup(graph.svg(findings)),
-        falling=graph.falling(findings),
-        figures=figures,
-        checker=checker,
-        checker_script=Markup((_TEMPLATES / "checker.js").read_text(encoding="utf-8")),
-    )
+    return environment.get_template(template).render()
+
+
+def _text_of(name: str) -> Markup:
+    return Markup((_TEMPLATES / name).read_text(encoding="utf-8"))
 
 
 @dataclass(frozen=True)

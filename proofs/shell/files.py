@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from proofs.shell.cli import Parser
 
-Put = Callable[[str, str], None]  # a name in the folder, and what the file is to hold
+Put = Callable[[str, str | bytes], None]  # a name in the folder, and what the file is to hold
 
 
 @contextmanager
@@ -29,11 +29,11 @@ def writing(folder: Path) -> Iterator[Put]:
     folder.mkdir(parents=True, exist_ok=True)
     parts: dict[Path, Path] = {}
 
-    def put(name: str, content: str) -> None:
+    def put(name: str, content: str | bytes) -> None:
         _check_place(folder / name)
         parts[folder / name] = part = folder / f".{name}.{os.getpid()}.part"
-        with part.open("w", encoding="utf-8") as file:
-            file.write(content)
+        with part.open("wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
             os.fsync(file.fileno())
 

@@ -28,12 +28,17 @@ _COLOURS = {"folds": GREEN, "flips": ORANGE, "where it begins to stick": PURPLE}
 _DASHES = ("-", (0, (4, 1)))  # of n = 1, 2
 
 
-def _closed(n: int, q: Fraction, window: int) -> Iterator[tuple[str, list[float], list[float]]]:
-    """Yield the closed forms between multiples of 1/(2 n), where they are below |nu| = 1."""
-    low, high, side = window / (2 * n), (window + 1) / (2 * n), -1 if window % 2 else 1
+def closed(
+    n: int, q: Fraction, low: float, high: float
+) -> Iterator[tuple[str, list[float], list[float]]]:
+    """Yield the closed forms (row C1) where they are below |nu| = 1: names, eta, nu.
+
+    low, high: of eta, both in one interval between multiples of 1/(2 n).
+    """
+    window = math.floor(n * (low + high))
     etas = [low + (high - low) * (k + 0.5) / _POINTS for k in range(_POINTS)]
     found: dict[str, list[float]] = {"folds": [], "flips": []}
-    if q == 1 and high <= 1 / n:
+    if q == 1 and window < 2:
         found["where it begins to stick"] = []
     for eta in etas:
         x, own = math.pi * n * eta, float(q)
@@ -45,9 +50,19 @@ def _closed(n: int, q: Fraction, window: int) -> Iterator[tuple[str, list[float]
         for name, nus in found.items():
             p = shares[name]
             nu = math.sqrt(nu_squared(n, q, (eta, p), math.pi)) if p < 1 else math.nan
-            nus.append(side * nu if nu < 1 else math.nan)
+            nus.append((-1) ** window * nu if nu < 1 else math.nan)
     for name, nus in found.items():
         yield name, etas, nus
+
+
+def along(curve: GrazingCurve) -> tuple[list[float], list[float]]:
+    """Return eta and nu at the ends of the boxes of a curve, at the middle of what is proved."""
+    ends = [piece.cut(ETA, piece.box[ETA][0]) for piece in curve.arc.pieces]
+    last = curve.arc.pieces[-1]
+    ends.append(last.cut(ETA, last.box[ETA][1]))
+    return [float(end[ETA][0]) for end in ends], [
+        float(sum(amplitude(curve, end)) / 2) for end in ends
+    ]
 
 
 def plot(proved: Context) -> Drawing:
@@ -62,16 +77,13 @@ def plot(proved: Context) -> Drawing:
         return text if new else "_"
 
     for curve in all_of(proved, GrazingCurve):
-        ends = [piece.cut(ETA, piece.box[ETA][0]) for piece in curve.arc.pieces]
-        last = curve.arc.pieces[-1]
-        ends.append(last.cut(ETA, last.box[ETA][1]))
-        nus = [float(sum(amplitude(curve, end)) / 2) for end in ends]
         label, dashes = once(f"grazing, n = {curve.n}"), _DASHES[(curve.n - 1) % 2]
-        etas = [float(end[ETA][0]) for end in ends]
-        axes.plot(etas, nus, color=BLUE, lw=1.8, ls=dashes, gid=PROVED, label=label)
+        axes.plot(*along(curve), color=BLUE, lw=1.8, ls=dashes, gid=PROVED, label=label)
     for n in sorted({curve.n for curve in all_of(proved, GrazingCurve)}):
         for window in range(_WIDEST * 2 * n):
-            for name, etas, nus in _closed(n, ratio(epsilon), window):
+            for name, etas, nus in closed(
+                n, ratio(epsilon), window / (2 * n), (window + 1) / (2 * n)
+            ):
                 style = {"color": _COLOURS[name], "lw": 0.7, "ls": _DASHES[(n - 1) % 2]}
                 axes.plot(etas, nus, **style, label=once(f"{name}, n = {n}"))
     for each in all_of(proved, Meeting):

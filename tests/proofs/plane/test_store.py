@@ -13,7 +13,7 @@ import pytest
 
 from proofs import atlas
 from proofs.check import main as check
-from proofs.plane import summary
+from proofs.plane import picture, summary
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
 from proofs.report.figures.style import style
@@ -29,7 +29,7 @@ LARGE = ["--eta", "0.211", "0.2134", "--nu", "-0.204", "-0.2", "--ask", "horsesh
 def draw(monkeypatch):
     """Pictures take longer than all else here: what makes one is returned, not done."""
     made = atlas._draw
-    monkeypatch.setattr(atlas, "_draw", lambda folder, store: None)
+    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made: None)
     return made
 
 
@@ -57,19 +57,25 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
 
 def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
     with opened(
-        tmp_path, atlas.Region((F("0.5"), F("0.6")), (F("0.1"), F("0.6")), "horseshoe")
+        tmp_path, atlas.Region((F("0.45"), F("0.5")), (F("0.1"), F("0.6")), "horseshoe")
     ) as store:
         run(store, 2, (Here(), 1), 16)
+        made = summary.summary(store)
         with style("atlas"):
-            (path,) = summary.picture(store).axes[0].patches
-        draw(tmp_path, store)
+            drawing = picture.picture(store.region, picture.shown(store, made))
+        (path,) = drawing.axes[0].patches[1:]  # but for what is below it
+        draw(tmp_path, store, made)
         proved = {cell.key for cell in store.cells(Verdict.REFUTED)}
         inside = [path.get_path().contains_point(middle(store.region.box(key))) for key in proved]
         left = [cell.key for cell in store.cells(Verdict.UNDECIDED)]
     assert proved and all(inside) and left
     assert not any(path.get_path().contains_point(middle(store.region.box(key))) for key in left)
     assert (tmp_path / "atlas.png").read_bytes().startswith(b"\x89PNG")
-    assert "every motion comes to rest" in (tmp_path / "atlas.svg").read_text()
+    words, share = "every motion comes to rest", made["share_of_area"]["AtRest"]
+    for name in ("atlas.svg", "atlas.html"):
+        text = (tmp_path / name).read_text()
+        assert words in text and picture.percent(share) in text
+    assert "cut in four" in (tmp_path / "cost.svg").read_text()
 
 
 def middle(box):

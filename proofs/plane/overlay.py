@@ -1,0 +1,121 @@
+"""What is drawn over the cells: curves of single-impact orbits, in closed form or proved here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from proofs.report.figures.curves import along, closed
+from proofs.report.figures.figure import all_of
+from proofs.search.curves import Curves, Seen, seen_curves
+from proofs.search.evidence import FAILED
+from proofs.trusted.atlas import Region
+from proofs.trusted.certificate import SCHEMA, render
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared
+from proofs.trusted.paper.beyond.meetings import Meeting
+from proofs.trusted.verify import premises
+
+PERIODS = 5  # of the table, at most, between the impacts of an orbit
+GRAZING = "grazing"
+_MOST_SEEN = 80  # points of curves of grazing that are seen, for which proofs are looked for
+Points = list[tuple[float, float]]
+
+
+class Line(NamedTuple):
+    """A piece of a curve: of what, of orbits with one impact in n table periods, and where."""
+
+    name: str
+    n: int
+    points: Points
+
+
+class Overlay(NamedTuple):
+    """Lines, and proved points at which two of them meet."""
+
+    lines: list[Line]
+    meetings: Points
+
+
+def overlay(region: Region) -> Overlay:
+    """Return the curves that pass through a region, impacts being plastic."""
+    proved = _grazing(region)
+    found = list(_closed(region))
+    for curve in all_of(proved, GrazingCurve) if proved else ():
+        found.append((GRAZING, curve.n, list(zip(*along(curve), strict=True))))
+    meetings = [
+        (float(sum(each.box[0]) / 2), float(sum(each.amplitude) / 2))
+        for each in (all_of(proved, Meeting) if proved else ())
+    ]
+    lines = [Line(name, n, part) for name, n, points in found for part in _inside(region, points)]
+    return Overlay(lines, [place for place in meetings if _holds(region, place)])
+
+
+def _holds(region: Region, place: tuple[float, float]) -> bool:
+    (low, high), (least, most) = region.eta, region.nu
+    return low <= place[0] <= high and least <= place[1] <= most
+
+
+def _inside(region: Region, points: Points) -> Iterator[Points]:
+    """Yield the parts of a curve that pass through a region, with an end outside on each side."""
+    part: Points = []
+    for one, two in pairwise(points):
+        if any(map(math.isnan, (one[1], two[1]))) or not (
+            _holds(region, one) or _holds(region, two)
+        ):
+            if part:
+                yield part
+            part = []
+        else:
+            part = [*(part or [one]), two]
+    if part:
+        yield part
+
+
+def _closed(region: Region) -> Iterator[tuple[str, int, Points]]:
+    low, high = region.eta
+    for n in range(1, PERIODS + 1):
+        unit = Fraction(1, 2 * n)
+        for window in range(low // unit, -(-high // unit)):
+            ends = max(low, window * unit), min(high, (window + 1) * unit)
+            for name, etas, nus in closed(n, Fraction(1), *map(float, ends)):
+                yield name, n, list(zip(etas, nus, strict=True))
+
+
+def _grazing(region: Region) -> Context | None:
+    """Prove and check the curves of grazing that are seen to pass through a region."""
+    made, left = Curves(Fraction(0), {}), _MOST_SEEN
+    for n in range(1, PERIODS + 1):
+        for run in seen_curves(n, Fraction(0)):
+            part = _near(region, n, run)
+            left -= len(part)
+            if part and left >= 0:
+                with suppress(*FAILED):
+                    made.grazing(n, part)
+    if not made.found:
+        return None
+    claims = [name for name, _ in made.found + made.meetings]
+    head: dict[str, Any] = {"schema": SCHEMA, "parameters": None, "functions": {}}
+    return premises(render({**head, "steps": made.steps, "claims": claims}))
+
+
+def _near(region: Region, n: int, run: list[Seen]) -> list[Seen]:
+    """Return the part of a curve, as it is seen, from before to after it is in a region."""
+    side = -1 if 2 * n * run[0].eta // 1 % 2 else 1
+
+    def nu(seen: Seen) -> float:
+        return side * math.sqrt(nu_squared(n, Fraction(1), (float(seen.eta), seen.p), math.pi))
+
+    places = [(float(seen.eta), nu(seen)) for seen in run]
+    crossed = [k for k, two in enumerate(pairwise(places)) if _crosses(region, *two)]
+    return run[crossed[0] : crossed[-1] + 2] if crossed else []
+
+
+def _crosses(region: Region, one: tuple[float, float], two: tuple[float, float]) -> bool:
+    """Whether the box around two points meets a region."""
+    sides = zip(one, two, (region.eta, region.nu), strict=True)
+    return all(min(a, b) <= side[1] and max(a, b) >= side[0] for a, b, side in sides)

@@ -1,0 +1,121 @@
+"""The picture of an atlas: cells in the colours of what is proved in them, curves on top."""
+
+from __future__ import annotations
+
+import io
+from collections import defaultdict
+from collections.abc import Sequence
+from fractions import Fraction
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from proofs.plane.overlay import GRAZING, Line, Overlay, overlay
+from proofs.plane.store import Store
+from proofs.plane.summary import NOT_YET, kinds, merged, words
+from proofs.report.figures import style
+from proofs.trusted.atlas import Region
+from proofs.trusted.verdicts import Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+COLOURS = "#7FB8D8", "#7FCEB9", "#F2CF7F", "#E5BCD3", "#C9C9C9", "#ABDAF4", "#EAAE7F"
+UNDECIDED = "#F1F1EF"
+STROKES = MappingProxyType(
+    {
+        GRAZING: (style.RED, 1.8, ()),
+        "folds": (style.BLACK, 1.0, ()),
+        "flips": (style.BLACK, 1.0, (5, 2)),
+        "where it begins to stick": (style.BLACK, 1.0, (1, 2)),
+    }
+)  # colour, width, dashes
+MEETINGS = "grazing meets another one"
+
+
+class Shown(NamedTuple):
+    """What is shown of an atlas: its summary, cells by kind of conclusion, curves over them."""
+
+    made: dict[str, Any]
+    found: dict[str, list[str]]
+    over: Overlay
+
+
+def shown(store: Store, made: dict[str, Any]) -> Shown:
+    """Return what is shown of a store: cells, as few as are the same part of the plane."""
+    found = defaultdict[str, list[str]](list)
+    for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
+        found[cell.kind].append(cell.key)
+    return Shown(made, {x: merged(keys) for x, keys in found.items()}, overlay(store.region))
+
+
+def coloured(found: Sequence[str]) -> dict[str, str]:
+    """Return the colour of each kind of conclusion that is found, in the order of a legend."""
+    return {kind: COLOURS[k % len(COLOURS)] for k, kind in enumerate(kinds(found))}
+
+
+def picture(region: Region, shown: Shown) -> Drawing:
+    """Draw an atlas, the shares of the area in the legend."""
+    made, found, over = shown
+    shares = made["share_of_area"]
+    drawing, axes = style.sheet(5.4)
+    undecided = f"undecided: {percent(shares[Verdict.UNDECIDED.value])}"
+    if shares[NOT_YET] != "0":
+        undecided += f"; {NOT_YET}: {percent(shares[NOT_YET])}"
+    axes.set_facecolor(UNDECIDED)
+    axes.fill([], [], color=UNDECIDED, label=undecided)
+    for kind, colour in coloured([*found]).items():
+        boxes = [region.box(key) for key in found[kind]]
+        label = f"{words(kind)}: {percent(shares[kind])}"
+        style.proved_boxes(axes, [(x.eta, x.nu) for x in boxes], colour, label, lw=0)
+    _draw_lines(axes, region, over)
+    axes.set(xlabel=r"$\eta$", ylabel=r"$\nu$", xlim=_ends(region.eta), ylim=_ends(region.nu))
+    axes.set_title(f"{region.question}: {made['holds']}", wrap=True)
+    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower left", ncols=2)
+    return drawing
+
+
+def png(drawing: Drawing) -> bytes:
+    """Return a drawing as PNG."""
+    image = io.BytesIO()
+    drawing.savefig(image, format="png", dpi=200)
+    return image.getvalue()
+
+
+def percent(share: str) -> str:
+    """Return a share, rounded down to a tenth of a percent."""
+    tenths = int(Fraction(share) * 1000)
+    return f"{tenths // 10}.{tenths % 10} %"
+
+
+def _ends(side: tuple[Fraction, Fraction]) -> tuple[float, float]:
+    return float(side[0]), float(side[1])
+
+
+def _draw_lines(axes: Axes, region: Region, over: Overlay) -> None:
+    names = [line.name for line in over.lines]
+    for k, line in enumerate(over.lines):
+        colour, width, dashes = STROKES[line.name]
+        label = line.name if line.name not in names[:k] else "_"
+        proved = style.PROVED if line.name == GRAZING else None
+        (stroke,) = axes.plot(*zip(*line.points, strict=True), color=colour, lw=width, gid=proved)
+        stroke.set_label(label)
+        if dashes:
+            stroke.set_dashes(dashes)
+        x, y = named(region, line)
+        box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}
+        axes.text(x, y, f"n = {line.n}", ha="center", va="center", fontsize=6, bbox=box)
+    if over.meetings:
+        places = zip(*over.meetings, strict=True)
+        axes.plot(*places, "o", color=style.BLACK, markersize=4, gid=style.PROVED, label=MEETINGS)
+
+
+def named(region: Region, line: Line) -> tuple[float, float]:
+    """Return where the name of a line is: along it, inside of a region, for each kind elsewhere."""
+    inside = [
+        place
+        for place in line.points
+        if region.eta[0] <= place[0] <= region.eta[1] and region.nu[0] <= place[1] <= region.nu[1]
+    ]
+    share = (1 + [*STROKES].index(line.name)) / (1 + len(STROKES))
+    return inside[int(len(inside) * share)] if inside else line.points[0]
