@@ -1,8 +1,9 @@
 """Whether the pages of a folder are those that would be made now, so that they need not be.
 
 `.pages` in the folder says from what they were made, and which they are: the digests of all
-certificates there, of this program and of the packages that it draws with; and of each page. It
-proves nothing, and where it is missing pages are made again.
+certificates there, of this program and of the packages that it draws with; and of each page. The
+certificates were checked then, so that the ledger of what has not changed is as it was; it is no
+proof, and where it is missing all is checked, and pages are made again.
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ import pytest
 from proofs.report import build as report
 from proofs.report import current
 from proofs.shell import files
+from proofs.shell import ledger as shell
 from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.verify import check
@@ -39,11 +40,52 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
     assert [each.id for each in check((tmp_path / "horseshoe.json").read_text()).claims] == FLAT
     before = (tmp_path / "horseshoe.json").stat().st_mtime_ns
     assert "proved and checked" in capsys.readouterr().out
+    (tmp_path / current.NAME).unlink()
     assert run(tmp_path) == 0
     assert "checked again" in capsys.readouterr().out
     assert (tmp_path / "horseshoe.json").stat().st_mtime_ns == before
     assert run(tmp_path, "--fresh") == 0
     assert "proved and checked" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_nothing_is_checked_again_where_nothing_has_changed(tmp_path, monkeypatch, capsys):
+    """Neither certificates nor pages nor the program: else all is, and a forgery is found."""
+
+    def ran(*more):
+        assert main(["--only", "H16", "--out", str(tmp_path), *more]) == 0
+        return capsys.readouterr().out
+
+    def drawn(folder, *arguments, **known):
+        return {"ledger.md": (folder / "ledger.json").read_text()}
+
+    monkeypatch.setattr(report, "built", drawn)
+    assert "proved and checked" in ran()
+    found = (tmp_path / "ledger.json").read_text()
+    assert "nothing has changed" in ran() and ran("--json", "-") == found
+    for name in ("horseshoe.json", "ledger.json", "MANIFEST.json", "ledger.md"):
+        path = tmp_path / name
+        path.write_text(path.read_text().replace('"VERIFIED"', '"REFUTED"', 1))
+        assert "nothing has changed" not in ran(), name
+        assert (tmp_path / "ledger.json").read_text() == found
+        assert "nothing has changed" in ran()
+    for more in (["--digits", "30"], ["--fresh"], ["--stats"], ["--only", "H11"]):
+        assert "nothing has changed" not in ran(*more), more
+    assert "nothing has changed" not in ran() and "nothing has changed" in ran()
+    monkeypatch.setattr(current, "_digests", without("trusted/verify.py"))
+    assert "checked again" in ran() and "nothing has changed" in ran()
+
+
+def test_what_is_undecided_is_tried_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(current, "pages", lambda *about: {"ledger.md"})
+    rows = [{"id": claim, "verdict": "UNDECIDED"} for claim in FLAT]
+    (tmp_path / "ledger.json").write_text(json.dumps({"claims": rows}))
+    assert shell._unchanged(tmp_path, FLAT) is None
+    (tmp_path / "ledger.json").write_text(
+        json.dumps({"claims": [{**row, "verdict": "VERIFIED"} for row in rows]})
+    )
+    assert shell._unchanged(tmp_path, FLAT) is not None
+    assert shell._unchanged(tmp_path, FLAT[:2]) is None
 
 
 def test_pages_are_made_again_only_where_something_has_changed(tmp_path, monkeypatch, capsys):
