@@ -198,14 +198,14 @@ def contract(f: Function, box: Given, targets: Sequence[Exact | Interval]) -> Co
 
 
 def contracted(
-    formula: Formula, boxes: Boxes, targets: Sequence[IntervalArray]
+    formula: Formula, boxes: Boxes, targets: Sequence[IntervalArray], *, sweeps: int = _SWEEPS
 ) -> tuple[Boxes, Mask]:
     """Return the same for N boxes: their parts, and where there is none, so that they mean nothing.
 
     DomainError or OverflowError where f has no enclosure over a box.
     """
     empty = np.zeros(len(boxes[0]), dtype=bool)
-    for _ in range(_SWEEPS):
+    for _ in range(sweeps):
         left = _forward(formula, boxes)
         for output, target in zip(formula.outputs, targets, strict=True):
             empty |= _cut(left, output, target)

@@ -20,6 +20,7 @@ from intervals.branch import (
     clusters,
     evaluated,
     join,
+    larger,
     meets,
     one_box,
     select,
@@ -110,9 +111,9 @@ def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
     """
     operator = partial(contract, f, steps=2)
     found, rest = [], []
-    for part, answer in evaluated(operator, _larger(boxes)):
+    for part, answer in evaluated(operator, tuple(map(larger, boxes))):
         here = select(boxes, part)
-        around = _larger(here) if answer else here
+        around = tuple(map(larger, here)) if answer else here
         final = answer or next(evaluated(operator, here))[1]
         if final is None:
             if _may_vanish(f, here):
@@ -128,16 +129,6 @@ def _may_vanish(f: Function, boxes: Boxes) -> bool:
     """Whether f over one box has no enclosure, or one that contains 0."""
     ((_, values),) = evaluated(lambda x: components(f(*x)), boxes)
     return values is None or all(y.contains_zero() for y in values)
-
-
-def _larger(boxes: Boxes) -> Boxes:
-    """Return boxes that contain the given ones, as a rule in their interior."""
-    result = []
-    for x in boxes:
-        reach = x.wid / 8 + np.maximum(abs(x.inf), abs(x.sup)) * 2.0**-45 + 2.0**-1000
-        low, high = np.maximum(x.inf - reach, -MAX), np.minimum(x.sup + reach, MAX)
-        result.append(IntervalArray.from_floats(np.minimum(low, x.inf), np.maximum(high, x.sup)))
-    return tuple(result)
 
 
 def _each(boxes: Boxes) -> list[Boxes]:

@@ -26,7 +26,12 @@ from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
 HENON = henon("7/5", "3/10")
 CORNERS = [("-1.33", "0.42"), ("-1.06", "-0.5"), ("1.245", "-0.14"), ("1.32", "0.133")]
-CYCLES = dict(enumerate([1, 1, 0, 1, 0, 2, 4, 7, 6, 10, 14, 19, 32, 44, 72, 102, 166, 233], 1))
+TABLE = """
+1 1 0 1 0 2 4 7 6 10 14 19 32 44 72 102 166 233 364 535 834 1225 1930 2902 4498 6806 10518 16031
+24740 37936
+"""
+CYCLES = dict(enumerate(map(int, TABLE.split()), 1))  # by their least periods
+SAMPLE = 40  # orbits of a period that are looked at one by one
 
 
 @cache
@@ -103,7 +108,7 @@ def check_cycles(periods):
         assert len(found) == CYCLES[n]
         fixed = sum(d * CYCLES[d] for d in range(1, n + 1) if n % d == 0)
         assert sum(orbit.period for orbit in orbits) == fixed
-        for orbit in found:
+        for orbit in found[:: 1 + len(found) // SAMPLE]:
             check_orbit(orbit)
 
 
@@ -135,19 +140,19 @@ def newton(point, orbit):
     return point
 
 
-@pytest.mark.slow
 def test_all_cycles_up_to_period_six():
     check_cycles(range(1, 7))
 
 
 @pytest.mark.slow
-def test_all_cycles_of_the_periods_seven_to_ten():
-    check_cycles(range(7, 11))
+@pytest.mark.parametrize("period", [*range(7, 13), 18])
+def test_all_cycles_of_longer_periods(period):
+    check_cycles([period])
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("period", [12, 13, 18])
-def test_all_cycles_of_long_periods(period):
+@pytest.mark.parametrize("period", [22, 24, 26])
+def test_all_cycles_of_the_longest_periods(period):
     check_cycles([period])
 
 
