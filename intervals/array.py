@@ -213,6 +213,8 @@ class IntervalArray(Relations[Mask], Elementary):
         if isinstance(other, IntervalArray):
             a, b = aligned(self._rows, other._rows)
             return -a[0], a[1], -b[0], b[1]
+        if type(other) is int and abs(other) < 2**53:
+            return self.inf, self._rows[1], float(other), float(other)
         return self.inf, self.sup, *ends(other)
 
     def overlap(self, other: IntervalArray) -> NDArray[np.object_]:

@@ -32,6 +32,7 @@ from intervals.generic import meet
 from intervals.krawczyk import SystemResult, contract, krawczyk
 from intervals.newton import Roots
 from intervals.rounding import MAX
+from intervals.shaving import shaved
 from intervals.systems import Function, components
 
 Demand: TypeAlias = "tuple[Formula, list[IntervalArray]]"
@@ -54,13 +55,13 @@ def zeros(
     exactly one zero in the given box, and two such boxes different ones; AT_LEAST_ONE and UNDECIDED
     are as in `krawczyk`, and may also be about a zero of another box. No box: no zero.
 
-    Proof. Each sub-box X is cut by `contracted`, and replaced by its common part with the Krawczyk
-    image of a larger X', which has all zeros of X' and thus of X. Where there is exactly one in X',
-    X is done, and so is each sub-box within X'. A zero on the common face of two sub-boxes is
-    inside the larger boxes of both, and may be found twice: if the box of one zero is within the
-    larger box of another, the two are the same. Sub-boxes whose sides are below `tolerance` times
-    those of the given box, and those left after `limit` ones, are joined where they meet and
-    examined by `krawczyk`.
+    Proof. Each sub-box X is cut by `contracted` and `shaved`, and replaced by its common part with
+    the Krawczyk image of a larger X', which has all zeros of X' and thus of X. Where there is
+    exactly one in X', X is done, and so is each sub-box within X'. A zero on the common face of two
+    sub-boxes is inside the larger boxes of both, and may be found twice: if the box of one zero is
+    within the larger box of another, the two are the same. Sub-boxes whose sides are below
+    `tolerance` times those of the given box, and those left after `limit` ones, are joined where
+    they meet and examined by `krawczyk`.
     """
     given = one_box(box)
     nothing = select(given, slice(0))
@@ -96,11 +97,17 @@ def _formulas(f: Function, where: Function | None, count: int) -> list[Demand]:
 
 def _cut(demand: Demand, boxes: Boxes) -> Boxes:
     """Return parts of the boxes with all that fulfil the demand."""
+    formula, targets = demand
+
+    def contract(x: Boxes) -> tuple[Boxes, Mask]:
+        return contracted(formula, x, targets)
+
     rest = [select(boxes, slice(0))]
-    for part, answer in evaluated(lambda x: contracted(demand[0], x, demand[1]), boxes):
+    for part, answer in evaluated(contract, boxes):
         smaller, empty = answer or (select(boxes, part), np.zeros(1, dtype=bool))
         rest.append(select(smaller, ~empty))
-    return join(rest)
+    smaller, empty = shaved(contract, join(rest))
+    return select(smaller, ~empty)
 
 
 def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
