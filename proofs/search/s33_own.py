@@ -78,7 +78,7 @@ def rectangles(
     system: System, epsilon: Fraction, symbols: list[Symbol]
 ) -> Iterator[tuple[Sets, Range]]:
     """Yield two sets of phases, and velocities, on which F seems to be a full shift."""
-    rising = [one for one in symbols if one[0].images[0] < one[0].images[-1]]
+    rising = [one for one in symbols if not one[0].falls]
     for family in families(rising, 2):
         for spare in _SPARES:
             start = plastic_cells(family, spare)
