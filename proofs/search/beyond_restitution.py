@@ -52,7 +52,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     epsilon = of.epsilon or Fraction(0)
     at = Place((of.eta,) * 2, (of.nu,) * 2, (epsilon,) * 2)
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
-    failure = "no two rectangles are seen that F maps across both, left to left"
+    failure = "no two rectangles are seen that F maps across both"
     for (sets, velocities), _ in zip(
         rectangles(system, epsilon, seen), range(budget.tries), strict=False
     ):

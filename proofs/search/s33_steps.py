@@ -191,7 +191,9 @@ class ReboundProver:
         """Prove that F maps both rectangles across both."""
         with self.attempt():
             for ends in sets:
-                low, high = (self.rebound(at, (end, end), self.velocities)[1].phase for end in ends)
+                low, high = sorted(
+                    self.rebound(at, (end, end), self.velocities)[1].phase for end in ends
+                )
                 short = max(low[1] - sets[0][0], sets[1][1] - high[0])
                 if short >= 0:
                     raise Unproved(f"an edge may fall short by up to {float(short):.6g}")

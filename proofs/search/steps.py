@@ -142,7 +142,7 @@ class Prover:
         parts = [x[1].over(domain) for x, domain in zip((left, right), domains, strict=True)]
         if parts[0] is None or parts[1] is None:
             raise Unproved("f' is not known on I0 and I1")
-        bounds = hull([(part.minimum[0], part.maximum[1]) for part in parts if part is not None])
+        bounds = hull([part.bounds(part.sign) for part in parts if part is not None])
         slopes = rounded_slopes(bounds, digits)
         found = horseshoe(parts[0], parts[1], gap[1], slopes)
         named = zip((left[0], right[0]), domains, strict=True)

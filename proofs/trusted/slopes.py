@@ -50,6 +50,12 @@ class Impact(Conclusion):
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
 
 
+def signed(slope: Range, sign: int) -> Range:
+    """Return bounds on f' times a sign."""
+    low, high = slope
+    return (low, high) if sign > 0 else (-high, -low)
+
+
 @dataclass(frozen=True)
 class SlopeRange(Conclusion):
     """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between."""
@@ -92,6 +98,15 @@ class SlopeRange(Conclusion):
     def maximum(self) -> Range:
         """The greatest f'."""
         return max(low for low, _ in self.slopes), max(high for _, high in self.pieces)
+
+    def bounds(self, sign: int = 1) -> Range:
+        """Return bounds on f' times a sign."""
+        return signed((self.minimum[0], self.maximum[1]), sign)
+
+    @property
+    def sign(self) -> int:
+        """1 where f' > 0 is proved, -1 where f' < 0 is, or else 0."""
+        return int(self.minimum[0] > 0) - int(self.maximum[1] < 0)
 
     @property
     def expands(self) -> bool:

@@ -28,7 +28,7 @@ _MORE = {  # properties that sentences or rows rest on
 }
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",
-    "velocities", "reach",
+    "velocities", "reach", "signs",
 )  # fmt: skip
 
 

@@ -182,6 +182,7 @@ FALSE = {
         put("slopes", (F(5), F(7))),
         put("slopes", (F(4), F(5))),
         put("right", (F("1.29"), F("1.32"))),
+        put("signs", (1, -1)),
     ],
     "Itinerary": [offs("orbit"), put("cut", lambda old: old[:-1] + "012"[int(old[-1]) - 1])],
     "InvariantSet": [

@@ -1,5 +1,6 @@
 """What is said at any parameters: only from hypotheses that are proved."""
 
+import random
 from dataclasses import replace
 from fractions import Fraction
 
@@ -23,10 +24,13 @@ from proofs.trusted.paper.beyond.attractors import (
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
-from proofs.trusted.verify import check
+from proofs.trusted.verify import check, premises
+from tests.oracles.judge import oracle
 
 F = Fraction
 HERE, THERE = PAPER.place, Place.plastic(F(1, 4), F(-1, 5))
@@ -299,6 +303,7 @@ ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
 
 REBOUNDING = [  # verdicts of X6 to X9; by simulation in the oracles
     ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED VERIFIED"),
+    ("0.103", "0.541", "0.02", "VERIFIED UNDECIDED REFUTED UNDECIDED"),  # turned over
     ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED VERIFIED"),
     ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
     ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED UNDECIDED"),
@@ -315,6 +320,9 @@ def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
     made = produce({"rebounding": BEYOND["rebounding"]}, of, digits=20, effort=1)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
     assert len(check(made.certificate).claims) == 4
+    for found in premises(made.certificate).known.values():
+        if isinstance(found, RectangleHorseshoe | StableCycle):
+            assert not oracle(found, random.Random(1), of)
 
 
 @pytest.mark.slow
