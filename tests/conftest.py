@@ -1,18 +1,23 @@
-"""What the whole suite shares: how much it tries, and where its bytecode is."""
+"""What the whole suite shares: how much it tries, and where its bytecode and its caches are."""
 
 import gc
 import os
 import sys
+from tempfile import TemporaryDirectory
 
 from tests.effort import EFFORT
 
 
 def pytest_configure(config):
-    """Try less in the quick part; keep bytecode where Python is told to write none.
+    """Try less in the quick part; leave the user's cache alone, and keep bytecode where Python is
+    told to write none.
 
     Beside the sources there is none then, as asked; but workers, and the processes that tests
     start, do not compile the same files again and again.
     """
+    caches = TemporaryDirectory()
+    config.add_cleanup(caches.cleanup)
+    os.environ["XDG_CACHE_HOME"] = caches.name
     EFFORT.quick = config.option.markexpr == "not slow"
     if sys.dont_write_bytecode and config.pluginmanager.hasplugin("cacheprovider"):
         folder = str(config.cache.mkdir("bytecode"))

@@ -42,8 +42,8 @@ DIR/ledger.md. A certificate that is there already, accepted and complete, is ch
 again, unless --fresh or --digits ask for it; which prover wrote it does not matter. DIR is
 `reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
 copied. Where nothing has changed since the last time, neither a certificate nor a page nor this
-program (DIR/.pages has the digests), what was found then is printed, and nothing is checked again;
-`python -m proofs.check DIR/MANIFEST.json` always checks.
+program (your cache has the digests, DIR has not), what was found then is printed, and nothing is
+checked again; `python -m proofs.check DIR/MANIFEST.json` always checks.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -244,7 +244,8 @@ def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
     known = {one.job.name: one.report.context for one in settled}
     with progress() as tell:
         made = report.built(folder, tell, bool(report.missing()), known=known)
-    write_files(folder, {**made, current.NAME: current.record(made_from, made)})
+    write_files(folder, made)
+    current.record(folder, made_from, made)
     return set(made)
 
 

@@ -1,6 +1,7 @@
 """python -m proofs: what is asked for is proved once, what is there is checked."""
 
 import json
+import shutil
 
 import pytest
 
@@ -40,7 +41,7 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
     assert [each.id for each in check((tmp_path / "horseshoe.json").read_text()).claims] == FLAT
     before = (tmp_path / "horseshoe.json").stat().st_mtime_ns
     assert "proved and checked" in capsys.readouterr().out
-    (tmp_path / current.NAME).unlink()
+    current.place(tmp_path).unlink()
     assert run(tmp_path) == 0
     assert "checked again" in capsys.readouterr().out
     assert (tmp_path / "horseshoe.json").stat().st_mtime_ns == before
@@ -69,6 +70,10 @@ def test_nothing_is_checked_again_where_nothing_has_changed(tmp_path, monkeypatc
         assert "nothing has changed" not in ran(), name
         assert (tmp_path / "ledger.json").read_text() == found
         assert "nothing has changed" in ran()
+    folder = tmp_path / "from somebody else"
+    shutil.copytree(tmp_path, folder)
+    assert main(["--only", "H16", "--out", str(folder)]) == 0
+    assert "checked again" in capsys.readouterr().out, "nothing in a folder vouches for it"
     for more in (["--digits", "30"], ["--fresh"], ["--stats"], ["--only", "H11"]):
         assert "nothing has changed" not in ran(*more), more
     assert "nothing has changed" not in ran() and "nothing has changed" in ran()
@@ -111,8 +116,8 @@ def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkey
         return current.pages(tmp_path, current.inputs(tmp_path))
 
     def write():
-        made = {**texts, current.NAME: current.record(current.inputs(tmp_path), texts)}
-        files.write_files(tmp_path, made)
+        files.write_files(tmp_path, texts)
+        current.record(tmp_path, current.inputs(tmp_path), texts)
 
     assert there() is None
     write()
@@ -122,7 +127,7 @@ def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkey
         lambda: (tmp_path / "figures" / "one.svg").unlink(),
         lambda: (tmp_path / "one.json").write_text("[]"),
         lambda: (tmp_path / "two.json").write_text("{}"),
-        lambda: (tmp_path / current.NAME).write_text("{"),
+        lambda: current.place(tmp_path).write_text("{"),
         lambda: monkeypatch.setattr(current, "_version", lambda package: "another"),
         lambda: monkeypatch.setattr(current, "_digests", without("report/html.py")),
         lambda: monkeypatch.setattr(current, "_digests", without("templates/page.html")),
