@@ -159,7 +159,7 @@ class CyclicSystem:
         """Apply Krawczyk's operator once, to boxes all of which are in the domain of f'."""
         count, n, d = boxes.shape
         centre, slopes = middle(boxes), self.derivatives(boxes)
-        values = _stacked(components(self.f(*_coordinates(centre)))) - turned(centre, 1)
+        values = stacked(components(self.f(*_coordinates(centre)))) - turned(centre, 1)
         inverse = IntervalArray.from_floats(_inverse(slopes.mid))
         image = centre.reshape(count, n * d) - _times(inverse, values.reshape(count, n * d))
         columns = inverse.reshape(count, n * d, n, d)
@@ -176,7 +176,7 @@ class CyclicSystem:
     def derivatives(self, boxes: IntervalArray) -> IntervalArray:
         """Enclose f' over all points of the boxes, in the shape (N, n, d, d)."""
         _, rows = jacobian(self.f, tuple(x.reshape(-1) for x in _coordinates(boxes)))
-        matrix = _stacked([_stacked(column) for column in zip(*rows, strict=True)])
+        matrix = stacked([stacked(column) for column in zip(*rows, strict=True)])
         return matrix.reshape(*boxes.shape, self.size)
 
 
@@ -195,7 +195,7 @@ def _all(mask: Mask) -> Mask:
     return np.asarray(mask.all(axis=(1, 2)))
 
 
-def _stacked(arrays: Sequence[IntervalArray]) -> IntervalArray:
+def stacked(arrays: Sequence[IntervalArray]) -> IntervalArray:
     """Return np.stack along a last axis, with the type that it has for IntervalArrays."""
     return cast(IntervalArray, np.stack(arrays, -1))
 
@@ -224,7 +224,7 @@ def _cut(
     flat = tuple(x.reshape(-1) for x in _coordinates(boxes))
     sides, empty = contracted(formula, flat, [target] * len(formula.outputs), sweeps=1)
     kept = np.asarray((~empty).reshape(boxes.shape[:2]).all(axis=1))
-    return _stacked(sides).reshape(*boxes.shape)[kept], kept
+    return stacked(sides).reshape(*boxes.shape)[kept], kept
 
 
 def _in_front(boxes: IntervalArray) -> IntervalArray:

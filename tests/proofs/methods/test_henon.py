@@ -17,11 +17,11 @@ from intervals import Interval, Undecided
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.periodic import periodic_orbits
+from proofs.methods.rectangles import lemma, rectangles
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.verify import Rejected, check
-from tests.proofs.methods.henon_sets import entropy_lemma
 from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
 HENON = henon("7/5", "3/10")
@@ -101,9 +101,14 @@ def test_the_fixed_point_and_the_cycle_of_period_two():
     assert cycle.trace.contains("-3.04")
 
 
+@cache
+def cycles(period):
+    return periodic_orbits(cover(), period)
+
+
 def check_cycles(periods):
     for n in periods:
-        orbits = periodic_orbits(cover(), n)
+        orbits = cycles(n)
         found = [orbit for orbit in orbits if orbit.period == n]
         assert len(found) == CYCLES[n]
         fixed = sum(d * CYCLES[d] for d in range(1, n + 1) if n % d == 0)
@@ -199,11 +204,25 @@ def test_a_graph_of_four_sets():
     assert Fraction("0.30468893") < low < high < Fraction("0.304688931718004")
 
 
-@pytest.mark.slow
-def test_a_graph_with_more_sets():
-    """More than 0.338, the bound of Galias and Zgliczynski (2001); 0.46469 is Newhouse's (2008)."""
-    _, low, high = entropy(entropy_lemma())
-    assert Fraction("0.37426") < low < high < Fraction("0.46469")
+def by_cycles(longest, **choice):
+    """The covering relations of F among the sets around the cycles, and their entropy."""
+    orbits = [o for n in range(1, longest + 1) for o in cycles(n) if o.period == n]
+    file = SymbolicLemmas({"F": HENON})
+    step = lemma(file, "F", rectangles(cover().f, orbits, **choice))
+    return render(file.document(step))
+
+
+@pytest.mark.long
+def test_sets_around_cycles():
+    """Above 0.4320 (Day, Frongillo and Trevino 2008); 0.46469 is Newhouse's and others' (2008)."""
+    _, low, high = entropy(by_cycles(18, angle=0.3, past=3, future=7))
+    assert Fraction("0.4359") < low < high < Fraction("0.46469")
+
+
+@pytest.mark.long
+def test_more_sets_around_cycles():
+    _, low, high = entropy(by_cycles(23, angle=0.15, past=4, future=10, spare=0.01))
+    assert Fraction("0.4562") < low < high < Fraction("0.46469")
 
 
 @pytest.mark.parametrize(
