@@ -52,7 +52,7 @@ POINTS = {  # zeros that are published, exactly, or rounded to the places that a
     "Himmelblau": ((3, 2), 0),
     "Himmelblau's extrema": ((3, 2), 0),
     "Virasoro": ((Fraction(1, 8), 0, 0, 0, 0, 0, 0, 0), 0),
-    "Katsura 4": ((Fraction(1, 3), 0, 0, Fraction(1, 3)), 0),
+    "Katsura 4": ((Fraction(1, 3), 0, 0, Fraction(1, 3)), 1e-12),
     "Smiley, Chun 2.2": ((2, 0), 0),
     "Smiley, Chun 5.2": ((Fraction(-4, 5), 0, Fraction(3, 5)), 1e-12),
     "Smiley, Chun 5.4": ((Fraction("1.34030"), Fraction("0.99866")), 5),
