@@ -13,6 +13,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from intervals.exact import whole
+from intervals.rows import integer_rows
+
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 
 
@@ -90,15 +93,15 @@ def _exact(kind: Kind, x: Any) -> Any:
     """Return x, arrays of ints as intervals; floats, which may be rounded, raise TypeError."""
     if isinstance(x, float | np.floating):
         raise TypeError(_HINT)
-    if isinstance(x, np.integer):
-        return int(x)
+    if isinstance(x, np.generic) and (number := whole(x)) is not None:
+        return number
     if isinstance(x, np.generic):  # its operators would ask here again
         raise TypeError(f"not an interval or an exact number: {x!r}")
     if not isinstance(x, np.ndarray):
         return x
-    if not np.issubdtype(x.dtype, np.integer):
+    if x.dtype.kind not in "iu":
         raise TypeError(_HINT)
-    return kind.from_floats(x)
+    return kind._of_rows(integer_rows(x))
 
 
 def _lifted(kind: Kind, x: Any) -> Any:
@@ -151,6 +154,8 @@ def _mean(x: Any, axis: int | None = None) -> Any:
 
 
 def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
+    if n < 0:
+        raise ValueError(f"a difference of order {n}")
     for _ in range(n):
         moved = np.moveaxis(x, axis, 0)
         x = np.moveaxis(moved[1:] - moved[:-1], 0, axis)
@@ -185,7 +190,7 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.clip: lambda x, low, high: x.maximum(low).minimum(high),
     np.zeros_like: lambda x: 0 * x,
     np.ones_like: lambda x: type(x).from_floats(np.ones(x.shape)),
-    np.array_equal: lambda x, y: x.shape == y.shape and bool((x == y).all()),
+    np.array_equal: lambda x, y: np.shape(x) == np.shape(y) and bool(np.all(np.equal(x, y))),
 }
 
 
