@@ -149,6 +149,22 @@ def _inner(x: Any, y: Any) -> Any:
     return _dot(x, y.T)
 
 
+def _einsum(subscripts: str, *operands: Any) -> Any:
+    """Return the sums of products; all of these are there at once, so `@` is for matrices."""
+    inputs, arrow, output = subscripts.replace(" ", "").partition("->")
+    letters = inputs.replace(",", "")
+    output = output if arrow else "".join(sorted(c for c in letters if letters.count(c) == 1))
+    order = output + "".join(sorted(set(letters) - set(output)))
+    result: Any = 1
+    for names, x in zip(inputs.split(","), operands, strict=True):
+        own = "".join(c for c in order if c in names)
+        rows = np.einsum(f"...{names}->...{own}", x._rows)  # nothing is summed: elements move
+        result = x._of_rows(rows)[tuple(slice(None) if c in own else None for c in order)] * result
+    for _ in order[len(output) :]:
+        result = result.sum(axis=-1)
+    return result
+
+
 def _mean(x: Any, axis: int | None = None) -> Any:
     return x.sum(axis=axis) / (x.size if axis is None else x.shape[axis])
 
@@ -181,6 +197,9 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.prod: lambda x, axis=None: x.prod(axis=axis),
     np.dot: _dot,
     np.inner: _inner,
+    np.outer: lambda x, y: x.reshape(-1, 1) * y.reshape(1, -1),
+    np.vdot: lambda x, y: x.reshape(-1) @ y.reshape(-1),
+    np.einsum: _einsum,
     np.mean: _mean,
     np.diff: _diff,
     np.cumsum: _cumsum,
@@ -197,7 +216,8 @@ _ASKING: dict[Any, Callable[..., Any]] = {
 def apply_function(kind: Kind, function: Any, arguments: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_function__` is asked for; TypeError for what intervals do not do."""
     if function in _ASKING:
-        return _ASKING[function](*arguments, **options)
+        lifted = (_exact(kind, x) if isinstance(x, np.ndarray) else x for x in arguments)
+        return _ASKING[function](*lifted, **options)
     if function is np.where and len(arguments) == 3 and not options:
         mask, pair = arguments[0], [_lifted(kind, x)._rows for x in arguments[1:]]
         return _joined(kind, [np.where(mask, pair[0][i], pair[1][i]) for i in (0, 1)])

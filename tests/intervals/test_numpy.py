@@ -272,6 +272,20 @@ COMPUTED = {  # a function of numpy's, and the same of exact numbers
     "trace": (lambda a: np.trace(a, 1), lambda a: np.array(np.trace(a, 1))),
     "inner": (lambda a: np.inner(a, a), lambda a: np.inner(a, a)),
     "inner of vectors": (lambda a: np.inner(a[0], a[1]), lambda a: np.array(np.inner(*a[:2]))),
+    "outer": (lambda a: np.outer(a[0], a[1]), lambda a: np.outer(a[0], a[1])),
+    "vdot": (lambda a: np.vdot(a, a), lambda a: np.array(np.vdot(a, a))),
+    "product of three": (
+        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
+        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
+    ),
+    "trace by subscripts": (
+        lambda a: np.einsum("ii", a[:, :3]),
+        lambda a: np.array(np.einsum("ii", a[:, :3])),
+    ),
+    "with ints": (
+        lambda a: np.einsum("ij,j->i", a, np.arange(4)),
+        lambda a: np.einsum("ij,j->i", a, np.array([0, 1, 2, 3], dtype=object)),
+    ),
     "max": (lambda a: np.max(a, axis=1), lambda a: np.max(a, axis=1)),
     "min": (np.min, lambda a: np.array(np.min(a))),
     "clip": (lambda a: np.clip(a, -1, 2), lambda a: np.clip(a, -1, 2)),
