@@ -5,6 +5,9 @@ See `search` for what a box and a function may be.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import suppress
+from fractions import Fraction
 from functools import partial
 from math import inf
 from typing import TypeAlias
@@ -29,6 +32,7 @@ from intervals.branch import (
 from intervals.contractor import Formula, contracted, record
 from intervals.errors import DomainError
 from intervals.generic import meet
+from intervals.interval import Interval
 from intervals.krawczyk import SystemResult, contract, krawczyk
 from intervals.newton import Roots
 from intervals.rounding import MAX
@@ -178,8 +182,20 @@ def _in_given(f: Function, zero: Boxes, given: Boxes) -> list[SystemResult]:
     if outcome is Roots.NONE:
         return []
     if outcome is Roots.UNDECIDED:
+        if point := _rational_zero(f, box):
+            return [SystemResult(Roots.UNIQUE, point, f"{reason}, which f takes exactly here")]
         return [SystemResult(outcome, box, f"{reason}, at the boundary of the given box")]
     return [SystemResult(Roots.UNIQUE, box, f"{reason}, {why} here")]
+
+
+def _rational_zero(f: Function, box: Sequence[Interval] | None) -> tuple[Interval, ...] | None:
+    """Return a zero of small denominators in the box; None if f is no formula for Fractions."""
+    point = [x.mid.limit_denominator(1000) for x in box or ()]
+    if box and all(x.contains(value) for x, value in zip(box, point, strict=True)):
+        with suppress(AttributeError, TypeError, ZeroDivisionError):
+            if all(y == 0 and isinstance(y, int | Fraction) for y in components(f(*point))):
+                return tuple(map(Interval, point))
+    return None
 
 
 def _examined(f: Function, boxes: Boxes, zero: Boxes) -> list[SystemResult]:
