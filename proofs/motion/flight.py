@@ -82,9 +82,9 @@ class Flight:
 
     def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
         """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
-        if self.numbers is sketch:  # floats are sooner computed than looked up
-            return clock(self.eta, self.number(low, high))
-        return _clock(self.etas, low, high, self.precision, self.numbers)
+        if self.numbers is interval:
+            return _clock(self.etas, low, high, self.precision)
+        return clock(self.eta, self.number(low, high))  # sooner computed than looked up
 
     def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
         """Enclose a time derivative of the gap over all launches and the times given."""
@@ -148,9 +148,7 @@ class Flight:
 
 
 @lru_cache(maxsize=1024)
-def _clock(
-    etas: Range, low: Fraction, high: Fraction | None, precision: int, numbers: Numbers
-) -> Clock:
+def _clock(etas: Range, low: Fraction, high: Fraction | None, precision: int) -> Clock:
     """Return the time functions: the same for all launches, whose steps meet at the same times."""
-    time = numbers(low, low if high is None else high, precision)
-    return clock(numbers(*etas, precision), time)
+    time = interval(low, low if high is None else high, precision)
+    return clock(interval(*etas, precision), time)
