@@ -59,12 +59,13 @@ class Prover:
     @contextmanager
     def undone(self) -> Iterator[None]:
         """Take back the steps made inside if the proof fails there; the failure goes on."""
-        before = dict(self.steps)
+        before = [(each, dict(each)) for each in (self.steps, self.known)]
         try:
             yield
         except FAILED:
-            self.steps.clear()
-            self.steps.update(before)
+            for each, then in before:
+                each.clear()
+                each.update(then)  # type: ignore[arg-type]
             raise
 
     def add(self, rule: str, witness: dict[str, Any]) -> str:
