@@ -259,13 +259,13 @@ def avoids(context: Context, reader: Reader) -> Avoids:
             raise name.fail("its phases do not continue those of the step before")
         steps.append(step)
         for window in step.windows:
-            if _meets(step.motion.phases, window, target):
+            if meets(step.motion.phases, window, target):
                 raise Unproved(f"a window of {name.string()} is not proved to miss the target")
     phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
     return Avoids(steps[0].at, phases, Phases(*target))
 
 
-def _meets(phases: Range, time: Range, target: Range) -> bool:
+def meets(phases: Range, time: Range, target: Range) -> bool:
     """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
     early, late = phases[0] + time[0], phases[1] + time[1]
     count = early // whole_turns(1, COVER_BITS)[0] - 1  # for lower k, target + 2 pi k lies before
