@@ -1,4 +1,4 @@
-"""Beyond the paper, with restitution: what can be proved at any parameters. Rows X6 to X8."""
+"""Beyond the paper, with restitution: what can be proved at any parameters. Rows X6 to X9."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_circle import prove_longest
 from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
@@ -83,5 +84,9 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
 
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[ReboundProver, Budget], Proof]]] = MappingProxyType(
-    {"X6": ("rectangles", _chaos), "X7": ("stable motions", _stable)}
+    {
+        "X6": ("rectangles", _chaos),
+        "X7": ("stable motions", _stable),
+        "X9": ("motions that only touch", lambda prover, _: [prove_longest(prover.plain)]),
+    }
 )

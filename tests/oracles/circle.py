@@ -227,12 +227,15 @@ def stable_cycle(view, rng):
     told = ["the boxes meet"] if any(a[1] >= b[0] for a, b in pairwise(phases)) else []
     for _ in range(4):
         phi, gamma = (between(side, Fraction(rng.random())) for side in view.boxes[0])
-        for target in (*view.boxes[1:], view.boxes[0]):
+        around = [*view.boxes[1:], *[None] * (len(view.boxes) * (view.rounds - 1)), view.boxes[0]]
+        for target in around:
             found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
             if isinstance(found, str):
                 told.append(f"a state of the orbit: {found}")
-            elif found and not (
-                inside_mod(found.lifted, target[0]) and inside(found.velocity, target[1])
+            elif (
+                found
+                and target
+                and not (inside_mod(found.lifted, target[0]) and inside(found.velocity, target[1]))
             ):
                 told.append(f"F leads to ({found.phase:.9g}, {float(found.velocity):.9g})")
             if not isinstance(found, Impact):

@@ -32,7 +32,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "explore": ("X1", "X2", "X3", "X4", "X5"),
-        "rebounding": ("X6", "X7", "X8"),
+        "rebounding": ("X6", "X7", "X8", "X9"),
         "curves": ("C1", "C2", "C3"),
     }
 )  # asked at any parameters, and not of the paper: no part of the ledger
