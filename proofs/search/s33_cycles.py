@@ -43,7 +43,7 @@ def stable_cycles(
         seen += states
         for rounds in range(1, _MOST_ROUNDS + 1):
             with suppress(*FAILED), prover.attempt():
-                state = _state(System(eta, nu), *states[0])
+                state = state_before(System(eta, nu), *states[0])
                 yield prove_cycle(prover, at, state, len(states), rounds)
                 break
 
@@ -125,7 +125,7 @@ def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Flo
             yield states
 
 
-def _state(system: System, phase: float, speed: float) -> State:
+def state_before(system: System, phase: float, speed: float) -> State:
     """Return the phase and the velocity gamma before an impact with this relative speed."""
     rate = float(system.nu) * math.cos(phase)
     gamma = (system.side * speed - rate) / float(system.eta)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
+from proofs.trusted.paper.beyond.chatter import ChatteringMotion
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s33_restitution.rebounds import restitution
@@ -74,7 +75,8 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    motions = [*found.all(SuperstableMotion), *found.all(StableCycle)]
+    kinds = (SuperstableMotion, ChatteringMotion, StableCycle)
+    motions = [motion for kind in kinds for motion in found.all(kind)]
     if motions:
         return decided(Verdict.VERIFIED, *motions)
     none = _rest(of)
