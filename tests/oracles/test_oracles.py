@@ -34,7 +34,7 @@ OWN = (  # beyond the paper
     *(("explore", *at) for at in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"))),
     ("explore", "2", "-0.2"),
     ("rebounding", "0.5", "0.2"),
-    ("rebounding", "0.7", "-0.4"),
+    ("rebounding", "1.8959", "-1.8502"),
 )
 
 
@@ -310,6 +310,12 @@ FALSE = {
         _first_box_off,
         put("boxes", lambda old: old[:1] * 2),
         put("epsilon", F(1, 2)),
+    ],
+    "ChatteringMotion": [
+        _first_box_off,
+        offs("separation"),
+        put("rest", lambda old: old - F(1, 2)),
+        put("epsilon", F(9, 10)),
     ],
     "TwoAttractors": [
         put("cycles", lambda old: (*old[:2], *old[3:])),
