@@ -242,28 +242,36 @@ class StableSingles(Conclusion):
 
     @property
     def sentence(self) -> str:
-        leaves = (
-            "impacts being plastic, after which the mass leaves the table at once (launch "
-            "acceleration > 0), "
-            if self.at.epsilon is None or self.at.epsilon[0] == 0
-            else ""
+        low, leaves = (self.at.epsilon or (Fraction(0),))[0], ""
+        if low == 0:
+            plastic = "if impacts are plastic" if self.at.epsilon else "impacts being plastic"
+            leaves = f", after which, {plastic}, it leaves at once (launch acceleration > 0)"
+        motion = (
+            "periodic motion of the mass with one impact, a transversal one, in n table periods"
+            f"{leaves},"
         )
-        about = (
-            f"of the periodic motions with one impact in n table periods, a transversal one, {leaves}"
-            f"n {'any number' if self.is_complete else f'up to {self.most}'}"
-        )
+        most = "" if self.is_complete else f" up to {self.most}"
         if not self.stable:
-            return f"{about}, none is stable: each that there is has a multiplier outside of the unit circle."
-        named = ", ".join(map(str, self.stable))
-        each = "exactly one is" if len(self.stable) == 1 else "exactly one each is"
+            return (
+                f"no {motion} is stable, for no n{most}: each that there is has a multiplier "
+                "outside of the unit circle."
+            )
         return (
-            f"{about}, with n = {named} {each} stable, its multipliers being inside of the unit circle, and it attracts all motions nearby; all others have one outside of it."
+            f"there is exactly one stable {motion} for n = {self._named}, "
+            f"{'each, ' if len(self.stable) > 1 else ''}and none for another n{most}. Its "
+            "multipliers are inside of the unit circle, and it attracts all motions that are near "
+            "it after an impact; each other one that there is has a multiplier outside."
         )
 
     @property
+    def _named(self) -> str:
+        return ", ".join(map(str, self.stable))
+
+    @property
     def brief(self) -> str:
-        named = ", ".join(map(str, self.stable))
-        return f"stable with one impact in n periods: n = {named}" if named else "none"
+        if not self.stable:
+            return f"no motion with one impact in n table periods is stable, n up to {self.most}"
+        return f"a motion with one impact in n table periods is stable exactly for n = {self._named}"
 
 
 def stable_singles(context: Context, reader: Reader) -> StableSingles:
