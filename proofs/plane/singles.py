@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -18,7 +18,7 @@ from proofs.plane.steps import Steps
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.paper.beyond.singles import Part, launched, parts, ratios, solution
+from proofs.trusted.paper.beyond.singles import Numbers, Part, launched, parts, ratios, solution
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
@@ -65,14 +65,14 @@ def _seen(part: Part) -> Seen:
     sine, cosine = np.sin(math.pi * part.n * eta), np.cos(math.pi * part.n * eta)
     turn = part.signed(sine, cosine)
     with np.errstate(all="ignore"):
-        found = solution(eta, nu, q, turn, part.leans, lambda x: np.sqrt(np.maximum(x, 0)))
-        start = launched(part, eta, q, turn, found)
+        found = solution(Numbers(eta, nu, q), turn, part.leans, lambda x: np.sqrt(np.maximum(x, 0)))
+        start = launched(part, Numbers(eta, nu, q), turn, found)
         left = (found.delta > 0) & (found.above / found.below > 0) & (found.flips < 0)
         if start.kick is None:
             left &= launch_acceleration(start) > 0
     times = math.tau * part.n * (np.arange(_TIMES * part.n - 1) + 1) / (_TIMES * part.n)
-    rows = [x[left][:, None] if isinstance(x, np.ndarray) else x for x in start]
-    own = Launch(*rows)
+    numbers = [None if x is None else x[left][:, None] for x in start[1:]]
+    own = Launch(start.side, *numbers)
     mass = own.eta * times
     gaps = gap(own, Clock(np.sin(mass), np.cos(mass), np.sin(times), np.cos(times)))
     alive = left.copy()

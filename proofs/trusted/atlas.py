@@ -87,9 +87,10 @@ def _entropy(count: int) -> Question:
 
 
 def _orbits(most: int) -> Question:
-    def shown(found: Conclusion, *, any_stable: bool) -> bool:
-        known = isinstance(found, StableSingles) and found.most == most
-        return known and bool(found.stable) is any_stable
+    def shown(found: Conclusion, *, stable: bool) -> bool:
+        if not isinstance(found, StableSingles) or found.most != most:
+            return False
+        return bool(found.stable) is stable
 
     return Question(
         "orbits",
@@ -97,8 +98,8 @@ def _orbits(most: int) -> Question:
         f"for at least one n up to {most} there is a stable periodic motion with one impact, a "
         "transversal one, in n table periods, and it is proved for which of these n",
         f"there is none for any n up to {most}",
-        lambda found: shown(found, any_stable=True),
-        lambda found: shown(found, any_stable=False),
+        lambda found: shown(found, stable=True),
+        lambda found: shown(found, stable=False),
         plastic=False,
     )
 
@@ -174,7 +175,7 @@ class Region:
             index = int("0" + "".join(str(int(digit) >> bit & 1) for digit in path), 2)
             unit = (high - low) / parts
             sides.append((low + unit * index, low + unit * (index + 1)))
-        return Place(*sides, self.epsilon)
+        return Place(sides[0], sides[1], self.epsilon)
 
     @property
     def text(self) -> str:

@@ -2,8 +2,9 @@
 
 - A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (of a
   statement; {`eta`, `nu`}, two ranges, in a file about all plastic oscillators of a box, and with
-  them `epsilon` in one about others; null in a file about formulas alone), `functions` (name to {`variables`, `values`}), `steps` (name to
-  {`rule`, `witness`}, in the order of the proof) and `claims` (a list, not empty).
+  them `epsilon` in one about others; null in a file about formulas alone), `functions` (name to
+  {`variables`, `values`}), `steps` (name to {`rule`, `witness`}, in the order of the proof) and
+  `claims` (a list, not empty).
 - Every number is a string, a rational in lowest terms such as "111/100" or "-7", of at most 3000
   characters, 400 in `parameters`; bounds of quantities are plain decimals. Bare JSON numbers are
   refused. A range is a list of two numbers in increasing order, equal ones allowed.

@@ -57,6 +57,14 @@ _BITS = COVER_BITS
 Number = Any
 
 
+class Numbers(NamedTuple):
+    """Of an oscillator; q instead of epsilon."""
+
+    eta: Number
+    nu: Number
+    q: Number
+
+
 class Solution(NamedTuple):
     """v = above/below, and what has the sign of F where v > 0; nothing is said where delta < 0."""
 
@@ -67,15 +75,13 @@ class Solution(NamedTuple):
 
 
 def solution(
-    eta: Number,
-    nu: Number,
-    q: Number,
-    turn: tuple[Number, Number],
-    leans: bool,
-    root: Callable[[Number], Number],
+    of: Numbers, turn: tuple[Number, Number], leans: bool, root: Callable[[Number], Number]
 ) -> Solution:
-    """Return the greater v for turn = (S, C), where C >= 0 (leans) or C <= 0; root: of max(x, 0)."""
-    sine, cosine = turn
+    """Return the greater v for turn = (S, C), where C >= 0 (leans), or C <= 0.
+
+    root: the square root of a number, or of 0 where that is < 0.
+    """
+    (eta, nu, q), (sine, cosine) = of, turn
     across, square, along, reach = q * eta * sine, nu * nu, cosine * cosine, q * cosine
     over = across * across
     delta = square * along + (square - 1) * over
@@ -111,32 +117,28 @@ class Part:
         sign = 1 if self.k % 4 < 2 else -1
         return sine * sign, cosine * (sign * self.side)
 
-    @property
-    def _eta(self) -> Enclosure:
-        return Enclosure.of(*self.at.eta, _BITS)
-
-    @property
-    def _q(self) -> Enclosure:
-        return Enclosure.of(*ratios(self.at), _BITS)
+    @cached_property
+    def _numbers(self) -> Numbers:
+        sides = self.at.eta, self.at.nu, ratios(self.at)
+        return Numbers(*(Enclosure.of(*side, _BITS) for side in sides))
 
     @cached_property
     def _turn(self) -> tuple[Enclosure, Enclosure]:
-        return self.signed(*(pi(_BITS) * self.n * self._eta).sincos())
+        return self.signed(*(pi(_BITS) * self.n * self._numbers.eta).sincos())
 
     @cached_property
     def solution(self) -> Solution:
         """Enclose the greater solution."""
-        nu = Enclosure.of(*self.at.nu, _BITS)
-        return solution(self._eta, nu, self._q, self._turn, self.leans, _root)
+        return solution(self._numbers, self._turn, self.leans, _root)
 
     @cached_property
     def start(self) -> Launch:
         """Enclose the state after its impact; Unproved where that is not defined all over."""
-        return launched(self, self._eta, self._q, self._turn, self.solution)
+        return launched(self, self._numbers, self._turn, self.solution)
 
     def gap(self, time: Range, order: int = 0) -> Enclosure:
         """Enclose a derivative of the gap on an interval of times."""
-        now = clock(self._eta, Enclosure.of(*time, _BITS))
+        now = clock(self._numbers.eta, Enclosure.of(*time, _BITS))
         found: Enclosure = gap(self.start, now, order)
         return found
 
@@ -150,7 +152,7 @@ class Part:
         """Whether there is no single motion, by lemma 3 or as delta < 0."""
         if max(map(abs, self.at.nu)) <= 1 and (not self.leans or self.k > 0 < self.side):
             return True
-        return self.solution.delta.hi < 0
+        return bool(self.solution.delta.hi < 0)
 
     def has_none(self, times: Sequence[Fraction]) -> bool:
         """Whether no single motion is stable; times: at which the gap may be < 0."""
@@ -164,7 +166,7 @@ class Part:
     def contracts(self) -> bool:
         """Whether the greater v is > 0 and the multipliers are inside the unit circle."""
         delta, above, below, flips = self.solution
-        return delta.lo > 0 < above.lo and below.lo > 0 > flips.hi
+        return bool(delta.lo > 0 < above.lo and below.lo > 0 > flips.hi)
 
     def has_one(self, times: Sequence[Fraction]) -> bool:
         """Whether there is a stable motion, by its flight; without times by lemma 3 of `orbits`."""
@@ -189,14 +191,12 @@ def ratios(at: Place) -> Range:
     return ratio(high), ratio(low)
 
 
-def launched(
-    part: Part, eta: Number, q: Number, turn: tuple[Number, Number], found: Solution
-) -> Launch:
+def launched(part: Part, of: Numbers, turn: tuple[Number, Number], found: Solution) -> Launch:
     """Return the state after the impact."""
     v = found.above / found.below
-    speed = v * eta * turn[0] * part.side
-    kick = None if part.at.epsilon is None else speed * (1 - q)
-    return Launch(part.side, eta, v * turn[1] - 1, speed * q, kick)
+    speed = v * of.eta * turn[0] * part.side
+    kick = None if part.at.epsilon is None else speed * (1 - of.q)
+    return Launch(part.side, of.eta, v * turn[1] - 1, speed * of.q, kick)
 
 
 def _root(x: Enclosure) -> Enclosure:
@@ -228,7 +228,8 @@ class StableSingles(Conclusion):
     stable: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        if not 1 <= self.most <= MOST_PERIODS or not increasing((0, *self.stable, self.most + 1)):
+        periods = [0, *self.stable, self.most + 1]
+        if not 1 <= self.most <= MOST_PERIODS or periods != sorted({*periods}):
             raise Unproved("numbers of periods from 1 to the most, in order")
 
     @property
@@ -253,7 +254,7 @@ class StableSingles(Conclusion):
         most = "" if self.is_complete else f" up to {self.most}"
         if not self.stable:
             return (
-                f"no {motion} is stable, for no n{most}: each that there is has a multiplier "
+                f"no {motion} is stable, for any n{most}: each that there is has a multiplier "
                 "outside of the unit circle."
             )
         return (
@@ -271,7 +272,9 @@ class StableSingles(Conclusion):
     def brief(self) -> str:
         if not self.stable:
             return f"no motion with one impact in n table periods is stable, n up to {self.most}"
-        return f"a motion with one impact in n table periods is stable exactly for n = {self._named}"
+        return (
+            f"a motion with one impact in n table periods is stable exactly for n = {self._named}"
+        )
 
 
 def stable_singles(context: Context, reader: Reader) -> StableSingles:
