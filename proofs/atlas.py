@@ -112,7 +112,7 @@ def _executor(text: str) -> str:
 def _region(parser: Parser, options: Namespace) -> Region | None:
     """Return the region asked for; None where an atlas that is there is meant."""
     given = [options.eta, options.nu, options.ask]
-    if not any(given):
+    if not any((*given, options.epsilon)):
         return None
     if not all(given):
         parser.error("--eta, --nu and --ask go together")

@@ -32,6 +32,8 @@ _WORDS = {
 def words(kind: str) -> str:
     """Return what a conclusion of a kind says, in a few words."""
     name, *periods = kind.split("-")
+    if name == "StableSingles" and not periods:
+        return "none is stable with one impact in n periods"
     told = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
     return f"{told}: n = {', '.join(periods)}" if periods else told
 
