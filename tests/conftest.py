@@ -1,9 +1,12 @@
-"""What the whole suite shares: how much it tries, and where its bytecode is."""
+"""What the whole suite shares: how much it tries, what is made once, and where its bytecode is."""
 
 import gc
 import os
+import shutil
 import sys
+import tempfile
 
+from tests import once
 from tests.effort import EFFORT
 
 
@@ -19,6 +22,9 @@ def pytest_configure(config):
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+    if not hasattr(config, "workerinput"):
+        os.environ[once.FOLDER] = folder = tempfile.mkdtemp()
+        config.add_cleanup(lambda: shutil.rmtree(folder))
 
 
 def pytest_collection_finish():

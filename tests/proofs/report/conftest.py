@@ -2,21 +2,26 @@
 
 import json
 import shutil
-from pathlib import Path
 
 import pytest
 
 from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
 from proofs.report.pictures import pictures
+from tests.once import REPORTS, report
 
-REPORTS = Path(__file__).parents[3] / "reports"
+
+class Committed(Certificates):
+    """The committed certificates, each derived once for all workers."""
+
+    def __getitem__(self, name):
+        return report(name).context
 
 
 @pytest.fixture(scope="session")
 def documents():
-    """The committed certificates, each derived once."""
-    return Certificates(REPORTS)
+    """What the committed certificates prove."""
+    return Committed(REPORTS)
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, render
-from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
@@ -358,4 +358,4 @@ def test_too_much_work(paper):
     one["times"] = [str(last * k / 9000) for k in range(1, 9001)]
     one["impact"] = [str(Fraction(1, 2**3900)), str(Fraction(1, 2**3899))]
     with pytest.raises(Exhausted):
-        check(json.dumps(certificate))
+        check(json.dumps(certificate), DEFAULT / 20)
