@@ -1,10 +1,11 @@
-"""What the whole suite shares: how much it tries, and where its bytecode and its caches are."""
+"""What the whole suite shares: how much it tries, what is made once, and where its caches are."""
 
 import gc
 import os
 import sys
 from tempfile import TemporaryDirectory
 
+from tests import once
 from tests.effort import EFFORT
 
 
@@ -15,15 +16,16 @@ def pytest_configure(config):
     Beside the sources there is none then, as asked; but workers, and the processes that tests
     start, do not compile the same files again and again.
     """
-    caches = TemporaryDirectory()
-    config.add_cleanup(caches.cleanup)
-    os.environ["XDG_CACHE_HOME"] = caches.name
     EFFORT.quick = config.option.markexpr == "not slow"
     if sys.dont_write_bytecode and config.pluginmanager.hasplugin("cacheprovider"):
         folder = str(config.cache.mkdir("bytecode"))
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+    if not hasattr(config, "workerinput"):
+        folder_of_run = TemporaryDirectory()
+        config.add_cleanup(folder_of_run.cleanup)
+        os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
 
 
 def pytest_collection_finish():
