@@ -109,7 +109,7 @@ def own_horseshoe(of: Parameters) -> ImpactMap:
     left out are the same on all of a set, as in `horseshoe`.
     """
     system = System(of.eta, of.nu)
-    for left, right in islice(pairs(pieces(system), rising=False), _TRIES):
+    for left, right in islice(pairs(pieces(system)), _TRIES):
         with suppress(Undecided, Unproved):
             prover = Prover(system, _FAST_DIGITS, HORIZON)
             parts = [prover.slopes(list(domain))[1] for domain in (left, right)]

@@ -1,14 +1,17 @@
-"""What the whole suite shares: how much it tries, and where its bytecode is."""
+"""What the whole suite shares: how much it tries, what is made once, and where its caches are."""
 
 import gc
 import os
 import sys
+from tempfile import TemporaryDirectory
 
+from tests import once
 from tests.effort import EFFORT
 
 
 def pytest_configure(config):
-    """Try less in the quick part; keep bytecode where Python is told to write none.
+    """Try less in the quick part; leave the user's cache alone, and keep bytecode where Python is
+    told to write none.
 
     Beside the sources there is none then, as asked; but workers, and the processes that tests
     start, do not compile the same files again and again.
@@ -19,6 +22,10 @@ def pytest_configure(config):
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+    if not hasattr(config, "workerinput"):
+        folder_of_run = TemporaryDirectory()
+        config.add_cleanup(folder_of_run.cleanup)
+        os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
 
 
 def pytest_collection_finish():

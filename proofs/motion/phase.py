@@ -28,14 +28,3 @@ def on_circle(phase: Range, precision: int) -> Range:
 def phase_after(phase: Fraction, time: Range, precision: int) -> Range:
     """Enclose phase + time mod 2 pi."""
     return on_circle((phase + time[0], phase + time[1]), precision)
-
-
-def misses(arrival: Range, target: Range) -> bool:
-    """Whether arrival times are proved to be at no phase of `target`, a part of [0, 2 pi)."""
-    low, high = on_circle(arrival, 64)
-    whole = turn(64)
-    if high - low >= whole.inf:
-        return False
-    return not any(
-        low <= target[1] + k * whole.sup and target[0] + k * whole.inf <= high for k in (0, 1, 2)
-    )

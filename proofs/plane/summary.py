@@ -11,7 +11,7 @@ from hashlib import sha256
 from typing import Any
 
 from proofs.plane.store import Store, quarters
-from proofs.trusted.atlas import QUESTIONS, Cell, Region, area
+from proofs.trusted.atlas import Cell, Region, area
 from proofs.trusted.certificate import box_to_json
 from proofs.trusted.numbers import floor_text, show_range
 from proofs.trusted.verdicts import Verdict
@@ -20,17 +20,22 @@ LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 NOT_YET = "not looked at"
 _VERDICTS = [verdict.value for verdict in LEAVES]
 _WORDS = {
-    "CoveringShift": "a full shift on two symbols is a factor of f",
+    "CoveringShift": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",
+    "StableSingles": "stable with one impact in n periods",
 }
 
 
 def words(kind: str) -> str:
     """Return what a conclusion of a kind says, in a few words."""
-    return _WORDS.get(kind, re.sub(r"(?<!^)(?=[A-Z])", " ", kind).lower())
+    name, *periods = kind.split("-")
+    if name == "StableSingles" and not periods:
+        return "none is stable with one impact in n periods"
+    told = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
+    return f"{told}: n = {', '.join(periods)}" if periods else told
 
 
 def kinds(names: Iterable[str]) -> list[str]:
@@ -61,8 +66,8 @@ def summary(store: Store) -> dict[str, Any]:
     left = 1 - sum(areas[name] for name in _VERDICTS) / whole
     return {
         **json.loads(region.text),
-        "holds": QUESTIONS[region.question].holds,
-        "opposite": QUESTIONS[region.question].opposite,
+        "holds": region.asked.holds,
+        "opposite": region.asked.opposite,
         "parts": [box_to_json(root) for root in region.roots],
         "cells": dict(cells),
         "share_of_area": shares | {NOT_YET: floor_text(left)},
@@ -75,7 +80,7 @@ def summary(store: Store) -> dict[str, Any]:
 
 def lines(made: dict[str, Any], region: Region) -> Iterator[str]:
     """Yield what a summary says, for the screen."""
-    question = QUESTIONS[region.question]
+    question = region.asked
     yield f"{region.question}: for all oscillators of a cell, {question.holds}."
     yield f"Opposite: {question.opposite}."
     if len(region.roots) > 1 or 0 in region.nu:

@@ -7,6 +7,7 @@ repair where the printed numbers fail.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
@@ -181,7 +182,8 @@ def prove(
             found.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
     if "H11" in claims and max(*of.moran_ratios, *of.reciprocals) < 1:
         ratios = dict.fromkeys((of.moran_ratios, of.reciprocals))
-        found.proofs["H11"] = [run.prover.root(each) for each in ratios]
+        with suppress(*FAILED):
+            found.proofs["H11"] = [run.prover.root(each) for each in ratios]
     refuted = [
         claim
         for claim, proof in found.proofs.items()

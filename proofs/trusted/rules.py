@@ -70,9 +70,11 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
         "markov-set": "paper.beyond.chaos.prove_markov_set",
         "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
+        "chattering-motion": "paper.beyond.chatter.prove_chattering_motion",
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
+        "stable-singles": "paper.beyond.singles.stable_singles",
         "settles": "paper.beyond.boxes.prove_settles",
         "covering-shift": "paper.beyond.boxes.prove_covering_shift",
     }

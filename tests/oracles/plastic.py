@@ -327,7 +327,7 @@ def image_arc(view, rng):
 def horseshoe_faults(sets, rng):
     """What is wrong with H1 to H6 at these numbers, each complaint beginning with its id."""
     told = []
-    for part in (sets.left, sets.right):
+    for part, sign in zip((sets.left, sets.right), sets.signs, strict=True):
         images = []
         for phase in points(part, rng, 2):
             found = _impact(sets, phase)
@@ -336,10 +336,10 @@ def horseshoe_faults(sets, rng):
             if isinstance(found, str):
                 told.append(f"H1 H2 H3 the launch at {float(phase):.9g}: {found}")
                 continue
-            slope, within = float(found.slope), part[0] < phase < part[1]
+            slope, within = sign * float(found.slope), part[0] < phase < part[1]
             images.append(float(found.lifted))
             if within and slope < float(sets.slopes[0]) - 1e-12:
-                told.append(f"H1 H6 f'({float(phase):.12g}) is {slope:.12g}")
+                told.append(f"H1 H6 {sign} f'({float(phase):.12g}) is {slope:.12g}")
             if within and slope > float(sets.slopes[1]) + 1e-12:
                 told.append(f"H2 f'({float(phase):.12g}) is {slope:.12g}")
             if slope < 0:

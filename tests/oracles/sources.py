@@ -8,10 +8,8 @@ import json
 import pkgutil
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
-from pathlib import Path
 
-REPORTS = Path(__file__).parents[2] / "reports"
+from tests.once import REPORTS, once, report
 
 
 def _parts(document):
@@ -54,7 +52,7 @@ def conclusions(made):
     return context.of, context.known
 
 
-@cache
+@once
 def curves(epsilon="0", n=2):
     """The conclusions about a part of the last curve of grazing that the prover sees."""
     from proofs.search.curves import Curves, seen_curves
@@ -68,10 +66,10 @@ def curves(epsilon="0", n=2):
     return tuple(context.known.values())
 
 
-@cache
 def committed_conclusions(name):
     """The same of a committed certificate."""
-    return conclusions(committed(name))
+    context = report(name).context
+    return context.of, context.known
 
 
 def rows(made, claims, of, known):
@@ -83,7 +81,7 @@ def rows(made, claims, of, known):
         yield claim, found.verdict.value, (*found.because, *found.corrected)
 
 
-@cache
+@once
 def committed_rows(name):
     """The same of a committed certificate."""
     made, (of, known) = committed(name), committed_conclusions(name)
@@ -101,16 +99,18 @@ def lemmas():
 
 def boxes():
     """The conclusions about boxes of oscillators, by step."""
-    from proofs.plane import horseshoe, settling
+    from proofs.plane import horseshoe, settling, singles
     from proofs.trusted.parameters import Place
     from proofs.trusted.verify import premises
 
-    full, short, stable = (
+    full, short, stable, single, none = (
         Place(*(tuple(map(Fraction, side)) for side in sides))
         for sides in (
             (("0.2119", "0.2122"), ("-0.2004", "-0.1996")),
             (("0.3", "0.302"), ("0.19", "0.192")),
             (("0.237", "0.2372"), ("0.3", "0.3002")),
+            (("0.6", "0.6002"), ("-0.75", "-0.7498"), ("0.3", "0.3")),
+            (("1.3", "1.3002"), ("-0.7", "-0.6998"), ("0.3", "0.31")),
         )
     )
     for name, made in {
@@ -118,6 +118,9 @@ def boxes():
         "sticking": next(settling.propose(full)),
         "all stick": settling.settles(short),
         "stable": next(settling.propose(stable)),
+        "short single": singles.propose(stable, 3),
+        "single": singles.propose(single, 2),
+        "no single": singles.propose(none, 5),
     }.items():
         yield from ((f"{name} {x}", one) for x, one in premises(made.certificate()).known.items())
 

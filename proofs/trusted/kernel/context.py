@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.parameters import Parameters, Place
+
+if TYPE_CHECKING:
+    from proofs.trusted.kernel.formulas import Formulas
 
 C = TypeVar("C", bound=Conclusion)
 
@@ -30,9 +32,16 @@ class Context:
         return self.parameters
 
     @property
-    def place(self) -> Place:
+    def oscillators(self) -> Place:
         """The oscillators: that of the statement, or all of the box that the file is about."""
         return self.parameters if isinstance(self.parameters, Place) else self.of.place
+
+    @property
+    def place(self) -> Place:
+        """The same, where impacts are plastic, as nearly all rules require; else Unproved."""
+        if self.oscillators.epsilon is not None:
+            raise Unproved("the rule is about plastic impacts, and the file is not")
+        return self.oscillators
 
     def function(self, name: Reader) -> Formulas:
         """Return the function of that name."""

@@ -32,8 +32,8 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "explore": ("X1", "X2", "X3", "X4", "X5"),
-        "rebounding": ("X6", "X7", "X8"),
-        "curves": ("C1", "C2", "C3"),
+        "rebounding": ("X6", "X7", "X8", "X9"),
+        "curves": ("C1", "C2", "C3", "C4"),
     }
 )  # asked at any parameters, and not of the paper: no part of the ledger
 
@@ -66,7 +66,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "beyond.attractors": ("X1", "X3", "X4"),
         "beyond.flights": ("X5",),
         "beyond.restitution": BEYOND["rebounding"],
-        "beyond.curves": ("C1", "C2", "C3"),
+        "beyond.curves": BEYOND["curves"],
     }
 )
 

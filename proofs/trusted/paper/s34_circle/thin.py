@@ -31,8 +31,8 @@ class ThinShift(Conclusion):
     Proof. 1. If x and f(x) are in I, x is in a cell, on which f is one-to-one, and x = g_j(f(x)),
     which lies in that cell and is mapped to f(x) too. Conversely f maps g_j(y) to y. So phases with
     n images in I are those of the disjoint intervals g_W(I), W the words of n letters, and those
-    that stay are K. 2. The length of g_W(I) is the integral of g_W' over I; the sum over W is that
-    of L^n 1, L h = the sum of g_j' h(g_j). With low h <= L h <= high h, L^n 1 is between
+    that stay are K. 2. The length of g_W(I) is the integral of |g_W'| over I; the sum over W is
+    that of L^n 1, L h = the sum of |g_j'| h(g_j). With low h <= L h <= high h, L^n 1 is between
     low^n h / max h and high^n h / min h.
     """
 

@@ -132,6 +132,12 @@ def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
     rejected(made, match)
 
 
+@pytest.mark.parametrize("epsilon", [["0", "0"], ["0", "1/10"], ["1/10", "1/10"]])
+def test_what_is_proved_for_plastic_impacts_is_not_said_of_others(epsilon):
+    for made in (document(), json.loads(settles(SHORT).certificate())):
+        rejected(made | {"parameters": made["parameters"] | {"epsilon": epsilon}}, "plastic")
+
+
 @pytest.mark.parametrize(
     "parameters",
     [
@@ -141,7 +147,10 @@ def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
         {"eta": ["1/4", "1/5"], "nu": ["-1/5", "-1/6"]},
         {"eta": ["1/5", "1/4"]},
         {"eta": ["1/5", "1/4"], "nu": "-1/5"},
-        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["0", "1/2"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["1/2", "1/3"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["0", "1"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": "0"},
+        {"eta": ["1/5", "1/4"], "epsilon": ["0", "1/2"]},
         {"eta": ["1/5", "1/" + "9" * 500], "nu": ["-1/5", "-1/6"]},
         {},
     ],
