@@ -72,7 +72,7 @@ class Orbit:
         return sum(others, first)
 
 
-def periodic_orbits(cover: Cover, period: int, *, limit: int = 100_000_000) -> list[Orbit]:
+def periodic_orbits(cover: Cover, period: int, *, limit: int = 10_000_000) -> list[Orbit]:
     """Return the orbits of the theorem, by period, then by their first point.
 
     The first point has the least first coordinate. Raises Undecided where a sub-box is too small to

@@ -38,7 +38,7 @@ _GROWTHS = 100
 _SETTLED = 1e-4  # of a side
 _NEWTON_STEPS = 8
 _POINT, _MOST = 1e-9, 2.0  # sides around a single point, and the longest: parts of the whole
-_SAMPLES = 7
+_SAMPLES = 15
 _LONGEST = 60  # paths, whose number bounds the entropy
 
 
@@ -205,7 +205,7 @@ def _grown(
         sides = [np.stack(np.broadcast_arrays(u, side[i, 1, np.newaxis]), -1) for side in before]
         images = arrows.image(np.concatenate(sides, axis=1))[0][..., 1]
         bottom, top = images.min(axis=1), images.max(axis=1)
-        room = spare * (top - bottom)
+        room = spare * width[j, 1]
         low, high = least.copy(), most.copy()
         np.minimum.at(low[:, 0], i, first)
         np.maximum.at(high[:, 0], i, last)

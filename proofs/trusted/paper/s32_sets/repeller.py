@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.complexes import BITS, Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -26,7 +26,7 @@ from proofs.trusted.numbers import (
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.parameters import Place
 
-_ONE = Fraction(1)
+_ONE, _LOG_BITS = Fraction(1), 64
 _WORD = re.compile("[0-9]{1,16}")
 _MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 2000, 4000
 
@@ -61,6 +61,13 @@ class Repeller(Conclusion):
             raise Unproved("the bounds of the dimension are not in order")
         if len(self.slopes) != len(self.words) or min(low for low, _ in self.slopes) <= 1:
             raise Unproved("the inverse branches are not proved to contract")
+
+    @property
+    def rate(self) -> Range:
+        """Bounds of -log of the growth."""
+        bits = _LOG_BITS + int(1 / (self.growth[1] - self.growth[0])).bit_length()
+        low, high = (log(end, bits).range for end in self.growth)
+        return -high[1], -low[0]
 
     @property
     def sentence(self) -> str:
