@@ -104,8 +104,32 @@ def _first(
     return least
 
 
-def _even(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:
-    return either_sign(z.maximum(0).rootn(n), u)
+def root(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:
+    """Return a superset of the hull of {x in U: x^n in Z}, n >= 1."""
+    if n % 2:
+        return _odd_root(z, n)
+    size = z.maximum(0)
+    while n % 2 == 0:
+        size, n = size.sqrt(), n // 2
+    return either_sign(_odd_root(size, n), u)
+
+
+def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
+    """Return a superset of the n-th roots of Z, n odd, where `pow` would be slow: Z may contain 0.
+
+    Of the rows (-inf Z, sup Z) each takes a candidate c, near its n-th root in floating point, if
+    an enclosure of c^n shows that c^n is not below the row: then c is not below the root.
+    """
+    if n == 1:
+        return z
+    if n == 3:
+        return z.cbrt()
+    rows = z._rows
+    near = np.abs(rows) < 2.0**1000
+    size = np.where(near, np.abs(rows), 0.0) ** (1 / n)
+    candidate = np.where(rows < 0, -size * (1 - 2.0**-44), size * (1 + 2.0**-44))
+    proved = near & ((IntervalArray.from_floats(candidate) ** n).inf >= rows)
+    return IntervalArray._of_rows(np.where(proved, candidate, MAX))
 
 
 _HALF, _NONE = _PI / 2, 0 * _PI
@@ -116,7 +140,7 @@ REVERSE: dict[str, tuple[Callable[..., IntervalArray], ...]] = {  # one for each
     "__mul__": (lambda z, u, v: quotient(z, v, u), quotient),
     "__truediv__": (lambda z, u, v: z * v, lambda z, u, v: quotient(u, z, v)),
     "__abs__": (lambda z, u: either_sign(z.maximum(0), u),),
-    "__pow__": (lambda z, u, n: z.rootn(n) if n % 2 else _even(z, u, n),),
+    "__pow__": (root,),
     "pow": (lambda z, u, q: z.pow(1 / q),),
     "rootn": (lambda z, u, n: z**n,),
     "sqrt": (lambda z, u: z.sqr(),),

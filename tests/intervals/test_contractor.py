@@ -10,7 +10,7 @@ import intervals
 from intervals import Interval, IntervalArray
 from intervals.contractor import contract, contracted, record
 from intervals.newton import Roots
-from intervals.reverse import quotient
+from intervals.reverse import quotient, root
 from intervals.shaving import shaved
 from intervals.zeros import zeros
 from tests.intervals.boxes import for_all
@@ -193,6 +193,20 @@ def broyden(n):
 def test_systems_are_decided(f, n, reach, count):
     results = zeros(f, [Interval(-reach, reach)] * n)
     assert [result.outcome for result in results] == [Roots.UNIQUE] * count
+
+
+@for_all(
+    st.lists(st.fractions(-9, 9), min_size=2, max_size=2), st.integers(1, 12), st.integers(0, 60)
+)
+def test_roots_are_enclosed(ends, n, shift):
+    """Of powers of exact numbers, from tiny ones to large ones."""
+    low, high = (Fraction(float(x * 2 ** (shift - 30))) for x in sorted(ends))
+    powers = sorted((low**n, high**n))
+    z = IntervalArray([tuple(powers)])
+    found = root(z, IntervalArray([(low, high)]), n)
+    assert found.contains(low).all() and found.contains(high).all()
+    if n % 2 and max(abs(low), abs(high)) * 2 ** (900 // n) > 1:
+        assert (found.wid <= float(high - low) + 1e-12 * float(max(abs(low), abs(high)))).all()
 
 
 @for_all(st.lists(st.integers(-12, 12), min_size=10, max_size=10), st.integers(0, 3))

@@ -24,14 +24,17 @@ from proofs.shell.files import check_folder, check_targets, refusing, write_targ
 from proofs.shell.screen import say
 
 SCHEMA = "impact-proofs.zeros/1"
-_BOXES = 20_000
+_SMALLEST = 2.0**-52  # sub-boxes, in proportion to the given box
 _ABOUT = """\
 Each zero counted is proved to exist and to be the only one in its box; where the system is decided,
 no other zero is in the given box. "known" is the number published with the system, or one that
 follows from its definition. "not decided" are boxes that may hold zeros: double ones, or what was
-left after {boxes:,} sub-boxes. Henon's cycles are counted once each, from their least point, and
-both fixed points with them: so 366 are 364 cycles of prime period 19 and 2. Seconds are of the
-processor, of one thread. What each system is: `proofs/benchmark/zeros/`.
+left after a number of sub-boxes (100 to 100,000, see `systems.py`; `--boxes`).
+
+Henon's cycles are counted once each, from their least point, and both fixed points with them: so
+366 are 364 cycles of prime period 19 and 2. The page of COPRIN has 16 and 32 zeros of Brent's
+system in 5 and 6 variables; that many are proved here for 4 and 5. Seconds are of the processor, of
+one thread. What each system is: `proofs/benchmark/zeros/`.
 
 MGH: More, Garbow, Hillstrom 1981. IBEX: its benchmarks, and those of COPRIN (ALIAS). PHC:
 Verschelde's collection. Floudas: Handbook of test problems, 1999. Galias: 2001."""
@@ -73,10 +76,12 @@ class Solved(NamedTuple):
         return (*line, count, str(self.proved), f"{self.seconds:.2f}", remark)
 
 
-def solved(system: System, boxes: int = _BOXES) -> Solved:
-    """Find the zeros of a system, examining about so many sub-boxes."""
+def solved(system: System, boxes: int | None = None) -> Solved:
+    """Find the zeros of a system, examining about so many sub-boxes, its own number if None."""
     began = process_time()
-    found = zeros(system.f, system.box, where=system.where, limit=boxes)
+    found = zeros(
+        system.f, system.box, where=system.where, tolerance=_SMALLEST, limit=boxes or system.boxes
+    )
     outcomes = Counter(result.outcome for result in found)
     unique = outcomes.pop(Roots.UNIQUE, 0)
     return Solved(system, unique, outcomes.total(), process_time() - began)
@@ -108,7 +113,7 @@ def summary(rows: Sequence[Solved]) -> str:
     )
 
 
-def _machine_form(rows: Sequence[Solved], boxes: int) -> str:
+def _machine_form(rows: Sequence[Solved], boxes: int | None) -> str:
     lines = [
         {"name": row.system.name, "source": row.system.source, "n": len(row.system.box)}
         | {"known": row.system.known, "proved": row.proved, "left": row.left}
@@ -119,9 +124,9 @@ def _machine_form(rows: Sequence[Solved], boxes: int) -> str:
     return json.dumps(form, indent=1) + "\n"
 
 
-def _page(rows: Sequence[Solved], boxes: int) -> str:
+def _page(rows: Sequence[Solved]) -> str:
     machine = ", ".join(f"{name} {one}" for name, one in environment().items())
-    about = f"{summary(rows)}.\n\n{_ABOUT.format(boxes=boxes)}\n\nMeasured on: {machine}."
+    about = f"{summary(rows)}.\n\n{_ABOUT}\n\nMeasured on: {machine}."
     return f"# The zeros of others\n\n{about}\n\n{table(rows)}\n"
 
 
@@ -129,8 +134,8 @@ def _parser(names: Sequence[str]) -> Parser:
     parser = Parser("proofs.benchmark.zeros", __doc__, EXAMPLES)
     add = parser.add_argument
     add("--only", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
-    many = f"sub-boxes after which a system is left undecided (default {_BOXES})"
-    add("--boxes", type=whole("boxes", 10**9), default=_BOXES, metavar="N", help=many)
+    many = "sub-boxes after which a system is left undecided (default: its own number)"
+    add("--boxes", type=whole("boxes", 10**9), metavar="N", help=many)
     share(parser, "--out", "--json", "--quiet")
     return parser
 
@@ -154,7 +159,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     write_target(parser, options.json, lambda: _machine_form(rows, options.boxes))
     if options.out is not None:
         with refusing(parser, options.out), writing(options.out) as put:
-            put("zeros.md", _page(rows, options.boxes))
+            put("zeros.md", _page(rows))
             put("zeros.json", _machine_form(rows, options.boxes))
     if any(row.contradicts for row in rows):
         return 3

@@ -219,7 +219,7 @@ def cyclohexane(x: Any, y: Any, z: Any) -> list[Any]:
 
 
 def numerical_analysis(a: Any, b: Any) -> list[Any]:
-    """Return 7/10 z^12 + 3/10 z^13 - 32 for z = exp(i a - b), as real and imaginary part."""
+    """Return 7/10 z^12 + 3/10 z^13 - 32, z = exp(i a - b), in its two parts: 13 zeros a turn."""
     large, small = q("0.7") * (-12 * b).exp(), q("0.3") * (-13 * b).exp()
     return [
         large * (12 * a).cos() + small * (13 * a).cos() - 32,

@@ -28,6 +28,7 @@ class System(NamedTuple):
     box: Box
     known: int | None = None
     where: Callable[..., Any] | None = None
+    boxes: int = 5000  # sub-boxes that are examined, about
 
 
 def side(low: int | str, high: int | str) -> Interval:
@@ -41,6 +42,7 @@ def cube(n: int, low: int | str, high: int | str) -> Box:
 
 
 WIDE = 10**8
+MANY, FEW = 100_000, 100  # sub-boxes where many are needed, and where each takes long
 TURN = Interval(0, 2 * Interval.pi().sup)
 FAMILIES: tuple[tuple[str, str, Callable[..., Any], tuple[int, ...], Any, Any, Any], ...] = (
     ("Broyden tridiagonal", "MGH", many.broyden_tridiagonal, (3, 4, 5, 6, 8, 10, 12, 16),
@@ -52,7 +54,7 @@ FAMILIES: tuple[tuple[str, str, Callable[..., Any], tuple[int, ...], Any, Any, A
     ("Bratu", "IBEX", many.bratu, (3, 4, 5, 8, 10, 15), -WIDE, 20, lambda n: 2),
     ("discrete boundary value", "MGH", many.discrete_boundary, (2, 3, 5, 8, 10, 12), -100, 100,
      lambda n: 1),
-    ("discrete integral", "MGH", many.discrete_integral, (2, 3, 4, 5, 6, 8), -100, 100,
+    ("discrete integral", "MGH", many.discrete_integral, (2, 3, 4, 5, 6), -100, 100,
      lambda n: 1),
     ("trigexp", "IBEX", many.trigexp, (2, 3, 4, 5, 6, 8), -100, 100, lambda n: 1),
     ("trigexp 2", "IBEX", many.trigexp_two, (5, 7, 9), -200, 200, None),
@@ -81,7 +83,9 @@ def systems() -> Iterator[System]:
     """Yield all of them."""
     for name, source, f, sizes, low, high, count in FAMILIES:
         for n in sizes:
-            yield System(f"{name} {n}", source, f, cube(n, low, high), count and count(n))
+            many_or_few = {"quadrature 6": FEW, "redeco 8": MANY}.get(f"{name} {n}", 20_000)
+            known = count and count(n)
+            yield System(f"{name} {n}", source, f, cube(n, low, high), known, None, many_or_few)
     yield System("Wood 4", "IBEX", many.wood, cube(4, -(10**6), 10**6))
     yield from _cycles()
     yield from _with_pi()
@@ -109,7 +113,8 @@ def _with_pi() -> Iterator[System]:
     half = side("-1.5707963267948968", "1.5707963267948968")
     yield System("Kin1", "IBEX", one.kinematics, [TURN] * 6, 16)
     yield System("Sjirk Boon", "IBEX", one.sjirk_boon, [*cube(2, -100, 100), TURN, TURN])
-    yield System("numerical analysis", "IBEX", one.numerical_analysis, [TURN, side(-10, 30)])
+    turned = [side("-0.5", "5.7831853071795862"), side(-10, 30)]
+    yield System("numerical analysis", "IBEX", one.numerical_analysis, turned, 13)
     yield System("Boggs", "Floudas", one.boggs, cube(2, -10, 10), 3)
     pair = [side("0.25", 1), side("1.5", "6.2831853071795862")]
     yield System("Ferraris, Tronconi", "Floudas", one.ferraris, pair, 2)
@@ -127,8 +132,8 @@ def _polynomial() -> Iterator[System]:
     """Yield the polynomial ones."""
     yield System("Caprasse", "PHC", one.caprasse, cube(4, -10, 10), 18)
     yield System("I1", "IBEX", one.moore_jones(one.plain), cube(10, -2, 2), 1)
-    yield System("I5", "IBEX", one.moore_jones(one.fifth), cube(10, -100, 100), 30)
-    yield System("Bellido", "IBEX", one.bellido, cube(9, -WIDE, WIDE), 8)
+    yield System("I5", "IBEX", one.moore_jones(one.fifth), cube(10, -100, 100), 30, None, FEW)
+    yield System("Bellido", "IBEX", one.bellido, cube(9, -WIDE, WIDE), 8, None, MANY)
     yield System("combustion", "IBEX", one.combustion, cube(5, -WIDE, WIDE), 4)
     yield System("Virasoro", "IBEX", one.virasoro, cube(8, -1, 1), 224)
     yield System("generalised eigenvalues", "IBEX", one.geneig, cube(6, -WIDE, WIDE), 10)
@@ -154,7 +159,9 @@ def _other() -> Iterator[System]:
     yield System("Bullard, Biegler", "Floudas", one.bullard, pair, 1)
     ends = ("-0.9", "-0.7"), ("-0.03", "-0.01"), ("-2.7", "-2.6"), ("0.7", "0.8")
     inner = ("1.35", "1.45"), ("6.9", 7), ("1.15", "1.25")
-    yield System("Hayes", "IBEX", one.hayes, [side(*pair) for pair in (*ends, *inner)], 1)
+    yield System(
+        "Hayes", "IBEX", one.hayes, [side(*pair) for pair in (*ends, *inner)], 1, None, FEW
+    )
 
 
 def _in_one_variable() -> Iterator[System]:
