@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 
 from intervals import Interval
 from proofs.trusted.numbers import Range
@@ -13,16 +14,21 @@ def turn(precision: int) -> Interval:
     return Interval.pi(precision=precision) * 2
 
 
+@lru_cache(maxsize=64)
+def _whole(precision: int) -> Range:
+    whole = turn(precision)
+    return whole.inf, whole.sup
+
+
 def lifted(phase: Range, turns: int, precision: int) -> Range:
     """Add 2 pi turns to an enclosure."""
-    whole = turn(precision)
-    added = turns * whole.inf, turns * whole.sup
+    added = [turns * end for end in _whole(precision)]
     return phase[0] + min(added), phase[1] + max(added)
 
 
 def on_circle(phase: Range, precision: int) -> Range:
     """Enclose phases mod 2 pi; the lower end lies in [0, 2 pi), undecided ones aside."""
-    return lifted(phase, -int(phase[0] // turn(precision).sup), precision)
+    return lifted(phase, -int(phase[0] // _whole(precision)[1]), precision)
 
 
 def phase_after(phase: Fraction, time: Range, precision: int) -> Range:

@@ -1,7 +1,7 @@
 """Section 3.1-3.2: is the plastic impact map a horseshoe on the printed sets? H1-H6, H11, H16.
 
-Candidates by floating point, proof by interval arithmetic, a certificate of witnesses, and a
-repair where the printed numbers fail.
+Witnesses by floating point, by interval arithmetic where that is not enough, conclusions by the
+checker's rules, a certificate, and a repair where the printed numbers fail.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Proof steps of the map with restitution: each proves something and records its witness.
 
-Impacts are proved by interval arithmetic; what follows from them, by the theorems of
-`s33_restitution` themselves, applied to the conclusions reached here.
+Impacts are looked for as in `steps`; what follows from them, by the theorems of `s33_restitution`
+themselves, applied to the conclusions reached here.
 """
 
 from __future__ import annotations

@@ -35,6 +35,7 @@ CLAIMS = tuple(
         key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
     )
 )
+_LONGEST = ("circle", "soft", "entropy", "dimension", "persistence")  # begun before the others
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
 group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
@@ -261,8 +262,9 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     Each is written as soon as it is settled, so that an interrupt loses nothing that is.
     """
     settled = {}
+    in_turn = sorted(todo, key=lambda job: (*_LONGEST, job.name).index(job.name))
     with workers(min(len(todo), os.cpu_count() or 1)) as pool:
-        futures = {pool.submit(settle_counting, job): job for job in todo}
+        futures = {pool.submit(settle_counting, job): job for job in in_turn}
         with progress() as tell:
             tell(f"0 of {len(todo)} groups of claims")
             for future in as_completed(futures):

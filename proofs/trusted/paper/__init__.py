@@ -1,8 +1,8 @@
 """The catalogue: which module holds the row of a claim, and which file its certificate.
 
 Each module states the rows of a section: the conclusions that proof steps may reach, the theorems
-that follow from these, and for each row a function from conclusions to a decision. Prover and
-checker reach conclusions by arithmetic of their own and decide by the same functions.
+that follow from these, and for each row a function from conclusions to a decision. The checker
+reaches conclusions by arithmetic of its own; provers decide by the same functions.
 """
 
 from __future__ import annotations
