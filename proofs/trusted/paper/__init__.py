@@ -31,7 +31,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 BEYOND: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "explore": ("X1", "X2", "X3", "X4", "X5"),
+        "explore": ("X1", "X2", "X3", "X4", "X5", "X10"),
         "rebounding": ("X6", "X7", "X8", "X9"),
         "curves": ("C1", "C2", "C3", "C4"),
     }
@@ -64,7 +64,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "s7_appendix": ("A1", "A2"),
         "beyond.chaos": ("X2",),
         "beyond.attractors": ("X1", "X3", "X4"),
-        "beyond.flights": ("X5",),
+        "beyond.flights": ("X5", "X10"),
         "beyond.restitution": BEYOND["rebounding"],
         "beyond.curves": BEYOND["curves"],
     }

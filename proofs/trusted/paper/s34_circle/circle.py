@@ -147,8 +147,13 @@ def _is_the_printed_orbit(arc: Separation) -> bool:
     return arc.returns and all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
 
 
-def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Decide:
-    """Decide by how much of the circle is proved to come to the orbit, and what not to."""
+def basin(
+    decide: Callable[[Absorption, Sequence[Conclusion]], Verdict], *, printed: bool
+) -> Decide:
+    """Decide by how much of the circle is proved to come to the orbit, and what not to.
+
+    printed: whether the orbit is to be the one printed.
+    """
 
     def decision(of: Parameters, found: Found) -> Decision:
         del of
@@ -160,7 +165,8 @@ def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Dec
         lost = max((each.share for each in rest), default=Fraction(0))
         basin = {"basin_fraction": (known.share, 1 - lost)}
         nearby = (known.arc, known, *rest, *found.all(FixedPoint)[:1])
-        verdict = decide(known, rest) if _is_the_printed_orbit(known.arc) else _OPEN
+        is_meant = not printed or _is_the_printed_orbit(known.arc)
+        verdict = decide(known, rest) if is_meant else _OPEN
         if verdict is _OPEN:
             missing = f"{known.brief}; of the rest not enough is known"
             return Decision(_OPEN, (), nearby, missing=missing, quantities=basin)
@@ -169,7 +175,7 @@ def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Dec
     return decision
 
 
-def _most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
+def most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G4: "all the initial conditions chosen", "most of the initial conditions": the latter says
     what of the circle; which ones were chosen the paper does not say.
     """
@@ -245,7 +251,7 @@ ROWS = (
         "most of the initial conditions are attracted to the stable 2-periodic orbit",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts most "
         "initial phases: more than half of the circle.",
-        _basin(_most),
+        basin(most, printed=True),
         PAPER.place,
     ),
     Row(
@@ -263,7 +269,7 @@ ROWS = (
         "",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
         "every phase.",
-        _basin(_almost_every),
+        basin(_almost_every, printed=True),
         PAPER.place,
     ),
     Row(
@@ -273,7 +279,7 @@ ROWS = (
         _AT + "all of the circle but for at most a millionth part of it comes either to the "
         "periodic orbit that sticks, (4.64, 6.05) to the places printed, or to an interval of "
         "phases, known to 10^-9 at both ends, after which there is no impact.",
-        _basin(_two_basins),
+        basin(_two_basins, printed=True),
         PAPER.place,
     ),
 )

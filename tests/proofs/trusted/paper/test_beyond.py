@@ -30,13 +30,14 @@ from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
 from tests.oracles.judge import oracle
-from tests.oracles.motion import flight
+from tests.oracles.motion import flight, next_impact, sticks
 
 F = Fraction
 HERE, THERE = PAPER.place, Place.plastic(F(1, 4), F(-1, 5))
@@ -330,13 +331,13 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 
 # -- from parameters to verdicts, by the search and the checker ------------------------------------
 
-ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
-    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED"),
-    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED"),
-    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED"),
-    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED"),
-    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED"),
-    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED"),
+ASKED = [  # verdicts of X1 to X5, X10; X2, X4 and X5 by simulation in the oracles
+    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED UNDECIDED"),
+    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED REFUTED"),
+    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED UNDECIDED"),
+    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED REFUTED"),
+    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED REFUTED"),
 ]
 
 
@@ -426,7 +427,41 @@ def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu))
     made = produce({"explore": BEYOND["explore"]}, of, digits=20, effort=2)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
-    assert len(check(made.certificate).claims) == 5
+    assert len(check(made.certificate).claims) == 6
+
+
+def test_how_much_of_the_circle_comes_to_the_motion_that_sticks():
+    """Between bounds, by orbits of random phases: the oracle's impacts, until the mass sticks."""
+    of, rng, sticking, none = replace(PAPER, eta=F("0.25"), nu=F("-0.3")), random.Random(3), 0, 0
+    made = produce({"explore": ["X10"]}, of, digits=20, effort=2)
+    (line,) = made.lines
+    assert line.verdict is Verdict.VERIFIED and check(made.certificate)
+    for _ in range(60):
+        phase = F(rng.uniform(0, math.tau))
+        while not sticks(of.eta, of.nu, phase):
+            found = next_impact(of.eta, of.nu, phase)
+            if isinstance(found, str):
+                none += found in ("touches", "none")
+                break
+            phase = F(found.phase)
+        else:
+            sticking += 1
+    low, high = line.quantities["basin_fraction"]
+    assert 0.6 < low < F(sticking, 60) < high < 0.97 and sticking + none == 60
+
+
+def test_the_share_is_asked_of_a_motion_that_sticks():
+    """By what reaches the arc, if the flight from the separation ends there; refuted at rest."""
+    row, more = find("X10"), Absorption(arc(4), (F(6), F(2)), ())
+    assert row.decide(PAPER, [more]).verdict is Verdict.VERIFIED
+    for known in (
+        replace(more, rest=(F(6), F(4))),  # less than half
+        replace(more, arc=arc(1)),  # it does not stick there
+        replace(more, arc=arc(4, THERE)),
+    ):
+        assert row.decide(PAPER, [known]).verdict is Verdict.UNDECIDED
+    at_rest = replace(PAPER, eta=F(1, 2), nu=F(1, 5))
+    assert row.decide(at_rest, []).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize("eta", ["1e30", "101"])
