@@ -24,7 +24,7 @@ from proofs.plane.head import executor, run
 from proofs.plane.store import NAME, Held, Store, opened
 from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, number, progress, share, whole
-from proofs.shell.files import check_folder, write_target, writing
+from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.atlas import DEEPEST, QUESTIONS, Region, unpacked
 from proofs.trusted.certificate import Malformed
@@ -51,6 +51,7 @@ examples:
   python -m proofs.atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
   python -m proofs.atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
   python -m proofs.atlas --out runs/atlas --cell 0.2121 -0.2
+  python -m proofs.atlas --out runs/atlas --export cells.parquet
   python -m proofs.check runs/atlas/atlas.sqlite
 """
 
@@ -65,6 +66,8 @@ def main(arguments: list[str] | None = None) -> int:
         with opened(options.out, region) as store:
             if options.cell:
                 return _show_cell(parser, options, store)
+            if options.export:
+                return _export(parser, options, store)
             return _make(parser, options, store)
     except (Held, Malformed) as failure:
         parser.error(str(failure))
@@ -90,6 +93,10 @@ def _parser() -> Parser:
     )
     cell = "say what is proved in the cell that holds this point, and write its certificate"
     parser.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
+    export = (
+        "write the cells that there are to a Parquet file (pip install 'impact-proofs[parquet]')"
+    )
+    parser.add_argument("--export", type=_parquet, metavar="FILE", help=export)
     share(parser, "--out", "--json", "--quiet")
     parser.set_defaults(out=FOLDER)
     return parser
@@ -107,6 +114,12 @@ def _executor(text: str) -> str:
     if text != "here" and find_spec("distributed") is None:
         raise ArgumentTypeError("needs dask: pip install 'impact-proofs[cluster]'")
     return text
+
+
+def _parquet(text: str) -> Path:
+    if find_spec("pyarrow") is None:
+        raise ArgumentTypeError("needs pyarrow: pip install 'impact-proofs[parquet]'")
+    return Path(text)
 
 
 def _region(parser: Parser, options: Namespace) -> Region | None:
@@ -171,6 +184,18 @@ def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
     with writing(folder) as put:
         for name, content in files.items():
             put(name, content)
+
+
+def _export(parser: Parser, options: Namespace, store: Store) -> int:
+    """Write the cells as a table."""
+    from proofs.plane.export import export
+
+    check_targets(parser, str(options.export))
+    with refusing(parser, options.export):
+        count = export(store, options.export)
+    if not options.quiet:
+        say(f"{count} cells: {options.export}")
+    return 0
 
 
 def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:

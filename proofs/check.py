@@ -9,11 +9,14 @@ if __name__ == "__main__":
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING, Any
 
 from proofs.shell.entry import workers
 from proofs.shell.screen import Arguments, fitted, say
@@ -33,7 +36,11 @@ from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
 
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
 PIPED = Path("-")
+_CHUNK = 16  # cells that are checked together
 STORE = b"SQLite format 3\0"
 FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
@@ -106,19 +113,9 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
     name = printable(path)
     try:
         if path != PIPED and _is_store(path):
-            return _check_store(path, name, work, jobs, is_quiet)
-        source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
-        schema = schema_of(source)
-        if schema in FOLDERS:
-            kind, check_listed = FOLDERS[schema]
-            name = f"{name}: {kind}"
-            listed = check_listed(source, path.parent, work)
-            said = [f"{name} of {_counted(listed)}, all as the certificates beside it prove"]
-            verdicts = [each.verdict for each in listed]
+            said, is_open = _check_store(path, name, work, jobs)
         else:
-            report = check(source, work)
-            said = report_lines(name, report, digest(source))
-            verdicts = [claim.verdict for claim in report.claims]
+            said, is_open = _check_text(path, name, work)
     except Malformed as error:
         return _refused(2, f"{name}: malformed: {error}")
     except OSError as error:
@@ -127,9 +124,23 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
         return _refused(1, f"{name}: REJECTED: {error}")
     except Exhausted as error:
         return _refused(1, f"{name}: not decided: {error}")
-    if not is_quiet:
+    if not is_quiet:  # here, where a closed pipe is no fault of the file
         say("\n".join(said))
-    return int(Verdict.UNDECIDED in verdicts)
+    return int(is_open)
+
+
+def _check_text(path: Path, name: str, work: int) -> tuple[list[str], bool]:
+    """Check a certificate, or a list of some; return what to say, and if anything is undecided."""
+    source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
+    schema = schema_of(source)
+    if schema in FOLDERS:
+        kind, check_listed = FOLDERS[schema]
+        listed = check_listed(source, path.parent, work)
+        said = f"{name}: {kind} of {_counted(listed)}, all as the certificates beside it prove"
+        return [said], Verdict.UNDECIDED in {each.verdict for each in listed}
+    report = check(source, work)
+    is_open = Verdict.UNDECIDED in {claim.verdict for claim in report.claims}
+    return report_lines(name, report, digest(source)), is_open
 
 
 def _is_store(path: Path) -> bool:
@@ -138,23 +149,40 @@ def _is_store(path: Path) -> bool:
         return file.read(len(STORE)) == STORE
 
 
-def _check_store(path: Path, name: str, work: int, jobs: int, is_quiet: bool) -> int:
-    """Check an atlas, in several processes; print what is proved where."""
+def _check_store(path: Path, name: str, work: int, jobs: int) -> tuple[list[str], bool]:
+    """Check an atlas, in several processes; return what to say, and if anything is undecided."""
     from proofs.trusted.atlas import check_store  # with sqlite3, which nothing else needs
 
     began = perf_counter()
     with nullcontext() if jobs == 1 else workers(jobs) as pool:
-        found = check_store(path, work, partial(pool.map, chunksize=16) if pool else map)
-    if not is_quiet:
-        each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(found.cells.items()))
-        share = floor_text(found.areas[Verdict.UNDECIDED.value] / found.whole)
-        rate = sum(found.cells.values()) / (perf_counter() - began)
-        say(
-            f"{name}: an atlas of {each} cells, all as their certificates prove; undecided "
-            f"{share} of the area, not looked at {floor_text(found.missing / found.whole)}; "
-            f"{rate:.0f} cells a second"
-        )
-    return int(found.cells[Verdict.UNDECIDED.value] > 0 or found.missing > 0)
+        found = check_store(path, work, partial(_mapped, pool, jobs) if pool else map)
+    each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(found.cells.items()))
+    share = floor_text(found.areas[Verdict.UNDECIDED.value] / found.whole)
+    rate = sum(found.cells.values()) / (perf_counter() - began)
+    said = (
+        f"{name}: an atlas of {each} cells, all as their certificates prove; undecided "
+        f"{share} of the area, not looked at {floor_text(found.missing / found.whole)}; "
+        f"{rate:.0f} cells a second"
+    )
+    return [said], found.cells[Verdict.UNDECIDED.value] > 0 or found.missing > 0
+
+
+def _mapped(
+    pool: Executor, jobs: int, work: Callable[[Any], Any], rows: Iterable[Any]
+) -> Iterator[Any]:
+    """Do as `map`, in a pool, reading few rows ahead: a store may be larger than the memory."""
+    left = iter(rows)
+    ahead: deque[Future[list[Any]]] = deque()
+    while chunk := list(islice(left, _CHUNK)):
+        ahead.append(pool.submit(_each, work, chunk))
+        if len(ahead) > 4 * jobs:
+            yield from ahead.popleft().result()
+    while ahead:
+        yield from ahead.popleft().result()
+
+
+def _each(work: Callable[[Any], Any], rows: list[Any]) -> list[Any]:
+    return [work(row) for row in rows]
 
 
 def _refused(status: int, line: str) -> int:

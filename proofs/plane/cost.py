@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
 _BINS = 16
+_LEAST = 0.01  # that is told
 _GROUPS = {"proved": style.GREEN, "undecided": style.RED, "cut in four": style.BLUE}
 _NAMES = {Verdict.UNDECIDED.value: "undecided", SPLIT: "cut in four"}
 _SHARES = (10, 50, 90)
@@ -39,7 +40,9 @@ def costs(store: Store) -> list[Cost]:
         box = store.region.box(key)
         middle = float(sum(box.eta)) / 2, abs(float(sum(box.nu))) / 2
         outcome = _NAMES.get(verdict, "proved")
-        found.append(Cost(len(key.partition("/")[2]), *middle, outcome, 1000 * seconds))
+        found.append(
+            Cost(len(key.partition("/")[2]), *middle, outcome, max(1000 * seconds, _LEAST))
+        )
     return found
 
 

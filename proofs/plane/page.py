@@ -19,6 +19,7 @@ from proofs.plane.picture import Shown
 from proofs.plane.store import Store, quarters
 from proofs.report.html import rendered
 from proofs.report.inline import inlined
+from proofs.report.layout import percent
 from proofs.trusted.atlas import Cell, Region
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
@@ -174,7 +175,7 @@ def page(store: Store, shown: Shown, cost: str, certificates: Sequence[str]) -> 
     (made, found, over), region = shown, store.region
     shares = made["share_of_area"]
     whole = data(region, store.cells(*summary.LEAVES))
-    numbers = {name: picture.percent(share) for name, share in shares.items()}
+    numbers = {name: percent(share) for name, share in shares.items()}
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
         for kind, colour in picture.coloured([*found]).items()

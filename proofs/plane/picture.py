@@ -13,6 +13,7 @@ from proofs.plane.overlay import GRAZING, Line, Overlay, overlay
 from proofs.plane.store import Store
 from proofs.plane.summary import NOT_YET, joined, kinds, merged, words
 from proofs.report.figures import style
+from proofs.report.layout import percent
 from proofs.trusted.atlas import Region
 from proofs.trusted.verdicts import Verdict
 
@@ -80,12 +81,6 @@ def png(drawing: Drawing) -> bytes:
     image = io.BytesIO()
     drawing.savefig(image, format="png", dpi=200)
     return image.getvalue()
-
-
-def percent(share: str) -> str:
-    """Return a share, rounded down to a tenth of a percent."""
-    tenths = int(Fraction(share) * 1000)
-    return f"{tenths // 10}.{tenths % 10} %"
 
 
 def _ends(side: tuple[Fraction, Fraction]) -> tuple[float, float]:

@@ -22,7 +22,12 @@ _TABLES = f"""
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = NORMAL;
 CREATE TABLE IF NOT EXISTS region (text TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS cells ({_COLUMNS}) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS cells ({_COLUMNS});
+"""  # WITHOUT ROWID would put each certificate on a page of its own, four times its size
+_LEFT = """
+WITH digits (digit) AS (VALUES ('0'), ('1'), ('2'), ('3'))
+SELECT key || digit, sets FROM cells, digits WHERE verdict = ?
+AND NOT EXISTS (SELECT 1 FROM cells AS there WHERE there.key = cells.key || digit)
 """
 
 
@@ -32,7 +37,7 @@ def quarters(key: str) -> list[str]:
 
 
 class Held(ValueError):
-    """Another run writes to the store, or it is about another region."""
+    """A store is not to be had: another run writes to it, or it is about another region."""
 
 
 class Store:
@@ -58,17 +63,20 @@ class Store:
 
     def left(self) -> list[tuple[str, str]]:
         """Return the cells still to be looked at, with sets that may help: those of the parent."""
-        done = dict(self._rows.execute("SELECT key, sets FROM cells WHERE verdict = ?", (SPLIT,)))
-        keys = {f"{i}/": "" for i in range(len(self.region.roots))}
-        keys.update((child, sets) for key, sets in done.items() for child in quarters(key))
-        there = {key for (key,) in self._rows.execute("SELECT key FROM cells")}
-        return sorted((key, sets) for key, sets in keys.items() if key not in there)
+        roots = [(f"{i}/", "") for i in range(len(self.region.roots))]
+        there = {key for (key,) in self._rows.execute("SELECT key FROM cells WHERE key LIKE '%/'")}
+        below = self._rows.execute(_LEFT, (SPLIT,)).fetchall()
+        return sorted([*(root for root in roots if root[0] not in there), *below])
 
     def cells(self, *verdicts: Verdict) -> Iterator[Cell]:
         """Yield the rows of these verdicts, in order."""
         marks = ", ".join("?" * len(verdicts))
         query = f"SELECT {_FIELDS} FROM cells WHERE verdict IN ({marks}) ORDER BY key"
         yield from map(Cell._make, self._rows.execute(query, [x.value for x in verdicts]))
+
+    def rows(self) -> Iterator[Cell]:
+        """Yield all rows, in order."""
+        yield from map(Cell._make, self._rows.execute(f"SELECT {_FIELDS} FROM cells ORDER BY key"))
 
     def costs(self) -> Iterator[tuple[str, str, float]]:
         """Yield key, verdict and seconds of all rows."""
@@ -88,18 +96,30 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
     path = folder / NAME
     if region is None and not path.is_file():
         raise Held(f"there is no {path}")
-    with _locked(folder), closing(sqlite3.connect(path)) as connection:
+    with _locked(folder), _told(path), closing(sqlite3.connect(path)) as connection:
         connection.executescript(_TABLES)
         known = connection.execute("SELECT text FROM region").fetchone()
         if known is None and region is not None:
             with connection:
                 connection.execute("INSERT INTO region VALUES (?)", (region.text,))
             known = (region.text,)
-        own = Region.of(str(known[0])) if known else None
-        if own is None or region not in (None, own):
+        if known is None:
+            raise Held(f"{path} has no region: its run ended before it began")
+        own = Region.of(str(known[0]))
+        if region not in (None, own):
             raise Held(f"{path} is about another region or question")
         yield Store(connection, own)
-        connection.execute("PRAGMA journal_mode = DELETE")  # one file again, to be read anywhere
+        with suppress(sqlite3.OperationalError):  # it is read just now, as by the checker
+            connection.execute("PRAGMA journal_mode = DELETE")  # one file again
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn what SQLite says, of a full disk or a file that is no store, into one line."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        raise Held(f"{path}: {error}") from None
 
 
 @contextmanager

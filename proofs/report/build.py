@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.report import graph
+from proofs.report.atlases import atlases
 from proofs.report.checker import checker
 from proofs.report.figures.figure import Certificates, Documents
 from proofs.report.findings import findings
@@ -61,8 +62,11 @@ def built(
     from proofs.report.html import page  # needs what may be missing
 
     shown = [picture for picture in shown if picture.name in drawn]
-    files["index.html"] = page(found, shown, drawn)
+    maps = atlases(folder)
+    files["index.html"] = page(found, shown, drawn, atlases=maps)
     if pyodide is not None:
         certificates = dict.fromkeys(claim.file for claim in found.claims)
-        files["checker.html"] = page(found, shown, drawn, checker(pyodide, folder, certificates))
+        files["checker.html"] = page(
+            found, shown, drawn, checker(pyodide, folder, certificates), maps
+        )
     return files

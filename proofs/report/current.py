@@ -26,7 +26,9 @@ def inputs(folder: Path) -> str:
         spec = find_spec(package)
         for root in (spec and spec.submodule_search_locations) or ():
             texts += _digests(Path(root), "**/*")
-    return _digest("\n".join(texts + _digests(folder, "*.json")).encode())
+    return _digest(
+        "\n".join(texts + _digests(folder, "*.json") + _digests(folder, "atlas/*/atlas.*")).encode()
+    )
 
 
 def pages(folder: Path, made_from: str) -> set[str] | None:

@@ -12,6 +12,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from proofs.report import graph
+from proofs.report.atlases import Atlas
 from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
 from proofs.report.differences import marked
@@ -46,8 +47,12 @@ def page(
     figures: Sequence[Picture],
     drawn: Mapping[str, str],
     checker: Checker | None = None,
+    atlases: Sequence[Atlas] = (),
 ) -> str:
-    """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs."""
+    """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs.
+
+    atlases: those beside it.
+    """
     return rendered(
         "page.html",
         view=View(findings, figures, inlined(drawn)),
@@ -60,6 +65,7 @@ def page(
         falling=graph.falling(findings),
         figures=figures,
         checker=checker,
+        atlases=atlases,
     )
 
 

@@ -57,6 +57,12 @@ def enclosure(lower: str, upper: str) -> str:
     return f"[{floor_text(Fraction(lower), 8)}, {ceil_text(Fraction(upper), 8)}]"
 
 
+def percent(share: str) -> str:
+    """Write a share in percent, rounded down to a tenth."""
+    tenths = int(Fraction(share) * 1000)
+    return f"{tenths // 10}.{tenths % 10} %"
+
+
 def _padded(text: str, places: int) -> str:
     whole, _, digits = text.partition(".")
     return f"{whole}.{digits.ljust(places, '0')}" if places else whole

@@ -26,7 +26,7 @@
 
   const find = (x, y) => {
     for (const {on: [left, right, bottom, top], top: whole} of trees) {
-      if (x < left || x > right || y < bottom || y > top) continue;
+      if (!(x >= left && x <= right && y >= bottom && y <= top)) continue;
       let [u, v, cell] = [(x - left) / (right - left), (y - bottom) / (top - bottom), whole];
       while (cell.quarters) {
         const [a, b] = [u >= 0.5 ? 1 : 0, v >= 0.5 ? 1 : 0];
@@ -56,6 +56,10 @@
       : part < 0 ? sides[SIDES[part]] : numbers[part]).join("");
     return {verdict, text};
   };
+
+  // less than any cell of a map that is seen, and more than the strip at nu = 0
+  const least = Math.max(2e-6, Math.min(...roots.map(({map: [left, right, bottom, top], depth}) =>
+    Math.min(right - left, top - bottom) / 2 ** (depth + 1))));
 
   let shown = null, kept = false, place = {x: 0.5, y: 0.5}, view = {x: 0, y: 0, size: 1};
 
@@ -127,11 +131,9 @@
     return true;
   };
   const step = (dx, dy) => {
-    const cell = find(place.x, place.y), at = bounds(cell), [left, right, bottom, top] = cell.root.map;
-    const bit = 0.5 ** (Math.max(...roots.map((root) => root.depth)) + 2);
-    const [u, v] = [bit * (right - left), bit * (top - bottom)];
-    const x = dx > 0 ? at.right + u : dx < 0 ? at.left - u : place.x;
-    const y = dy > 0 ? at.top + v : dy < 0 ? at.bottom - v : place.y;
+    const at = bounds(find(place.x, place.y));
+    const x = dx > 0 ? at.right + least : dx < 0 ? at.left - least : place.x;
+    const y = dy > 0 ? at.top + least : dy < 0 ? at.bottom - least : place.y;
     const next = find(x, y);
     if (!next) return;
     const {left: a, right: b, bottom: c, top: d} = bounds(next);

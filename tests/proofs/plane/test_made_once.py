@@ -20,6 +20,9 @@ def test_ten_cells_are_proved_where_they_are_said_to_be(folder):
     region = Region.of(json.dumps({name: made[name] for name in names if name in made}))
     cells = sorted(folder.glob("cell-*.json"))
     assert len(cells) == 10 and (folder / "atlas.svg").exists()
+    page = (folder / "atlas.html").read_text()
+    assert made["digest"] in page and all(f'href="{path.name}"' in page for path in cells)
+    assert len(page) < 3_000_000
     for path in cells:
         report = check(path.read_text())
         assert report.parameters == region.box(path.stem.removeprefix("cell-").replace("-", "/"))

@@ -3,22 +3,29 @@
 import json
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
+import tracemalloc
 from concurrent.futures import Future
+from contextlib import closing
 from fractions import Fraction
 
 import pytest
 
 from proofs import atlas
+from proofs.check import _mapped
 from proofs.check import main as check
 from proofs.plane import picture, summary
+from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
 from proofs.report.figures.style import style
-from proofs.trusted.atlas import check_store
+from proofs.report.layout import percent
+from proofs.trusted.atlas import SPLIT, check_store, without_proof
 from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import check as prove
 
 F = Fraction
 SMALL = ["--eta", "0.2115", "0.2127", "--nu", "-0.201", "-0.199", "--ask", "horseshoe"]
@@ -74,7 +81,7 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
     words, share = "every motion comes to rest", made["share_of_area"]["AtRest"]
     for name in ("atlas.svg", "atlas.html"):
         text = (tmp_path / name).read_text()
-        assert words in text and picture.percent(share) in text
+        assert words in text and percent(share) in text
     assert "cut in four" in (tmp_path / "cost.svg").read_text()
 
 
@@ -102,8 +109,12 @@ def survives(tmp_path, kills, seed):
         process.send_signal(signal.SIGKILL)
         process.wait()
         if (tmp_path / NAME).exists() and (tmp_path / NAME).stat().st_size:
-            with opened(tmp_path, None) as store:
-                now = sum(1 for _ in store.cells(*Verdict))
+            try:
+                with opened(tmp_path, None) as store:
+                    now = sum(1 for _ in store.rows())
+            except Held as early:
+                assert "has no region" in str(early)
+                now = 0
             assert now >= rows  # what was there is there
             rows = now
     assert start(tmp_path).wait() in (0, 1)
@@ -161,6 +172,137 @@ def test_a_second_head_is_refused(tmp_path, capsys):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert "another run writes to" in done.stderr
+
+
+def test_a_store_may_be_read_while_a_run_ends(tmp_path):
+    """As the checker reads it, row by row; a run that begins meanwhile is refused in a line."""
+    assert atlas.main([*SMALL, "--depth", "1", "--quiet", "--out", str(tmp_path)]) == 1
+    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
+        with opened(tmp_path, None) as store:
+            reading = reader.execute("SELECT key FROM cells")
+            assert reading.fetchone()
+            store.reopen(2)
+        assert len(reading.fetchall()) == 4
+    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
+        assert reader.execute("PRAGMA journal_mode = DELETE").fetchone() == ("delete",)
+        reading = reader.execute("SELECT key FROM cells")
+        assert reading.fetchone()
+        with pytest.raises(Held, match="locked"), opened(tmp_path, None):
+            pass
+
+
+def test_what_is_no_store_is_one_line(tmp_path, capsys):
+    (tmp_path / NAME).write_text("no store, and long enough for a header of a hundred bytes" * 9)
+    with pytest.raises(SystemExit) as left:
+        atlas.main([*SMALL, "--out", str(tmp_path)])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "not a database" in said and said.count("\n") == 1
+
+
+def test_what_is_left_are_roots_and_quarters_that_are_not_there(tmp_path):
+    region = atlas.Region((F("0.9"), F("1.1")), (F("0.1"), F("0.2")), "horseshoe")
+    with opened(tmp_path, region) as store:
+        assert store.left() == [("0/", ""), ("1/", "")]
+        parent = without_proof(region, "0/", SPLIT, "")._replace(sets="near")
+        store.put([parent, without_proof(region, "0/2", "UNDECIDED", "why")])
+        assert store.left() == [(key, "near") for key in ("0/0", "0/1", "0/3")] + [("1/", "")]
+        store.put([without_proof(region, key, "UNDECIDED", "") for key in ("0/0", "0/1", "1/")])
+        assert store.left() == [("0/3", "near")]
+
+
+def test_memory_does_not_grow_with_the_number_of_cells(tmp_path):
+    """The head's own, of a region that is cut down to the depth everywhere."""
+
+    class Cuts(Here):
+        def submit(self, work, /, *data, **more):
+            region, depth, todo = data
+            ends = [SPLIT if len(key) - 2 < depth else "UNDECIDED" for key, _ in todo]
+            rows = [
+                without_proof(region, key, end, "")
+                for (key, _), end in zip(todo, ends, strict=True)
+            ]
+            return super().submit(lambda: rows)
+
+    region = atlas.Region((F("0.2"), F("0.3")), (F("0.1"), F("0.2")), "horseshoe")
+    peaks, counts = [], []
+    for depth in (3, 5):
+        with opened(tmp_path, region) as store:
+            tracemalloc.start()
+            counts.append(run(store, depth, (Cuts(), 1), 16))
+            peaks.append(tracemalloc.get_traced_memory()[1])
+            tracemalloc.stop()
+        (tmp_path / NAME).unlink()
+    assert counts == [85, 1365] and peaks[1] < 2 * peaks[0]
+
+
+@pytest.fixture
+def small(tmp_path):
+    """An atlas with two cells that are proved, and two that are not."""
+    region = atlas.Region((F("0.2121"), F("0.2122")), (F("-0.2"), F("-0.1999")), "horseshoe")
+    with opened(tmp_path, region) as store:
+        store.put([without_proof(region, "0/", SPLIT, "")])
+        store.put([without_proof(region, key, "UNDECIDED", "why") for key in ("0/0", "0/3")])
+        store.put(decide(region, 1, [("0/1", ""), ("0/2", "")]))
+    return tmp_path
+
+
+def test_cells_as_a_table_are_those_of_the_store(small, capsys, monkeypatch):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    monkeypatch.setattr("proofs.plane.export._AT_A_TIME", 3)
+    path = small / "cells.parquet"
+    assert atlas.main(["--out", str(small), "--export", str(path)]) == 0
+    assert f"4 cells: {path}" in capsys.readouterr().out
+    table = parquet.read_table(path)
+    assert json.loads(table.schema.metadata[b"atlas"])["question"] == "horseshoe"
+    rows = {row["key"]: row for row in table.to_pylist()}
+    with opened(small, None) as store:
+        cells = {cell.key: cell for cell in store.rows() if cell.verdict != SPLIT}
+        region = store.region
+    assert rows.keys() == cells.keys() and rows["0/0"]["certificate"] is None
+    for key, row in rows.items():
+        cell, box = cells[key], region.box(key)
+        assert all(
+            row[name] == getattr(cell, name)
+            for name in row.keys() & {*cell._fields} - {"certificate"}
+        )
+        assert (row["eta_from"], row["eta_to"]) == tuple(map(float, box.eta))
+        assert (row["nu_from"], row["nu_to"]) == tuple(map(float, box.nu))
+        if key in ("0/1", "0/2"):
+            assert prove(row["certificate"]).parameters == box
+
+
+def test_a_table_that_cannot_be_written_is_one_line(small, capsys, monkeypatch):
+    monkeypatch.setattr(atlas, "find_spec", lambda name: None)
+    with pytest.raises(SystemExit) as left:
+        atlas.main(["--out", str(small), "--export", "cells.parquet"])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "impact-proofs[parquet]" in said and said.count("\n") == 1
+    monkeypatch.undo()
+    pytest.importorskip("pyarrow")
+    with pytest.raises(SystemExit) as left:
+        atlas.main(["--out", str(small), "--export", str(small)])
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "not a regular file" in said and said.count("\n") == 1
+
+
+def test_a_check_without_a_reader_blames_no_file(small, monkeypatch):
+    """Where output is not buffered, as by python -u: the file can be read, the line not written."""
+
+    def closed(text, stream=None):
+        if stream is None:
+            raise BrokenPipeError
+
+    monkeypatch.setattr("proofs.check.say", closed)
+    with pytest.raises(BrokenPipeError):
+        check([str(small / NAME)])
+
+
+def test_the_checker_reads_few_rows_ahead_and_keeps_their_order():
+    read = []
+    rows = (read.append(k) or k for k in range(10_000))
+    found = _mapped(Here(), 2, str, rows)
+    assert [next(found) for _ in range(5)] == ["0", "1", "2", "3", "4"] and len(read) < 500
+    assert list(found) == [str(k) for k in range(5, 10_000)]
 
 
 @pytest.mark.parametrize(

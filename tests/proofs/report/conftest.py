@@ -6,11 +6,46 @@ from pathlib import Path
 
 import pytest
 
+from proofs.report.atlases import atlases
 from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
 from proofs.report.pictures import pictures
 
 REPORTS = Path(__file__).parents[3] / "reports"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Headless Chromium, where it is installed."""
+    playwright = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no chromium")
+    with playwright.sync_playwright() as running:
+        yield running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+
+
+@pytest.fixture
+def visit(browser):
+    """Open a page from the disk; it must be quiet, and load nothing."""
+    opened, noise, asked = [], [], set()
+
+    def visit(path, place="", width=1280, colours="light", **more):
+        tab = browser.new_page(
+            viewport={"width": width, "height": 900}, color_scheme=colours, **more
+        )
+        opened.append(tab)
+        asked.add(path.as_uri())
+        tab.on("console", lambda message: noise.append(message.text))
+        tab.on("pageerror", lambda error: noise.append(str(error)))
+        tab.on("request", lambda request: noise.append(request.url.partition("#")[0]))
+        tab.goto(path.as_uri() + place)
+        return tab
+
+    yield visit
+    for tab in opened:
+        tab.close()
+    assert set(noise) == asked
 
 
 @pytest.fixture(scope="session")
@@ -36,7 +71,7 @@ def page(found, shown):
     """The page about it, with the figures that are committed."""
     html = pytest.importorskip("proofs.report.html")
     files = {x.name: (REPORTS / "figures" / f"{x.name}.svg").read_text() for x in shown}
-    return html.page(found, shown, files)
+    return html.page(found, shown, files, atlases=atlases(REPORTS))
 
 
 @pytest.fixture

@@ -8,38 +8,13 @@ import pytest
 
 from tests.proofs.report.conftest import REPORTS
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 pytestmark = pytest.mark.slow
-URL = (REPORTS / "index.html").as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    playwright = pytest.importorskip("playwright.sync_api")
-    if CHROMIUM is None:
-        pytest.skip("no chromium")
-    with playwright.sync_playwright() as running:
-        yield running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
 
 
 @pytest.fixture
-def view(browser):
-    """Open the page, in the width and colours asked for; it must be quiet, and load nothing."""
-    opened, noise = [], []
-
-    def view(place="", width=1280, colours="light"):
-        tab = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
-        opened.append(tab)
-        tab.on("console", lambda message: noise.append(message.text))
-        tab.on("pageerror", lambda error: noise.append(str(error)))
-        tab.on("request", lambda request: noise.append(request.url.partition("#")[0]))
-        tab.goto(URL + place)
-        return tab
-
-    yield view
-    for tab in opened:
-        tab.close()
-    assert set(noise) == {URL}
+def view(visit):
+    """Open the page, in the width and colours asked for."""
+    return lambda place="", **look: visit(REPORTS / "index.html", place, **look)
 
 
 def shown(tab):
