@@ -13,9 +13,10 @@ from typing import Any
 from proofs.plane.store import Store, quarters
 from proofs.trusted.atlas import Cell, Region, area
 from proofs.trusted.certificate import box_to_json
-from proofs.trusted.numbers import floor_text, show_range
+from proofs.trusted.numbers import Range, floor_text, show_range
 from proofs.trusted.verdicts import Verdict
 
+Box = tuple[Range, Range]
 LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 NOT_YET = "not looked at"
 _VERDICTS = [verdict.value for verdict in LEAVES]
@@ -106,6 +107,20 @@ def merged(keys: Iterable[str]) -> list[str]:
             if left.issuperset(quarters(parent)):
                 left = left.difference(quarters(parent)) | {parent}
     return sorted(left)
+
+
+def joined(boxes: Iterable[Box]) -> list[Box]:
+    """Return fewer boxes that are the same part of the plane: those side by side are one."""
+    found = list(boxes)
+    for axis in (0, 1):
+        rows = defaultdict[Range, list[Range]](list)
+        for box in sorted(found):
+            sides = rows[box[1 - axis]]
+            before = sides.pop() if sides and sides[-1][1] == box[axis][0] else box[axis]
+            sides.append((before[0], box[axis][1]))
+        runs = [(side, other) for other, sides in rows.items() for side in sides]
+        found = [(side, other) if axis == 0 else (other, side) for side, other in runs]
+    return found
 
 
 def at(store: Store, eta: Fraction, nu: Fraction) -> Cell | None:

@@ -29,6 +29,10 @@ tr < 1 + epsilon^2 is P > -E, K v > C; -tr < 1 + epsilon^2 is P < eta^2 (1 + q^2
 Lemma 3 (none). There is no single motion if C <= 0 and |nu| <= 1; if 0 < nu <= 1 and 2 n eta >= 1.
 Proof. If |nu| <= 1, delta <= c^2. If 0 < nu <= 1, the mass is above a table that is above 0, for a
 time T: at most half its period, and it is that for C = 0.
+
+Lemma 4 (short flights). Let epsilon = 0, v > 0 and launch acceleration > 0, and n eta < 1/2, nu > 0
+or 1/2 < n eta < 1, nu < 0. Then gap > 0 on (0, T), and the impact there is transversal.
+Proof. Lemma 3 of `s4_single.orbits`, whose proof needs of |nu| < 1 that h > 0 alone: C > 0.
 """
 
 from __future__ import annotations
@@ -169,7 +173,7 @@ class Part:
         return bool(delta.lo > 0 < above.lo and below.lo > 0 > flips.hi)
 
     def has_one(self, times: Sequence[Fraction]) -> bool:
-        """Whether there is a stable motion, by its flight; without times by lemma 3 of `orbits`."""
+        """Whether there is a stable motion, by its flight; without times by lemma 4."""
         if not self.contracts:
             return False
         if len(times) < 2:
@@ -179,10 +183,9 @@ class Part:
 
     @property
     def _is_short(self) -> bool:
-        """Whether lemma 3 of `orbits` is about the motion."""
+        """Whether lemma 4 is about the motion."""
         inside = self.k < 2 * self.n * self.at.eta[0] and 2 * self.n * self.at.eta[1] < self.k + 1
-        short = self.k == (0 if self.side > 0 else 1) and max(map(abs, self.at.nu)) < 1
-        return self.at.epsilon is None and inside and short
+        return self.at.epsilon is None and inside and self.k == (0 if self.side > 0 else 1)
 
 
 def ratios(at: Place) -> Range:
@@ -283,16 +286,16 @@ def stable_singles(context: Context, reader: Reader) -> StableSingles:
     The box is cut at multiples of 1/(2 n), each part evenly into `cuts`. For n in `stable` it is in
     one part, and in all that this is cut into delta > 0, v > 0, F < 0, and nothing is hit before T:
     by the rule `first-impact` with its times (gap' > 0 up to the first of them is enough after a
-    rebound), T being inside of the window; without times by lemma 3 of `orbits`, for plastic
-    impacts, |nu| < 1, launch acceleration > 0, and n eta < 1/2 for nu > 0, 1/2 < n eta < 1 for nu <
-    0. For all other n up to `most` in each part C <= 0, |nu| <= 1, or lemma 3, or delta < 0, or F >
-    0, or for plastic impacts launch acceleration <= 0, or gap < 0 at one of the times, in (0, T);
-    where `none` does not name an n, without cuts and times. Conclusion: `StableSingles`, lemmas 1
-    to 3.
+    rebound), T being inside of the window; without times by lemma 4. For each other n up to `most`,
+    where `none` does not name it without cuts and times, there are in each part no motions, by
+    lemma 3 or as delta < 0; or F > 0; or, for plastic impacts, launch acceleration <= 0; or gap < 0
+    at one of the times, in (0, T). Conclusion: `StableSingles`, by lemmas 1 to 4.
     """
     most_of, stable_of, none_of = reader.fields("most", "stable", "none")
     most, at = integer(most_of, 1, MOST_PERIODS), context.oscillators
     stable, none = (_read(entries, most) for entries in (stable_of, none_of))
+    if stable.keys() & none.keys():
+        raise none_of.fail("a number of periods that is named as stable, too")
     for n in range(1, most + 1):
         cuts, times = (stable if n in stable else none).get(n, (1, ()))
         every = list(parts(at, n, cuts))

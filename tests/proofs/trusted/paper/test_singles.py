@@ -4,14 +4,15 @@ import json
 import math
 import random
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 
 from intervals import Undecided
-from proofs.plane.singles import propose
+from proofs.plane.singles import SingleFlights, propose
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.flights import first_windows
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.beyond.singles import Part, StableSingles, parts
 from proofs.trusted.parameters import Place
@@ -180,7 +181,12 @@ def test_forgeries_about_which_are_stable(name):
         else:
             for times in ([], ["1", str(7 * n)]):
                 with pytest.raises(Rejected, match="not proved"):
-                    check(changed(at, lambda w, n=n, t=times: w["stable"].append(entry(n, 1, t))))
+                    check(changed(at, partial(call_stable, entry(n, 1, times))))
+
+
+def call_stable(forged, witness):
+    witness["none"] = [each for each in witness["none"] if each["n"] != forged["n"]]
+    witness["stable"].append(forged)
 
 
 def test_an_earlier_impact_must_be_before_the_period():
@@ -191,10 +197,29 @@ def test_an_earlier_impact_must_be_before_the_period():
         check(forged)
 
 
+def test_the_first_impact_of_a_flight_must_be_the_one_that_repeats():
+    """This flight is proved, and ends at a transversal impact, before 2 pi."""
+    (part,) = parts(HIT, 1)
+    flown = SingleFlights(HIT, (F(0), F(0)), part=part).times(3.0)
+    (*_, window), transversal = first_windows(part.gap, flown, 1, 2)
+    assert transversal and 0 < window[0] < window[1] < 3 and part.contracts
+    with pytest.raises(Rejected, match="not proved for n = 1"):
+        check(changed(HIT, partial(call_stable, entry(1, 1, map(str, flown)))))
+
+
+def test_at_resonance_the_impact_has_no_velocity():
+    """At eta = 1 exactly; up to there the orbit of n = 1 is stable."""
+    for end, proved in (("0.9999", True), ("1", False)):
+        at = Place((F("0.99"), F(end)), (F("-0.3001"), F("-0.3")))
+        (part,) = parts(at, 1)
+        assert part.contracts and part.has_one(()) is proved
+
+
 def test_a_flight_must_be_followed_all_the_way():
     (witness,) = (step["witness"] for step in json.loads(text(FLIES))["steps"].values())
     (own,) = witness["stable"]
-    for times in (own["times"][:-1], own["times"][1:], own["times"][-2:], own["times"][:1]):
+    every = own["times"]
+    for times in (every[:-1], every[1:], every[:1] + every[-2:], every[:1] + every[-1:], every[:1]):
         with pytest.raises(Rejected):
             check(changed(FLIES, lambda w, t=times: w.update(stable=[own | {"times": t}])))
 
@@ -233,6 +258,7 @@ def test_what_sticks_is_no_orbit_of_plastic_impacts_and_may_be_one_of_others():
         lambda w: w.update(most="3/2"),
         lambda w: w["stable"].append(w["stable"][0]),
         lambda w: w["stable"].append(entry(6)),
+        lambda w: w["none"].append(entry(1)),
         lambda w: w["none"].append(entry(0)),
         lambda w: w["none"].append(entry(2, 0)),
         lambda w: w["none"].append(entry(2, 1001)),
