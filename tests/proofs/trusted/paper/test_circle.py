@@ -30,12 +30,11 @@ from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
-from proofs.trusted.paper.s34_circle.circle import ROWS, repelling_fixed_point
+from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import FullShift
+from proofs.trusted.paper.s34_circle.other_sets import FullShift, StayingSet, staying_orbit
 from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
 from tests.oracles.motion import flight
@@ -345,9 +344,9 @@ def coarse(arc):
     """A coarse partition: few branches, wide cells, 12 impacts."""
     prover = Prover(SYSTEM, 30, HORIZON)
     separation = circle.prove_arc(prover)
-    never, fixed = circle.prove_longest(prover), circle.prove_fixed_point(prover)
+    never = circle.prove_longest(prover)
     step = Partition(prover, separation, never, goal=0.1, most=500, turns=25, impacts=12).prove()
-    proofs = {"G3": [separation], "G10": [never, step, fixed]}
+    proofs = {"G3": [separation], "G10": [never, step]}
     evidence = Evidence(prover.steps, proofs)
     entries = [decide(claim, PAPER, evidence, 30)[1] for claim in proofs]
     return certificate(PAPER, prover.steps, entries), step[1]
@@ -521,51 +520,7 @@ def test_the_figure_draws_what_is_proved(coarse):
         assert impacts_until_stuck(0.3 * low + 0.7 * high) <= count
 
 
-# -- a repelling fixed point ---------------------------------------------------------------------
-
-
-def slopes(points, images, *pieces):
-    """An invented step: f' in [2, 3] where nothing else is said."""
-    pieces = pieces or ((2, 3),) * (len(points) - 1)
-    ranges = tuple((Fraction(low), Fraction(high)) for low, high in pieces)
-    phases = tuple(Phase(Fraction(low), Fraction(high)) for low, high in images)
-    points = tuple(map(Fraction, points))
-    return SlopeRange(PAPER.place, points, (ranges[0], *ranges), phases, ranges)
-
-
-LOW, HIGH = ("0.5", "0.6"), ("2.9", "3")
-INNER = (LOW, ("1.1", "1.11"), ("1.6", "1.61"), HIGH)
-
-
-@pytest.mark.parametrize(
-    ("inner", "image"), [((), None), (("1.3",), ("1.29", "1.31"))], ids=["near", "undecided"]
-)
-def test_a_fixed_point_by_newtons_method(inner, image):
-    """From 6/5, the image within [1.1, 1.11], slopes from 2 to 3: p - 6/5 in [0.09/2, 0.1].
-
-    A point whose image is not told from it changes nothing.
-    """
-    images = [*INNER[:2], *([image] if inner else []), *INNER[2:]]
-    found = repelling_fixed_point(slopes(("1", "1.2", *inner, "1.4", "2"), images))
-    assert found.bracket == (Fraction("1.2") + Fraction("0.045"), Fraction("1.3"))
-    assert (found.domain, found.least, found.first) == ((1, 2), 2, tuple(map(Fraction, LOW)))
-
-
-@pytest.mark.parametrize(
-    ("images", "piece", "reason"),
-    [
-        ((("0.5", "1"), HIGH), (2, 3), "across itself"),
-        ((LOW, ("2", "3")), (2, 3), "across itself"),
-        ((("6", "6.1"), HIGH), (2, 3), "across itself"),
-        ((LOW, ("0.1", "0.2")), (2, 3), "across itself"),
-        ((LOW, HIGH), (1, 3), "f' > 1"),
-        ((LOW, HIGH), (2, 7), "longer"),
-        ((HIGH, LOW), (-3, -2), "f' > 1"),
-    ],
-)
-def test_no_fixed_point_without_its_hypotheses(images, piece, reason):
-    with pytest.raises(Unproved, match=reason):
-        repelling_fixed_point(slopes(("1", "2"), images, piece))
+# -- images beside phase 0 -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -595,8 +550,8 @@ def test_an_image_that_straddles_a_turn_is_none(eta, nu, phases):
     pieces = [{"flight": "wide", "time": whole}]
     witness = {"points": [point(x, *b) for x, b in zip(ends, brackets, strict=True)]}
     found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
-    with pytest.raises(Unproved, match="across itself"):
-        repelling_fixed_point(found)
+    with pytest.raises(Unproved, match="closed path"):
+        staying_orbit(StayingSet((Phases(*ends),), (found,), ()))
     witness["points"][1] = point(ends[1], early, hits[1] + thin)
     with pytest.raises(Unproved, match="straddles 2 pi"):
         apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
@@ -808,8 +763,6 @@ def test_all_claims_at_the_papers_numbers():
     assert Fraction("0.999634") < low < high < Fraction("0.999637")
     assert high - low < Fraction("1e-6")
     assert "[1.1, 1.49]" in lines["G6"].why
-    low, high = lines["G10"].quantities["fixed_point"]
-    assert low < Fraction("1.104775829127550847838252004") < high + Fraction(1, 10**27)
 
 
 @pytest.mark.long
