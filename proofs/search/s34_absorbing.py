@@ -37,7 +37,7 @@ from proofs.trusted.equations import (
     launch_acceleration,
 )
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
+from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
@@ -153,18 +153,19 @@ class Partition:
         rows = zip(
             *(column.tolist() for column in (cuts.phases, cuts.images, cuts.turns)), strict=True
         )
-        phases = [Fraction(x) for x in cuts.phases.tolist()]
+        phases = [Fraction(round(x / float(UNIT))) * UNIT for x in cuts.phases.tolist()]
         whole = turn(BITS).mid
         try:
             times = [
-                impact_before(self.system, Fraction(x), Fraction(y) - Fraction(x) + n * whole)
-                for x, y, n in rows
+                impact_before(self.system, phase, Fraction(y) - Fraction(x) + n * whole)
+                for phase, (x, y, n) in zip(phases, rows, strict=True)
             ]
             cutting = landing.Cutting(phases, times, after_reversal(self.system, branch))
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
         except FAILED:
             return
-        witness = {"cuts": texts(phases), "times": texts(times), "after": str(cutting.after)}
+        cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
+        witness = {"cuts": cuts_of, "times": times_of, "after": str(cutting.after)}
         self.entries["cells"].append({"branch": name, **witness})
 
     def _conclude(self) -> tuple[str, Absorption]:
@@ -197,10 +198,8 @@ class Partition:
 
 
 def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
-    """Round an interval inward."""
-    first, last = float(low), float(high)
-    first = first if first >= low else math.nextafter(first, math.inf)
-    return first, last if last <= high else math.nextafter(last, -math.inf)
+    """Round an interval inward, to units."""
+    return float(math.ceil(low / UNIT) * UNIT), float(math.floor(high / UNIT) * UNIT)
 
 
 def _rounded(value: Fraction) -> Fraction:

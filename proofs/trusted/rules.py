@@ -51,7 +51,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "lands": "paper.s34_circle.landing.lands",
         "never-impacts": "paper.s34_circle.landing.never_impacts",
         "absorption": "paper.s34_circle.absorption.absorption",
-        "fixed-point": "paper.s34_circle.circle.fixed_point",
         "full-shift": "paper.s34_circle.other_sets.prove_full_shift",
         "staying-orbit": "paper.s34_circle.other_sets.prove_staying_orbit",
         "branch": "paper.s34_circle.entropy.branch",

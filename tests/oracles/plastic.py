@@ -223,28 +223,6 @@ def entropy_bound(view, rng):
     return told
 
 
-def fixed_point(view, rng):
-    """f grows by `least` or more on the domain, across it; the bracket holds the fixed point."""
-    told = [] if view.least > 1 else ["f is not said to expand"]
-    told += smooth(view, view.domain, (view.least, 10**9), rng, 4)
-    if not view.domain[0] <= view.bracket[0] <= view.bracket[1] <= view.domain[1]:
-        told.append("the bracket of the fixed point leaves the domain")
-    images = [lifted(view, phase) for phase in view.domain]
-    if None in images:
-        return told
-    turns = images[0] // TURN
-    low, high = (x - turns * TURN for x in images)
-    if not (low < view.domain[0] and view.domain[1] < high < TURN):
-        told.append(f"the domain is mapped to ({low:.9g}, {high:.9g}): no fixed point is seen")
-    if not float(view.first[0]) - 1e-9 < low < float(view.first[1]) + 1e-9:
-        told.append(f"the lower end is mapped to {low:.12g}")
-    for end, side in zip(view.bracket, (1, -1), strict=True):
-        image = lifted(view, end)
-        if image is not None and side * (image - turns * TURN - float(end)) > 1e-9:
-            told.append("the fixed point is not in the bracket")
-    return told
-
-
 def full_shift(view, rng):
     """Disjoint cells in the order of phases, each mapped over the interval, and nothing else."""
     told, cells, bounds = [], view.cells, view.slopes
@@ -393,7 +371,6 @@ JUDGES = {
     "EntropyBound": entropy_bound,
     "FullShift": full_shift,
     "StayingOrbit": staying_orbit,
-    "FixedPoint": fixed_point,
     "ImageArc": image_arc,
     "Horseshoe": horseshoe,
     "Itinerary": itinerary,

@@ -262,12 +262,6 @@ FALSE = {
         offs("cells"),
         put("region", ((F("1.11"), F("1.32")),)),
     ],
-    "FixedPoint": [
-        offs("bracket"),
-        offs("first"),
-        put("least", lambda old: old + 9),
-        put("domain", (F("1.5"), F("1.51"))),
-    ],
     "Separation": [
         *map(offs, ("start", "phase", "time", "arrival", "speed")),
         put("turns", 1),
