@@ -214,6 +214,13 @@ def test_no_itinerary_without_its_orbit(orbit):
         Itinerary(BASE, tuple((Fraction(a), Fraction(b)) for a, b in orbit))
 
 
+@pytest.mark.parametrize("signs", [(-1, -1), (1, -1), (-1, 1)])
+def test_orbits_are_followed_where_f_increases(signs):
+    """The order of phases is that of itineraries, and of images, there alone."""
+    with pytest.raises(Unproved, match="increases"):
+        follow(replace(BASE, signs=signs), [STEPS], Fraction("1.1"))
+
+
 # -- decisions -------------------------------------------------------------------------------------
 
 AROUND = horseshoe(sets(("1.1", "1.15"), ("1.27", "1.32")))
