@@ -9,6 +9,7 @@ from itertools import islice
 import pytest
 
 from proofs.plane import picture, summary
+from proofs.plane.cost import Cost, by_depth
 from proofs.plane.overlay import Overlay
 from proofs.plane.page import MOST, corner, data, page, said, size
 from proofs.plane.store import opened, quarters
@@ -132,3 +133,12 @@ def test_the_page_says_what_impacts_it_is_about(tmp_path, epsilon, told, monkeyp
         text = page(store, picture.shown(store, made), "", [])
     lede = re.search('<p class="lede">(.*?)</p>', text)[1]
     assert re.sub("<.*?>", "", lede).startswith(f"{told}. In each cell")
+
+
+def test_costs_are_told_by_depth():
+    spent = [Cost(2, 0.2, 0.1, "proved", float(k)) for k in range(1, 12)]
+    told = by_depth([*spent, Cost(0, 0.2, 0.1, "cut in four", 40.0)])
+    assert told == [
+        {"depth": 0, "cells": 1, "median": "40", "mean": "40", "nine_tenths": "40"},
+        {"depth": 2, "cells": 11, "median": "6", "mean": "6", "nine_tenths": "10"},
+    ]
