@@ -95,10 +95,10 @@ def rectangles(
     return Rectangles(centres, matrices, _disjoint(centres, matrices, arrows))
 
 
-def lemma(file: SymbolicLemmas, function: str, sets: Rectangles, digits: int = 8) -> str:
+def lemma(file: SymbolicLemmas, function: str, sets: Rectangles, digits: int = 9) -> str:
     """Prove the covering relations, with coordinates of so many decimals, and add the entropy.
 
-    Arrows for which a relation is not proved are left out.
+    Arrows for which a relation is not proved are left out; Undecided if no closed path is left.
     """
 
     def exact(value: float) -> Fraction:
@@ -118,6 +118,8 @@ def lemma(file: SymbolicLemmas, function: str, sets: Rectangles, digits: int = 8
         except Undecided:
             continue
     kept = _recurrent(np.array(list(proved)).reshape(-1, 2))
+    if not len(kept):
+        raise Undecided("no closed path of covering relations is proved")
     relations = [proved.pop((i, j)) for i, j in kept.tolist()]
     unused = [name for i, name in names.items() if i not in kept]
     for name in (*proved.values(), *unused):

@@ -61,6 +61,8 @@ def test_relations_that_are_not_proved_are_left_out():
     one, two = (lemma(file, "F", some) for file, some in zip(files, (sets, more), strict=True))
     assert files[0].steps[one]["witness"]["growth"] == files[1].steps[two]["witness"]["growth"]
     assert len(files[0].steps) == len(files[1].steps)
+    with pytest.raises(Undecided, match="no closed path"):
+        lemma(files[0], "F", Rectangles(*sets[:2], np.array(sorted(missing))[:1]))
 
 
 def test_what_is_refused():
