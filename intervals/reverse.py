@@ -20,6 +20,8 @@ from intervals.rounding import MAX
 
 _PI, _ONE = IntervalArray([Interval.pi()]), IntervalArray([1])
 _TINY = Fraction(1, 2**400)
+_SLACK = 2.0**-44  # in proportion: numpy's powers are nearer than that, as a rule
+_LEAST = 2.0**-900  # below it powers would lose bits
 _FAR = 1e8  # beyond it the branches of sine and tangent are not told apart
 
 
@@ -122,12 +124,11 @@ def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
     """
     if n == 1:
         return z
-    if n == 3:
-        return z.cbrt()
     rows = z._rows
     near = np.abs(rows) < 2.0**1000
-    size = np.where(near, np.abs(rows), 0.0) ** (1 / n)
-    candidate = np.where(rows < 0, -size * (1 - 2.0**-44), size * (1 + 2.0**-44))
+    size = np.where(near, np.maximum(np.abs(rows), _LEAST), 1.0) ** (1 / n)
+    below = np.where(rows > -_LEAST, 0.0, -size * (1 - _SLACK))
+    candidate = np.where(rows > 0, size * (1 + _SLACK), below)
     proved = near & ((IntervalArray.from_floats(candidate) ** n).inf >= rows)
     return IntervalArray._of_rows(np.where(proved, candidate, MAX))
 

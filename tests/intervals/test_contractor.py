@@ -7,7 +7,7 @@ import pytest
 from hypothesis import strategies as st
 
 import intervals
-from intervals import Interval, IntervalArray
+from intervals import Interval, IntervalArray, reverse
 from intervals.contractor import contract, contracted, record
 from intervals.newton import Roots
 from intervals.reverse import quotient, root
@@ -207,6 +207,12 @@ def test_roots_are_enclosed(ends, n, shift):
     assert found.contains(low).all() and found.contains(high).all()
     if n % 2 and max(abs(low), abs(high)) * 2 ** (900 // n) > 1:
         assert (found.wid <= float(high - low) + 1e-12 * float(max(abs(low), abs(high)))).all()
+
+
+def test_a_root_that_is_wrong_is_not_believed(monkeypatch):
+    monkeypatch.setattr(reverse, "_SLACK", -(2.0**-30))
+    found = root(IntervalArray([(-32, 243), (32, 243)]), IntervalArray([(-9, 9), (0, 9)]), 5)
+    assert found.contains(IntervalArray([(-2, 3), (2, 3)])).all()
 
 
 @for_all(st.lists(st.integers(-12, 12), min_size=10, max_size=10), st.integers(0, 3))
