@@ -4,6 +4,8 @@ import gc
 import os
 import sys
 
+import pytest
+
 from tests.effort import EFFORT
 
 
@@ -19,6 +21,14 @@ def pytest_configure(config):
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'."""
+    for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(pytest.mark.slow)
 
 
 def pytest_collection_finish():
