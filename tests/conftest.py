@@ -5,6 +5,8 @@ import os
 import sys
 from tempfile import TemporaryDirectory
 
+import pytest
+
 from tests import once
 from tests.effort import EFFORT
 
@@ -26,6 +28,14 @@ def pytest_configure(config):
         folder_of_run = TemporaryDirectory()
         config.add_cleanup(folder_of_run.cleanup)
         os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'."""
+    for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(pytest.mark.slow)
 
 
 def pytest_collection_finish():
