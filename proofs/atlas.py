@@ -27,9 +27,10 @@ from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
-from proofs.trusted.atlas import DEEPEST, QUESTIONS, Region, unpacked
+from proofs.trusted.atlas import DEEPEST, Region, unpacked
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.numbers import Range
+from proofs.trusted.questions import QUESTIONS
 from proofs.trusted.verdicts import Verdict
 
 FOLDER = Path("runs/atlas")

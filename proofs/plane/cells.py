@@ -9,9 +9,10 @@ from intervals import Undecided
 from proofs.plane import horseshoe, settling, singles
 from proofs.plane.horseshoe import Sets
 from proofs.plane.steps import Steps
-from proofs.trusted.atlas import SPLIT, Cell, Question, Region, cell, without_proof
+from proofs.trusted.atlas import SPLIT, Cell, Region, cell, without_proof
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.parameters import Place
+from proofs.trusted.questions import Question
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected
 

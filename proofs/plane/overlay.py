@@ -23,6 +23,7 @@ from proofs.trusted.verify import premises
 PERIODS = 5  # of the table, at most, between the impacts of an orbit
 GRAZING = "grazing"
 _MOST_SEEN = 80  # points of curves of grazing that are seen, for which proofs are looked for
+_MANY = 5  # windows between multiples of 1/(2 n)
 Points = list[tuple[float, float]]
 
 
@@ -81,12 +82,17 @@ def _inside(region: Region, points: Points) -> Iterator[Points]:
 
 def _closed(region: Region, q: Fraction) -> Iterator[tuple[str, int, Points]]:
     low, high = region.eta
-    for n in range(1, PERIODS + 1):
-        unit = Fraction(1, 2 * n)
-        for window in range(low // unit, -(-high // unit)):
-            ends = max(low, window * unit), min(high, (window + 1) * unit)
-            for name, etas, nus in closed(n, q, *map(float, ends)):
-                yield name, n, list(zip(etas, nus, strict=True))
+    windows = [
+        (n, k)
+        for n in range(1, PERIODS + 1)
+        for k in range(low * 2 * n // 1, -(-high * 2 * n // 1))
+    ]
+    step = 1 + len(windows) // _MANY  # short curves need fewer points
+    for n, k in windows:
+        ends = max(low, Fraction(k, 2 * n)), min(high, Fraction(k + 1, 2 * n))
+        for name, etas, nus in closed(n, q, *map(float, ends)):
+            points = list(zip(etas, nus, strict=True))
+            yield name, n, [*points[:-1:step], points[-1]]
 
 
 def _grazing(region: Region, epsilon: Fraction) -> Context | None:

@@ -31,6 +31,7 @@ STROKES = MappingProxyType(
         "where it begins to stick": (style.BLACK, 1.0, (1, 2)),
     }
 )  # colour, width, dashes
+_MOST_NAMED = 40  # lines: of more the names would hide the cells
 MEETINGS = "grazing meets another one"
 
 
@@ -97,6 +98,8 @@ def _draw_lines(axes: Axes, region: Region, over: Overlay) -> None:
         stroke.set_label(label)
         if dashes:
             stroke.set_dashes(dashes)
+        if len(over.lines) > _MOST_NAMED:
+            continue
         x, y = named(region, line)
         box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}
         axes.text(x, y, f"n = {line.n}", ha="center", va="center", fontsize=6, bbox=box)

@@ -26,7 +26,7 @@ _WORDS = {
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",
-    "StableSingles": "stable with one impact in n periods",
+    "StableSingles": "a stable single-impact orbit",
 }
 
 
@@ -34,7 +34,7 @@ def words(kind: str) -> str:
     """Return what a conclusion of a kind says, in a few words."""
     name, *periods = kind.split("-")
     if name == "StableSingles" and not periods:
-        return "none is stable with one impact in n periods"
+        return "no stable single-impact orbit"
     told = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
     return f"{told}: n = {', '.join(periods)}" if periods else told
 

@@ -30,5 +30,6 @@ def test_ten_cells_are_proved_where_they_are_said_to_be(folder):
         assert report.conclusions[0].kind in made["kinds"]
 
 
-def test_both_questions_were_asked():
-    assert [folder.name for folder in MADE] == ["attractor", "horseshoe"]
+def test_all_questions_were_asked():
+    names = ["attractor", "entropy-3", "horseshoe", "orbits", "orbits-0.3"]
+    assert [folder.name for folder in MADE] == names

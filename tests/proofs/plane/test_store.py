@@ -342,7 +342,7 @@ def test_orbits_with_restitution(tmp_path, capsys):
     out = ["--depth", "1", "--out", str(tmp_path)]
     assert atlas.main([*asked, "--epsilon", "0.3", *out]) == 0
     said = capsys.readouterr().out
-    assert "4 cells, 1 of the area: stable with one impact in n periods: n = 1" in said
+    assert "4 cells, 1 of the area: a stable single-impact orbit: n = 1" in said
     assert check([str(tmp_path / NAME)]) == 0
     with pytest.raises(SystemExit):
         atlas.main([*asked, "--epsilon", "0", *out])

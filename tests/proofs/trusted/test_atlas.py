@@ -11,12 +11,13 @@ import pytest
 
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, opened
-from proofs.trusted.atlas import Region, area, check_store, question
+from proofs.trusted.atlas import Region, area, check_store
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.beyond.boxes import CoveringShift
 from proofs.trusted.paper.beyond.singles import StableSingles
 from proofs.trusted.parameters import Place
+from proofs.trusted.questions import question
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected
 

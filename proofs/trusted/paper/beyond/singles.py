@@ -261,22 +261,18 @@ class StableSingles(Conclusion):
                 "outside of the unit circle."
             )
         return (
-            f"there is exactly one stable {motion} for n = {self._named}, "
+            f"there is exactly one stable {motion} for n = {', '.join(map(str, self.stable))}, "
             f"{'each, ' if len(self.stable) > 1 else ''}and none for another n{most}. Its "
             "multipliers are inside of the unit circle, and it attracts all motions that are near "
             "it after an impact; each other one that there is has a multiplier outside."
         )
 
     @property
-    def _named(self) -> str:
-        return ", ".join(map(str, self.stable))
-
-    @property
     def brief(self) -> str:
-        if not self.stable:
-            return f"no motion with one impact in n table periods is stable, n up to {self.most}"
+        named = ", ".join(map(str, self.stable))
         return (
-            f"a motion with one impact in n table periods is stable exactly for n = {self._named}"
+            f"for n up to {self.most} a motion that never sticks, with one impact in n table "
+            f"periods, is stable for {f'n = {named} alone' if named else 'none'}"
         )
 
 
