@@ -37,8 +37,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "horseshoe": "paper.s31_horseshoe.prove_horseshoe",
         "moran-root": "paper.s32_sets.moran.moran_root",
         "itinerary": "paper.s32_sets.invariant.itinerary",
-        "linear-set": "paper.s32_sets.linear.linear_set",
-        "excess": "paper.s32_sets.linear.excess",
         "dimension": "paper.s32_sets.repeller.dimension",
         "rebound": "paper.s33_restitution.rebounds.rebound",
         "rectangle": "paper.s33_restitution.rebounds.rectangle",

@@ -22,6 +22,8 @@ _MORE = {  # properties that sentences or rows rest on
     "ThinShift": ("rate",),
     "MarkovSet": ("growth", "fixed_points"),
     "Digits": ("readings",),
+    "Excess": ("level",),
+    "LinearDimension": ("measure",),
     "Itinerary": ("cut",),
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),

@@ -12,13 +12,13 @@ from proofs.shell.manifest import NAME
 from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, _check_claim, derive
+from proofs.trusted.verify import Rejected, _check_claim
 from tests.once import REPORTS, report
+from tests.proofs.trusted.renewing import rederived
 
 REFUSED = (Malformed, Rejected)
 EXACT = {"H15", "H16", "H17", "A2"}  # decided by exact arithmetic on the paper's numbers
@@ -147,22 +147,10 @@ def test_changed_numbers_prove_nothing_else(group):
         top, slash, bottom = inner[path[-1]].partition("/")
         inner[path[-1]] = f"{int(top) + chance.choice((-1, 1, 10**6))}{slash}{bottom}"
         try:
-            context = rederived(group, changed["steps"], path[0])
+            context = rederived(proved(group), changed["steps"], path[0])
             claims = [_check_claim(context, Reader(entry), set()) for entry in changed["claims"]]
         except REFUSED:
             continue
         for claim in claims:
             same = original[claim.id]
             assert (claim.verdict.value, claim.statement) == (same["verdict"], same["statement"])
-
-
-def rederived(group, steps, changed):
-    """Derive one step again, and all that rest on it; what is proved then."""
-    known, again = proved(group).known, {changed}
-    for name, step in steps.items():
-        if again.intersection(Reader(step["witness"]).mentioned()):
-            again.add(name)
-    old = {name: each for name, each in known.items() if name not in again}
-    context = Context(PAPER, proved(group).functions, old)
-    derive(context, Reader({name: step for name, step in steps.items() if name in again}))
-    return context

@@ -88,7 +88,7 @@ def test_the_command_names_epsilon_beyond_the_paper():
 
 
 def test_an_undecided_claim_in_a_manifest_is_status_1(tmp_path, capsys):
-    words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H5", "--out", str(tmp_path)]
+    words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H4", "--out", str(tmp_path)]
     assert main(words) == 1
     capsys.readouterr()
     assert check([str(tmp_path / manifest.NAME)]) == 1

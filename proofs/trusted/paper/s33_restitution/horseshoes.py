@@ -234,11 +234,14 @@ class HorseshoeFamily(Conclusion):
             min(shoe.rates.expansion for shoe in self.shoes),
             max(shoe.rates.contraction for shoe in self.shoes),
         )
+        ends = dict.fromkeys((self.shoes[0], self.shoes[-1]))
         return (
             "for each epsilon there are disjoint sets V1 and V2 of states, each one rectangle of "
-            "phases x velocities or the union of two, closed, and a number e, as listed here: "
-            f"{'; '.join(map(_listed, self.shoes))}. All their states are physically possible "
-            "(gap' <= 0), and F is smooth on them. Where they are one rectangle each, "
+            "phases x velocities or the union of a first and a second one, closed, and a number e, "
+            f"the same on each of {len(self.shoes)} intervals of epsilon, one after the other, of "
+            f"which the first and the last are: {'; '.join(map(_listed, ends))}. All their states "
+            "are physically possible (gap' <= 0), and F is smooth on them. Where they are one "
+            "rectangle each, "
             f"{Strips.CROSSED}; where they are unions, {Blocks.CROSSED}; {self.brief}. "
             + FULL_SHIFT.format(
                 "uniformly hyperbolic: unstable directions are stretched at least "

@@ -181,7 +181,7 @@ ALL_OVER_A_BOX = {
     "separation", "slope-range", "staying-orbit",
 }  # fmt: skip
 ONE_OSCILLATOR = {
-    "bounces-end", "branch", "dimension", "excess", "grazing", "lands", "linear-set",
+    "bounces-end", "branch", "dimension", "grazing", "lands",
     "never-impacts", "superstable-motion",
 }  # fmt: skip
 

@@ -274,11 +274,14 @@ def test_a_family_has_the_worst_bounds():
     assert "stretched at least 4 times" in family.sentence and "f' >= 4;" in family.sentence
 
 
-def test_a_family_names_all_its_sets():
-    one, two = at_epsilon(0, "1/10"), at_epsilon("1/10", "1/5", left=(Fraction(9, 10), LEFT[1]))
-    sentence = HorseshoeFamily((one, two)).sentence
-    assert f"epsilon in [0, 0.1]: {one.strips.named}, e = 0; epsilon in [0.1, 0.2]: " in sentence
+def test_a_family_names_its_first_and_last_sets_and_counts_them():
+    one, two = at_epsilon(0, "1/10"), at_epsilon("1/8", "1/5", left=(Fraction(9, 10), LEFT[1]))
+    sentence = HorseshoeFamily((one, at_epsilon("1/10", "1/8"), two)).sentence
+    assert "on each of 3 intervals" in sentence
+    assert f"epsilon in [0, 0.1]: {one.strips.named}, e = 0; epsilon in [0.125, 0.2]: " in sentence
     assert f"{two.strips.named}, e = 0. All" in sentence and one.strips != two.strips
+    alone = HorseshoeFamily((one,)).sentence
+    assert "on each of 1 intervals" in alone and alone.count(one.strips.named) == 1
 
 
 @pytest.mark.parametrize(
