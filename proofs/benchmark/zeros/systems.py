@@ -43,6 +43,7 @@ def cube(n: int, low: int | str, high: int | str) -> Box:
 
 WIDE = 10**8
 MANY, FEW = 100_000, 100  # sub-boxes where many are needed, and where each takes long
+_BOXES = {"discrete integral 6": MANY, "quadrature 6": FEW, "redeco 8": MANY}
 TURN = Interval(0, 2 * Interval.pi().sup)
 FAMILIES: tuple[tuple[str, str, Callable[..., Any], tuple[int, ...], Any, Any, Any], ...] = (
     ("Broyden tridiagonal", "MGH", many.broyden_tridiagonal, (3, 4, 5, 6, 8, 10, 12, 16),
@@ -83,7 +84,7 @@ def systems() -> Iterator[System]:
     """Yield all of them."""
     for name, source, f, sizes, low, high, count in FAMILIES:
         for n in sizes:
-            many_or_few = {"quadrature 6": FEW, "redeco 8": MANY}.get(f"{name} {n}", 20_000)
+            many_or_few = _BOXES.get(f"{name} {n}", 20_000)
             known = count and count(n)
             yield System(f"{name} {n}", source, f, cube(n, low, high), known, None, many_or_few)
     yield System("Wood 4", "IBEX", many.wood, cube(4, -(10**6), 10**6))
@@ -112,7 +113,8 @@ def _with_pi() -> Iterator[System]:
     quarter = side("-3.2044245066615893", "3.2044245066615893")  # 1.02 pi
     half = side("-1.5707963267948968", "1.5707963267948968")
     yield System("Kin1", "IBEX", one.kinematics, [TURN] * 6, 16)
-    yield System("Sjirk Boon", "IBEX", one.sjirk_boon, [*cube(2, -100, 100), TURN, TURN])
+    control = [*cube(2, -100, 100), TURN, TURN]
+    yield System("Sjirk Boon", "IBEX", one.sjirk_boon, control, None, None, MANY)
     turned = [side("-0.5", "5.7831853071795862"), side(-10, 30)]
     yield System("numerical analysis", "IBEX", one.numerical_analysis, turned, 13)
     yield System("Boggs", "Floudas", one.boggs, cube(2, -10, 10), 3)
@@ -125,7 +127,7 @@ def _with_pi() -> Iterator[System]:
     yield System("Smiley, Chun 5.2", smiley, one.smiley_chun_spheres, cube(3, -3, 3), 24)
     scaled = [side(-510, "1.4"), side(-510, "1.1")]
     yield System("Smiley, Chun 5.4", smiley, one.smiley_chun_scaled, scaled, 7)
-    yield System("Smiley, Chun 5.5", smiley, one.smiley_chun_pendulum, ends, 41)
+    yield System("Smiley, Chun 5.5", smiley, one.smiley_chun_pendulum, ends, 41, None, MANY)
 
 
 def _polynomial() -> Iterator[System]:
