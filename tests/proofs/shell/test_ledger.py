@@ -33,6 +33,7 @@ def test_every_claim_once():
         assert job.claims == (claim,)
 
 
+@pytest.mark.slow
 def test_proves_writes_and_reuses(tmp_path, capsys):
     assert run(tmp_path) == 0
     ledger = json.loads((tmp_path / "ledger.json").read_text())

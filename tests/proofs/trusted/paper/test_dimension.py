@@ -59,7 +59,7 @@ def decide(found, of=PAPER):
     ("words", "longest", "read"),
     [
         pytest.param(FULL, 6, periodic_dimension.every, marks=pytest.mark.slow),
-        (WITHOUT_000, 8, periodic_dimension.without_000),
+        pytest.param(WITHOUT_000, 8, periodic_dimension.without_000, marks=pytest.mark.slow),
         (WITHOUT_000, 4, periodic_dimension.blocks),
     ],
 )

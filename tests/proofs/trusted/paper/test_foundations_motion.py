@@ -7,6 +7,7 @@ import math
 import random
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import pytest
 from mpmath import mp, mpf
@@ -29,16 +30,19 @@ def gap(eta, nu, psi, t, epsilon=mpf(0), gamma=mpf(0)):
 
 # -- M6: no impact at all ----------------------------------------------------------------------
 
+slow = partial(pytest.param, marks=pytest.mark.slow)
+
 
 @pytest.mark.parametrize(
     ("eta", "nu", "never"),
     [
         (mp.sqrt(2) / 7, "-0.2", True),
-        (mp.sqrt(3), "-0.9", True),
-        (mpf("0.2121"), "-0.2", True),  # a touch after 10000 turns, not before
-        (mp.sqrt(2) / 7, "-1", False),  # nu <= -1: it touches after one turn, or is below the table
-        (mp.sqrt(2) / 7, "-1.5", False),
-        (mp.sqrt(2) / 7, "0.2", False),  # nu > 0: the mass sticks
+        slow(mp.sqrt(3), "-0.9", True),
+        slow(mpf("0.2121"), "-0.2", True),  # a touch after 10000 turns, not before
+        # nu <= -1: it touches after one turn, or is below the table
+        slow(mp.sqrt(2) / 7, "-1", False),
+        slow(mp.sqrt(2) / 7, "-1.5", False),
+        slow(mp.sqrt(2) / 7, "0.2", False),  # nu > 0: the mass sticks
         (mpf(2) / 7, "-0.2", False),  # rational: a touch after 7 turns
     ],
 )
