@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from intervals import Undecided
 from proofs.motion.many import float_gap, next_impacts
-from proofs.motion.system import System
 from proofs.plane.settling import settles
 from proofs.plane.steps import Steps, corners, side
-from proofs.search.shifts import families, pieces, symbols, with_spare
+from proofs.search.portrait import FALLS, RISES, Seen, continues
+from proofs.search.shifts import Piece, expanding, families, symbols, with_spare
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
@@ -89,12 +89,11 @@ def _holds(box: Place, sets: Sets) -> bool:
 
 def _seen(box: Place) -> list[Sets]:
     """Return pairs of sets that are seen at the centre, and seem to fit all over a box."""
-    (eta, last), (nu, most) = box.eta, box.nu
-    found = symbols(pieces(System((eta + last) / 2, (nu + most) / 2), _GRID))
+    etas, nus = corners(box)
+    found = symbols(_pieces(side(box), etas[0], nus[0]))
     pairs = [sets for family in families(found, 2) for sets in with_spare(family)]
     if not pairs:
         return []
-    etas, nus = corners(box)
     points = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in pairs], float)
     flights = next_impacts(side(box), etas, nus, points[..., None], _FARTHEST)
     fits = []
@@ -106,6 +105,19 @@ def _seen(box: Place) -> list[Sets]:
             sets = Sets(tuple(phases), tuple(int(x) for x in turns), latest)
             fits.append((abs(math.log(margin / _BEST)), sets))
     return [sets for _, sets in sorted(fits)]
+
+
+def _pieces(sign: int, eta: float, nu: float) -> list[Piece]:
+    """Return pieces of branches, as far as a grid of phases shows them."""
+    phases = math.tau * (np.arange(_GRID) + 0.5) / _GRID
+    _, images, slopes = next_impacts(sign, eta, nu, phases, _FARTHEST)
+    branches: list[list[Seen]] = [[]]
+    for phase, image, slope in zip(phases.tolist(), images.tolist(), slopes.tolist(), strict=True):
+        point = Seen(phase, FALLS if slope < 0 else RISES, image, slope)  # NaN continues nothing
+        if branches[-1] and not continues(branches[-1][-1], point):
+            branches.append([])
+        branches[-1].append(point)
+    return [piece for branch in branches for piece in expanding(branch)]
 
 
 def _margin(phases: Sequence[Range], images: Floats) -> float:

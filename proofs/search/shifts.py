@@ -15,7 +15,7 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.system import System
-from proofs.search.portrait import Check, stretches
+from proofs.search.portrait import Check, Seen, stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
@@ -72,13 +72,16 @@ def pieces(
     check: Check = lambda: None,
 ) -> list[Piece]:
     """Return the pieces of branches on which f expands, as a grid of phases shows them."""
-    found = []
-    for stretch in stretches(system, grid, farthest or reach(system.eta), check):
-        for steep, points in groupby(stretch.points, lambda point: abs(point.slope) >= _STEEP):
-            run = list(points)
-            if steep and len(run) > 2:
-                found.append(Piece(tuple(x.phase for x in run), tuple(x.image for x in run)))
-    return found
+    seen = stretches(system, grid, farthest or reach(system.eta), check)
+    return [piece for stretch in seen for piece in expanding(stretch.points)]
+
+
+def expanding(branch: Sequence[Seen]) -> Iterator[Piece]:
+    """Yield the pieces of one branch on which f expands."""
+    for steep, points in groupby(branch, lambda point: abs(point.slope) >= _STEEP):
+        run = list(points)
+        if steep and len(run) > 2:
+            yield Piece(tuple(x.phase for x in run), tuple(x.image for x in run))
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
