@@ -1,9 +1,8 @@
 """The plane of parameters in cells, with what is proved at all oscillators of each.
 
-An adaptive quadtree of boxes of (eta, nu), impacts being plastic: each cell has a proof of what is
-asked, or of its opposite, or is cut in four down to the depth; what is left is undecided. Results
-are rows of DIR/atlas.sqlite, with their certificates; a run that was ended in any way goes on
-where it was.
+An adaptive quadtree of boxes of (eta, nu): each cell has a proof of what is asked, or of its
+opposite, or is cut in four down to the depth; what is left is undecided. Results are rows of
+DIR/atlas.sqlite, with their certificates; a run that was ended in any way goes on where it was.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ if __name__ == "__main__":
 
 import json
 from argparse import ArgumentTypeError, Namespace
+from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -26,8 +26,10 @@ from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
-from proofs.trusted.atlas import DEEPEST, QUESTIONS, Region, unpacked
+from proofs.trusted.atlas import DEEPEST, Region, unpacked
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.numbers import Range
+from proofs.trusted.questions import QUESTIONS
 from proofs.trusted.verdicts import Verdict
 
 FOLDER = Path("runs/atlas")
@@ -47,6 +49,8 @@ exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or anot
 examples:
   python -m proofs.atlas --eta 0.2112 0.2136 --nu -0.202 -0.198 --ask horseshoe
   python -m proofs.atlas --eta 0.2 0.22 --nu -0.22 -0.2 --ask attractor --depth 6 --jobs 2
+  python -m proofs.atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
+  python -m proofs.atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
   python -m proofs.atlas --out runs/atlas --cell 0.2121 -0.2
   python -m proofs.atlas --out runs/atlas --export cells.parquet
   python -m proofs.check runs/atlas/atlas.sqlite
@@ -74,7 +78,9 @@ def _parser() -> Parser:
     parser = Parser("proofs.atlas", __doc__, EPILOG)
     parser.add_argument("--eta", type=number, nargs=2, metavar=("A", "B"), help="frequency ratios")
     parser.add_argument("--nu", type=number, nargs=2, metavar=("A", "B"), help="amplitudes -beta/p")
-    parser.add_argument("--ask", choices=QUESTIONS, help="what is asked in each cell")
+    restitution = "coefficient of restitution, one or a range; without it impacts are plastic"
+    parser.add_argument("--epsilon", type=number, nargs="+", metavar="X", help=restitution)
+    parser.add_argument("--ask", metavar="QUESTION", help=f"one of {', '.join(QUESTIONS)}")
     depth = f"how often cells are cut at most (default {_DEPTH})"
     parser.add_argument("--depth", type=_depth, default=_DEPTH, metavar="D", help=depth)
     jobs = "processes (default 1)"
@@ -120,14 +126,23 @@ def _parquet(text: str) -> Path:
 def _region(parser: Parser, options: Namespace) -> Region | None:
     """Return the region asked for; None where an atlas that is there is meant."""
     given = [options.eta, options.nu, options.ask]
-    if not any(given):
+    if not any((*given, options.epsilon)):
         return None
     if not all(given):
         parser.error("--eta, --nu and --ask go together")
     try:
-        return Region(tuple(options.eta), tuple(options.nu), options.ask)
+        return Region(tuple(options.eta), tuple(options.nu), options.ask, _epsilon(options.epsilon))
     except ValueError as failure:
         parser.error(str(failure))
+
+
+def _epsilon(given: list[Fraction] | None) -> Range | None:
+    """Return the range of epsilon; None where impacts are plastic."""
+    if given is None or not any(given):
+        return None
+    if len(given) > 2:
+        raise ValueError("epsilon: a number or a range in [0, 1) is expected")
+    return given[0], given[-1]
 
 
 def _make(parser: Parser, options: Namespace, store: Store) -> int:

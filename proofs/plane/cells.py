@@ -6,12 +6,13 @@ from collections.abc import Iterator, Sequence
 from time import process_time
 
 from intervals import Undecided
-from proofs.plane import horseshoe, settling
+from proofs.plane import horseshoe, settling, singles
 from proofs.plane.horseshoe import Sets
 from proofs.plane.steps import Steps
 from proofs.trusted.atlas import SPLIT, Cell, Region, cell, without_proof
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.parameters import Place
+from proofs.trusted.questions import Question
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected
 
@@ -38,7 +39,7 @@ def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[
 def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Cell:
     why = "no proof is found"
     try:
-        for made, sets in _proposals(region.question, region.box(key), hints):
+        for made, sets in _proposals(region.asked, region.box(key), hints):
             try:
                 row = cell(region, key, made.certificate())
                 return row._replace(sets=sets.text if sets else "")
@@ -52,10 +53,12 @@ def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Cell
 
 
 def _proposals(
-    question: str, box: Place, hints: Sequence[str]
+    asked: Question, box: Place, hints: Sequence[str]
 ) -> Iterator[tuple[Steps, Sets | None]]:
     """Yield certificates that seem to answer a question."""
-    if question == "horseshoe":
-        yield from horseshoe.propose(box, [Sets.of(hint) for hint in hints])
+    if asked.kind == "entropy":
+        yield from horseshoe.propose(box, [Sets.of(hint) for hint in hints], asked.size)
+    elif asked.kind == "orbits":
+        yield singles.propose(box, asked.size), None
     else:
         yield from ((made, None) for made in settling.propose(box))

@@ -52,6 +52,11 @@ class Flights:
         side = 1 if self.box.nu[0] > 0 else -1
         return launch(side, self._eta, _array([self.box.nu]), _array([self.phases]))
 
+    @property
+    def _order(self) -> int:
+        """The first derivative of the gap that may be > 0 at launch."""
+        return 3 if self.separating else 2
+
     def gap(self, low: Floats, high: Floats, order: int = 0) -> IntervalArray:
         """Enclose a derivative of the gap on intervals of times."""
         times = IntervalArray.from_floats(low, high)
@@ -93,8 +98,7 @@ class Flights:
     def _first(self) -> Fraction:
         """Return a time up to which the launches leave the table."""
         times = np.array([0.5**k for k in range(_EARLIEST)])
-        order = 3 if self.separating else 2
-        leaving = np.flatnonzero(self.gap(np.zeros(_EARLIEST), times, order).inf > 0)
+        leaving = np.flatnonzero(self.gap(np.zeros(_EARLIEST), times, self._order).inf > 0)
         if not leaving.size:
             raise Undecided("some launches stick, or leave too slowly")
         return Fraction(1, 2 ** int(leaving[0]))

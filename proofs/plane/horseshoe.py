@@ -1,4 +1,4 @@
-"""Is there a horseshoe? Two sets for each box of oscillators, and where there is none."""
+"""Is there a horseshoe? Some sets for each box of oscillators, and where there is none."""
 
 from __future__ import annotations
 
@@ -54,16 +54,18 @@ class Sets(NamedTuple):
         return cls(tuple(phases), tuple(turns), tuple(latest))
 
 
-def propose(box: Place, hints: Sequence[Sets]) -> Iterator[tuple[Steps, Sets | None]]:
+def propose(
+    box: Place, hints: Sequence[Sets], count: int = 2
+) -> Iterator[tuple[Steps, Sets | None]]:
     """Yield certificates that seem to answer the question, with the sets that they are about.
 
-    hints: sets of neighbours, to be tried first.
+    hints: sets of neighbours, to be tried first; count: of the sets.
     """
     with suppress(Undecided):
         yield settles(box), None
         return
-    failure = "no two sets are seen that f maps over each other all over the box"
-    tried = [sets for sets in hints if _holds(box, sets)] or _seen(box)
+    failure = f"no {_number(count)} sets are seen that f maps over each other all over the box"
+    tried = [sets for sets in hints if _holds(box, sets)] or _seen(box, count)
     for sets in tried[:_TRIES]:
         try:
             yield _covering(box, sets), sets
@@ -87,11 +89,16 @@ def _holds(box: Place, sets: Sets) -> bool:
     return True
 
 
-def _seen(box: Place) -> list[Sets]:
-    """Return pairs of sets that are seen at the centre, and seem to fit all over a box."""
+def _number(count: int) -> str:
+    return "two" if count == 2 else f"{count}"
+
+
+def _seen(box: Place, count: int) -> list[Sets]:
+    """Return so many sets that are seen at the centre, and seem to fit all over a box."""
     etas, nus = corners(box)
     found = symbols(_pieces(side(box), etas[0], nus[0]))
-    pairs = [sets for family in families(found, 2) for sets in with_spare(family)]
+    grown = [family for family in families(found, count) if len(family) == count]
+    pairs = [sets for family in grown for sets in with_spare(family)]
     if not pairs:
         return []
     points = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in pairs], float)

@@ -16,13 +16,14 @@ from proofs.search.evidence import FAILED
 from proofs.trusted.atlas import Region
 from proofs.trusted.certificate import SCHEMA, render
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared
+from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared, ratio
 from proofs.trusted.paper.beyond.meetings import Meeting
 from proofs.trusted.verify import premises
 
 PERIODS = 5  # of the table, at most, between the impacts of an orbit
 GRAZING = "grazing"
 _MOST_SEEN = 80  # points of curves of grazing that are seen, for which proofs are looked for
+_MANY = 5  # windows between multiples of 1/(2 n)
 Points = list[tuple[float, float]]
 
 
@@ -42,9 +43,12 @@ class Overlay(NamedTuple):
 
 
 def overlay(region: Region) -> Overlay:
-    """Return the curves that pass through a region, impacts being plastic."""
-    proved = _grazing(region)
-    found = list(_closed(region))
+    """Return the curves that pass through a region; none for a range of epsilon."""
+    least, epsilon = region.epsilon or (Fraction(0),) * 2
+    if least < epsilon:
+        return Overlay([], [])
+    proved = _grazing(region, epsilon)
+    found = list(_closed(region, ratio(epsilon)))
     for curve in all_of(proved, GrazingCurve) if proved else ():
         found.append((GRAZING, curve.n, list(zip(*along(curve), strict=True))))
     meetings = [
@@ -76,22 +80,27 @@ def _inside(region: Region, points: Points) -> Iterator[Points]:
         yield part
 
 
-def _closed(region: Region) -> Iterator[tuple[str, int, Points]]:
+def _closed(region: Region, q: Fraction) -> Iterator[tuple[str, int, Points]]:
     low, high = region.eta
-    for n in range(1, PERIODS + 1):
-        unit = Fraction(1, 2 * n)
-        for window in range(low // unit, -(-high // unit)):
-            ends = max(low, window * unit), min(high, (window + 1) * unit)
-            for name, etas, nus in closed(n, Fraction(1), *map(float, ends)):
-                yield name, n, list(zip(etas, nus, strict=True))
+    windows = [
+        (n, k)
+        for n in range(1, PERIODS + 1)
+        for k in range(low * 2 * n // 1, -(-high * 2 * n // 1))
+    ]
+    step = 1 + len(windows) // _MANY  # short curves need fewer points
+    for n, k in windows:
+        ends = max(low, Fraction(k, 2 * n)), min(high, Fraction(k + 1, 2 * n))
+        for name, etas, nus in closed(n, q, *map(float, ends)):
+            points = list(zip(etas, nus, strict=True))
+            yield name, n, [*points[:-1:step], points[-1]]
 
 
-def _grazing(region: Region) -> Context | None:
+def _grazing(region: Region, epsilon: Fraction) -> Context | None:
     """Prove and check the curves of grazing that are seen to pass through a region."""
-    made, left = Curves(Fraction(0), {}), _MOST_SEEN
+    made, left = Curves(epsilon, {}), _MOST_SEEN
     for n in range(1, PERIODS + 1):
-        for run in seen_curves(n, Fraction(0)):
-            part = _near(region, n, run)
+        for run in seen_curves(n, epsilon):
+            part = _near(region, n, ratio(epsilon), run)
             left -= len(part)
             if part and left >= 0:
                 with suppress(*FAILED):
@@ -103,12 +112,12 @@ def _grazing(region: Region) -> Context | None:
     return premises(render({**head, "steps": made.steps, "claims": claims}))
 
 
-def _near(region: Region, n: int, run: list[Seen]) -> list[Seen]:
+def _near(region: Region, n: int, q: Fraction, run: list[Seen]) -> list[Seen]:
     """Return the part of a curve, as it is seen, from before to after it is in a region."""
     side = -1 if 2 * n * run[0].eta // 1 % 2 else 1
 
     def nu(seen: Seen) -> float:
-        return side * math.sqrt(nu_squared(n, Fraction(1), (float(seen.eta), seen.p), math.pi))
+        return side * math.sqrt(nu_squared(n, q, (float(seen.eta), seen.p), math.pi))
 
     places = [(float(seen.eta), nu(seen)) for seen in run]
     crossed = [k for k, two in enumerate(pairwise(places)) if _crosses(region, *two)]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from proofs.plane.overlay import GRAZING, Line, Overlay, overlay
 from proofs.plane.store import Store
-from proofs.plane.summary import NOT_YET, kinds, merged, words
+from proofs.plane.summary import NOT_YET, joined, kinds, merged, words
 from proofs.report.figures import style
 from proofs.report.layout import percent
 from proofs.trusted.atlas import Region
@@ -31,6 +31,7 @@ STROKES = MappingProxyType(
         "where it begins to stick": (style.BLACK, 1.0, (1, 2)),
     }
 )  # colour, width, dashes
+_MOST_NAMED = 40  # lines: of more the names would hide the cells
 MEETINGS = "grazing meets another one"
 
 
@@ -68,7 +69,7 @@ def picture(region: Region, shown: Shown) -> Drawing:
     for kind, colour in coloured([*found]).items():
         boxes = [region.box(key) for key in found[kind]]
         label = f"{words(kind)}: {percent(shares[kind])}"
-        style.proved_boxes(axes, [(x.eta, x.nu) for x in boxes], colour, label, lw=0)
+        style.proved_boxes(axes, joined((x.eta, x.nu) for x in boxes), colour, label, lw=0)
     _draw_lines(axes, region, over)
     axes.set(xlabel=r"$\eta$", ylabel=r"$\nu$", xlim=_ends(region.eta), ylim=_ends(region.nu))
     axes.set_title(f"{region.question}: {made['holds']}", wrap=True)
@@ -97,6 +98,8 @@ def _draw_lines(axes: Axes, region: Region, over: Overlay) -> None:
         stroke.set_label(label)
         if dashes:
             stroke.set_dashes(dashes)
+        if len(over.lines) > _MOST_NAMED:
+            continue
         x, y = named(region, line)
         box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}
         axes.text(x, y, f"n = {line.n}", ha="center", va="center", fontsize=6, bbox=box)

@@ -11,26 +11,32 @@ from hashlib import sha256
 from typing import Any
 
 from proofs.plane.store import Store, quarters
-from proofs.trusted.atlas import QUESTIONS, Cell, Region, area
+from proofs.trusted.atlas import Cell, Region, area
 from proofs.trusted.certificate import box_to_json
-from proofs.trusted.numbers import floor_text, show_range
+from proofs.trusted.numbers import Range, floor_text, show_range
 from proofs.trusted.verdicts import Verdict
 
+Box = tuple[Range, Range]
 LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 NOT_YET = "not looked at"
 _VERDICTS = [verdict.value for verdict in LEAVES]
 _WORDS = {
-    "CoveringShift": "a full shift on two symbols is a factor of f",
+    "CoveringShift": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",
+    "StableSingles": "a stable single-impact orbit",
 }
 
 
 def words(kind: str) -> str:
     """Return what a conclusion of a kind says, in a few words."""
-    return _WORDS.get(kind, re.sub(r"(?<!^)(?=[A-Z])", " ", kind).lower())
+    name, *periods = kind.split("-")
+    if name == "StableSingles" and not periods:
+        return "no stable single-impact orbit"
+    told = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
+    return f"{told}: n = {', '.join(periods)}" if periods else told
 
 
 def kinds(names: Iterable[str]) -> list[str]:
@@ -61,8 +67,8 @@ def summary(store: Store) -> dict[str, Any]:
     left = 1 - sum(areas[name] for name in _VERDICTS) / whole
     return {
         **json.loads(region.text),
-        "holds": QUESTIONS[region.question].holds,
-        "opposite": QUESTIONS[region.question].opposite,
+        "holds": region.asked.holds,
+        "opposite": region.asked.opposite,
         "parts": [box_to_json(root) for root in region.roots],
         "cells": dict(cells),
         "share_of_area": shares | {NOT_YET: floor_text(left)},
@@ -75,7 +81,7 @@ def summary(store: Store) -> dict[str, Any]:
 
 def lines(made: dict[str, Any], region: Region) -> Iterator[str]:
     """Yield what a summary says, for the screen."""
-    question = QUESTIONS[region.question]
+    question = region.asked
     yield f"{region.question}: for all oscillators of a cell, {question.holds}."
     yield f"Opposite: {question.opposite}."
     if len(region.roots) > 1 or 0 in region.nu:
@@ -101,6 +107,20 @@ def merged(keys: Iterable[str]) -> list[str]:
             if left.issuperset(quarters(parent)):
                 left = left.difference(quarters(parent)) | {parent}
     return sorted(left)
+
+
+def joined(boxes: Iterable[Box]) -> list[Box]:
+    """Return fewer boxes that are the same part of the plane: those side by side are one."""
+    found = list(boxes)
+    for axis in (0, 1):
+        rows = defaultdict[Range, list[Range]](list)
+        for box in sorted(found):
+            sides = rows[box[1 - axis]]
+            before = sides.pop() if sides and sides[-1][1] == box[axis][0] else box[axis]
+            sides.append((before[0], box[axis][1]))
+        runs = [(side, other) for other, sides in rows.items() for side in sides]
+        found = [(side, other) if axis == 0 else (other, side) for side, other in runs]
+    return found
 
 
 def at(store: Store, eta: Fraction, nu: Fraction) -> Cell | None:

@@ -12,7 +12,7 @@ import json
 import sqlite3
 import zlib
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from contextlib import closing
 from dataclasses import dataclass
 from fractions import Fraction
@@ -22,13 +22,11 @@ from itertools import pairwise, product
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from proofs.trusted.certificate import MAX_BYTES, Malformed, parse, texts
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.certificate import MAX_BYTES, Malformed, parse, schema_of, texts
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
-from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift
 from proofs.trusted.parameters import Place
+from proofs.trusted.questions import Question, question
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 
@@ -37,50 +35,17 @@ SPLIT = "SPLIT"
 DEEPEST = 40
 
 
-class Question(NamedTuple):
-    """What is asked in each cell: by which conclusions it holds, by which its opposite does."""
-
-    holds: str
-    opposite: str
-    proved_by: tuple[type[Conclusion], ...]
-    refuted_by: tuple[type[Conclusion], ...]
-
-    def verdict(self, found: Sequence[Conclusion]) -> Verdict:
-        """Return what one conclusion makes of the question."""
-        if len(found) == 1 and isinstance(found[0], self.proved_by):
-            return Verdict.VERIFIED
-        if len(found) == 1 and isinstance(found[0], self.refuted_by):
-            return Verdict.REFUTED
-        return Verdict.UNDECIDED
-
-
-QUESTIONS = {
-    "horseshoe": Question(
-        "f is continuous on two disjoint intervals of phases and maps each over both: the full "
-        "2-shift is a factor of f, of entropy log 2",
-        "every motion comes to rest, or sticks at its second impact: f or f(f) is constant",
-        (CoveringShift,),
-        (AtRest, AllStick),
-    ),
-    "attractor": Question(
-        "a periodic motion, or rest, attracts all motions from an open set of phases",
-        "none of this is ever refuted",
-        (StickingMotion, StableOrbit, AllStick, AtRest),
-        (),
-    ),
-}
-
-
 # -- the region and its cells ----------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Region:
-    """The parameters of an atlas, and what is asked there."""
+    """The parameters of an atlas, and what is asked there; epsilon as in `Place`."""
 
     eta: Range
     nu: Range
     question: str
+    epsilon: Range | None = None
 
     def __post_init__(self) -> None:
         """Raise ValueError, one line, where there is nothing to look at."""
@@ -89,8 +54,16 @@ class Region:
                 raise ValueError(f"{name}: reversed or empty range")
         if self.eta[0] <= 0:
             raise ValueError("eta must be positive")
-        if self.question not in QUESTIONS:
-            raise ValueError(f"the question is one of {', '.join(QUESTIONS)}")
+        asked, (least, most) = self.asked, self.epsilon or (Fraction(0),) * 2
+        if not 0 <= least <= most < 1:
+            raise ValueError("epsilon: a number or a range in [0, 1) is expected")
+        if self.epsilon is not None and asked.plastic:
+            raise ValueError(f"{self.question} is asked for plastic impacts alone, without epsilon")
+
+    @property
+    def asked(self) -> Question:
+        """What is asked."""
+        return question(self.question)
 
     @property
     def roots(self) -> list[Place]:
@@ -102,7 +75,7 @@ class Region:
         for low, high in _cut(self.nu, Fraction(0)):
             strip = (high - low) / 2**20
             nus.append((low + strip * (low == 0), high - strip * (high == 0)))
-        return [Place(eta, nu) for nu, eta in product(nus, etas)]
+        return [Place(eta, nu, self.epsilon) for nu, eta in product(nus, etas)]
 
     def box(self, key: str) -> Place:
         """Return the box of a cell; Malformed where it is none."""
@@ -116,22 +89,25 @@ class Region:
             index = int("0" + "".join(str(int(digit) >> bit & 1) for digit in path), 2)
             unit = (high - low) / parts
             sides.append((low + unit * index, low + unit * (index + 1)))
-        return Place(*sides)
+        return Place(sides[0], sides[1], self.epsilon)
 
     @property
     def text(self) -> str:
         """The region as it is stored."""
         sides = {"eta": texts(self.eta), "nu": texts(self.nu)}
-        return json.dumps({"schema": SCHEMA, **sides, "question": self.question})
+        more = {} if self.epsilon is None else {"epsilon": texts(self.epsilon)}
+        return json.dumps({"schema": SCHEMA, **sides, "question": self.question, **more})
 
     @classmethod
     def of(cls, text: str) -> Region:
         """Read what is stored."""
-        schema, eta, nu, question = parse(text).fields("schema", "eta", "nu", "question")
-        if schema.string() != SCHEMA:
-            raise schema.fail(f"the schema is not {SCHEMA!r}")
+        if schema_of(text) != SCHEMA:
+            raise Malformed(f"$.schema: the schema is not {SCHEMA!r}")
+        stored = parse(text)
+        more = ["epsilon"] if "epsilon" in dict(stored.entries()) else []
+        _, eta, nu, name, *rest = stored.fields("schema", "eta", "nu", "question", *more)
         try:
-            return cls(eta.range(), nu.range(), question.string())
+            return cls(eta.range(), nu.range(), name.string(), *(each.range() for each in rest))
         except Malformed:
             raise
         except ValueError as error:
@@ -176,12 +152,12 @@ def cell(region: Region, key: str, source: str, work: float = DEFAULT) -> Cell:
     box, report = region.box(key), check(source, work)
     if report.parameters != box:
         raise Rejected(f"cell {key}: the certificate is about other parameters")
-    verdict = QUESTIONS[region.question].verdict(report.conclusions)
+    verdict = region.asked.verdict(report.conclusions)
     if verdict is Verdict.UNDECIDED:
         raise Rejected(f"cell {key}: the certificate does not answer the question")
     packed = source.encode()
     return without_proof(region, key, verdict.value, report.sentences[0])._replace(
-        kind=type(report.conclusions[0]).__name__,
+        kind=report.conclusions[0].kind,
         certificate=zlib.compress(packed),
         sha256=sha256(packed).hexdigest(),
     )

@@ -1,9 +1,10 @@
 """The form of a certificate, and a reader that takes nothing on faith.
 
 - A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (of a
-  statement; {`eta`, `nu`}, two ranges, in a file about all plastic oscillators of a box; null in a
-  file about formulas alone), `functions` (name to {`variables`, `values`}), `steps` (name to
-  {`rule`, `witness`}, in the order of the proof) and `claims` (a list, not empty).
+  statement; {`eta`, `nu`}, two ranges, in a file about all plastic oscillators of a box, and with
+  them `epsilon` in one about others; null in a file about formulas alone), `functions` (name to
+  {`variables`, `values`}), `steps` (name to {`rule`, `witness`}, in the order of the proof) and
+  `claims` (a list, not empty).
 - Every number is a string, a rational in lowest terms such as "111/100" or "-7", of at most 3000
   characters, 400 in `parameters`; bounds of quantities are plain decimals. Bare JSON numbers are
   refused. A range is a list of two numbers in increasing order, equal ones allowed.
@@ -293,19 +294,21 @@ def parameters_from_json(reader: Reader) -> Parameters:
 
 
 def box_to_json(box: Place) -> dict[str, Any]:
-    """Write the box of plastic oscillators that a file is about."""
-    return {"eta": texts(box.eta), "nu": texts(box.nu)}
+    """Write the box of oscillators that a file is about."""
+    sides = {"eta": box.eta, "nu": box.nu, "epsilon": box.epsilon}
+    return {name: texts(side) for name, side in sides.items() if side is not None}
 
 
 def subject_from_json(reader: Reader) -> Parameters | Place | None:
     """Read and validate what a file is about: one statement's numbers, a box, formulas alone."""
     if reader.is_null():
         return None
-    if {name for name, _ in reader.entries()} != {"eta", "nu"}:
+    names = ["eta", "nu", "epsilon"][: 3 if "epsilon" in dict(reader.entries()) else 2]
+    if {name for name, _ in reader.entries()} != {*names}:
         return parameters_from_json(reader)
     _require_short(reader)
     try:
-        return Place(*(side.range() for side in reader.fields("eta", "nu")))
+        return Place(*(side.range() for side in reader.fields(*names)))
     except Unproved as error:
         raise reader.fail(str(error)) from None
 

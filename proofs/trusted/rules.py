@@ -73,6 +73,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
+        "stable-singles": "paper.beyond.singles.stable_singles",
         "settles": "paper.beyond.boxes.prove_settles",
         "covering-shift": "paper.beyond.boxes.prove_covering_shift",
     }

@@ -25,6 +25,7 @@ _MORE = {  # properties that sentences or rows rest on
     "Itinerary": ("cut",),
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),
+    "StableSingles": ("is_complete",),
 }
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",

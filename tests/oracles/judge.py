@@ -13,6 +13,7 @@ from tests.oracles import (
     restitution,
     sets,
     single,
+    singles,
 )
 from tests.oracles.adapter import view
 
@@ -25,6 +26,7 @@ JUDGES = {
         laps,
         restitution,
         single,
+        singles,
         formulas,
         kernel,
         beyond,

@@ -101,16 +101,18 @@ def lemmas():
 
 def boxes():
     """The conclusions about boxes of oscillators, by step."""
-    from proofs.plane import horseshoe, settling
+    from proofs.plane import horseshoe, settling, singles
     from proofs.trusted.parameters import Place
     from proofs.trusted.verify import premises
 
-    full, short, stable = (
+    full, short, stable, single, none = (
         Place(*(tuple(map(Fraction, side)) for side in sides))
         for sides in (
             (("0.2119", "0.2122"), ("-0.2004", "-0.1996")),
             (("0.3", "0.302"), ("0.19", "0.192")),
             (("0.237", "0.2372"), ("0.3", "0.3002")),
+            (("0.6", "0.6002"), ("-0.75", "-0.7498"), ("0.3", "0.3")),
+            (("1.3", "1.3002"), ("-0.7", "-0.6998"), ("0.3", "0.31")),
         )
     )
     for name, made in {
@@ -118,6 +120,9 @@ def boxes():
         "sticking": next(settling.propose(full)),
         "all stick": settling.settles(short),
         "stable": next(settling.propose(stable)),
+        "short single": singles.propose(stable, 3),
+        "single": singles.propose(single, 2),
+        "no single": singles.propose(none, 5),
     }.items():
         yield from ((f"{name} {x}", one) for x, one in premises(made.certificate()).known.items())
 

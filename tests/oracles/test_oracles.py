@@ -382,6 +382,12 @@ FALSE = {
     "Entropy": [put("growth", lambda old: 100 * old)],
     "Conjugacy": [_never_disjoint],
     "Theorem": [put("text", "")],
+    "StableSingles": [
+        put("stable", lambda old: () if old else (1,)),
+        put("stable", lambda old: (*old, 3)),
+        put("epsilon", F(9, 10)),
+        put("nu", F(-1, 100)),
+    ],
     "AllStick": [_of("arc", offs("arrival")), _of("arc", put("nu", F(1)))],
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "CoveringShift": [

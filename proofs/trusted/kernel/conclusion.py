@@ -25,6 +25,11 @@ class Conclusion:
         return place
 
     @property
+    def kind(self) -> str:
+        """Return the name by which pictures and counts tell conclusions apart."""
+        return type(self).__name__
+
+    @property
     def sentence(self) -> str:
         """Return it in words, complete but for `at`; names aside, nothing from a file's texts."""
         raise NotImplementedError

@@ -30,9 +30,16 @@ class Context:
         return self.parameters
 
     @property
-    def place(self) -> Place:
+    def oscillators(self) -> Place:
         """The oscillators: that of the statement, or all of the box that the file is about."""
         return self.parameters if isinstance(self.parameters, Place) else self.of.place
+
+    @property
+    def place(self) -> Place:
+        """The same, where impacts are plastic, as nearly all rules require; else Unproved."""
+        if self.oscillators.epsilon is not None:
+            raise Unproved("the rule is about plastic impacts, and the file is not")
+        return self.oscillators
 
     def function(self, name: Reader) -> Formulas:
         """Return the function of that name."""

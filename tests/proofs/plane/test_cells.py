@@ -15,7 +15,7 @@ from proofs.plane.cells import decide
 from proofs.plane.flights import FINE, Flights
 from proofs.plane.head import Here, executor
 from proofs.plane.horseshoe import Sets, propose
-from proofs.plane.summary import merged
+from proofs.plane.summary import joined, merged
 from proofs.trusted.atlas import Region
 from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
 from proofs.trusted.parameters import Place
@@ -118,3 +118,15 @@ def test_four_quarters_are_one_part_of_the_picture():
     assert merged(keys) == ["0/", "1/0"]
     assert merged(keys[1:]) == sorted(keys[1:])
     assert merged([]) == []
+
+
+def test_boxes_side_by_side_are_joined_and_no_others():
+    whole = {(x, y) for x in range(8) for y in range(8)} - {(3, 3), (3, 4), (7, 0)}
+    found = joined(((F(x), F(x + 1)), (F(y), F(y + 1))) for x, y in sorted(whole, key=hash))
+    covered = [
+        (x, y)
+        for (a, b), (c, d) in found
+        for x in range(int(a), int(b))
+        for y in range(int(c), int(d))
+    ]
+    assert sorted(covered) == sorted(whole) and len(found) < 9

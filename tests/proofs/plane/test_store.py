@@ -316,7 +316,13 @@ def test_the_checker_reads_few_rows_ahead_and_keeps_their_order():
         ([*SMALL, "--jobs", "0"], "--jobs"),
         ([*SMALL, "--executor", "ssh:somewhere"], "dask:"),
         ([], "there is no"),
-        ([*SMALL[:6], "--ask", "chaos"], "invalid choice"),
+        ([*SMALL[:6], "--ask", "chaos"], "the question is one of attractor, horseshoe"),
+        ([*SMALL[:6], "--ask", "entropy:1"], "entropy:2 to entropy:50"),
+        ([*SMALL, "--epsilon", "0.3"], "plastic impacts alone"),
+        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "0.3", "0.2"], "in [0, 1)"),
+        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "1"], "in [0, 1)"),
+        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "0", "0.1", "0.2"], "in [0, 1)"),
+        (["--epsilon", "0.1"], "go together"),
     ],
 )
 def test_bad_input_is_one_line(arguments, match, tmp_path, capsys):
@@ -324,6 +330,20 @@ def test_bad_input_is_one_line(arguments, match, tmp_path, capsys):
         atlas.main([*arguments, "--out", str(tmp_path)])
     said = capsys.readouterr().err
     assert left.value.code == 2 and match in said and said.count("\n") == 1
+
+
+def test_orbits_with_restitution(tmp_path, capsys):
+    asked = ["--eta", "0.59", "0.61", "--nu", "-0.76", "-0.74", "--ask", "orbits:3"]
+    out = ["--depth", "1", "--out", str(tmp_path)]
+    assert atlas.main([*asked, "--epsilon", "0.3", *out]) == 0
+    said = capsys.readouterr().out
+    assert "4 cells, 1 of the area: a stable single-impact orbit: n = 1" in said
+    assert check([str(tmp_path / NAME)]) == 0
+    with pytest.raises(SystemExit):
+        atlas.main([*asked, "--epsilon", "0", *out])
+    assert "another region" in capsys.readouterr().err
+    assert atlas.main(["--out", str(tmp_path), "--cell", "0.6", "-0.75"]) == 0
+    assert "epsilon = 0.3: there is exactly one stable" in capsys.readouterr().out
 
 
 def test_another_region_in_the_same_folder_is_refused(tmp_path, capsys):

@@ -13,11 +13,17 @@ from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, opened
 from proofs.trusted.atlas import Region, area, check_store
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.numbers import Phases
+from proofs.trusted.paper.beyond.boxes import CoveringShift
+from proofs.trusted.paper.beyond.singles import StableSingles
 from proofs.trusted.parameters import Place
+from proofs.trusted.questions import question
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected
 
 F = Fraction
 REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
+ORBITS = Region((F("0.595"), F("0.605")), (F("-0.755"), F("-0.745")), "orbits:3", (F("0.3"),) * 2)
 
 
 @pytest.fixture(scope="module")
@@ -80,6 +86,46 @@ def test_a_region_is_cut_at_resonance_and_where_the_table_stands_still():
 def test_what_is_no_region(eta, nu, question, match):
     with pytest.raises(ValueError, match=match):
         Region(tuple(map(F, eta)), tuple(map(F, nu)), question)
+
+
+@pytest.mark.parametrize(
+    ("question", "epsilon", "match"),
+    [
+        ("horseshoe", ("0.1", "0.1"), "horseshoe is asked for plastic impacts alone"),
+        ("entropy:3", ("0", "0.1"), "plastic"),
+        ("attractor", ("0.1", "0.1"), "plastic"),
+        ("orbits", ("0.2", "0.1"), "epsilon"),
+        ("orbits", ("0.5", "1"), "epsilon"),
+        ("orbits", ("-0.1", "0.1"), "epsilon"),
+        *(
+            (name, None, "the question is one of")
+            for name in ("entropy", "entropy:1", "entropy:51")
+        ),
+        *((name, None, "the question is one of") for name in ("entropy:03", "entropy:3.5", "rest")),
+        *((name, None, "the question is one of") for name in ("orbits:", "orbits:0", "orbits:101")),
+        *((name, None, "the question is one of") for name in ("attractor:2", "horseshoe:2", "")),
+    ],
+)
+def test_what_is_not_asked(question, epsilon, match):
+    sides = (F(1), F(2)), (F(1), F(2))
+    with pytest.raises(ValueError, match=match):
+        Region(*sides, question, epsilon and tuple(map(F, epsilon)))
+
+
+def test_a_region_is_read_as_it_is_written_and_all_cells_have_its_epsilon():
+    for region in (REGION, ORBITS):
+        assert Region.of(region.text) == region
+        assert {box.epsilon for box in (*region.roots, region.box("0/21"))} == {region.epsilon}
+    assert "epsilon" not in REGION.text  # as it was before there was any
+    for text in (
+        REGION.text.replace('"horseshoe"', '"horseshoe", "epsilon": ["1/3", "1/2"]'),
+        ORBITS.text.replace("3/10", "1"),
+        ORBITS.text.replace('["3/10", "3/10"]', '"3/10"'),
+        ORBITS.text.replace('["3/10", "3/10"]', "null"),
+        ORBITS.text.replace("orbits", "orbit"),
+    ):
+        with pytest.raises(Malformed):
+            Region.of(text)
 
 
 @pytest.mark.parametrize("key", ["", "0", "1/", "0/4", "0/" + "0" * 41, "-1/", "00/", "0/0/"])
@@ -195,6 +241,43 @@ def test_another_region_or_none(path):
     edit(path, "DELETE FROM region")
     with pytest.raises(Malformed):
         check_store(path)
+
+
+def test_what_is_proved_for_one_epsilon_is_not_of_another(tmp_path):
+    with opened(tmp_path, ORBITS) as store:
+        run(store, 1, (Here(), 1), 16)
+    path = tmp_path / NAME
+    found = check_store(path)
+    assert found.cells["VERIFIED"] and found.missing == 0
+    for text in (
+        ORBITS.text.replace("3/10", "2/5"),
+        ORBITS.text.replace(', "epsilon": ["3/10", "3/10"]', ""),
+        ORBITS.text.replace("orbits:3", "orbits:4"),
+    ):
+        edit(path, "UPDATE region SET text = ?", text)
+        with pytest.raises(Rejected):
+            check_store(path)
+
+
+def test_more_sets_than_asked_for_are_enough_and_fewer_are_not():
+    at = Place((F("0.2121"),) * 2, (F("-0.2"),) * 2)
+    phases = [Phases(F(k), F(k) + F(1, 2)) for k in range(4)]
+    for count in (2, 3, 4):
+        found = [CoveringShift(at, tuple(phases[:count]))]
+        verdicts = [question(f"entropy:{k}").verdict(found) for k in (2, 3, 4)]
+        assert [x is Verdict.VERIFIED for x in verdicts] == [k <= count for k in (2, 3, 4)]
+        assert question("horseshoe").verdict(found) is Verdict.VERIFIED
+        assert question("orbits").verdict(found) is Verdict.UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("most", "stable", "verdict"),
+    [(10, (1, 3), "VERIFIED"), (10, (), "REFUTED"), (9, (1,), "UNDECIDED"), (11, (), "UNDECIDED")],
+)
+def test_orbits_are_decided_by_all_n_up_to_the_one_asked_for(most, stable, verdict):
+    found = [StableSingles(Place((F(1),) * 2, (F(1),) * 2), most, stable)]
+    assert question("orbits").verdict(found).value == verdict
+    assert question("orbits:10").verdict(found * 2) is Verdict.UNDECIDED
 
 
 def test_what_is_no_store(tmp_path):

@@ -20,7 +20,7 @@ from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.other_sets import apart
 from proofs.trusted.parameters import Place
 
-_MOST_CELLS = 50
+MOST_CELLS = 50
 _MOST_FLIGHTS = 1000
 _MOST_TURNS = 10**6
 _BITS = 128
@@ -132,7 +132,7 @@ def prove_covering_shift(context: Context, reader: Reader) -> CoveringShift:
     """
     (cells_of,) = reader.fields("cells")
     sheets = []
-    for entry in cells_of.items(2, _MOST_CELLS):
+    for entry in cells_of.items(2, MOST_CELLS):
         flights_of, turns_of = entry.fields("flights", "turns")
         flights = tuple(context.step(x, FirstImpact) for x in flights_of.items(1, _MOST_FLIGHTS))
         sheets.append(Sheet(flights, integer(turns_of, 0, _MOST_TURNS)))

@@ -36,9 +36,12 @@ BOX = Place((F("0.2119"), F("0.2122")), (F("-0.2004"), F("-0.1996")))
 SHORT = Place((F("0.3"), F("0.302")), (F("0.19"), F("0.192")))  # the flight ends within a turn
 
 
+THREE = Place((F("0.2121"), F("0.21214")), (F("-0.2"), F("-0.19994")))
+
+
 @cache
-def text(box=BOX):
-    return next(propose(box, []))[0].certificate()
+def text(box=BOX, count=2):
+    return next(propose(box, [], count))[0].certificate()
 
 
 def document():
@@ -93,12 +96,14 @@ def test_a_full_shift_for_all_oscillators_of_a_box():
     assert found.entropy[0] < F("0.69314718056") < found.entropy[1] + F(1, 10**9)
 
 
-def test_the_images_are_beyond_the_sets_at_oscillators_of_the_box():
+@pytest.mark.parametrize(("box", "count"), [(BOX, 2), (THREE, 3)])
+def test_the_images_are_beyond_the_sets_at_oscillators_of_the_box(box, count):
     """By simulation in floating point, at random oscillators and at the corners."""
-    (found,) = check(text()).conclusions
+    (found,) = check(text(box, count)).conclusions
+    assert len(found.cells) == count and oracle(found, random.Random(1)) == []
     rng = np.random.default_rng(1)
-    etas = np.concatenate([np.array(BOX.eta, float).repeat(2), rng.uniform(*BOX.eta, 30)])
-    nus = np.concatenate([np.tile(np.array(BOX.nu, float), 2), rng.uniform(*BOX.nu, 30)])
+    etas = np.concatenate([np.array(box.eta, float).repeat(2), rng.uniform(*box.eta, 30)])
+    nus = np.concatenate([np.tile(np.array(box.nu, float), 2), rng.uniform(*box.nu, 30)])
     for cell in found.cells:
         phases = np.linspace(float(cell[0]), float(cell[1]), 60)
         images = next_impacts(-1, etas, nus, phases[:, None], 200.0).images
@@ -132,6 +137,12 @@ def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
     rejected(made, match)
 
 
+@pytest.mark.parametrize("epsilon", [["0", "0"], ["0", "1/10"], ["1/10", "1/10"]])
+def test_what_is_proved_for_plastic_impacts_is_not_said_of_others(epsilon):
+    for made in (document(), json.loads(settles(SHORT).certificate())):
+        rejected(made | {"parameters": made["parameters"] | {"epsilon": epsilon}}, "plastic")
+
+
 @pytest.mark.parametrize(
     "parameters",
     [
@@ -141,7 +152,10 @@ def test_a_larger_box_or_another_one_is_rejected(side, ends, match):
         {"eta": ["1/4", "1/5"], "nu": ["-1/5", "-1/6"]},
         {"eta": ["1/5", "1/4"]},
         {"eta": ["1/5", "1/4"], "nu": "-1/5"},
-        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["0", "1/2"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["1/2", "1/3"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": ["0", "1"]},
+        {"eta": ["1/5", "1/4"], "nu": ["-1/5", "-1/6"], "epsilon": "0"},
+        {"eta": ["1/5", "1/4"], "epsilon": ["0", "1/2"]},
         {"eta": ["1/5", "1/" + "9" * 500], "nu": ["-1/5", "-1/6"]},
         {},
     ],

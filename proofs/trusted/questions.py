@@ -1,0 +1,95 @@
+"""The questions that an atlas may ask: by which conclusions each holds, or its opposite does."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.boxes import MOST_CELLS, AllStick, CoveringShift
+from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
+from proofs.trusted.verdicts import Verdict
+
+
+class Question(NamedTuple):
+    """What is asked in each cell: by which conclusions it holds, by which its opposite does.
+
+    size: the number in its name, if there is one. plastic: whether impacts have to be.
+    """
+
+    kind: str
+    size: int
+    holds: str
+    opposite: str
+    proved_by: Callable[[Conclusion], bool]
+    refuted_by: Callable[[Conclusion], bool]
+    plastic: bool = True
+
+    def verdict(self, found: Sequence[Conclusion]) -> Verdict:
+        """Return what one conclusion makes of the question."""
+        if len(found) == 1 and self.proved_by(found[0]):
+            return Verdict.VERIFIED
+        if len(found) == 1 and self.refuted_by(found[0]):
+            return Verdict.REFUTED
+        return Verdict.UNDECIDED
+
+
+_ATTRACTORS = StickingMotion, StableOrbit, AllStick, AtRest
+_ATTRACTOR = Question(
+    "attractor",
+    0,
+    "a periodic motion, or rest, attracts all motions from an open set of phases",
+    "none of this is ever refuted",
+    lambda found: isinstance(found, _ATTRACTORS),
+    lambda found: False,
+)
+
+
+def _entropy(count: int) -> Question:
+    number, every = ("two", "both") if count == 2 else (f"{count}", "them all")
+    return Question(
+        "entropy",
+        count,
+        f"f is continuous on {number} disjoint intervals of phases and maps each over {every}: the "
+        f"full {count}-shift is a factor of f, of entropy log {count}",
+        "every motion comes to rest, or sticks at its second impact: f or f(f) is constant",
+        lambda found: isinstance(found, CoveringShift) and len(found.cells) >= count,
+        lambda found: isinstance(found, AtRest | AllStick),
+    )
+
+
+def _orbits(most: int) -> Question:
+    def shown(found: Conclusion, *, stable: bool) -> bool:
+        if not isinstance(found, StableSingles) or found.most != most:
+            return False
+        return bool(found.stable) is stable
+
+    return Question(
+        "orbits",
+        most,
+        f"for at least one n up to {most} a periodic motion that never sticks, with one impact, a "
+        "transversal one, in n table periods, is stable; and it is proved for which of these n",
+        f"there is none for any n up to {most}",
+        lambda found: shown(found, stable=True),
+        lambda found: shown(found, stable=False),
+        plastic=False,
+    )
+
+
+_SIZED = {"entropy": (_entropy, 2, MOST_CELLS), "orbits": (_orbits, 1, MOST_PERIODS)}
+_SHORT = {"horseshoe": "entropy:2", "orbits": "orbits:10"}
+QUESTIONS = ("attractor", *_SHORT, *(f"{x}:{a} to {x}:{b}" for x, (_, a, b) in _SIZED.items()))
+
+
+def question(name: str) -> Question:
+    """Return what is asked under a name; ValueError where that is nothing."""
+    kind, _, number = _SHORT.get(name, name).partition(":")
+    if kind in _SIZED and re.fullmatch("[1-9][0-9]{0,2}", number):
+        make, least, most = _SIZED[kind]
+        if least <= int(number) <= most:
+            return make(int(number))
+    if name != _ATTRACTOR.kind:
+        raise ValueError(f"the question is one of {', '.join(QUESTIONS)}")
+    return _ATTRACTOR
