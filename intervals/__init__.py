@@ -5,52 +5,55 @@ and intervals X, Y, the result contains op(x, y) for all x in X and y in Y, what
 rounded on the way. So what is shown for the result is shown for every number inside.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from intervals.errors import DomainError, IntervalError, Undecided
 from intervals.exact import decimal_bounds, decimal_down, decimal_up, fraction
-from intervals.functions import (
-    acos,
-    acosh,
-    asin,
-    asinh,
-    atan,
-    atan2,
-    atanh,
-    cbrt,
-    ceil,
-    cos,
-    cosh,
-    exp,
-    exp2,
-    exp10,
-    expm1,
-    floor,
-    hypot,
-    log,
-    log1p,
-    log2,
-    log10,
-    maximum,
-    minimum,
-    pow,
-    rootn,
-    round_ties_to_away,
-    round_ties_to_even,
-    sign,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-    trunc,
-)
-from intervals.interval import Interval
-from intervals.jet import Jet
-from intervals.relations import Overlap
 
 if TYPE_CHECKING:
     from intervals.array import IntervalArray
+    from intervals.functions import (
+        acos,
+        acosh,
+        asin,
+        asinh,
+        atan,
+        atan2,
+        atanh,
+        cbrt,
+        ceil,
+        cos,
+        cosh,
+        exp,
+        exp2,
+        exp10,
+        expm1,
+        floor,
+        hypot,
+        log,
+        log1p,
+        log2,
+        log10,
+        maximum,
+        minimum,
+        pow,
+        rootn,
+        round_ties_to_away,
+        round_ties_to_even,
+        sign,
+        sin,
+        sinh,
+        sqrt,
+        tan,
+        tanh,
+        trunc,
+    )
+    from intervals.interval import Interval
+    from intervals.jet import Jet
+    from intervals.relations import Overlap
+
+    pi, e = Interval.pi, Interval.e
 
 __all__ = [
     "DomainError",
@@ -102,14 +105,21 @@ __all__ = [
     "trunc",
 ]
 
-pi = Interval.pi
-e = Interval.e
+_HOMES = {
+    "Interval": "interval",
+    "IntervalArray": "array",
+    "Jet": "jet",
+    "Overlap": "relations",
+}  # of the others: functions
 
 
 def __getattr__(name: str) -> Any:
-    """Import IntervalArray, and numpy with it, only where it is used."""
-    if name == "IntervalArray":
-        from intervals.array import IntervalArray
-
-        return IntervalArray
-    raise AttributeError(f"module 'intervals' has no attribute {name!r}")
+    """Import what is used when it is: mpmath and numpy take longer than many a proof."""
+    if name not in __all__:
+        raise AttributeError(f"module 'intervals' has no attribute {name!r}")
+    if name in ("pi", "e"):
+        found = getattr(__getattr__("Interval"), name)
+    else:
+        found = getattr(import_module(f"intervals.{_HOMES.get(name, 'functions')}"), name)
+    globals()[name] = found
+    return found

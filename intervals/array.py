@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from intervals import display, numpy_protocol
 from intervals.elementary import binary64
 from intervals.errors import DomainError
-from intervals.exact import Exact, fraction
+from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
 from intervals.reductions import matrix_product, product_rows, sum_rows
 from intervals.relations import Relations, overlap_state
@@ -213,6 +213,8 @@ class IntervalArray(Relations[Mask], Elementary):
         if isinstance(other, IntervalArray):
             a, b = aligned(self._rows, other._rows)
             return -a[0], a[1], -b[0], b[1]
+        if type(other) is int and abs(other) < 2**53:
+            return self.inf, self._rows[1], float(other), float(other)
         return self.inf, self.sup, *ends(other)
 
     def overlap(self, other: IntervalArray) -> NDArray[np.object_]:
@@ -320,14 +322,13 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
-        if isinstance(other, np.integer):
-            other = int(other)  # numpy's abs would wrap
-        if isinstance(other, int) and abs(other) & (abs(other) - 1) == 0:
-            if other == 1:
+        number = whole(other)  # numpy's own abs would wrap
+        if number is not None and abs(number) & (abs(number) - 1) == 0:
+            if number == 1:
                 return self
-            rows = self._rows if other >= 0 else self._rows[::-1]
+            rows = self._rows if number >= 0 else self._rows[::-1]
             with _quiet():
-                return _make(bounded(rows * float(abs(other))))
+                return _make(bounded(rows * float(abs(number))))
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented
@@ -348,11 +349,11 @@ class IntervalArray(Relations[Mask], Elementary):
         dividend = _rows_of(other)
         return NotImplemented if dividend is None else _make(dividend) / self
 
-    def __pow__(self, n: Operand) -> IntervalArray:
+    def __pow__(self, exponent: Operand) -> IntervalArray:
         """Return the n-th powers without the dependency of x * x; real powers by `pow`."""
-        if not isinstance(n, int | np.integer):
-            return NotImplemented if _rows_of(n) is None else self.pow(n)
-        n = int(n)
+        n = whole(exponent)
+        if n is None:
+            return NotImplemented if _rows_of(exponent) is None else self.pow(exponent)
         if n < 0:
             return (1 / self) ** -n
         if n < 2:

@@ -17,6 +17,7 @@ from intervals.array import IntervalArray, Mask
 from intervals.errors import DomainError
 from intervals.generic import where
 from intervals.interval import Interval
+from intervals.rounding import MAX
 
 Given: TypeAlias = "Interval | Sequence[Interval]"
 Boxes: TypeAlias = tuple[IntervalArray, ...]
@@ -58,6 +59,13 @@ def all_of(masks: Iterable[Any]) -> Mask:
 def meets(boxes: Iterable[Any], other: Iterable[Any]) -> Mask:
     """Return which boxes have a point in common with another one."""
     return all_of(~x.disjoint(y) for x, y in zip(boxes, other, strict=True))
+
+
+def larger(x: IntervalArray) -> IntervalArray:
+    """Return intervals that contain the given ones, as a rule in their interior."""
+    reach = x.wid / 8 + np.maximum(abs(x.inf), abs(x.sup)) * 2.0**-45 + 2.0**-1000
+    low, high = np.maximum(x.inf - reach, -MAX), np.minimum(x.sup + reach, MAX)
+    return IntervalArray.from_floats(np.minimum(low, x.inf), np.maximum(high, x.sup))
 
 
 def concatenated(arrays: Sequence[IntervalArray], axis: int = 0) -> IntervalArray:

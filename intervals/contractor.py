@@ -6,7 +6,7 @@ that is left on to its arguments, through the reverse operation.
 
 Theorem. If x is in the box X, f is defined at x and f(x) in Y, then x is in the contracted box;
 where a box is called empty there is no such x. Proof: the value of each node at x is in the node's
-enclosure; it stays there, since the value z = g(u, v) at x is in Z, u in U, v in V, and `_REVERSE`
+enclosure; it stays there, since the value z = g(u, v) at x is in Z, u in U, v in V, and `REVERSE`
 gives supersets of {u in U: g(u, v) in Z for some v in V}, and of the same for v.
 
 Source: Benhamou, Goualard, Granvilliers, Puget 1999, Revising hull and box consistency.
@@ -14,7 +14,7 @@ Source: Benhamou, Goualard, Granvilliers, Puget 1999, Revising hull and box cons
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeAlias
@@ -26,15 +26,12 @@ from intervals.branch import Boxes, Given, as_box, one_box
 from intervals.errors import DomainError
 from intervals.exact import Exact
 from intervals.functions import Elementary
-from intervals.generic import meet, where
 from intervals.interval import Interval
 from intervals.numpy_protocol import jet_ufunc
-from intervals.rounding import MAX
+from intervals.reverse import REVERSE
 from intervals.systems import Function, components
 
 _SWEEPS = 2
-_PI = IntervalArray([Interval.pi()])
-_FAR = 1e8  # beyond it the branches of sine and tangent are not told apart
 
 
 class Node(Elementary):
@@ -198,14 +195,14 @@ def contract(f: Function, box: Given, targets: Sequence[Exact | Interval]) -> Co
 
 
 def contracted(
-    formula: Formula, boxes: Boxes, targets: Sequence[IntervalArray]
+    formula: Formula, boxes: Boxes, targets: Sequence[IntervalArray], *, sweeps: int = _SWEEPS
 ) -> tuple[Boxes, Mask]:
     """Return the same for N boxes: their parts, and where there is none, so that they mean nothing.
 
     DomainError or OverflowError where f has no enclosure over a box.
     """
-    empty = np.zeros(len(boxes[0]), dtype=bool)
-    for _ in range(_SWEEPS):
+    empty: Mask = np.zeros(len(boxes[0]), dtype=bool)
+    for _ in range(sweeps):
         left = _forward(formula, boxes)
         for output, target in zip(formula.outputs, targets, strict=True):
             empty |= _cut(left, output, target)
@@ -220,139 +217,46 @@ def contracted(
 
 
 def _forward(formula: Formula, boxes: Boxes) -> Values:
-    """Return enclosures of the values of all nodes."""
+    """Return enclosures of the values of all nodes; of one shape, but for constants."""
     values = dict(zip(formula.variables, boxes, strict=True))
     for node in formula.nodes:
         if node.operation == "constant":
-            values[node] = node.details[0] + 0 * boxes[0]
+            values[node] = node.details[0]
         elif node.operation != "variable":
-            operation = getattr(IntervalArray, node.operation)
+            operation = _FORWARD.get(node.operation) or getattr(IntervalArray, node.operation)
             values[node] = operation(*(values[u] for u in node.arguments), *node.details)
     return values
 
 
+def _exp(u: IntervalArray) -> IntervalArray:
+    """Return enclosures of exp u, down to 0 where u < -650: there the kernels are slow."""
+    low = u.inf < -650.0
+    if not low.any():
+        return u.exp()
+    rows = u.maximum(-650).exp()._rows
+    return IntervalArray._of_rows(np.stack((np.where(low, 0.0, rows[0]), rows[1])))
+
+
+_FORWARD = {"exp": _exp}
+
+
 def _cut(left: Values, node: Node, part: IntervalArray) -> Mask:
-    """Cut what is left of a node; return where nothing is."""
-    value = left[node]
-    left[node] = meet(value, part)
-    return np.asarray(value.disjoint(part))
+    """Cut what is left of a node; return where nothing is, and it stays as it was."""
+    value = left[node]._rows
+    rows = np.minimum(value, part._rows)
+    empty: Mask = np.asarray(rows[1] < -rows[0])
+    if empty.any():
+        rows = np.where(empty, value, rows)
+    left[node] = IntervalArray._of_rows(rows)
+    return empty
 
 
 def _backward(left: Values, node: Node) -> Mask:
     """Cut what is left of the arguments; a reverse operation without enclosure cuts nothing."""
-    empty = np.zeros(left[node].shape, dtype=bool)
-    rule = _REVERSE.get(node.operation)
-    if rule is None:
-        return empty
-    with suppress(DomainError, OverflowError):
-        arguments = [left[u] for u in node.arguments]
-        parts = rule(left[node], *arguments, *node.details)
-        for argument, part in zip(node.arguments, parts, strict=True):
-            empty |= _cut(left, argument, part)
+    empty: Mask = np.zeros(1, dtype=bool)
+    for argument, rule in zip(node.arguments, REVERSE.get(node.operation, ()), strict=False):
+        if argument.operation != "constant":
+            with suppress(DomainError, OverflowError):
+                part = rule(left[node], *(left[u] for u in node.arguments), *node.details)
+                empty = empty | _cut(left, argument, part)
     return empty
-
-
-# -- reverse operations: supersets of what the arguments can be ------------------------------------
-
-
-def quotient(z: IntervalArray, v: IntervalArray, u: IntervalArray) -> IntervalArray:
-    """Return a superset of the hull of {x in U: x y in Z for some y in V}.
-
-    Where 0 is not in V: Z / V. Where it is in both V and Z: everything. Else let Z > 0 (or take -Z
-    and -V): x <= inf Z / inf V for y < 0, and x >= inf Z / sup V for y > 0. If U lies right of the
-    first part only the second counts, and vice versa; right of it and left of the second, U is
-    disjoint from what is returned.
-    """
-    through = np.asarray(v.contains_zero())
-    plain = z / where(through, 0 * v + 1, v)
-    if not through.any():
-        return plain
-    negative = z.sup < 0
-    z, v = where(negative, -z, z), where(negative, -v, v)
-    apart = through & (z.inf > 0)
-    least = IntervalArray.from_floats(np.where(apart, z.inf, 1.0))
-    below, above = apart & (v.inf < 0), apart & (v.sup > 0)
-    left = (least / IntervalArray.from_floats(np.where(below, v.inf, -1.0))).sup
-    right = (least / IntervalArray.from_floats(np.where(above, v.sup, 1.0))).inf
-    left, right = np.where(below, left, -MAX), np.where(above, right, MAX)
-    only_right = apart & (u.inf > left)
-    only_left = apart & (u.sup < right) & ~only_right
-    low, high = np.where(only_right, right, -MAX), np.where(only_left, left, MAX)
-    return where(through, IntervalArray.from_floats(low, high), plain)
-
-
-def either_sign(root: IntervalArray, u: IntervalArray) -> IntervalArray:
-    """Return a superset of the hull of {x in U: |x| in R}, R >= 0."""
-    right, left = ~u.disjoint(root), ~u.disjoint(-root)
-    return where(right & left, root.hull(-root), where(left, -root, root))
-
-
-def branches(root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalArray) -> Any:
-    """Return a superset of the hull of {x in U: x in k pi + sign^k R - S for an integer k}.
-
-    R lies in [-pi/2, pi/2], up to rounding, so the parts for k follow each other. The part in whose
-    reach inf U is, is found in floating point, which is not one wrong for |x| < 10^8: one before
-    and two after it are tried. The least number >= inf U is in the first part that is not left of
-    inf U; likewise for sup U.
-    """
-    places = np.rint(u.inf / np.pi + 0.5 * (shift.mid > 1))
-    low = _first(root, u, sign, shift, places)
-    places = np.rint(u.sup / np.pi + 0.5 * (shift.mid > 1))
-    high = -_first(-root, -u, sign, -shift, -places)
-    near = (np.abs(u.inf) < _FAR) & (np.abs(u.sup) < _FAR)
-    part = IntervalArray.from_floats(
-        np.where(low <= high, low, MAX), np.where(low <= high, high, MAX)
-    )
-    return where(near, part, u)
-
-
-def _first(
-    root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalArray, places: Any
-) -> Any:
-    """Return the lower end of the first part that is not left of inf U."""
-    least = np.full(u.shape, MAX)
-    for k in (places + 2, places + 1, places, places - 1):
-        turned = where((sign < 0) & (k % 2 == 1), -root, root)
-        part = IntervalArray.from_floats(k) * _PI + turned - shift
-        least = np.where(part.sup >= u.inf, part.inf, least)
-    return least
-
-
-def _even(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:
-    return either_sign(z.maximum(0).rootn(n), u)
-
-
-_HALF, _NONE = _PI / 2, 0 * _PI
-_REVERSE: dict[str, Callable[..., Sequence[IntervalArray]]] = {
-    "__neg__": lambda z, u: [-z],
-    "__add__": lambda z, u, v: [z - v, z - u],
-    "__sub__": lambda z, u, v: [z + v, u - z],
-    "__mul__": lambda z, u, v: [quotient(z, v, u), quotient(z, u, v)],
-    "__truediv__": lambda z, u, v: [z * v, quotient(u, z, v)],
-    "__abs__": lambda z, u: [either_sign(z.maximum(0), u)],
-    "__pow__": lambda z, u, n: [z.rootn(n) if n % 2 else _even(z, u, n)],
-    "pow": lambda z, u, q: [z.pow(1 / q)],
-    "rootn": lambda z, u, n: [z**n],
-    "sqrt": lambda z, u: [z.sqr()],
-    "cbrt": lambda z, u: [z**3],
-    "exp": lambda z, u: [z.log()],
-    "exp2": lambda z, u: [z.log2()],
-    "exp10": lambda z, u: [z.log10()],
-    "expm1": lambda z, u: [z.log1p()],
-    "log": lambda z, u: [z.exp()],
-    "log2": lambda z, u: [z.exp2()],
-    "log10": lambda z, u: [z.exp10()],
-    "log1p": lambda z, u: [z.expm1()],
-    "sin": lambda z, u: [branches(z.asin(), u, -1, _NONE)],
-    "cos": lambda z, u: [branches(z.asin(), u, -1, _HALF)],
-    "tan": lambda z, u: [branches(z.atan(), u, 1, _NONE)],
-    "asin": lambda z, u: [z.sin()],
-    "acos": lambda z, u: [z.cos()],
-    "atan": lambda z, u: [z.tan()],
-    "sinh": lambda z, u: [z.asinh()],
-    "cosh": lambda z, u: [either_sign(z.maximum(1).acosh(), u)],
-    "tanh": lambda z, u: [z.atanh()],
-    "asinh": lambda z, u: [z.sinh()],
-    "acosh": lambda z, u: [z.cosh()],
-    "atanh": lambda z, u: [z.tanh()],
-}

@@ -13,6 +13,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from intervals.exact import whole
+from intervals.rows import integer_rows
+
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 
 
@@ -90,15 +93,15 @@ def _exact(kind: Kind, x: Any) -> Any:
     """Return x, arrays of ints as intervals; floats, which may be rounded, raise TypeError."""
     if isinstance(x, float | np.floating):
         raise TypeError(_HINT)
-    if isinstance(x, np.integer):
-        return int(x)
+    if isinstance(x, np.generic) and (number := whole(x)) is not None:
+        return number
     if isinstance(x, np.generic):  # its operators would ask here again
         raise TypeError(f"not an interval or an exact number: {x!r}")
     if not isinstance(x, np.ndarray):
         return x
-    if not np.issubdtype(x.dtype, np.integer):
+    if x.dtype.kind not in "iu":
         raise TypeError(_HINT)
-    return kind.from_floats(x)
+    return kind._of_rows(integer_rows(x))
 
 
 def _lifted(kind: Kind, x: Any) -> Any:
@@ -146,11 +149,29 @@ def _inner(x: Any, y: Any) -> Any:
     return _dot(x, y.T)
 
 
+def _einsum(subscripts: str, *operands: Any) -> Any:
+    """Return the sums of products; all of these are there at once, so `@` is for matrices."""
+    inputs, arrow, output = subscripts.replace(" ", "").partition("->")
+    letters = inputs.replace(",", "")
+    output = output if arrow else "".join(sorted(c for c in letters if letters.count(c) == 1))
+    order = output + "".join(sorted(set(letters) - set(output)))
+    result: Any = 1
+    for names, x in zip(inputs.split(","), operands, strict=True):
+        own = "".join(c for c in order if c in names)
+        rows = np.einsum(f"...{names}->...{own}", x._rows)  # nothing is summed: elements move
+        result = x._of_rows(rows)[tuple(slice(None) if c in own else None for c in order)] * result
+    for _ in order[len(output) :]:
+        result = result.sum(axis=-1)
+    return result
+
+
 def _mean(x: Any, axis: int | None = None) -> Any:
     return x.sum(axis=axis) / (x.size if axis is None else x.shape[axis])
 
 
 def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
+    if n < 0:
+        raise ValueError(f"a difference of order {n}")
     for _ in range(n):
         moved = np.moveaxis(x, axis, 0)
         x = np.moveaxis(moved[1:] - moved[:-1], 0, axis)
@@ -176,6 +197,9 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.prod: lambda x, axis=None: x.prod(axis=axis),
     np.dot: _dot,
     np.inner: _inner,
+    np.outer: lambda x, y: x.reshape(-1, 1) * y.reshape(1, -1),
+    np.vdot: lambda x, y: x.reshape(-1) @ y.reshape(-1),
+    np.einsum: _einsum,
     np.mean: _mean,
     np.diff: _diff,
     np.cumsum: _cumsum,
@@ -185,14 +209,15 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.clip: lambda x, low, high: x.maximum(low).minimum(high),
     np.zeros_like: lambda x: 0 * x,
     np.ones_like: lambda x: type(x).from_floats(np.ones(x.shape)),
-    np.array_equal: lambda x, y: x.shape == y.shape and bool((x == y).all()),
+    np.array_equal: lambda x, y: np.shape(x) == np.shape(y) and bool(np.all(np.equal(x, y))),
 }
 
 
 def apply_function(kind: Kind, function: Any, arguments: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_function__` is asked for; TypeError for what intervals do not do."""
     if function in _ASKING:
-        return _ASKING[function](*arguments, **options)
+        lifted = (_exact(kind, x) if isinstance(x, np.ndarray) else x for x in arguments)
+        return _ASKING[function](*lifted, **options)
     if function is np.where and len(arguments) == 3 and not options:
         mask, pair = arguments[0], [_lifted(kind, x)._rows for x in arguments[1:]]
         return _joined(kind, [np.where(mask, pair[0][i], pair[1][i]) for i in (0, 1)])

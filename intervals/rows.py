@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.errors import DomainError
-from intervals.exact import fraction
+from intervals.exact import fraction, whole
 from intervals.rounding import Rows, float_down, float_up, outward, outward_sum
 
 _BLOCK = 16384  # elements at a time
@@ -179,11 +179,11 @@ def scalar_rows(value: object) -> Rows | None:
 
     A float, or an array of anything else, raises TypeError.
     """
-    if isinstance(value, np.ndarray) and np.issubdtype(value.dtype, np.integer):
-        return float_rows(value, value)
+    if isinstance(value, np.ndarray) and value.dtype.kind in "iu":
+        return integer_rows(value)
     if isinstance(value, float | np.floating | np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
-    if isinstance(value, np.generic) and not isinstance(value, np.integer):  # else numpy asks again
+    if isinstance(value, np.generic) and whole(value) is None:  # else numpy asks again
         raise TypeError(f"not an interval or an exact number: {value!r}")
     if type(value) is int or type(value) is Fraction:
         return _rational_rows(value)
@@ -198,6 +198,14 @@ def _rational_rows(value: int | Fraction) -> Rows:
     rows = np.array(_enclosure(value))
     rows.setflags(write=False)
     return rows
+
+
+def integer_rows(values: NDArray[Any]) -> Rows:
+    """Return the tightest rows of an array of ints."""
+    try:
+        return float_rows(values, values)
+    except ValueError:  # binary64 does not hold them all
+        return exact_rows(values)
 
 
 def _is_interval(value: object) -> bool:
@@ -218,7 +226,9 @@ def _nested(values: Any) -> Any:
     if isinstance(values, str) and values.lstrip().startswith("["):
         values = _from_text(values)
     if isinstance(values, np.ndarray):
-        values = _unmasked(values).tolist()
+        if _unmasked(values).dtype.kind == "m":
+            raise TypeError("spans of time are no numbers")
+        values = values.tolist()
     if isinstance(values, list | range):
         return [_nested(value) for value in values]
     if not isinstance(values, tuple):
@@ -263,7 +273,7 @@ def _endpoint(value: Any, name: str) -> Fraction:
         return end
     if isinstance(value, float | np.floating):
         raise TypeError(f"{value!r} is a float, not a decimal: a string, or from_floats")
-    return fraction(int(value) if isinstance(value, np.integer) else value)
+    return fraction(value)
 
 
 def _enclosure(value: Any) -> tuple[float, float]:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from intervals.array import IntervalArray
 from intervals.generic import middle
@@ -57,17 +58,21 @@ def approximate_inverse(matrix: Matrix) -> Matrix:
     """Return points that invert the midpoints of a matrix, or do not: nothing depends on it."""
     middles = np.array([[np.asarray(x.mid, dtype=np.float64) for x in row] for row in matrix])
     stack = np.moveaxis(middles, (0, 1), (-2, -1))
-    with np.errstate(all="ignore"):
-        try:
-            stack = np.linalg.inv(stack)
-        except np.linalg.LinAlgError:  # one of them is singular
-            stack = np.linalg.pinv(stack)
-    stack = np.where(np.abs(stack) < 2.0**300, stack, 0.0)  # not where it overflowed, nor NaN
-    entries = np.moveaxis(stack, (-2, -1), (0, 1))
+    entries = np.moveaxis(inverses(stack), (-2, -1), (0, 1))
     like = matrix[0][0]
     if isinstance(like, Interval):
         return [[Interval.from_float(c, precision=like.precision) for c in row] for row in entries]
     return [[IntervalArray.from_floats(c) for c in row] for row in entries]
+
+
+def inverses(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return about the inverses of a stack of matrices; some pseudo-inverse if one is singular."""
+    with np.errstate(all="ignore"):
+        try:
+            found = np.linalg.inv(matrices)
+        except np.linalg.LinAlgError:
+            found = np.linalg.pinv(matrices)
+    return np.where(np.abs(found) < 2.0**300, found, 0.0)  # not where it overflowed, nor NaN
 
 
 def dot(row: Iterable[Any], column: Iterable[Any]) -> Any:

@@ -5,6 +5,9 @@ See `search` for what a box and a function may be.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import suppress
+from fractions import Fraction
 from functools import partial
 from math import inf
 from typing import TypeAlias
@@ -20,6 +23,7 @@ from intervals.branch import (
     clusters,
     evaluated,
     join,
+    larger,
     meets,
     one_box,
     select,
@@ -28,9 +32,11 @@ from intervals.branch import (
 from intervals.contractor import Formula, contracted, record
 from intervals.errors import DomainError
 from intervals.generic import meet
+from intervals.interval import Interval
 from intervals.krawczyk import SystemResult, contract, krawczyk
 from intervals.newton import Roots
 from intervals.rounding import MAX
+from intervals.shaving import shaved
 from intervals.systems import Function, components
 
 Demand: TypeAlias = "tuple[Formula, list[IntervalArray]]"
@@ -53,13 +59,13 @@ def zeros(
     exactly one zero in the given box, and two such boxes different ones; AT_LEAST_ONE and UNDECIDED
     are as in `krawczyk`, and may also be about a zero of another box. No box: no zero.
 
-    Proof. Each sub-box X is cut by `contracted`, and replaced by its common part with the Krawczyk
-    image of a larger X', which has all zeros of X' and thus of X. Where there is exactly one in X',
-    X is done, and so is each sub-box within X'. A zero on the common face of two sub-boxes is
-    inside the larger boxes of both, and may be found twice: if the box of one zero is within the
-    larger box of another, the two are the same. Sub-boxes whose sides are below `tolerance` times
-    those of the given box, and those left after `limit` ones, are joined where they meet and
-    examined by `krawczyk`.
+    Proof. Each sub-box X is cut by `contracted` and `shaved`, and replaced by its common part with
+    the Krawczyk image of a larger X', which has all zeros of X' and thus of X. Where there is
+    exactly one in X', X is done, and so is each sub-box within X'. A zero on the common face of two
+    sub-boxes is inside the larger boxes of both, and may be found twice: if the box of one zero is
+    within the larger box of another, the two are the same. Sub-boxes whose sides are below
+    `tolerance` times those of the given box, and those left after `limit` ones, are joined where
+    they meet and examined by `krawczyk`.
     """
     given = one_box(box)
     nothing = select(given, slice(0))
@@ -95,11 +101,17 @@ def _formulas(f: Function, where: Function | None, count: int) -> list[Demand]:
 
 def _cut(demand: Demand, boxes: Boxes) -> Boxes:
     """Return parts of the boxes with all that fulfil the demand."""
+    formula, targets = demand
+
+    def contract(x: Boxes) -> tuple[Boxes, Mask]:
+        return contracted(formula, x, targets)
+
     rest = [select(boxes, slice(0))]
-    for part, answer in evaluated(lambda x: contracted(demand[0], x, demand[1]), boxes):
+    for part, answer in evaluated(contract, boxes):
         smaller, empty = answer or (select(boxes, part), np.zeros(1, dtype=bool))
         rest.append(select(smaller, ~empty))
-    return join(rest)
+    smaller, empty = shaved(contract, join(rest))
+    return select(smaller, ~empty)
 
 
 def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
@@ -110,9 +122,9 @@ def _round(f: Function, boxes: Boxes) -> tuple[list[Boxes], Boxes]:
     """
     operator = partial(contract, f, steps=2)
     found, rest = [], []
-    for part, answer in evaluated(operator, _larger(boxes)):
+    for part, answer in evaluated(operator, tuple(map(larger, boxes))):
         here = select(boxes, part)
-        around = _larger(here) if answer else here
+        around = tuple(map(larger, here)) if answer else here
         final = answer or next(evaluated(operator, here))[1]
         if final is None:
             if _may_vanish(f, here):
@@ -128,16 +140,6 @@ def _may_vanish(f: Function, boxes: Boxes) -> bool:
     """Whether f over one box has no enclosure, or one that contains 0."""
     ((_, values),) = evaluated(lambda x: components(f(*x)), boxes)
     return values is None or all(y.contains_zero() for y in values)
-
-
-def _larger(boxes: Boxes) -> Boxes:
-    """Return boxes that contain the given ones, as a rule in their interior."""
-    result = []
-    for x in boxes:
-        reach = x.wid / 8 + np.maximum(abs(x.inf), abs(x.sup)) * 2.0**-45 + 2.0**-1000
-        low, high = np.maximum(x.inf - reach, -MAX), np.minimum(x.sup + reach, MAX)
-        result.append(IntervalArray.from_floats(np.minimum(low, x.inf), np.maximum(high, x.sup)))
-    return tuple(result)
 
 
 def _each(boxes: Boxes) -> list[Boxes]:
@@ -180,8 +182,20 @@ def _in_given(f: Function, zero: Boxes, given: Boxes) -> list[SystemResult]:
     if outcome is Roots.NONE:
         return []
     if outcome is Roots.UNDECIDED:
+        if point := _rational_zero(f, box):
+            return [SystemResult(Roots.UNIQUE, point, f"{reason}, which f takes exactly here")]
         return [SystemResult(outcome, box, f"{reason}, at the boundary of the given box")]
     return [SystemResult(Roots.UNIQUE, box, f"{reason}, {why} here")]
+
+
+def _rational_zero(f: Function, box: Sequence[Interval] | None) -> tuple[Interval, ...] | None:
+    """Return a zero of small denominators in the box; None if f is no formula for Fractions."""
+    point = [x.mid.limit_denominator(1000) for x in box or ()]
+    if box and all(x.contains(value) for x, value in zip(box, point, strict=True)):
+        with suppress(AttributeError, TypeError, ZeroDivisionError):
+            if all(y == 0 and isinstance(y, int | Fraction) for y in components(f(*point))):
+                return tuple(map(Interval, point))
+    return None
 
 
 def _examined(f: Function, boxes: Boxes, zero: Boxes) -> list[SystemResult]:

@@ -19,7 +19,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from proofs.plane import summary
+from proofs.plane import cost, summary
+from proofs.plane.cost import Cost
 from proofs.plane.head import executor, run
 from proofs.plane.store import NAME, Held, Store, opened
 from proofs.report.build import INSTALL, missing
@@ -38,11 +39,11 @@ EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. A depth of 5 makes cells of a
 32nd of the region's sides at the smallest; a greater depth goes on with what is undecided.
 
-DIR has atlas.sqlite, which `proofs.check` proves again, cell by cell; atlas.json, areas and a
-digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of single-impact orbits on
-top; cost.svg, what cells cost; atlas.html, where each cell says what is proved in it.
---executor dask:HOST:PORT sends the cells to a Dask scheduler, dask: to one of this machine (pip
-install 'impact-proofs[cluster]').
+DIR has atlas.sqlite, which `proofs.check` proves again, cell by cell; atlas.json, areas, costs by
+depth and a digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of
+single-impact orbits on top; cost.svg, what cells cost; atlas.html, where each cell says what is
+proved in it. --executor dask:HOST:PORT sends the cells to a Dask scheduler, dask: to one of this
+machine (pip install 'impact-proofs[cluster]').
 
 exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
 
@@ -149,7 +150,8 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     """Do what is left to do, then print and write what there is."""
     with progress() as tell, executor(options.jobs, options.executor) as doing:
         done = run(store, options.depth, doing, options.chunk, tell)
-    made = summary.summary(store)
+    spent = cost.costs(store)
+    made = summary.summary(store) | {"cpu_milliseconds": cost.by_depth(spent)}
     with writing(options.out) as put:
         put("atlas.json", json.dumps(made, indent=1) + "\n")
     if packages := missing():
@@ -157,7 +159,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     else:
         with progress() as tell:
             tell("pictures")
-            _draw(options.out, store, made)
+            _draw(options.out, store, made, spent)
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
     if not options.quiet and options.json != "-":
         for line in summary.lines(made, store.region):
@@ -166,23 +168,24 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
 
 
-def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
+def _draw(folder: Path, store: Store, made: dict[str, Any], spent: list[Cost]) -> None:
     """Write the pictures, and the page with all cells unless these are too many."""
-    from proofs.plane import cost, page, picture
+    from proofs.plane import page, picture
     from proofs.report.figures.style import style, svg_of
 
-    files: dict[str, str | bytes] = {}
+    files: dict[str, str] = {}
     shown = picture.shown(store, made)
     with style("atlas"):
         drawing = picture.picture(store.region, shown)
-        files["atlas.png"] = picture.png(drawing)
+        image = picture.png(drawing)
         files["atlas.svg"] = svg_of(drawing, "atlas", made["holds"])
     with style("cost"):
-        files["cost.svg"] = spent = svg_of(cost.figure(cost.costs(store)), "cost", "CPU time")
+        files["cost.svg"] = svg_of(cost.figure(spent), "cost", "CPU time")
     if sum(made["cells"].values()) <= page.MOST:
         beside = sorted(path.name for path in folder.glob("cell-*.json"))
-        files["atlas.html"] = page.page(store, shown, spent, beside)
+        files["atlas.html"] = page.page(store, shown, files["cost.svg"], beside)
     with writing(folder) as put:
+        put("atlas.png", image)
         for name, content in files.items():
             put(name, content)
 

@@ -3,7 +3,8 @@
 Of orbits with one impact in n table periods, with restitution epsilon: the curves of folds and of
 flips in closed form, for all n and epsilon (C1). Curves on which the orbit touches the table on its
 way, below |nu| = 1, followed and enclosed in boxes around all of each curve, with points to 15
-places (C2). Where these meet folds or flips (C3). For n = 1 and 2, eta < 2.
+places (C2). Where these meet folds or flips (C3). For n = 1 and 2, eta < 2. For plastic impacts and
+all n: where orbits with a sticking phase end, other than by grazing, in closed form (C4).
 """
 
 if __name__ == "__main__":

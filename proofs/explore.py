@@ -3,10 +3,11 @@
 Asks at any eta > 0 and nu: does the mass come to rest on the table for ever (X1)? Is there a
 compact invariant set on which the impact map has positive entropy (X2)? A stable periodic motion on
 which the mass sticks and leaves again (X3)? A stable periodic orbit without sticking (X4)? Are
-there flights without an end (X5)? With --epsilon, about impacts with restitution: is there chaos
-(X6)? A stable motion (X7)? Does every motion come to rest (X8)? Sets and orbits are found by
-themselves, then proved. Beside the verdicts, and apart from them: the circle cut into branches, as
-floating point sees it.
+there flights without an end (X5)? Does more than half of the circle come to a motion that sticks
+(X10)? With --epsilon, about impacts with restitution: is there chaos (X6)? A stable motion (X7)?
+Does every motion come to rest (X8)? Do motions that only touch the table attract (X9)? Sets and
+orbits are found by themselves, then proved. Beside the verdicts, and apart from them: the circle
+cut into branches, as floating point sees it.
 """
 
 from __future__ import annotations

@@ -16,6 +16,7 @@ from proofs.shell.runner import More, run
 
 EXAMPLES = """
   python -m proofs.horseshoe --eta 0.22 --nu -0.2      I0, I1 and the slopes are found there
+  python -m proofs.horseshoe --eta 0.103 --nu 0.541    f decreases on the sets that are found
   python -m proofs.horseshoe --eta 0.212 --nu -0.2 --left 1.1 1.15 --right 1.27 1.32
   python -m proofs.horseshoe --only N1 N2 --epsilon 0.02
 """

@@ -7,7 +7,8 @@ between them leave I; at other eta and nu they are found if they are not given. 
 exactly one phase with that itinerary that repeats it for ever, and no other phase is periodic with
 its orbit in I0 and I1. Then each phase is enclosed, with its multiplier: the derivative of f^n
 there, n the length of the word (for a word such as 0101, of period 2, the square of that of its
-orbit).
+orbit). With --cycles the rate at which orbits escape follows, twice: proved by the transfer
+operator, and from the multipliers of the shorter orbits alone.
 """
 
 from __future__ import annotations
@@ -59,6 +60,7 @@ _LONGEST_ORBITS = 20
 _AT_ONCE = 4000  # orbits
 _LONGEST_WORD = 256
 _SHOWN = 16  # rows on the screen
+_EXPANSION = 10  # the longest period for the escape rate: more than 20 digits of it
 _FAST_DIGITS = 14
 _ENDS = ("lower", "upper")
 
@@ -109,7 +111,7 @@ def own_horseshoe(of: Parameters) -> ImpactMap:
     left out are the same on all of a set, as in `horseshoe`.
     """
     system = System(of.eta, of.nu)
-    for left, right in islice(pairs(pieces(system), rising=False), _TRIES):
+    for left, right in islice(pairs(pieces(system)), _TRIES):
         with suppress(Undecided, Unproved):
             prover = Prover(system, _FAST_DIGITS, HORIZON)
             parts = [prover.slopes(list(domain))[1] for domain in (left, right)]
@@ -176,23 +178,50 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     shown = options.digits if places else min(options.digits, _FAST_DIGITS)
     rows = [_row(point, shown) for point in found]
     write_target(parser, options.csv, lambda: _csv(rows))
-    answer = {"parameters": _machine_form(of, places), "orbits": rows}
-    give(parser, options, answer, lambda _: _text(of, rows, bool(options.cycles), seconds))
+    answer: Answer = {"parameters": _machine_form(of, places), "orbits": rows}
+    if options.cycles:
+        answer["escape"] = _escape(proved, options, places, shown)
+    give(parser, options, answer, lambda _: _text(of, rows, answer.get("escape"), seconds))
     return 0
 
 
 def _found(of: ImpactMap, options: Namespace, places: int | None) -> list[PeriodicPoint]:
-    """Return the points of the words asked for, or one of each orbit, some orbits at a time."""
+    """Return the points of the words asked for, or one of each orbit."""
     if not options.cycles:
         word, period = options.word, options.period
         words = Words.rotations(word) if word else Words.of_length(period)
         return periodic_points(of, words, places, options.tell)
+    return _cycles(of, options.cycles, options, places)
+
+
+def _cycles(
+    of: ImpactMap, period: int, options: Namespace, places: int | None
+) -> list[PeriodicPoint]:
+    """Return a point of each orbit of a least period."""
     rows: list[PeriodicPoint] = []
-    for words in Words.of_orbits(options.cycles, _AT_ONCE):
+    for words in Words.of_orbits(period, _AT_ONCE):
         tell = partial(_after, len(rows), options.tell)
         points = periodic_points(of, words, places, tell)
         rows += [points[cycle[0]] for cycle in words.cycles]
     return rows
+
+
+def _escape(of: ImpactMap, options: Namespace, places: int | None, shown: int) -> Answer:
+    """Return the escape rate by the operator, if it is proved, and by the cycles."""
+    from proofs.methods.traces import escape_rate
+    from proofs.search.s32_dimension import escape
+
+    options.tell("the escape rate")
+    most, precision = min(options.cycles, _EXPANSION), 60 + shown * 10 // 3
+    found = [_cycles(of, n, options, places) for n in range(1, most + 1)]
+    multipliers = [[Interval(*x.multiplier, precision=precision) for x in row] for row in found]
+    proved, rate = escape(of.of, shown, options.tell), escape_rate(multipliers)
+    return {
+        "rate": proved and bounds(proved.rate, shown),
+        "statement": proved and proved.sentence,
+        "by_cycles": bounds((rate.inf, rate.sup), shown),
+        "periods": most,
+    }
 
 
 def _after(orbits: int, tell: Callable[[str], None], stage: str) -> None:
@@ -284,7 +313,7 @@ def _csv(rows: list[Answer]) -> str:
     return target.getvalue()
 
 
-def _text(of: Parameters, rows: list[Answer], by_orbit: bool, seconds: float) -> str:
+def _text(of: Parameters, rows: list[Answer], escape: Answer | None, seconds: float) -> str:
     said = []
     for row in rows[:_SHOWN]:
         said.append(f"{row['word']}  period {row['period']}")
@@ -292,7 +321,8 @@ def _text(of: Parameters, rows: list[Answer], by_orbit: bool, seconds: float) ->
     if len(rows) > _SHOWN:
         said.append(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
     sets = f"in I0 = {show_range(of.left)}, I1 = {show_range(of.right)}"
-    if by_orbit:
+    if escape:
+        said += ["", *_rates(escape)]
         what = (
             f"{len(rows)} orbits of least period {rows[0]['period']} {sets}, all that there are, "
             "each with the phase of the first of its words"
@@ -305,3 +335,17 @@ def _text(of: Parameters, rows: list[Answer], by_orbit: bool, seconds: float) ->
         )
     said.append(f"\n{what}, in {seconds:.2f} s")
     return "\n".join(said)
+
+
+def _rates(escape: Answer) -> list[str]:
+    """Say what is known of the escape rate."""
+    cycles = lines("", escape["by_cycles"], 0)
+    said = [
+        "escape rate by the orbits of the periods up to "
+        f"{escape['periods']} (what longer ones add is not bounded):",
+        *cycles,
+    ]
+    if not escape["rate"]:
+        return [*said, "no bounds are proved by the transfer operator"]
+    proved = f"proved by the transfer operator, -log of its growth: {escape['statement']}"
+    return [*said, proved, *lines("", escape["rate"], 0)]

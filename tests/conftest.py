@@ -1,14 +1,19 @@
-"""What the whole suite shares: how much it tries, and where its bytecode is."""
+"""What the whole suite shares: how much it tries, what is made once, and where its caches are."""
 
 import gc
 import os
 import sys
+from tempfile import TemporaryDirectory
 
+import pytest
+
+from tests import once
 from tests.effort import EFFORT
 
 
 def pytest_configure(config):
-    """Try less in the quick part; keep bytecode where Python is told to write none.
+    """Try less in the quick part; leave the user's cache alone, and keep bytecode where Python is
+    told to write none.
 
     Beside the sources there is none then, as asked; but workers, and the processes that tests
     start, do not compile the same files again and again.
@@ -19,6 +24,18 @@ def pytest_configure(config):
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+    if not hasattr(config, "workerinput"):
+        folder_of_run = TemporaryDirectory()
+        config.add_cleanup(folder_of_run.cleanup)
+        os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'."""
+    for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(pytest.mark.slow)
 
 
 def pytest_collection_finish():

@@ -6,6 +6,7 @@ from graphlib import TopologicalSorter
 from pathlib import Path
 
 import grimp
+import pytest
 
 ROOT = Path(__file__).parents[1]
 
@@ -57,3 +58,15 @@ def test_the_tools_forget_nothing_in_the_tree():
     for package in ("intervals", "proofs"):
         for path in (ROOT / package).rglob("*.py"):
             assert "/tmp/" not in path.read_text() and "/home/" not in path.read_text(), path
+
+
+@pytest.mark.slow
+def test_what_is_long_is_no_part_of_the_quick_run():
+    """`-m 'not slow'` takes the place of the usual `-m 'not long'`."""
+    ask = ["tests/proofs/trusted/paper/test_circle.py", "--collect-only", "-q", "-n", "0", "-m"]
+    found = {}
+    for marks in ("long", "long and not slow"):
+        command = [sys.executable, "-m", "pytest", *ask, marks]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+        found[marks] = done.returncode  # 5: nothing is collected
+    assert found == {"long": 0, "long and not slow": 5}

@@ -16,6 +16,7 @@ from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
+_OF_RISING = ("H1", "H2", "H3", "H6")
 _MOST_DIGITS = 12
 
 
@@ -62,7 +63,8 @@ def plan(source: str) -> Plan:
     """Check a certificate, and return what it asks for.
 
     Raises Malformed, Rejected or Exhausted as the checker does, Malformed as well where the file
-    is about other claims, NoTheorem where nothing is decided.
+    is about other claims, NoTheorem where nothing is decided. H1 to H3 and H6 are stated in Coq
+    where f increases; where it decreases, the theorem on the horseshoe says what they say.
     """
     report = check(source)
     of = report.parameters
@@ -75,7 +77,9 @@ def plan(source: str) -> Plan:
         for claim in parse(source).fields(*FIELDS)[4].value
     }
     decided: dict[str, Verdict] = {
-        name: each.verdict for name, each in claims.items() if each.verdict is not Verdict.UNDECIDED
+        name: each.verdict
+        for name, each in claims.items()
+        if each.verdict is not Verdict.UNDECIDED and (of.signs == (1, 1) or name not in _OF_RISING)
     }
     points = {name: x for name in decided for x in proofs[name] if isinstance(x, Impact)}
     found = [x for name in decided for x in proofs[name]]
@@ -98,7 +102,7 @@ def _headline(
     """Return the corrected theorem, or that of the given sets if H4 and H5 hold on them."""
     for each in found:
         if isinstance(each, Horseshoe):
-            return Headline(each.left, each.right, (1, 1), each.slopes, True)
+            return Headline(each.left, each.right, each.signs, each.slopes, True)
     if not all(verdicts.get(claim) is Verdict.VERIFIED for claim in ("H4", "H5")):
         return None
     ranges = [each for each in found if isinstance(each, SlopeRange)]
@@ -106,23 +110,16 @@ def _headline(
     parts = [part for part in known if part is not None and part.expands]
     if len(parts) < 2:
         return None
-    signs = tuple(1 if part.minimum[0] > 0 else -1 for part in parts)
-    bounds = hull([_sizes(part) for part in parts])
+    bounds = hull([part.bounds(part.sign) for part in parts])
     low, high = of.slopes
     if not (1 < low <= bounds[0] and bounds[1] <= high):
         low, high = _rounded(bounds)
-    return Headline(of.left, of.right, (signs[0], signs[1]), (low, high), False)
+    return Headline(of.left, of.right, (parts[0].sign, parts[1].sign), (low, high), False)
 
 
 def _part(ranges: list[SlopeRange], domain: Range) -> SlopeRange | None:
     """Return what is known about f' on an interval."""
     return next((part for each in ranges if (part := each.over(domain)) is not None), None)
-
-
-def _sizes(part: SlopeRange) -> Range:
-    """Return bounds on |f'|, for f' of one sign."""
-    low, high = part.minimum[0], part.maximum[1]
-    return (low, high) if low > 0 else (-high, -low)
 
 
 def _rounded(bounds: Range) -> Range:

@@ -9,9 +9,12 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from math import inf
 from operator import attrgetter
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from intervals import DomainError, Interval, Undecided
+from intervals.errors import DomainError, Undecided
+
+if TYPE_CHECKING:
+    from intervals import Interval
 
 Range = tuple[Fraction, Fraction]
 
@@ -41,7 +44,7 @@ def piece_range(left: Interval, right: Interval, slope: Interval, width: Fractio
     g lies in g(x) + g' [0, w] and in g(x + w) - g' [0, w] (mean value theorem, both ends); where
     g' has one sign, the intersection is the hull of the two values: no loss by monotonicity.
     """
-    reach = slope * Interval(0, width, precision=slope.precision)
+    reach = slope * type(slope)(0, width, precision=slope.precision)
     common = (left + reach).intersection(right - reach)
     if common is None:
         raise Undecided("the enclosures of a piece contradict each other")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from intervals import Interval, Undecided, exp, log
+from intervals.errors import Undecided
+from proofs.trusted.kernel.arithmetic import Enclosure, exp, log, rational
 
 Range = tuple[Fraction, Fraction]
 
@@ -14,21 +15,24 @@ def moran_root(ratios: Range, bits: int) -> Range:
 
     The left side decreases in s. A secant iteration finds the candidate, signs prove it.
     """
-    logs = [log(Interval(ratio, precision=bits + 30)) for ratio in ratios]
+    logs = [log(ratio, bits + 30) for ratio in ratios]
 
-    def excess(s: Fraction) -> Interval:
-        return exp(logs[0] * s) + exp(logs[1] * s) - 1
+    def powers(s: Fraction) -> list[Enclosure]:
+        return [exp(each * rational(s, bits + 30)) for each in logs]
 
-    def tilt(s: Fraction) -> Interval:
-        return logs[0] * exp(logs[0] * s) + logs[1] * exp(logs[1] * s)
+    def excess(s: Fraction) -> Enclosure:
+        first, second = powers(s)
+        return first + second - 1
 
     s, unit = Fraction(0), Fraction(1, 2**bits)
     for _ in range(60):  # Newton from the left of a convex decreasing function: no overshoot
-        step = (-excess(s) / tilt(s)).mid
+        first, second = powers(s)
+        height, tilt = (first + second - 1).range, (logs[0] * first + logs[1] * second).range
+        step = -(height[0] + height[1]) / (tilt[0] + tilt[1])
         s = round((s + step) / unit) * unit
         if abs(step) < unit:
             break
     bracket = (s - unit, s + unit)
-    if not (excess(bracket[0]).certainly_positive() and excess(bracket[1]).certainly_negative()):
+    if not excess(bracket[0]).lo > 0 > excess(bracket[1]).hi:
         raise Undecided("the bracket of s_0 has not the signs it must have")
     return bracket

@@ -5,12 +5,12 @@ list has every periodic orbit in R whose period divides n, once, with its exact 
 Undecided is raised.
 
 Proof. (1) The points z_0, ..., z_(n-1) of such an orbit solve f(z_i) = z_(i+1), i mod n, and so do
-the rotations z_k, z_(k+1), ...; one of them has its least first coordinate in front. `zeros` lists
-every solution that is in R and has it in front, each one as the only solution in its box.
+the rotations z_k, z_(k+1), ...; one of them has its least first coordinate in front. `cyclic` has
+every solution that is in R and has it in front, each one as the only solution in a box.
 (2) A solution with a point outside R, or with a smaller first coordinate behind, goes: the latter
 has a rotation that stays. If some point is not proved to be in R, Undecided is raised.
-(3) Two of those that stay are the same orbit exactly if one is a rotation of the other, by some k;
-then z_k has the least first coordinate, too. So where z_k may have it, the rotation by k is
+(3) Two boxes have the same orbit exactly if the solution of one is a rotation of the other's, by
+some k; then z_k has the least first coordinate, too. So where z_k may have it, the rotation by k is
 compared with all: boxes that are disjoint hold different solutions; a larger box around two, with
 exactly one solution in it, the same. Else Undecided is raised. The least k > 0 for which a solution
 is its own rotation is its period, n if there is none.
@@ -21,39 +21,49 @@ Chaos 11 (2001), where the system for the whole orbit is solved as well.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from intervals import Interval, IntervalArray, Undecided
 from intervals.array import Mask
-from intervals.branch import Boxes, as_box, meets, select
-from intervals.krawczyk import contract
-from intervals.newton import Roots
-from intervals.systems import Function, components, jacobian
-from intervals.zeros import zeros
+from intervals.branch import concatenated
 from proofs.methods.cells import Cover
+from proofs.methods.cyclic import CyclicSystem, portions, turned
 
-_REACH = Fraction(1, 2**26)  # around cells, and around two solutions that may be one
+_REACH = Fraction(1, 2**26)  # around cells
+_NEAR = Fraction(1, 2**30)  # around two solutions that may be one
+
+Indices = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Orbit:
-    """A periodic orbit p_0, p_1 = f(p_0), ..., and enclosures of the derivative of f^n at p_0.
+    """A periodic orbit p_0, p_1 = f(p_0), ...: boxes of its points, and f^n' at p_0, n the period.
 
-    n is the number of points, the least period.
+    `boxes` has the shape (n, d), d coordinates, and `slopes` the shape (d, d).
     """
 
-    points: tuple[tuple[Interval, ...], ...]
-    derivative: tuple[tuple[Interval, ...], ...]
+    boxes: IntervalArray
+    slopes: IntervalArray
 
     @property
     def period(self) -> int:
-        """The least period."""
-        return len(self.points)
+        """The least period, the number of points."""
+        return len(self.boxes)
+
+    @cached_property
+    def points(self) -> tuple[tuple[Interval, ...], ...]:
+        """The boxes of p_0, p_1, ..."""
+        return tuple(map(tuple, self.boxes.tolist()))
+
+    @cached_property
+    def derivative(self) -> tuple[tuple[Interval, ...], ...]:
+        """Enclosures of the derivative of f^n at p_0."""
+        return tuple(map(tuple, self.slopes.tolist()))
 
     @property
     def trace(self) -> Interval:
@@ -62,18 +72,7 @@ class Orbit:
         return sum(others, first)
 
 
-def iterate(f: Function, n: int) -> Function:
-    """Return f^n."""
-
-    def power(*x: Any) -> list[Any]:
-        for _ in range(n):
-            x = tuple(components(f(*x)))
-        return list(x)
-
-    return power
-
-
-def periodic_orbits(cover: Cover, period: int, *, limit: int = 1_000_000) -> list[Orbit]:
+def periodic_orbits(cover: Cover, period: int, *, limit: int = 10_000_000) -> list[Orbit]:
     """Return the orbits of the theorem, by period, then by their first point.
 
     The first point has the least first coordinate. Raises Undecided where a sub-box is too small to
@@ -83,99 +82,71 @@ def periodic_orbits(cover: Cover, period: int, *, limit: int = 1_000_000) -> lis
         raise ValueError("a period is at least 1")
     if not len(cover.cells[0]):
         return []
-    points = _solutions(cover, period, limit)
-    if not points:
-        return []
-    kept = _in_region(cover, points)
-    points = [select(point, kept) for point in points]
-    orbits = []
-    for i, length in _periods(cover, period, points).items():
-        boxes = tuple(as_box(point, i) for point in points[:length])
-        _, rows = jacobian(iterate(cover.f, length), boxes[0])
-        orbits.append(Orbit(boxes, tuple(tuple(row) for row in rows)))
-    return sorted(orbits, key=lambda orbit: (orbit.period, [x.inf for x in orbit.points[0]]))
+    system = CyclicSystem(cover.f, cover.region.g, len(cover.cells))
+    hull = np.array([[x.inf.min(), x.sup.max()] for x in cover.cells])
+    around = IntervalArray.from_floats(*hull.T).widen(_REACH)
+    boxes = system.solutions(concatenated([around[np.newaxis]] * period)[np.newaxis], limit)
+    boxes = boxes[_in_region(cover, boxes)]
+    kept, periods = _least_periods(system, boxes)
+    orbits: list[Orbit] = []
+    for length in sorted(set(periods[kept].tolist())):
+        some = boxes[kept & (periods == length)][:, :length]
+        some = some[np.lexsort(some.inf[:, 0].T[::-1])]
+        orbits += map(Orbit, some, _products(system.derivatives(some)))
+    return orbits
 
 
-def _system(f: Function, size: int) -> Function:
-    """Return f(z_i) - z_(i+1) as a function of all coordinates of the points, of so many each."""
-
-    def equations(*z: Any) -> list[Any]:
-        points = _points(z, size)
-        following = (*points[1:], points[0])
-        return [
-            value - coordinate
-            for point, after in zip(points, following, strict=True)
-            for value, coordinate in zip(components(f(*point)), after, strict=True)
-        ]
-
-    return equations
+def _products(slopes: IntervalArray) -> IntervalArray:
+    """Return f'(p_(n-1)) ... f'(p_0) for all orbits (chain rule)."""
+    product = slopes[:, 0]
+    for i in range(1, slopes.shape[1]):
+        product = slopes[:, i] @ product
+    return product
 
 
-def _points(z: Sequence[Any], size: int) -> list[tuple[Any, ...]]:
-    return [tuple(z[i : i + size]) for i in range(0, len(z), size)]
-
-
-def _solutions(cover: Cover, period: int, limit: int) -> list[Boxes]:
-    """Return the points of all solutions of (1): for each place on the orbit an array of boxes."""
-    size, g = len(cover.cells), cover.region.g
-    hull = tuple(
-        Interval.from_float(x.inf.min()).hull(Interval.from_float(x.sup.max())) for x in cover.cells
-    )
-
-    def asked(*z: Any) -> list[Any]:
-        points = _points(z, size)
-        in_region = [value for point in points for value in (components(g(*point)) if g else [])]
-        return in_region + [point[0] - z[0] for point in points[1:]]
-
-    around = tuple(IntervalArray([x]).widen(_REACH).item() for x in hull)
-    found = zeros(_system(cover.f, size), around * period, where=asked, limit=limit)
-    for result in found:
-        if result.outcome is not Roots.UNIQUE:
-            place = " x ".join(f"{side:12}" for side in (result.box or ())[:size])
-            raise Undecided(f"whether there is a periodic point in {place}")
-    columns = zip(*(result.box or () for result in found), strict=True)
-    return _points([IntervalArray(list(column)) for column in columns], size)
-
-
-def _in_region(cover: Cover, points: list[Boxes]) -> Mask:
+def _in_region(cover: Cover, boxes: IntervalArray) -> Mask:
     """Return which solutions are in R with the least first coordinate in front, as in (2)."""
-    out = np.zeros(len(points[0][0]), dtype=bool)
-    inside = ~out
-    for point in points:
-        out |= cover.region.misses(point) | (point[0].sup < points[0][0].inf)
-        inside &= cover.region.contains(point)
-    unclear = np.flatnonzero(~out & ~inside)
-    if unclear.size:
-        boxes = [as_box(point, int(unclear[0])) for point in points]
-        place = ", ".join(" x ".join(f"{side:12}" for side in box) for box in boxes)
+    points = tuple(boxes[..., k].reshape(-1) for k in range(boxes.shape[2]))
+    first = boxes[..., 0]
+    out = cover.region.misses(points).reshape(first.shape) | (first.sup < first.inf[:, :1])
+    gone = out.any(axis=1)
+    inside = cover.region.contains(points).reshape(first.shape).all(axis=1)
+    for sides in boxes[~gone & ~inside][:1].tolist():
+        place = ", ".join(" x ".join(f"{side:12}" for side in point) for point in sides)
         raise Undecided(f"a periodic point at the boundary of the region, in {place}")
-    return ~out
+    return np.asarray(~gone)
 
 
-def _periods(cover: Cover, period: int, points: list[Boxes]) -> dict[int, int]:
-    """Return one solution of each orbit, with its period: (3)."""
-    found = dict.fromkeys(range(len(points[0][0])), period)
-    system = _system(cover.f, len(points[0]))
-    for k in range(1, period):
-        turned = [*points[k:], *points[:k]]
-        for i in np.flatnonzero(~(points[k][0].inf > points[0][0].sup)).tolist():
-            here = [select(point, slice(i, i + 1)) for point in turned]
-            for j in np.flatnonzero(meets(_flat(here), _flat(points))).tolist():
-                if not _same(system, here, [select(point, slice(j, j + 1)) for point in points]):
-                    raise Undecided(f"whether two orbits are one, in {as_box(here[0], 0)}")
-                if i != j:
-                    found.pop(max(i, j), None)
-                elif i in found:
-                    found[i] = min(k, found[i])
-    return found
+def _least_periods(system: CyclicSystem, boxes: IntervalArray) -> tuple[Mask, Indices]:
+    """Return which solutions to keep, one of each orbit, and their periods: (3)."""
+    count, n = boxes.shape[:2]
+    kept, periods = np.ones(count, dtype=bool), np.full(count, n)
+    for k in range(n):
+        rotations = turned(boxes, k)
+        i, j = _pairs(rotations, boxes, k)
+        hulls = rotations[i].hull(boxes[j]).widen(_NEAR)
+        for some in portions(hulls):
+            if not (unique := system.krawczyk(some).unique).all():
+                box = some[~unique][0, 0].tolist()
+                raise Undecided(f"whether two orbits are one, in {box}")
+        kept[np.maximum(i, j)[i != j]] = False
+        own = i[i == j]
+        periods[own] = np.minimum(periods[own], k)
+    return kept, periods
 
 
-def _same(system: Function, points: list[Boxes], other: list[Boxes]) -> bool:
-    """Whether there is exactly one solution in a box around two."""
-    pairs = zip(_flat(points), _flat(other), strict=True)
-    _, unique, _ = contract(system, [x.hull(y).widen(_REACH) for x, y in pairs], steps=1)
-    return bool(unique.all())
+def _pairs(rotations: IntervalArray, boxes: IntervalArray, by: int) -> tuple[Indices, Indices]:
+    """Return i, j for which the i-th rotation may be the j-th solution; each pair once for k = 0.
 
-
-def _flat(points: list[Boxes]) -> list[IntervalArray]:
-    return [side for point in points for side in point]
+    Solutions are compared where their first coordinates meet, with the help of their order.
+    """
+    low, high = boxes.inf[:, 0, 0], boxes.sup[:, 0, 0]
+    order = np.argsort(low)
+    asked = np.flatnonzero(rotations.inf[:, 0, 0] <= high)
+    begin = np.searchsorted(np.maximum.accumulate(high[order]), rotations.inf[asked, 0, 0])
+    end = np.searchsorted(low[order], rotations.sup[asked, 0, 0], side="right")
+    size = np.maximum(end - begin, 0)
+    i = np.repeat(asked, size)
+    j = order[np.arange(len(i)) - np.repeat(np.cumsum(size) - size - begin, size)]
+    meets = ~rotations[i].disjoint(boxes[j]).any(axis=(1, 2)) & ((by > 0) | (i < j))
+    return i[meets], j[meets]

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from intervals import Interval
 from proofs.motion.flight import Flight
 from proofs.motion.impact import FirstImpact, impact_time, time_range
 from proofs.trusted.numbers import Range
+
+if TYPE_CHECKING:
+    from intervals import Interval
 
 
 @dataclass(frozen=True)

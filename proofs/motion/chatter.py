@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from intervals import Interval, Undecided
 from proofs.motion.system import System
-from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
+from proofs.trusted.equations import Launch, clock, closing, gap, launch, launch_acceleration
 from proofs.trusted.numbers import Range
 
 _PRECISION = 53
@@ -61,6 +61,12 @@ class Pushing:
         """Enclose the launch acceleration over an interval of phases."""
         value: Interval = launch_acceleration(self._launches(phases))
         return value
+
+    def speeds(self, phases: Range, velocities: Range) -> Range:
+        """Enclose the relative speeds before impacts at these phases and velocities gamma."""
+        gamma = Interval(*velocities, precision=_PRECISION)
+        speed: Interval = closing(self._launches(phases), gamma) * self.system.side
+        return speed.inf, speed.sup
 
     def _launches(self, phases: Range) -> Launch:
         eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))

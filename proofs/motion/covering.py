@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
-from proofs.motion.flight import Flight
+from intervals.errors import Undecided
+from proofs.motion.flight import Flight, Numbers, interval
 from proofs.motion.impact import (
     HORIZON,
     LEAST,
@@ -25,7 +25,12 @@ from proofs.trusted.numbers import Range
 
 
 def cover_by_impacts(
-    system: System, phases: Range, *, horizon: Fraction = HORIZON, limit: int = 200
+    system: System,
+    phases: Range,
+    *,
+    horizon: Fraction = HORIZON,
+    limit: int = 200,
+    numbers: Numbers = interval,
 ) -> list[FirstImpact]:
     """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
     return cover_by(
@@ -35,6 +40,7 @@ def cover_by_impacts(
         obstacle="grazing",
         horizon=horizon,
         limit=limit,
+        numbers=numbers,
     )
 
 
@@ -55,6 +61,7 @@ def cover_by(
     obstacle: str,
     horizon: Fraction = HORIZON,
     limit: int = 400,
+    numbers: Numbers = interval,
 ) -> list[FirstImpact]:
     """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
 
@@ -68,7 +75,7 @@ def cover_by(
         low = part.phases[0]
         most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
         try:
-            flight = Flight(system, part.phases, part.precision)
+            flight = Flight(system, part.phases, part.precision, numbers=numbers)
             found = first_impact(flight, horizon, steps_for(part.phases))
             if accept(found):
                 return found
@@ -85,7 +92,7 @@ def cover_by(
         return None
 
     def split(part: _Part) -> Iterable[_Part]:
-        if part.cuts % 4 == 2:
+        if part.cuts % 4 == 2 and numbers is interval:
             needed = precision_for(system, part.phases, horizon)
             if needed > part.precision:
                 return [replace(part, precision=needed)]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TypeVar
 
-from intervals import DomainError, Undecided
+from intervals.errors import DomainError, Undecided
 from proofs.trusted.numbers import Range, agree
 
 _ATTEMPTS = 6

@@ -2,17 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
 
-from intervals import Interval, Jet
 from proofs.methods.extremes import piece_range
+from proofs.motion.sketch import Sketch
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.kernel.arithmetic import Dual, Enclosure
 from proofs.trusted.numbers import Range
 
+if TYPE_CHECKING:
+    from intervals import Interval
+
 _NOW = Fraction(0)
+Numbers = Callable[[Fraction, Fraction, int], Any]  # what makes one of its ends, at a precision
+
+
+def interval(low: Fraction, high: Fraction, precision: int) -> Interval:
+    """Return the numbers that prove: the class is imported where it is used, with mpmath."""
+    from intervals.interval import Interval
+
+    return Interval(low, high, precision=precision)
+
+
+def sketch(low: Fraction, high: Fraction, precision: int) -> Sketch:
+    """Return floats, for what the checker's rules are to conclude from: they prove nothing."""
+    return Sketch(low, high)
+
+
+fixed = Enclosure.of  # the checker's numbers
 
 
 @dataclass(frozen=True)
@@ -20,13 +42,18 @@ class Flight:
     """All flights that start at a phase of `phases`, evaluated at `precision` bits.
 
     `separating` asserts that every launch acceleration is known to be >= 0 from elsewhere, as
-    it is at the separation phase, where it vanishes.
+    it is at the separation phase, where it vanishes. `numbers`: by what it is evaluated.
     """
 
     system: System
     phases: Range
     precision: int = 64
     separating: bool = False
+    numbers: Numbers = interval
+
+    def number(self, low: Fraction, high: Fraction | None = None) -> Any:
+        """Enclose a range at this precision."""
+        return self.numbers(low, low if high is None else high, self.precision)
 
     @property
     def etas(self) -> Range:
@@ -36,25 +63,28 @@ class Flight:
     @cached_property
     def eta(self) -> Interval:
         """The frequency ratios at this precision."""
-        return Interval(*self.etas, precision=self.precision)
+        value: Interval = self.number(*self.etas)
+        return value
 
     @cached_property
     def phi(self) -> Interval:
         """The launch phases at this precision."""
-        return Interval(*self.phases, precision=self.precision)
+        value: Interval = self.number(*self.phases)
+        return value
 
     @cached_property
     def start(self) -> Launch:
         """The launch states."""
         return self._launch(self.phi)
 
-    def _launch(self, phi: Interval | Jet) -> Launch:
-        nu = Interval(self.system.nu, precision=self.precision)
-        return launch(self.system.side, self.eta, nu, phi)
+    def _launch(self, phi: Interval | Dual) -> Launch:
+        return launch(self.system.side, self.eta, self.number(self.system.nu), phi)
 
     def clock(self, low: Fraction, high: Fraction | None = None) -> Clock:
         """Return the time functions over [low, high] (at `low` alone if there is no `high`)."""
-        return _clock(self.etas, low, high, self.precision)
+        if self.numbers is interval:
+            return _clock(self.etas, low, high, self.precision)
+        return clock(self.eta, self.number(low, high))  # sooner computed than looked up
 
     def gap(self, low: Fraction, high: Fraction | None = None, order: int = 0) -> Interval:
         """Enclose a time derivative of the gap over all launches and the times given."""
@@ -94,13 +124,14 @@ class Flight:
 
         gap' changes by gap'' (f' - 1) with t: gap'' first, because it is small where gap' is.
         """
-        fall, now = self.fall(time), self.clock(*time)
-        first: Interval = slope(self.start, now, fall)
-        one = Interval(1, precision=self.precision)
-        start = self._launch(Jet(self.phi, one))
-        change = gap(start, now, 1).derivative() + self.gap(*time, order=2) * (first - one)
-        along = clock(self.eta, Jet(Interval(*time, precision=self.precision), first - one))
-        return first, slope(start, along, Jet(fall, change)).derivative()
+        fall: Any = self.fall(time)
+        now = self.clock(*time)
+        first: Any = slope(self.start, now, fall)
+        one = self.number(Fraction(1))
+        start = self._launch(Dual(self.number(*self.phases), one))
+        change = gap(start, now, 1).derivative + self.gap(*time, order=2) * (first - one)
+        along = clock(self.eta, Dual(self.number(*time), first - one))
+        return first, slope(start, along, Dual(fall, change)).derivative
 
     @property
     def leaves(self) -> bool:
@@ -119,4 +150,5 @@ class Flight:
 @lru_cache(maxsize=1024)
 def _clock(etas: Range, low: Fraction, high: Fraction | None, precision: int) -> Clock:
     """Return the time functions: the same for all launches, whose steps meet at the same times."""
-    return clock(Interval(*etas, precision=precision), Interval(low, high, precision=precision))
+    time = interval(low, low if high is None else high, precision)
+    return clock(interval(*etas, precision), time)

@@ -7,20 +7,24 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
-from intervals import Interval, Undecided
-from intervals.newton import Roots, newton
+from intervals.errors import Undecided
 from proofs.motion.digits import around
-from proofs.motion.flight import Flight
+from proofs.motion.flight import Flight, Numbers, fixed, interval, sketch
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.numbers import Range
+
+if TYPE_CHECKING:
+    from intervals import Interval
 
 HORIZON = Fraction(1000)
 _NOW = Fraction(0)
 _TINIEST = Fraction(1, 2**200)
 LEAST = 64  # bits: multiprecision costs no more than at fewer
 _ATTEMPTS = 8
+_STEPS, _FLOAT_BITS = 30, 40  # of Newton's method in floats, and what it is good for
 MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
 _CLOSE = Fraction(1, 1000)  # of times to that of a touch
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
@@ -203,11 +207,16 @@ def positive_between(
     if not (at_low.certainly_positive() and at_high.certainly_positive()):
         return False
     bend = flight.gap(low, high, order=2).sup
-    return min(at_low.inf, at_high.inf) > max(bend, Fraction(0)) * (high - low) ** 2 / 8
+    return bend <= 0 or min(at_low.inf, at_high.inf) > bend * ((high - low) ** 2 / 8)
 
 
 def locate(
-    system: System, phases: Range, *, horizon: Fraction = HORIZON, separating: bool = False
+    system: System,
+    phases: Range,
+    *,
+    horizon: Fraction = HORIZON,
+    separating: bool = False,
+    numbers: Numbers = interval,
 ) -> FirstImpact:
     """Return the transversal first impact of (nearly) one launch, at the least precision it needs.
 
@@ -217,7 +226,7 @@ def locate(
     """
     known: list[Fraction] = []
     for attempt in range(_ATTEMPTS):
-        flight = Flight(system, phases, LEAST * (attempt + 1), separating)
+        flight = Flight(system, phases, LEAST * (attempt + 1), separating, numbers)
         try:
             if not known:
                 _require_leaving(flight)
@@ -283,14 +292,42 @@ def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:
     Newton in the window of a transversal impact.
     """
     flight = impact.thin(phases, bits)
-    window = Interval(*impact.window, precision=flight.precision)
+    if flight.numbers is sketch:
+        return _within(around(_seen_time(flight, impact.window, bits), bits), impact.window)
+    from intervals.newton import Roots, newton  # with mpmath
+
+    window = flight.number(*impact.window)
     result = newton(
         lambda t: flight.gap(t.inf, t.sup), lambda t: flight.velocity(t.inf, t.sup), window
     )
     if result.outcome is not Roots.UNIQUE or result.box is None:
         raise Undecided(f"the impact time is not isolated: {result.reason}")
-    low, high = around(result.box.mid, bits)
-    low, high = max(low, impact.window[0]), min(high, impact.window[1])
+    low, high = _within(around(result.box.mid, bits), impact.window)
     if not (flight.gap(low).certainly_positive() and flight.gap(high).certainly_negative()):
         raise Undecided("the gap's sign is lost to rounding next to the impact")
     return low, high
+
+
+def _within(bracket: Range, window: Range) -> Range:
+    return max(bracket[0], window[0]), min(bracket[1], window[1])
+
+
+def _seen_time(flight: Flight, window: Range, bits: int) -> Fraction:
+    """Return about when one launch has its impact, to 2^-bits: a candidate.
+
+    By Newton's method, in floats first, then in the checker's integers.
+    """
+    low, high = window
+    time = (low + high) / 2
+    for _ in range(_STEPS):
+        step = flight.gap(time).mid / flight.gap(time, order=1).mid
+        time = min(max(time - Fraction(step), low), high)
+        if abs(step) < 2.0**-_FLOAT_BITS:
+            break
+    exact: Any = replace(flight, numbers=fixed)
+    places, good = 2 ** (bits + 8), _FLOAT_BITS
+    while good < bits + 8:
+        height, speed = (sum(exact.gap(time, order=order).range) for order in (0, 1))
+        time = Fraction(round((time - height / speed) * places), places)
+        good = 2 * good - 8
+    return time

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from intervals import Interval, Jet, Undecided
+from intervals.errors import Undecided
 from proofs.motion.flight import Flight
 from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, first_impact, impact_time
-from proofs.motion.phase import lifted, turn
 from proofs.trusted.equations import (
     Launch,
     arrival,
@@ -20,9 +20,13 @@ from proofs.trusted.equations import (
     launch_with_restitution,
     return_map_derivative,
 )
+from proofs.trusted.kernel.arithmetic import Dual
 from proofs.trusted.numbers import Range
 
-Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
+if TYPE_CHECKING:
+    from intervals import Interval
+
+    Matrix = tuple[tuple[Interval, Interval], tuple[Interval, Interval]]
 _NONE = Fraction(0)
 
 
@@ -54,20 +58,24 @@ class Rebounds(Flight):
     @cached_property
     def gamma(self) -> Interval:
         """The velocities before the impact."""
-        return Interval(*self.velocities, precision=self.precision)
+        value: Interval = self.number(*self.velocities)
+        return value
 
     @cached_property
     def restitution(self) -> Interval:
         """The coefficients of restitution."""
-        return Interval(*self.epsilon, precision=self.precision)
+        value: Interval = self.number(*self.epsilon)
+        return value
 
-    def _around(self, centre: Fraction, reach: Fraction) -> Interval:
-        return Interval(centre - reach, centre + reach, precision=self.precision)
+    @property
+    def _nu(self) -> Interval:
+        nu, reach = self.system.nu, self.nu_reach
+        value: Interval = self.number(nu - reach, nu + reach)
+        return value
 
-    def _launch(self, phi: Interval | Jet) -> Launch:
-        nu = self._around(self.system.nu, self.nu_reach)
+    def _launch(self, phi: Interval | Dual) -> Launch:
         return launch_with_restitution(
-            self.system.side, self.eta, nu, phi, epsilon=self.restitution, gamma=self.gamma
+            self.system.side, self.eta, self._nu, phi, epsilon=self.restitution, gamma=self.gamma
         )
 
     @cached_property
@@ -115,11 +123,10 @@ class Rebounds(Flight):
         that flight's time by the interval Newton method.
         """
         kick: Interval = self.restitution * closing(self.start, self.gamma)
-        phi = Interval(*self.phases, precision=self.precision)
-        centre, push = (Interval(x.mid, precision=self.precision) for x in (phi, kick))
-        nu = self._around(self.system.nu, self.nu_reach)
-        middle = launch(self.system.side, self.eta, nu, centre)._replace(kick=push)
-        fall, arrived = self.gap(*time, order=1), Interval(*time, precision=self.precision)
+        phi = self.phi
+        centre, push = (self.number(x.mid) for x in (phi, kick))
+        middle = launch(self.system.side, self.eta, self._nu, centre)._replace(kick=push)
+        fall, arrived = self.gap(*time, order=1), self.number(*time)
         for _ in range(2):
             guess = arrived.mid
             height = gap(middle, self.clock(guess))
@@ -173,19 +180,28 @@ def next_impact(flight: Rebounds, *, bits: int = 64, horizon: Fraction = HORIZON
     Raises NoImpact, or Undecided where a state may be impossible, may graze or stick, or where
     the first impacts of the box are not one smooth function of state and parameters.
     """
-    found = _locate(flight, horizon)
-    time = time_bracket(flight, found, bits)
+    from proofs.motion.phase import lifted, turn  # with mpmath
+
+    found, time = locate_impact(flight, bits=bits, horizon=horizon)
     precise = flight
     if flight.single:
         precise = replace(flight, precision=bits + 30 + found.loss)
     arrival = flight.phases[0] + time[0], flight.phases[1] + time[1]
     turns = int(arrival[0] // turn(precise.precision).sup)
     on_line, velocity = precise.centred(time)
-    on_line = _common(Interval(*arrival, precision=precise.precision), on_line)
+    on_line = _common(precise.number(*arrival), on_line)
     phase = lifted((on_line.inf, on_line.sup), -turns, precise.precision)
     velocity = _common(precise.arrival_velocity(time), velocity)
     (p, q), (r, s) = ([(entry.inf, entry.sup) for entry in row] for row in precise.derivative(time))
     return Arrival(found, time, turns, phase, (velocity.inf, velocity.sup), ((p, q), (r, s)))
+
+
+def locate_impact(
+    flight: Rebounds, *, bits: int = 64, horizon: Fraction = HORIZON
+) -> tuple[FirstImpact, Range]:
+    """Return the transversal first impact of a box of flights, and its times as `next_impact`."""
+    found = _locate(flight, horizon)
+    return found, time_bracket(flight, found, bits)
 
 
 def _common(one: Interval, two: Interval) -> Interval:

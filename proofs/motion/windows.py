@@ -155,12 +155,13 @@ class Candidates:
         middles = math.pi / 2 - phase + 2 * math.pi * np.arange(self.turns + 1)
         offsets = np.remainder(eta * middles - delta + math.pi, 2 * math.pi) - math.pi
         for turn in np.nonzero(np.abs(offsets) <= tau)[0]:
-            time = max(middles[turn] - sigma, min(1.0, acceleration / (2 * bend)))
-            while time < middles[turn] + sigma:
-                now = clock(eta, float(time))
+            middle = float(middles[turn])  # numpy's floats are slow one by one
+            time = max(middle - sigma, min(1.0, acceleration / (2 * bend)))
+            while time < middle + sigma:
+                now = clock(eta, time)
                 height, speed = gap(start, now), gap(start, now, 1)
                 if height < 1e-13:
-                    return Candidate(int(turn), float(time), slope(start, now))
+                    return Candidate(int(turn), time, slope(start, now))
                 time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
         return None
 

@@ -17,9 +17,11 @@ from markupsafe import Markup
 from proofs.plane import overlay, picture, summary
 from proofs.plane.picture import Shown
 from proofs.plane.store import Store, quarters
+from proofs.report.atlases import impacts
 from proofs.report.html import rendered
 from proofs.report.inline import inlined
 from proofs.report.layout import percent
+from proofs.report.typeset import begun
 from proofs.trusted.atlas import Cell, Region
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
@@ -186,6 +188,7 @@ def page(store: Store, shown: Shown, cost: str, certificates: Sequence[str]) -> 
         region=region,
         sides={name: show_range(side) for name, side in _sides(region)},
         made=made,
+        impacts=begun(impacts(made.get("epsilon"))),
         numbers=numbers,
         verdicts=[x for x in Verdict if made["cells"].get(x.value)],
         not_yet=summary.NOT_YET,

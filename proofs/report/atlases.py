@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from proofs.report.layout import percent
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.numbers import show_range
+from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
 
 PAGES = "atlas/*/atlas.html"  # in a folder of results
 
 
 class Atlas(NamedTuple):
-    """A page of its own: where it is, what is asked there and where, shares of the area."""
+    """A page of its own: where it is, what is asked of which oscillators, shares of the area."""
 
     link: str
     question: str
     holds: str
     region: str
+    impacts: str
     shares: list[tuple[Verdict, str]]
 
 
@@ -40,6 +41,15 @@ def _found(folder: Path) -> Iterator[Atlas]:
             raise Malformed(f"no summary of an atlas beside {page}") from None
 
 
+def impacts(epsilon: Sequence[str] | None) -> str:
+    """Return in words what impacts an atlas is about, by the ends of epsilon in its summary."""
+    if epsilon is None:
+        return "impacts are plastic"
+    low, high = map(Fraction, epsilon)
+    within = f"= {show(low)}" if low == high else f"in {show_range((low, high))}"
+    return f"impacts have the restitution epsilon {within}"
+
+
 def _told(link: str, made: dict[str, Any]) -> Atlas:
     sides = (
         f"{name} in {show_range((Fraction(made[name][0]), Fraction(made[name][1])))}"
@@ -50,4 +60,5 @@ def _told(link: str, made: dict[str, Any]) -> Atlas:
         for verdict in Verdict
         if made["cells"].get(verdict.value)
     ]
-    return Atlas(link, made["question"], made["holds"], ", ".join(sides), shares)
+    about = ", ".join(sides), impacts(made.get("epsilon"))
+    return Atlas(link, made["question"], made["holds"], *about, shares)

@@ -1,8 +1,9 @@
-"""Whether the pages of a folder are those that would be made now, so that they need not be.
+"""Whether a folder is as it was when all of it was checked and its pages were made.
 
-`.pages` in the folder says from what they were made, and which they are: the digests of all
-certificates there, of this program and of the packages that it draws with; and of each page. It
-proves nothing, and where it is missing pages are made again.
+A file in the user's cache, not in the folder, which may come from anybody, says from what the pages
+were made, and which they are: the digests of all certificates there, of this program and of the
+packages that it draws with; and of each page. It is no proof, and where it is missing all is
+checked, and pages are made again.
 """
 
 from __future__ import annotations
@@ -10,12 +11,14 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 
-NAME = ".pages"
+from platformdirs import user_cache_path
+
 _DRAW = ("jinja2", "latex2mathml", "matplotlib", "mpmath", "numpy", "sympy")
 
 
@@ -31,20 +34,27 @@ def inputs(folder: Path) -> str:
     )
 
 
+def place(folder: Path) -> Path:
+    """Return the file about a folder."""
+    return user_cache_path("impact-proofs") / f"{_digest(bytes(folder.resolve()))}.json"
+
+
 def pages(folder: Path, made_from: str) -> set[str] | None:
     """Return the names of the pages in a folder, None where one is not what was made from this."""
     try:
-        said = json.loads((folder / NAME).read_text(encoding="utf-8"))
+        said = json.loads(place(folder).read_text(encoding="utf-8"))
         there = {name: _digest((folder / name).read_bytes()) for name in said["pages"]}
         return set(there) if said == {"from": made_from, "pages": there} else None
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
-def record(made_from: str, made: Mapping[str, str]) -> str:
-    """Return the text of the file that `pages` reads."""
+def record(folder: Path, made_from: str, made: Mapping[str, str]) -> None:
+    """Write the file that `pages` reads, where that is possible."""
     digests = {name: _digest(text.encode()) for name, text in made.items()}
-    return json.dumps({"from": made_from, "pages": digests}, indent=1) + "\n"
+    with suppress(OSError):
+        place(folder).parent.mkdir(parents=True, exist_ok=True)
+        place(folder).write_text(json.dumps({"from": made_from, "pages": digests}))
 
 
 def _digests(folder: Path, pattern: str) -> list[str]:

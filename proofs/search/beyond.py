@@ -1,4 +1,4 @@
-"""Beyond the paper: what can be proved about the motion at any parameters. Rows X1 to X5.
+"""Beyond the paper: what can be proved about the motion at any parameters. Rows X1 to X5, X10.
 
 Horseshoes and attractors are found in floating point; what is not proved then is left out.
 """
@@ -20,6 +20,7 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.loops import loops
+from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_chaos import FASTEST, prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.shifts import full_shifts, pieces, reach
@@ -39,6 +40,7 @@ _RADIUS = 1e-5  # of the sets around the points of an orbit
 _LEAST = 1e-3  # the least |f'| that radii follow
 _THINNEST = 1e-12
 _PLACES = 14
+_GAIN, _SPARE, _PIECES, _LONGEST_FLIGHT = 2e-3, 1e-2, 150, 200  # see `Partition`
 EFFORT = 3
 Part = tuple[str, SlopeRange]
 
@@ -246,11 +248,33 @@ def _cycle(run: Run, phase: float) -> list[tuple[float, float]] | None:
     return None
 
 
+def _shares(run: Run) -> Proof:
+    """Prove how much of the circle comes to the sticking arc, or never impacts again."""
+    run.budget.check()
+    arc, never = prove_arc(run.prover), None
+    with suppress(*FAILED):
+        never = prove_longest(run.prover)
+    cells, impacts = run.budget.grid // 2, run.budget.impacts // 8
+    known = Partition(
+        run.prover,
+        arc,
+        never,
+        _GAIN,
+        most=cells,
+        turns=_LONGEST_FLIGHT,
+        impacts=impacts,
+        spare=_SPARE,
+        pieces=_PIECES,
+    )
+    return [arc, known.prove(), *([] if never is None else [never])]
+
+
 _SEARCHES: Mapping[str, tuple[str, Callable[[Run], Proof]]] = MappingProxyType(
     {
         "X2": ("horseshoes", _chaos),
         "X3": ("motions that stick", _sticking),
         "X4": ("stable orbits that do not", _stable),
         "X5": ("flights without an end", lambda run: [prove_longest(run.prover)]),
+        "X10": ("where all phases lead", _shares),
     }
 )

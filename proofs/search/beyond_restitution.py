@@ -1,4 +1,4 @@
-"""Beyond the paper, with restitution: what can be proved at any parameters. Rows X6 to X8."""
+"""Beyond the paper, with restitution: what can be proved at any parameters. Rows X6 to X9."""
 
 from __future__ import annotations
 
@@ -11,18 +11,25 @@ from functools import partial
 from types import MappingProxyType
 
 from intervals import Undecided
+from proofs.motion.chatter import Pushing
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.beyond import EFFORT, Budget, too_fast
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
-from proofs.search.s33_cycles import stable_cycles
+from proofs.search.s33_cycles import follow, rounded, stable_cycles, state_before
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
+from proofs.trusted.flights import COVER_BITS, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.parameters import Parameters, Place
+
+_MOST_IMPACTS = 30
+_AROUND = Fraction(1, 10**6)  # of states around the first impact
 
 
 def prove(
@@ -51,7 +58,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     epsilon = of.epsilon or Fraction(0)
     at = Place((of.eta,) * 2, (of.nu,) * 2, (epsilon,) * 2)
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
-    failure = "no two rectangles are seen that F maps across both, left to left"
+    failure = "no two rectangles are seen that F maps across both"
     for (sets, velocities), _ in zip(
         rectangles(system, epsilon, seen), range(budget.tries), strict=False
     ):
@@ -76,12 +83,51 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
         name, motion = superstable_motion(prover.plain, epsilon)
         if motion.largest >= epsilon:
             proof.append((name, motion))
+    if not proof:
+        with suppress(*FAILED), prover.attempt():
+            proof.append(_chattering(prover, epsilon))
     proof += stable_cycles(prover, epsilon, budget.starts)
     if not proof:
         raise Undecided("no motion is seen to come to a stable one, or none is proved")
     return proof
 
 
+def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusion]:
+    """Follow the motion from the separation until bounces end in rest (rule chattering-motion)."""
+    system = prover.plain.system
+    at = Place((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2)
+    separation, arc = prove_arc(prover.plain)
+    prover.known[separation] = arc
+    pushing = Pushing(system, arc.phase[0])
+    phase = float(sum(arc.arrival)) / 2 % math.tau
+    near = state_before(system, phase, float(sum(arc.speed)) / 2)
+    box, impacts = [(x - _AROUND, x + _AROUND) for x in near], list[str]()
+    while len(impacts) < _MOST_IMPACTS:
+        ((name, found),) = follow(prover, at, box, 1)
+        impacts.append(name)
+        box = [(-rounded(-low), rounded(high)) for low, high in (found.phase, found.velocity)]
+        for turns in (0, -1):
+            phases = lifted(found.phase, turns, COVER_BITS)
+            if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
+                kick = epsilon * pushing.speeds(phases, found.velocity)[1]
+                ending = pushing.ending(epsilon, phases, kick)
+                if ending is not None:
+                    ratio, rest = map(str, ending)
+                    name = prover.derive(
+                        "chattering-motion",
+                        separation=separation,
+                        impacts=impacts,
+                        ratio=ratio,
+                        rest=rest,
+                    )
+                    return name, prover.known[name]
+    raise Undecided(f"{_MOST_IMPACTS} impacts after the separation the mass has not come to rest")
+
+
 _SEARCHES: Mapping[str, tuple[str, Callable[[ReboundProver, Budget], Proof]]] = MappingProxyType(
-    {"X6": ("rectangles", _chaos), "X7": ("stable motions", _stable)}
+    {
+        "X6": ("rectangles", _chaos),
+        "X7": ("stable motions", _stable),
+        "X9": ("motions that only touch", lambda prover, _: [prove_longest(prover.plain)]),
+    }
 )

@@ -26,7 +26,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.enclose import Box, centre_of
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range, hull, show
-from proofs.trusted.paper.beyond.curves import curves
+from proofs.trusted.paper.beyond.curves import curves, sticking
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
     FLIP,
@@ -247,10 +247,11 @@ def prove(
     """Prove closed forms of folds and flips, and follow the curves of grazing."""
     formulas = Steps(digits)
     evidence = Evidence(formulas.steps)
-    if "C1" in asked:
-        tell("folds and flips")
-        proved = [formulas.prove(need) for need in curves.needs]
-        evidence.proofs["C1"] = [each for each in proved if each is not None]
+    for claim, stage, found in (("C1", "folds and flips", curves), ("C4", "sticking", sticking)):
+        if claim in asked:
+            tell(stage)
+            proved = [formulas.prove(need) for need in found.needs]
+            evidence.proofs[claim] = [each for each in proved if each is not None]
     if {*asked} & {"C2", "C3"}:
         all_of_it = Curves(of.epsilon or Fraction(0), formulas.steps)
         for n in range(1, _MOST + 1):

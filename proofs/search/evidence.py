@@ -20,7 +20,8 @@ FAILED = (Undecided, DomainError, Unproved)  # what a proof that does not succee
 class Evidence:
     """What a prover found: its steps in order, and for each claim the steps that it rests on.
 
-    Each of these comes with the conclusion that the prover's own arithmetic reached. notes: why
+    Each of these comes with the conclusion that the prover reached, by arithmetic of its own or,
+    where floats found the witness, by the checker's rule. notes: why
     more was not proved, or what was simulated.
     """
 

@@ -5,7 +5,7 @@ Candidates only: floating point finds them, `proofs.horseshoe` proves or discard
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -50,6 +50,7 @@ def moved_ends(ends: tuple[Fraction, ...]) -> Iterator[tuple[Fraction, ...]]:
 def nearest_sets(of: Parameters) -> Iterator[Parameters]:
     """Yield sets on which each image seems to cover I, nearest first; the slopes are kept."""
     system = System(of.eta, of.nu)
+    signs = [sign for sign in of.signs for _ in range(2)]
 
     @cache
     def image(end: Fraction) -> tuple[float, float] | None:
@@ -57,21 +58,23 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
         return None if found is None else found[1:]
 
     for moved in moved_ends((*of.left, *of.right)):
-        if _covers(moved, image):
+        if _covers(moved, signs, image):
             left, right = (moved[0], moved[1]), (moved[2], moved[3])
             yield replace(of, left=left, right=right, interval=(moved[0], moved[3]))
 
 
 def _covers(
-    ends: tuple[Fraction, ...], image: Callable[[Fraction], tuple[float, float] | None]
+    ends: tuple[Fraction, ...],
+    signs: Sequence[int],
+    image: Callable[[Fraction], tuple[float, float] | None],
 ) -> bool:
-    """Whether, in floating point, f is expanding and increasing at the ends and covers I."""
-    targets = (ends[0], ends[3], ends[0], ends[3])
-    for index, (end, target) in enumerate(zip(ends, targets, strict=True)):
+    """Whether, in floating point, f expands with these signs at the ends, and covers I."""
+    for index, (end, sign) in enumerate(zip(ends, signs, strict=True)):
         found = image(end)
-        if found is None or found[1] <= 1:
+        if found is None or sign * found[1] <= 1:
             return False
-        if (found[0] > target) if index % 2 == 0 else (found[0] < target):
+        is_lower = (index % 2 == 0) == (sign > 0)
+        if (found[0] > ends[0]) if is_lower else (found[0] < ends[3]):
             return False
     return True
 

@@ -1,35 +1,26 @@
 """Sections 3.1 and 3.2: is the invariant set what Theorems 2 to 4 and the proof of Claim 1 say?
 
 Claims H7-H10, on the invariant set of the map, rest on a horseshoe around the given interval I and
-on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on powers of rationals.
+on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on Moran's roots.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
 from itertools import islice
 
-from intervals import Interval, exp, log
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets, places
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, within
+from proofs.trusted.numbers import within
 from proofs.trusted.paper.s32_sets.invariant import follow
-from proofs.trusted.paper.s32_sets.linear import (
-    LEVELS,
-    Excess,
-    LinearDimension,
-    LinearSet,
-    linear_sets,
-)
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.s32_sets.linear import LinearSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
@@ -83,47 +74,6 @@ def _nearby(sets: Parameters, start: Fraction) -> Iterator[Fraction]:
         reach = _NEARBY + round(reach * 2 * sets.slopes[1] / _NEARBY) * _NEARBY
 
 
-@dataclass
-class _Linear:
-    """The proofs about the linear set, and the roots that they bracketed."""
-
-    of: Parameters
-    prover: Prover
-    roots: dict[Range, tuple[str, MoranRoot]] = field(default_factory=dict)
-
-    def root(self, ratios: Range) -> tuple[str, MoranRoot]:
-        """Bracket the root for a pair of ratios, once."""
-        if ratios not in self.roots:
-            self.roots[ratios] = self.prover.root(ratios)
-        return self.roots[ratios]
-
-    def dimension(self) -> Proof:
-        """Enclose s and |I|^s for the ratios 1 / slopes."""
-        given = LinearSet(self.of.reciprocals, self.of.interval)
-        name, root = self.root(given.ratios)
-        measure = self._power(given.interval[1] - given.interval[0], root.root)
-        found = LinearDimension(given.ratios, given.interval, root.root, (measure.inf, measure.sup))
-        return [(self.prover.add("linear-set", {"root": name}), found)]
-
-    def excesses(self) -> Proof:
-        """Find the least n from which on (11) fails for every epsilon."""
-        proof: Proof = []
-        for given in linear_sets(self.of):
-            name, root = self.root(given.ratios)
-            for level in range(1, LEVELS):
-                with suppress(Unproved):
-                    found = Excess(given.ratios, given.interval, root.root, level)
-                    witness = {"root": name, "level": str(level)}
-                    proof.append((self.prover.add("excess", witness), found))
-                    break
-        return proof
-
-    def _power(self, base: Fraction, exponent: Range) -> Interval:
-        """Enclose base^s for all s in an interval."""
-        bits = self.prover.bits + 40
-        return exp(log(Interval(base, precision=bits)) * Interval(*exponent, precision=bits))
-
-
 def prove(
     of: Parameters,
     claims: Sequence[str],
@@ -138,12 +88,13 @@ def prove(
         tell("a horseshoe around I, and the orbits of the ends of I")
         proof = prove_staying(of, prover)
         evidence.proofs |= dict.fromkeys(_INVARIANT, proof) | {"H10": proof[:1]}
-    run = _Linear(of, prover)
-    tell("powers for the linear set")
-    for claim, make in (("H12", run.dimension), ("H14", run.excesses)):
+    tell("roots for the linear set")
+    root = cache(prover.root)
+    for claim, pairs in (("H12", [of.reciprocals]), ("H14", [of.reciprocals, of.moran_ratios])):
         if claim in claims:
             try:
-                evidence.proofs[claim] = make()
+                sets = [LinearSet(ratios, of.interval) for ratios in dict.fromkeys(pairs)]
+                evidence.proofs[claim] = [root(each.ratios) for each in sets]
             except FAILED as failure:
                 evidence.notes[claim] = str(failure)
     evidence.steps = prover.steps

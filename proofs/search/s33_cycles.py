@@ -23,6 +23,7 @@ _SAME = 1e-9  # the distance of states that are one
 _HALF = 1e-6  # half a side, in phase, of a box around a state
 _EDGE = 1e-3  # phases so close to 0 are left alone
 _LONGEST = 24  # period
+_MOST_ROUNDS = 8  # of an orbit, until F contracts a box
 _GRID = 10**12  # states and half sides are multiples of 1 / _GRID
 State = tuple[Fraction, Fraction]
 Floats = tuple[float, float]
@@ -40,19 +41,24 @@ def stable_cycles(
         if known or period not in (None, len(states)):
             continue
         seen += states
-        with suppress(*FAILED), prover.attempt():
-            yield prove_cycle(prover, at, _state(System(eta, nu), *states[0]), len(states))
+        for rounds in range(1, _MOST_ROUNDS + 1):
+            with suppress(*FAILED), prover.attempt():
+                state = state_before(System(eta, nu), *states[0])
+                yield prove_cycle(prover, at, state, len(states), rounds)
+                break
 
 
 def prove_cycle(
-    prover: ReboundProver, at: Place, state: State, period: int
+    prover: ReboundProver, at: Place, state: State, period: int, rounds: int = 1
 ) -> tuple[str, StableCycle]:
     """Prove a stable orbit near a state, for all oscillators of a box (rule stable-cycle).
 
-    The half sides r of the first box are (1 - c |D|)^-1 (c s + h (1, 1)), D the derivative of F^k,
-    s how far F^k leads from the state, c > 1 so that c |D| still contracts: c (s + |D| r) < r.
+    The half sides r of the first box are (1 - c |D|)^-1 (c s + h (1, 1)), D the derivative of F^n,
+    s how far F^n leads from the state, c > 1 so that c |D| still contracts: c (s + |D| r) < r.
+    n is the period times `rounds`: more than one where F turns states around the orbit.
     """
-    centres = follow(prover, at, [(x, x) for x in state], period)
+    count = period * rounds
+    centres = follow(prover, at, [(x, x) for x in state], count)
     ((p, q), (r, s)), root = _sizes([step for _, step in centres])
     if root >= 1:
         raise Undecided("the orbit is not seen to contract")
@@ -73,7 +79,7 @@ def prove_cycle(
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
     around = [(x - r, x + r) for x, r in zip(state, half, strict=True)]
-    boxes = follow(prover, at, around, period)
+    boxes = follow(prover, at, around, count)
     found = stable_cycle([step for _, step in boxes], [step for _, step in centres])
     names = {"boxes": [name for name, _ in boxes], "centres": [name for name, _ in centres]}
     return prover.plain.add("stable-cycle", names), found
@@ -119,7 +125,7 @@ def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Flo
             yield states
 
 
-def _state(system: System, phase: float, speed: float) -> State:
+def state_before(system: System, phase: float, speed: float) -> State:
     """Return the phase and the velocity gamma before an impact with this relative speed."""
     rate = float(system.nu) * math.cos(phase)
     gamma = (system.side * speed - rate) / float(system.eta)

@@ -78,8 +78,7 @@ def rectangles(
     system: System, epsilon: Fraction, symbols: list[Symbol]
 ) -> Iterator[tuple[Sets, Range]]:
     """Yield two sets of phases, and velocities, on which F seems to be a full shift."""
-    rising = [one for one in symbols if one[0].images[0] < one[0].images[-1]]
-    for family in families(rising, 2):
+    for family in families(symbols, 2):
         for spare in _SPARES:
             start = plastic_cells(family, spare)
             found = start and _grown(system, float(epsilon), family, start, spare)
@@ -97,12 +96,14 @@ def _grown(
 ) -> tuple[list[Floats], Floats] | None:
     """Follow sets from epsilon = 0, edges and velocities adjusted; None if they are lost."""
     plastic = _Map(system, 0.0)
-    turns = []
+    ways = []
     for low, high in sets:
-        found = plastic.image((low + high) / 2, 0.0)
-        if found is None:
+        images = [plastic.image(low + (high - low) * share, 0.0) for share in (0.25, 0.5, 0.75)]
+        first, found, last = (None if each is None else each[0] for each in images)
+        if first is None or found is None or last is None:
             return None
-        turns.append(round((found[0] - (sets[0][0] + sets[1][1]) / 2) / math.tau))
+        turns = round((found - (sets[0][0] + sets[1][1]) / 2) / math.tau)
+        ways.append((math.tau * turns, last < first))
     gammas = plastic.velocities(sets, (0.0,) * 2)
     for step in range(1, _STEPS + 1):
         moving = _Map(system, epsilon * step / _STEPS)
@@ -111,8 +112,8 @@ def _grown(
                 return None
             outer = sets[0][0] - spare, sets[1][1] + spare
             moved = [
-                _edges(moving, ends, gammas, (outer[0] + x, outer[1] + x))
-                for ends, x in zip(sets, (math.tau * turn for turn in turns), strict=True)
+                _edges(moving, ends, gammas, (outer[0] + x, outer[1] + x), falls)
+                for ends, (x, falls) in zip(sets, ways, strict=True)
             ]
             known = [ends for ends in moved if ends is not None]
             if len(known) < len(moved) or known[0][1] >= known[1][0]:
@@ -124,24 +125,28 @@ def _grown(
     return None if gammas is None else (sets, gammas)
 
 
-def _edges(moving: _Map, ends: Floats, gammas: Floats, target: Floats) -> Floats | None:
+def _edges(
+    moving: _Map, ends: Floats, gammas: Floats, target: Floats, falls: bool
+) -> Floats | None:
     """Move both ends of a set to where the whole edge is mapped to the ends of a target."""
     width = ends[1] - ends[0]
-    low = _moved(moving, ends[0], width, gammas, (target[0], 1))
-    high = _moved(moving, ends[1], width, gammas, (target[1], 0))
+    goals = (target[0], 1, falls), (target[1], 0, falls)
+    first, last = reversed(goals) if falls else goals
+    low = _moved(moving, ends[0], width, gammas, first)
+    high = _moved(moving, ends[1], width, gammas, last)
     return None if low is None or high is None or low >= high else (low, high)
 
 
 def _moved(
-    moving: _Map, end: float, width: float, gammas: Floats, goal: tuple[float, int]
+    moving: _Map, end: float, width: float, gammas: Floats, goal: tuple[float, int, bool]
 ) -> float | None:
     """Return about the phase near an end whose edge has this image at worst, by bisection."""
-    image, worst = goal
+    image, worst, falls = goal
     low, high = end - width / 3, end + width / 3
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         found = moving.edge(middle, gammas, worst)
         if found is None:
             return None
-        low, high = (middle, high) if found < image else (low, middle)
+        low, high = (middle, high) if (found < image) is not falls else (low, middle)
     return low if end - width / 3 < low and high < end + width / 3 else None

@@ -1,7 +1,7 @@
 """Proof steps of the map with restitution: each proves something and records its witness.
 
-Impacts are proved by interval arithmetic; what follows from them, by the theorems of
-`s33_restitution` themselves, applied to the conclusions reached here.
+Impacts are looked for as in `steps`; what follows from them, by the theorems of `s33_restitution`
+themselves, applied to the conclusions reached here.
 """
 
 from __future__ import annotations
@@ -10,11 +10,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise, product
 from typing import Any, TypeVar
 
-from intervals import Undecided
-from proofs.motion.restitution import Rebounds, next_impact
+from intervals.errors import Undecided
+from proofs.motion.flight import Numbers
+from proofs.motion.restitution import Rebounds, locate_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_rectangles import Sets, state_after
@@ -87,28 +89,30 @@ class ReboundProver:
         for name, known in self.all(Rebound, at):
             if (known.phases, known.velocities) == (phases, velocities):
                 return name, known
+        name = self.plain.seen_or_proved(partial(self._rebound, at, phases, velocities))
+        return name, self.get(name, Rebound)
+
+    def _rebound(self, at: Place, phases: Range, velocities: Range, numbers: Numbers) -> str:
         etas, nus, epsilons = sides(at)
         eta, nu = ((low + high) / 2 for low, high in (etas, nus))
         flight = Rebounds(
             System(eta, nu),
             phases,
+            numbers=numbers,
             velocities=velocities,
             epsilon=epsilons,
             eta_reach=etas[1] - eta,
             nu_reach=nus[1] - nu,
         )
-        found = next_impact(flight, bits=self.plain.bits, horizon=self.plain.horizon)
-        witness = {
+        found, time = locate_impact(flight, bits=self.plain.bits, horizon=self.plain.horizon)
+        return self.derive(
+            "rebound",
             **{name: texts(getattr(at, name)) for name in ("eta", "nu", "epsilon")},
-            "phases": texts(phases),
-            "velocities": texts(velocities),
-            "times": texts(found.found.times[1:]),
-            "impact": texts(found.flight),
-        }
-        name = self.plain.add("rebound", witness)
-        image = found.turns, found.phase, found.velocity, found.derivative
-        self.known[name] = conclusion = Rebound(at, phases, velocities, *image)
-        return name, conclusion
+            phases=texts(phases),
+            velocities=texts(velocities),
+            times=texts(found.times[1:]),
+            impact=texts(time),
+        )
 
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""
@@ -191,7 +195,9 @@ class ReboundProver:
         """Prove that F maps both rectangles across both."""
         with self.attempt():
             for ends in sets:
-                low, high = (self.rebound(at, (end, end), self.velocities)[1].phase for end in ends)
+                low, high = sorted(
+                    self.rebound(at, (end, end), self.velocities)[1].phase for end in ends
+                )
                 short = max(low[1] - sets[0][0], sets[1][1] - high[0])
                 if short >= 0:
                     raise Unproved(f"an edge may fall short by up to {float(short):.6g}")

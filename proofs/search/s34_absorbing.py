@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from intervals import Undecided
 from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
 from proofs.motion import landing
 from proofs.motion.landing import impact_before, prove_cells, prove_lands, short
@@ -36,13 +37,12 @@ from proofs.trusted.equations import (
     launch_acceleration,
 )
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
+from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 
 _GRID = 2000
-_PIECES = 16
 _EDGES = (5e-10, 8e-10, 1e-8, 1e-6)  # how far from grazing phases cells end
 _OUTSIDE = 1e-5  # how far outside of the line branches are looked for
 _MOST_TURNS = 10_000
@@ -59,7 +59,8 @@ class Partition:
 
     never: the step `never-impacts`, if there is one. Cells are made finer until `goal`, a measure,
     is all that this is thought to gain, or there are `most` cuts; flights over more than `turns`
-    turns of the table are left out, and `impacts` impacts are followed.
+    turns of the table are left out, and `impacts` impacts are followed. spare, pieces: how far from
+    the ends of the phases that land on the arc at once, and in how many pieces, these are proved.
     """
 
     prover: Prover
@@ -69,6 +70,8 @@ class Partition:
     most: int = 12_000
     turns: int = _MOST_TURNS
     impacts: int = 90
+    spare: float = 1e-9
+    pieces: int = 16
     cells: list[Cell] = field(default_factory=list)
     entries: dict[str, list[Any]] = field(default_factory=dict)
 
@@ -94,6 +97,8 @@ class Partition:
                 branches.prove(self.prover, low, high)
             except FAILED:
                 continue  # nothing is known there
+        if not branches.branches:
+            raise Undecided("no branch of f is proved between phases that stick at the next impact")
         pieces = _Pieces(self.system, branches, between, float(self.line[0]))
         mesh = self._mesh(pieces, between)
         found = mesh.grow(self.goal, self.most, self.impacts)
@@ -127,8 +132,8 @@ class Partition:
         right = _last(lambda x: self._height(x, leave + math.tau * turns), leave - math.tau, start)
         left = _last(lambda x: self._height(x, leave), start - 1e-3, leave - math.tau)
         first, last = self.line
-        between = short(Fraction(right - 1e-9), 40), short(Fraction(left + 1e-9), 40)
-        cuts = [first + (between[0] - first) * i / _PIECES for i in range(_PIECES + 1)]
+        between = short(Fraction(right - self.spare), 40), short(Fraction(left + self.spare), 40)
+        cuts = [first + (between[0] - first) * i / self.pieces for i in range(self.pieces + 1)]
         names = []
         for ends, count in ((cuts, turns), ([between[1], last], 0)):
             found = prove_lands(self.system, arc, ends, count)
@@ -148,28 +153,31 @@ class Partition:
         rows = zip(
             *(column.tolist() for column in (cuts.phases, cuts.images, cuts.turns)), strict=True
         )
-        phases = [Fraction(x) for x in cuts.phases.tolist()]
+        phases = [Fraction(round(x / float(UNIT))) * UNIT for x in cuts.phases.tolist()]
         whole = turn(BITS).mid
         try:
             times = [
-                impact_before(self.system, Fraction(x), Fraction(y) - Fraction(x) + n * whole)
-                for x, y, n in rows
+                impact_before(self.system, phase, Fraction(y) - Fraction(x) + n * whole)
+                for phase, (x, y, n) in zip(phases, rows, strict=True)
             ]
             cutting = landing.Cutting(phases, times, after_reversal(self.system, branch))
             self.cells += prove_cells(self.system, branch, cutting, self.line[0])
         except FAILED:
             return
-        witness = {"cuts": texts(phases), "times": texts(times), "after": str(cutting.after)}
+        cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
+        witness = {"cuts": cuts_of, "times": times_of, "after": str(cutting.after)}
         self.entries["cells"].append({"branch": name, **witness})
 
     def _conclude(self) -> tuple[str, Absorption]:
         """Follow all cells, and record what is found, a little rounded."""
-        never = None if self.never is None else self.never[1]
-        ends = [cell.phases for cell in self.cells]
         arc = Cell((self.line[1], lifted(self.line, 1, BITS)[1]), ())
-        own = [] if never is None else [Cell((never.phases[0], never.phases[1]))]
-        cells = in_order([*self.cells, *own, arc])
-        place = None if never is None else [cell.phases for cell in cells].index(never.phases)
+        never, cells, place = None, in_order([*self.cells, arc]), None
+        if self.never is not None:
+            phases = self.never[1].phases
+            around = in_order([*self.cells, Cell((phases[0], phases[1])), arc])
+            at = [cell.phases for cell in around].index(phases)
+            if all(around[i].inverses for i in (at - 2, at + 2)):  # impacts are proved near it
+                never, cells, place = self.never[1], around, at
         found = absorbed(cells, self.impacts, len(cells) - 1, place)
         rest = tuple(_rounded(bound * (1 + _SPARE) + _SPARE) for bound in found.rest)
         sunk = max(Fraction(0), _rounded(found.sunk * (1 - _SPARE)) - _SPARE)
@@ -180,7 +188,7 @@ class Partition:
             sink = Sink(never, (ends[0], ends[1]), sunk)
         witness = {
             "separation": self.arc[0],
-            "never": [] if self.never is None else [self.never[0]],
+            "never": [] if never is None or self.never is None else [self.never[0]],
             **self.entries,
             "rest": texts(rest),
             "within": [texts([*phases, Fraction(steps)]) for phases, steps in within],
@@ -190,10 +198,8 @@ class Partition:
 
 
 def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
-    """Round an interval inward."""
-    first, last = float(low), float(high)
-    first = first if first >= low else math.nextafter(first, math.inf)
-    return first, last if last <= high else math.nextafter(last, -math.inf)
+    """Round an interval inward, to units."""
+    return float(math.ceil(low / UNIT) * UNIT), float(math.floor(high / UNIT) * UNIT)
 
 
 def _rounded(value: Fraction) -> Fraction:

@@ -8,7 +8,7 @@ until they stick, or never impact again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,7 +16,6 @@ from functools import partial
 from typing import TypeVar
 
 from intervals import Undecided
-from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.landing import prove_never, prove_separation
 from proofs.motion.system import System
@@ -27,13 +26,8 @@ from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range, hull
+from proofs.trusted.numbers import hull
 from proofs.trusted.paper.s2_foundations import unending
-from proofs.trusted.paper.s34_circle.circle import (
-    LONG,
-    FixedPoint,
-    repelling_fixed_point,
-)
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
@@ -41,8 +35,6 @@ from proofs.trusted.parameters import Parameters
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
 _FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
-_REPELLED = {"G4", "G10"}  # what rests on a fixed point
-_NARROW = 12  # decimal places
 _SYMBOLS = 3  # of the full shift around all invariant sets of section 3
 _Found = TypeVar("_Found", bound=Conclusion)
 
@@ -66,7 +58,6 @@ def prove(
         found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
         found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
-    found.attempt("a fixed point", _REPELLED, partial(prove_fixed_point, prover))
     around = hull([of.interval, PRINTED])
     found.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
     return found.evidence
@@ -123,35 +114,3 @@ def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
     return prover.add("never-impacts", {"phases": texts(phases)}), prove_never(
         prover.system, phases
     )
-
-
-def prove_fixed_point(prover: Prover) -> tuple[str, FixedPoint]:
-    """Prove a repelling fixed point where transients are long (rule fixed-point)."""
-    candidate = next(fixed_points(prover.system), None)
-    if candidate is None:
-        raise Undecided("no repelling fixed point is seen")
-    (low, high), inner = candidate
-    slopes, known = prover.slopes([low, *inner, high])
-    return prover.add("fixed-point", {"slopes": slopes}), repelling_fixed_point(known)
-
-
-def fixed_points(system: System) -> Iterator[tuple[Range, Range]]:
-    """Yield wide and narrow intervals around repelling fixed points, in floating point."""
-    unit, narrow = Fraction(1, 100), Fraction(1, 10**_NARROW)
-    for index in range(int((LONG[1] - LONG[0]) / unit)):
-        low = LONG[0] + index * unit
-        first, last = (next_impact(system, float(x)) for x in (low, low + unit))
-        if first is None or last is None or min(first[2], last[2]) <= 1:
-            continue
-        if first[1] < low and low + unit < last[1]:
-            centre = round(Fraction(_fixed_point(system, float(low), float(low + unit))), _NARROW)
-            yield (low, low + unit), (centre - narrow, centre + narrow)
-
-
-def _fixed_point(system: System, low: float, high: float) -> float:
-    """Return about the fixed point between two phases, by bisection."""
-    for _ in range(60):
-        middle = (low + high) / 2
-        found = next_impact(system, middle)
-        low, high = (low, middle) if found and found[1] > middle else (middle, high)
-    return low

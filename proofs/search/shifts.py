@@ -27,6 +27,8 @@ _STEEP = 1.02  # the least |f'| of a piece
 _SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
 _MOST_SYMBOLS = 8
 _MOST_PAIRS = 24
+_FINE = 6000  # phases, where fewer show nothing
+_SAMPLES, _BETWEEN = 8, 128  # phases of a set, and of the gap, that are looked at
 
 
 # -- branches, in floating point -------------------------------------------------------------------
@@ -45,11 +47,15 @@ class Piece:
         low, high = sorted((self.images[0], self.images[-1]))
         return low, high
 
+    @property
+    def falls(self) -> bool:
+        """Whether f decreases."""
+        return self.images[0] > self.images[-1]
+
     def preimage(self, image: float) -> float | None:
         """Return about the phase with this image; None if there is none."""
-        rising = self.images[-1] > self.images[0]
         phases, images = self.phases, self.images
-        if not rising:
+        if self.falls:
             phases, images = phases[::-1], images[::-1]
         if not images[0] <= image <= images[-1]:
             return None
@@ -130,40 +136,70 @@ def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
         yield from islice(with_spare(family), 1)
 
 
-def pairs(seen: Sequence[Piece], *, rising: bool) -> Iterator[tuple[Range, Range]]:
-    """Yield I0 and I1, with ever less spare, on which f seems to be a full shift; or increases."""
-    found = [x for x in symbols(seen) if x[0].images[0] < x[0].images[-1] or not rising]
-    for family in families(found, 2):
+def pairs(seen: Sequence[Piece]) -> Iterator[tuple[Range, Range]]:
+    """Yield I0 and I1, with ever less spare, on which f seems to be a full shift.
+
+    Rather where f increases on both.
+    """
+    for family in sorted(
+        families(symbols(seen), 2), key=lambda pair: sum(x[0].falls for x in pair)
+    ):
         yield from ((left, right) for left, right in with_spare(family))
 
 
 def own_sets(of: Parameters) -> Parameters | None:
-    """Return the statement about I0 and I1 found at its oscillator, bounds of f' rounded outward.
+    """Return the statement about I0 and I1 found at its oscillator, bounds of |f'| rounded outward.
 
     Rather those that the flights of each set are proved for in one piece, as for the dimension.
-    None where no increasing horseshoe is seen.
+    None where no horseshoe is seen.
     """
     system = System(of.eta, of.nu)
-    found = list(islice(pairs(pieces(system), rising=True), _MOST_PAIRS))
-    for sets in [*(sets for sets in found if _in_one_piece(system, sets)), *found]:
-        seen = [
-            next_impact(system, float(low + (high - low) * Fraction(k, 8)))
-            for low, high in sets
-            for k in range(9)
-        ]
-        slopes = [found[2] for found in seen if found is not None]
-        bounds = rounded_slopes((Fraction(min(slopes)), Fraction(max(slopes))), 1)
-        interval = sets[0][0], sets[1][1]
-        return replace(
-            of,
-            left=sets[0],
-            right=sets[1],
-            interval=interval,
-            slopes=bounds,
-            ratios=None,
-            printed_s0=None,
+    for grid in (_GRID, _FINE):
+        near = (
+            _statement(of, system, sets)
+            for sets in islice(pairs(pieces(system, grid)), _MOST_PAIRS)
         )
+        found = [each for each in near if each is not None]
+        if found:
+            one = (each for each in found if _in_one_piece(system, (each.left, each.right)))
+            return next(one, found[0])
     return None
+
+
+def _statement(of: Parameters, system: System, sets: tuple[Range, Range]) -> Parameters | None:
+    """Return the statement about sets; None unless f seems to be monotone on each and to map both
+    over I, their hull, and all between them past it.
+    """
+    (low, high), signs = (float(sets[0][0]), float(sets[1][1])), list[int]()
+    slopes = list[float]()
+    for domain in sets:
+        seen = [next_impact(system, phase) for phase in _evenly(domain, _SAMPLES)]
+        known = [each for each in seen if each is not None]
+        signs.append(1 if known and known[0][2] > 0 else -1)
+        ends = [known[k][1] for k in (0, -1)][:: signs[-1]] if known else [high, low]
+        steep = [each[2] * signs[-1] for each in known]
+        if len(known) < len(seen) or min(steep) <= 1 or ends[0] > low or ends[1] < high:
+            return None
+        slopes += steep
+    between = (next_impact(system, phase) for phase in _evenly((sets[0][1], sets[1][0]), _BETWEEN))
+    if any(each is not None and low <= each[1] <= high for each in between):
+        return None
+    return replace(
+        of,
+        left=sets[0],
+        right=sets[1],
+        interval=(sets[0][0], sets[1][1]),
+        slopes=rounded_slopes((Fraction(min(slopes)), Fraction(max(slopes))), 1),
+        ratios=None,
+        printed_s0=None,
+        signs=(signs[0], signs[1]),
+    )
+
+
+def _evenly(domain: Range, count: int) -> list[float]:
+    """Return phases from one end of an interval to the other."""
+    low, high = map(float, domain)
+    return [low + (high - low) * k / count for k in range(count + 1)]
 
 
 def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:

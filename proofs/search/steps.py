@@ -1,33 +1,41 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-The steps are those of `proofs.trusted.flights`, by the same names.
+The steps are those of `proofs.trusted.flights`, by the same names. A witness is what floats show;
+the checker's rule concludes from it, and where it does not, from what intervals prove. So few boxes
+need neither mpmath nor numpy.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
-from typing import Any
+from typing import Any, TypeVar
 
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by, cover_by_impacts
+from proofs.motion.flight import Numbers, interval, sketch
 from proofs.motion.impact import FirstImpact, impact_time, locate
-from proofs.motion.phase import misses, phase_after
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.repair import rounded_slopes
-from proofs.trusted.certificate import texts
+from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Phase, Phases, Range, hull, show_range
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import Range, hull, show_range
 from proofs.trusted.paper.s31_horseshoe import Horseshoe, horseshoe
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, Impact, SlopeRange
+from proofs.trusted.rules import find_rule
+from proofs.trusted.slopes import Avoids, Impact, SlopeRange, meets
+
+_Made = TypeVar("_Made")
 
 
 @dataclass
@@ -38,6 +46,7 @@ class Prover:
     digits: int
     horizon: Fraction
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
+    known: dict[str, Conclusion] = field(default_factory=dict)  # what they conclude
 
     @property
     def at(self) -> Place:
@@ -52,12 +61,13 @@ class Prover:
     @contextmanager
     def undone(self) -> Iterator[None]:
         """Take back the steps made inside if the proof fails there; the failure goes on."""
-        before = dict(self.steps)
+        before = [(each, dict(each)) for each in (self.steps, self.known)]
         try:
             yield
         except FAILED:
-            self.steps.clear()
-            self.steps.update(before)
+            for each, then in before:
+                each.clear()
+                each.update(then)  # type: ignore[arg-type]
             raise
 
     def add(self, rule: str, witness: dict[str, Any]) -> str:
@@ -67,14 +77,36 @@ class Prover:
         self.steps[name] = {"rule": rule, "witness": witness}
         return name
 
+    def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
+        """Record a step, with what the checker's rule concludes from it, or raises."""
+        theorem = find_rule(rule)
+        if theorem is None:
+            raise ValueError(f"there is no rule {rule}")
+        conclusion = theorem(Context(self.at, {}, self.known), Reader(witness))
+        name = self.add(rule, witness)
+        self.known[name] = conclusion
+        return name, conclusion
+
+    def seen_or_proved(self, make: Callable[[Numbers], _Made]) -> _Made:
+        """Make steps by what floats see; where the rules deny that, by what intervals prove."""
+        try:
+            with self.undone():
+                return make(sketch)
+        except FAILED:
+            return make(interval)
+
     def add_impact(self, found: FirstImpact) -> str:
-        """Record a first impact."""
+        """Prove a first impact (rule first-impact)."""
         phases, times = texts(found.flight.phases), texts(found.times[1:])
-        return self.add("first-impact", {"phases": phases, "times": times})
+        return self.derive("first-impact", {"phases": phases, "times": times})[0]
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
-        parts = cover_by_impacts(self.system, (points[0], points[-1]), horizon=self.horizon)
+        return self.seen_or_proved(partial(self._slopes, points))
+
+    def _slopes(self, points: list[Fraction], numbers: Numbers) -> tuple[str, SlopeRange]:
+        domain = points[0], points[-1]
+        parts = cover_by_impacts(self.system, domain, horizon=self.horizon, numbers=numbers)
         names = {part: self.add_impact(part) for part in parts}
         branch = Branch(tuple(parts), self.bits)
         cuts = sorted({*points, *branch.ends})
@@ -88,46 +120,37 @@ class Prover:
             "points": [bracket(x, x, phase=str(x)) for x in found.points],
             "pieces": [bracket(*piece) for piece in pairwise(found.points)],
         }
-        images = (Phase(*phase_after(x, branch.time(x, x), self.bits + 30)) for x in found.points)
-        return self.add("slope-range", witness), SlopeRange(
-            self.at,
-            found.points,
-            tuple((value.inf, value.sup) for value in found.values),
-            tuple(images),
-            tuple((piece.inf, piece.sup) for piece in found.pieces),
-        )
+        return self.derive("slope-range", witness)
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
+        return self.seen_or_proved(partial(self._avoids, phases, target))
 
+    def _avoids(self, phases: Range, target: Range, numbers: Numbers) -> tuple[str, Avoids]:
         def accept(found: FirstImpact) -> bool:
-            low, high = found.flight.phases
-            return all(misses((low + w[0], high + w[1]), target) for w in found.windows)
+            return not any(meets(found.flight.phases, window, target) for window in found.windows)
 
         why = f"an impact in {show_range(target)} is possible"
-        parts = cover_by(self.system, phases, accept, obstacle=why, horizon=self.horizon)
+        parts = cover_by(
+            self.system, phases, accept, obstacle=why, horizon=self.horizon, numbers=numbers
+        )
         flights = [self.add_impact(part) for part in parts]
-        name = self.add("avoids", {"flights": flights, "target": texts(target)})
-        return name, Avoids(self.at, Phases(*phases), Phases(*target))
+        return self.derive("avoids", {"flights": flights, "target": texts(target)})
 
     def point(self, phase: Fraction) -> tuple[str, Impact]:
         """Enclose f and f' at one phase (rule point)."""
-        impact = locate(self.system, (phase, phase), horizon=self.horizon)
+        return self.seen_or_proved(partial(self._point, phase))
+
+    def _point(self, phase: Fraction, numbers: Numbers) -> tuple[str, Impact]:
+        impact = locate(self.system, (phase, phase), horizon=self.horizon, numbers=numbers)
         time = impact_time(impact, (phase, phase), self.bits)
-        slope = impact.thin((phase, phase), self.bits).slope(time)
-        witness = {
-            "flight": self.add_impact(impact),
-            "phase": str(phase),
-            "time": texts(time),
-        }
-        image = Phase(*phase_after(phase, time, self.bits + 30))
-        return self.add("point", witness), Impact(self.at, phase, (slope.inf, slope.sup), image)
+        flight = self.add_impact(impact)
+        return self.derive("point", {"flight": flight, "phase": str(phase), "time": texts(time)})
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
-        bracket = moran_root(ratios, self.bits)
-        witness = {"ratios": texts(ratios), "root": texts(bracket)}
-        return self.add("moran-root", witness), MoranRoot(ratios, bracket)
+        root = texts(moran_root(ratios, self.bits))
+        return self.derive("moran-root", {"ratios": texts(ratios), "root": root})
 
     def horseshoe(
         self,
@@ -142,7 +165,7 @@ class Prover:
         parts = [x[1].over(domain) for x, domain in zip((left, right), domains, strict=True)]
         if parts[0] is None or parts[1] is None:
             raise Unproved("f' is not known on I0 and I1")
-        bounds = hull([(part.minimum[0], part.maximum[1]) for part in parts if part is not None])
+        bounds = hull([part.bounds(part.sign) for part in parts if part is not None])
         slopes = rounded_slopes(bounds, digits)
         found = horseshoe(parts[0], parts[1], gap[1], slopes)
         named = zip((left[0], right[0]), domains, strict=True)

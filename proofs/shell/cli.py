@@ -28,7 +28,6 @@ from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
 from textwrap import shorten
-from threading import Event, Lock, Thread
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -135,6 +134,8 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
     if outer is not None or not sys.stderr.isatty():
         yield outer or (lambda stage: None)
         return
+    from threading import Event, Lock, Thread
+
     began, stage, drawn, over, drawing = monotonic(), "at work", "", Event(), Lock()
 
     def draw(line: str) -> None:

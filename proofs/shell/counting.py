@@ -6,7 +6,8 @@ whenever they are imported. The work takes some three times as long meanwhile, a
 longer where nothing is counted. Only the present thread is watched.
 
 What is counted: evaluations of the equations, an array's or a jet's once for each of its boxes, by
-the numbers they are made on: floats (candidates), intervals and arrays (proofs), the checker's.
+the numbers they are made on: floats (candidates), intervals and arrays (proofs), the checker's
+(by the check, and by provers that let its rules conclude).
 f' evaluates gap' and gap'', which are counted as well; a jet's evaluation counts as one of a
 derivative. Other formulas: those given as text, position and velocity of the mass (15), those of
 orbits with one impact (16) to (18); one for each component. A first impact is that of a set of
@@ -121,8 +122,10 @@ def _observer(counts: Counts) -> Callable[[FrameType, str, Any], None]:
 def _column(value: Any) -> str | None:
     """Return the column of a result, None for one that is not a number of these four kinds."""
     kind = type(value)
-    if kind.__name__ == "Jet":
+    if kind.__name__ in ("Jet", "Dual"):
         return _column(value.value)
+    if kind.__name__ == "Sketch":
+        return FLOATS
     if kind.__module__.startswith("proofs.trusted."):
         return CHECKER
     if kind.__module__.startswith("intervals."):
@@ -132,7 +135,7 @@ def _column(value: Any) -> str | None:
 
 def _size(value: Any) -> int:
     """Return how many boxes or points a result is about."""
-    if type(value).__name__ == "Jet":
+    if type(value).__name__ in ("Jet", "Dual"):
         return _size(value.value)
     return int(getattr(value, "size", 1))
 
@@ -168,9 +171,10 @@ def _number(by: str, bits: str) -> _Rule:
 
 
 def _impact(frame: FrameType, value: Any) -> dict[Kind, int]:
-    """Count a set of launches whose impact is proved to be one, by the precision it took."""
+    """Count a set of launches whose impact is found to be one, by the precision it took."""
     row = IMPACTS[bisect_left(_PRECISIONS, value.flight.precision)]
-    return {Kind(row, INTERVALS): 1} if value.transversal else {}
+    by = _column(value.flight.phi) or INTERVALS
+    return {Kind(row, by): 1} if value.transversal else {}
 
 
 def _one(what: str) -> _Rule:
@@ -192,6 +196,13 @@ def _pieces(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count the pieces of a range, and the bisections that made them of those given."""
     found, given = len(value.pieces), len(frame.f_locals["points"]) - 1
     return {Kind(PARTS): found, Kind(BISECTIONS): found - given}
+
+
+def _checked(frame: FrameType, value: Any) -> dict[Kind, int]:
+    """Count a step of a file: provers ask for rules, too."""
+    caller = frame.f_back
+    is_check = caller is not None and caller.f_globals.get("__name__") == "proofs.trusted.verify"
+    return {Kind(CHECKED): 1} if is_check else {}
 
 
 def _charged(frame: FrameType, value: Any) -> dict[Kind, int]:
@@ -231,7 +242,7 @@ _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
     "proofs.trusted.certificate.render": (
         lambda frame, text: {Kind(MADE): len(frame.f_locals["document"].get("steps", ()))}
     ),
-    "proofs.trusted.rules.find_rule": _one(CHECKED),
+    "proofs.trusted.rules.find_rule": _checked,
 }
 _CALLS: dict[str, _Rule] = {  # what may return None
     "proofs.methods.formulas.subdivide.<locals>.divide": _examined,

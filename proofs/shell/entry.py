@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -138,6 +137,7 @@ def leave_to_system() -> None:
 @contextmanager
 def workers(count: int) -> Iterator[ProcessPoolExecutor]:
     """Yield a pool of processes; where the work inside is given up, they end at once with it."""
+    import threading
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import active_children
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import as_completed
@@ -34,13 +35,16 @@ CLAIMS = tuple(
         key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
     )
 )
+_LONGEST = ("circle", "soft", "entropy", "dimension", "persistence")  # begun before the others
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
 group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
 DIR/ledger.md. A certificate that is there already, accepted and complete, is checked and not proved
 again, unless --fresh or --digits ask for it; which prover wrote it does not matter. DIR is
 `reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
-copied.
+copied. Where nothing has changed since the last time, neither a certificate nor a page nor this
+program (your cache has the digests, DIR has not), what was found then is printed, and nothing is
+checked again; `python -m proofs.check DIR/MANIFEST.json` always checks.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
@@ -161,7 +165,9 @@ def main(arguments: list[str] | None = None) -> int:
     asked = options.only or CLAIMS
     runner.choose_folder(parser, options, not set(asked).issuperset(CLAIMS))
     fresh, places = options.fresh or options.digits is not None, options.digits or runner.PLACES
-    began = perf_counter()
+    options.began = perf_counter()
+    if not (fresh or options.stats) and (known := _unchanged(options.out, asked)) is not None:
+        return _told(parser, options, *known)
     try:
         settled = _settle_all(parser, jobs(asked, options.out, places, fresh, options.stats))
     except (Malformed, Rejected) as error:
@@ -175,17 +181,59 @@ def main(arguments: list[str] | None = None) -> int:
             put("ledger.json", text)
             put(manifest.NAME, manifest.entered(options.out, certificates))
         pages = _pages(options.out, settled, fresh)
+    shown = [
+        f"{one.job.name}: {how} in {one.seconds:.1f} s"
+        for one in settled
+        for how in ["proved and checked" if one.is_new else f"in {one.found}, checked again"]
+    ]
+    status = _told(parser, options, text, pages, shown)
+    for one in settled if options.stats else ():
+        show(one.counts, one.job.claims, quiet=not heard(options))
+    return status
+
+
+def _unchanged(folder: Path, asked: Iterable[str]) -> tuple[str, set[str], list[str]] | None:
+    """Return a folder's ledger, its pages and a line that says that nothing has changed there.
+
+    None where something has since all of it was checked and the pages were made, where the ledger
+    is about other claims, and where one is undecided: that is tried again.
+    """
+    pages = current.pages(folder, current.inputs(folder))
+    if pages is None:
+        return None
+    try:
+        text = (folder / "ledger.json").read_text(encoding="utf-8")
+        rows = json.loads(text)["claims"]
+        if {row["id"] for row in rows} != {*asked} or _open(rows):
+            return None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    again = f"python -m proofs.check {folder}/{manifest.NAME} checks it again"
+    return text, pages, [f"{folder}: nothing has changed since it was checked; {again}"]
+
+
+def _open(rows: Sequence[dict[str, Any]]) -> bool:
+    return any(row["verdict"] == Verdict.UNDECIDED.value for row in rows)
+
+
+def _told(
+    parser: Parser, options: Namespace, text: str, pages: set[str], shown: Sequence[str]
+) -> int:
+    """Give the ledger, how it was settled, and where the pages are; return the exit status."""
     write_target(parser, options.json, lambda: text)
+    rows = json.loads(text)["claims"]
     if heard(options):
-        _print(rows, settled)
+        show_verdicts(
+            [Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows]
+        )
+        for line in shown:
+            say(line)
         verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
-        say(f"{verdicts} in {perf_counter() - began:.1f} s")
+        say(f"{verdicts} in {perf_counter() - options.began:.1f} s")
         whole = "index.html" if "index.html" in pages else "ledger.md"
         hint = "" if whole == "index.html" else f"; for a page with formulas: {report.INSTALL}"
         say(f"all of it: {options.out}/{whole}{hint}")
-    for one in settled if options.stats else ():
-        show(one.counts, one.job.claims, quiet=not heard(options))
-    return int(any(row["verdict"] == Verdict.UNDECIDED.value for row in rows))
+    return int(_open(rows))
 
 
 def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
@@ -197,7 +245,8 @@ def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
     known = {one.job.name: one.report.context for one in settled}
     with progress() as tell:
         made = report.built(folder, tell, bool(report.missing()), known=known)
-    write_files(folder, {**made, current.NAME: current.record(made_from, made)})
+    write_files(folder, made)
+    current.record(folder, made_from, made)
     return set(made)
 
 
@@ -213,8 +262,9 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     Each is written as soon as it is settled, so that an interrupt loses nothing that is.
     """
     settled = {}
+    in_turn = sorted(todo, key=lambda job: (*_LONGEST, job.name).index(job.name))
     with workers(min(len(todo), os.cpu_count() or 1)) as pool:
-        futures = {pool.submit(settle_counting, job): job for job in todo}
+        futures = {pool.submit(settle_counting, job): job for job in in_turn}
         with progress() as tell:
             tell(f"0 of {len(todo)} groups of claims")
             for future in as_completed(futures):
@@ -225,10 +275,3 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
                 settled[job] = found
                 tell(f"{len(settled)} of {len(todo)} groups of claims")
     return [settled[job] for job in todo]
-
-
-def _print(rows: Sequence[dict[str, Any]], settled: Sequence[Settled]) -> None:
-    show_verdicts([Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows])
-    for one in settled:
-        what = "proved and checked" if one.is_new else f"in {one.found}, checked again"
-        say(f"{one.job.name}: {what} in {one.seconds:.1f} s")

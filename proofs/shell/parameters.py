@@ -78,7 +78,7 @@ def parameters(options: Namespace, heeded: Iterable[str], *, beyond: bool) -> Pa
     """Return the statement's numbers; those printed for s_0 go with the printed slopes only.
 
     At another oscillator than the paper's, I0, I1 and the slopes that are not given are found, if
-    there is an increasing horseshoe: `own_sets`.
+    there is a horseshoe: `own_sets`.
     """
     given = {name: value for name in heeded if (value := getattr(options, name)) is not None}
     given = {name: tuple(x) if isinstance(x, list) else x for name, x in given.items()}
@@ -106,8 +106,8 @@ def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Para
         found = own_sets(of)
         if found is None:
             raise Undecided(
-                f"no sets with an increasing horseshoe are seen at {of.place}: give --left and "
-                "--right, or see python -m proofs.explore"
+                f"no sets with a horseshoe are seen at {of.place}: give --left and --right, or see "
+                "python -m proofs.explore"
             )
         return replace(found, slopes=given.get("slopes", found.slopes))
     return of

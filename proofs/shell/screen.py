@@ -5,10 +5,12 @@ Importing this takes the standard library alone.
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from textwrap import wrap
 from typing import IO, Any, NamedTuple, NoReturn
 
@@ -16,6 +18,7 @@ from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
 
+_WIDTH = 80  # where there is no terminal
 _SENTENCE = re.compile(r"(?<=[^.]\.) ")
 _COLOURS = {
     Verdict.VERIFIED: "green",
@@ -47,6 +50,9 @@ class Arguments(ArgumentParser):
 class _Help(RawDescriptionHelpFormatter):
     """Keeps the lines of descriptions and examples, unless the terminal is narrower."""
 
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, width=columns() - 2)
+
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return flowing(text)
 
@@ -66,10 +72,13 @@ class Decided(NamedTuple):
 
 
 def columns() -> int:
-    """Return the width of the terminal."""
-    from shutil import get_terminal_size  # takes longer to import than all the rest here
-
-    return get_terminal_size().columns
+    """Return the width of the terminal, as shutil does, which takes longer to import than this."""
+    with suppress(ValueError):
+        if (wanted := int(os.environ.get("COLUMNS", "0"))) > 0:
+            return wanted
+    with suppress(AttributeError, ValueError, OSError):  # closed, or no terminal
+        return os.get_terminal_size(sys.__stdout__.fileno()).columns or _WIDTH  # type: ignore[union-attr]
+    return _WIDTH
 
 
 def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:

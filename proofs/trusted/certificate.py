@@ -8,7 +8,8 @@
 - Every number is a string, a rational in lowest terms such as "111/100" or "-7", of at most 3000
   characters, 400 in `parameters`; bounds of quantities are plain decimals. Bare JSON numbers are
   refused. A range is a list of two numbers in increasing order, equal ones allowed.
-- Objects have exactly the fields that are named; one that is there twice, unknown or missing is
+- Objects have exactly the fields that are named (`signs`, of f' on I0 and I1, is one of the
+  parameters' only where one of them is -1); one that is there twice, unknown or missing is
   refused. Names match [A-Za-z][A-Za-z0-9_-]{0,59}; a step is not named like a rule or a function.
 - A step refers to earlier steps by name; each step and function is used, by a claim or by a step
   that is. At most 4,000,000 bytes and 10,000 entries a list.
@@ -39,6 +40,7 @@ MANIFEST = "impact-proofs.manifest/3"
 LEDGER = "impact-proofs.ledger/2"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
+_SIGNS = "signs"  # a field of the parameters that is there only if f decreases
 _MAX_DIGITS_OF_PARAMETERS = 400
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
 _RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
@@ -262,15 +264,16 @@ def parameters_to_json(of: Parameters) -> dict[str, Any]:
         "epsilon": None if of.epsilon is None else text(of.epsilon),
         "velocities": None if of.velocities is None else texts(of.velocities),
         "reach": None if of.reach is None else texts(of.reach),
-    }
+    } | ({} if of.signs == (1, 1) else {"signs": list(map(str, of.signs))})
 
 
 def parameters_from_json(reader: Reader) -> Parameters:
     """Read and validate one statement's numbers."""
-    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(
-        *(field.name for field in dataclasses.fields(Parameters))
-    )
-    velocities, reach = more
+    names = [field.name for field in dataclasses.fields(Parameters)]
+    if _SIGNS not in dict(reader.entries()):
+        names.remove(_SIGNS)
+    eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(*names)
+    velocities, reach, *signs = more
     try:
         parameters = Parameters(
             eta.number(),
@@ -284,6 +287,7 @@ def parameters_from_json(reader: Reader) -> Parameters:
             None if epsilon.is_null() else epsilon.number(),
             None if velocities.is_null() else velocities.range(),
             None if reach.is_null() else _three(reach),
+            *map(_signs, signs),
         )
     except Malformed:
         raise
@@ -316,6 +320,15 @@ def subject_from_json(reader: Reader) -> Parameters | Place | None:
 def _require_short(reader: Reader) -> None:
     if any(len(number) > _MAX_DIGITS_OF_PARAMETERS for number in reader.mentioned()):
         raise reader.fail(f"a number of more than {_MAX_DIGITS_OF_PARAMETERS} digits")
+
+
+def _signs(reader: Reader) -> tuple[int, int]:
+    """Read those of f' on I0 and I1; they are left out where f increases on both."""
+    signs = {("1", "-1"): (1, -1), ("-1", "1"): (-1, 1), ("-1", "-1"): (-1, -1)}
+    read = tuple(entry.string() for entry in reader.items(2, 2))
+    if read not in signs:
+        raise reader.fail("not the signs of two slopes, one of them -1")
+    return signs[read]
 
 
 def _three(reader: Reader) -> tuple[Fraction, Fraction, Fraction]:

@@ -73,7 +73,7 @@ class Parameters:
     `printed_s0` the digits printed for s_0, if any. For section 3.3: the coefficient of
     restitution and the range of the velocity gamma, both sets of phases times it being the
     rectangles ABCD and EFGH. `reach`: how far eta, nu and epsilon may be from these, for claims
-    about a box of parameters.
+    about a box of parameters. `signs`: those of f' that claims are about, on I0 and on I1.
     """
 
     eta: Fraction
@@ -87,6 +87,7 @@ class Parameters:
     epsilon: Fraction | None = None
     velocities: Range | None = None
     reach: tuple[Fraction, Fraction, Fraction] | None = None
+    signs: tuple[int, int] = (1, 1)
 
     def __post_init__(self) -> None:
         """Raise ValueError, one line, where the numbers do not describe a horseshoe."""
@@ -167,6 +168,12 @@ class Parameters:
             i0=show_range(self.left),
             i1=show_range(self.right),
             gap=f"({show(self.gap[0])}, {show(self.gap[1])})",
+            slope=SIGNED[self.signs],
+            signed=""
+            if len(set(self.signs)) == 1
+            else f", s = {self.signs[0]} on I0, {self.signs[1]} on I1",
+            moves=MOVES[self.signs[0]],
+            again="" if len(set(self.signs)) == 1 else f"{MOVES[self.signs[1]]} ",
             lo=show(self.slopes[0]),
             hi=show(self.slopes[1]),
             r0=_base(self.moran_ratios[0]),
@@ -184,6 +191,8 @@ def _base(ratio: Fraction) -> str:
     return f"({written})" if "/" in written else written
 
 
+SIGNED = {(1, 1): "f'", (-1, -1): "-f'", (1, -1): "s f'", (-1, 1): "s f'"}  # what is bounded
+MOVES = {1: "increases", -1: "decreases"}
 PAPER = Parameters(
     eta=Fraction("0.2121"),
     nu=Fraction("-0.2"),

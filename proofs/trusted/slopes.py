@@ -50,6 +50,12 @@ class Impact(Conclusion):
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
 
 
+def signed(slope: Range, sign: int) -> Range:
+    """Return bounds on f' times a sign."""
+    low, high = slope
+    return (low, high) if sign > 0 else (-high, -low)
+
+
 @dataclass(frozen=True)
 class SlopeRange(Conclusion):
     """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between."""
@@ -92,6 +98,15 @@ class SlopeRange(Conclusion):
     def maximum(self) -> Range:
         """The greatest f'."""
         return max(low for low, _ in self.slopes), max(high for _, high in self.pieces)
+
+    def bounds(self, sign: int = 1) -> Range:
+        """Return bounds on f' times a sign."""
+        return signed((self.minimum[0], self.maximum[1]), sign)
+
+    @property
+    def sign(self) -> int:
+        """1 where f' > 0 is proved, -1 where f' < 0 is, or else 0."""
+        return int(self.minimum[0] > 0) - int(self.maximum[1] < 0)
 
     @property
     def expands(self) -> bool:
@@ -244,13 +259,13 @@ def avoids(context: Context, reader: Reader) -> Avoids:
             raise name.fail("its phases do not continue those of the step before")
         steps.append(step)
         for window in step.windows:
-            if _meets(step.motion.phases, window, target):
+            if meets(step.motion.phases, window, target):
                 raise Unproved(f"a window of {name.string()} is not proved to miss the target")
     phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
     return Avoids(steps[0].at, phases, Phases(*target))
 
 
-def _meets(phases: Range, time: Range, target: Range) -> bool:
+def meets(phases: Range, time: Range, target: Range) -> bool:
     """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
     early, late = phases[0] + time[0], phases[1] + time[1]
     count = early // whole_turns(1, COVER_BITS)[0] - 1  # for lower k, target + 2 pi k lies before

@@ -25,7 +25,6 @@ from proofs.trusted.certificate import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.kernel.meter import DEFAULT, metered
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import find
@@ -103,10 +102,11 @@ def premises(source: str) -> Context:
     schema, parameters_of, functions_of, steps_of, _ = parse(source).fields(*FIELDS)
     if schema.string() != SCHEMA:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
-    context = Context(
-        subject_from_json(parameters_of),
-        {name: read_function(name, each) for name, each in functions_of.members()},
-    )
+    context = Context(subject_from_json(parameters_of))
+    for name, each in functions_of.members():
+        from proofs.trusted.kernel.formulas import read_function  # that few files have
+
+        context.functions[name] = read_function(name, each)
     derive(context, steps_of)
     return context
 

@@ -23,6 +23,6 @@ def pytest_generate_tests(metafunc):
     module = metafunc.module.__name__.rpartition("test_")[2]
     if module in BRIEF | LENGTHY:
         metafunc.fixturenames.append("engine")
-        marks = [pytest.mark.long, pytest.mark.slow] if module in LENGTHY else []
+        marks = pytest.mark.long if module in LENGTHY else ()
         both = ["flint", pytest.param("mpmath", marks=marks)]
         metafunc.parametrize("engine", both, indirect=True, scope="module")

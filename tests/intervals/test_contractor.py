@@ -7,9 +7,11 @@ import pytest
 from hypothesis import strategies as st
 
 import intervals
-from intervals import Interval, IntervalArray
-from intervals.contractor import contract, contracted, quotient, record
+from intervals import Interval, IntervalArray, reverse
+from intervals.contractor import contract, contracted, record
 from intervals.newton import Roots
+from intervals.reverse import quotient, root
+from intervals.shaving import shaved
 from intervals.zeros import zeros
 from tests.intervals.boxes import for_all
 
@@ -191,3 +193,55 @@ def broyden(n):
 def test_systems_are_decided(f, n, reach, count):
     results = zeros(f, [Interval(-reach, reach)] * n)
     assert [result.outcome for result in results] == [Roots.UNIQUE] * count
+
+
+@for_all(
+    st.lists(st.fractions(-9, 9), min_size=2, max_size=2), st.integers(1, 12), st.integers(0, 60)
+)
+def test_roots_are_enclosed(ends, n, shift):
+    """Of powers of exact numbers, from tiny ones to large ones."""
+    low, high = (Fraction(float(x * 2 ** (shift - 30))) for x in sorted(ends))
+    powers = sorted((low**n, high**n))
+    z = IntervalArray([tuple(powers)])
+    found = root(z, IntervalArray([(low, high)]), n)
+    assert found.contains(low).all() and found.contains(high).all()
+    if n % 2 and max(abs(low), abs(high)) * 2 ** (900 // n) > 1:
+        assert (found.wid <= float(high - low) + 1e-12 * float(max(abs(low), abs(high)))).all()
+
+
+def test_a_root_that_is_wrong_is_not_believed(monkeypatch):
+    monkeypatch.setattr(reverse, "_SLACK", -(2.0**-30))
+    found = root(IntervalArray([(-32, 243), (32, 243)]), IntervalArray([(-9, 9), (0, 9)]), 5)
+    assert found.contains(IntervalArray([(-2, 3), (2, 3)])).all()
+
+
+@for_all(st.lists(st.integers(-12, 12), min_size=10, max_size=10), st.integers(0, 3))
+def test_shaving_keeps_every_solution(numbers, wide):
+    """Of a system of two quadratic equations made to have a solution at a point of the box."""
+    a, b, c, d, x, y, *_ = numbers
+    x, y = Fraction(x, 4), Fraction(y, 4)
+
+    def f(u, v):
+        left = a * (u**2 - x**2) + b * (u * v - x * y) + (v - y)
+        return [left, c * (u * v - x * y) + d * (v**2 - y**2) + (u - x)]
+
+    formula = record(f, 2)
+    low, high = numbers[6:8], numbers[8:10]
+    boxes = tuple(
+        IntervalArray([(min(Fraction(e, 4), t) - wide, max(Fraction(g, 4), t) + wide)])
+        for t, e, g in zip((x, y), low, high, strict=True)
+    )
+    zero = [IntervalArray([0])] * 2
+    shaved_boxes, empty = shaved(lambda z: contracted(formula, z, zero), boxes)
+    assert not empty.any()
+    assert all(s.contains(t).all() for s, t in zip(shaved_boxes, (x, y), strict=True))
+
+
+def test_shaving_cuts_what_one_contraction_cannot():
+    """x - x^3 = 0: no cut of [0.4, 4] as a whole; the slices beyond 1 go. None: x - x^3 = 9."""
+    formula = record(lambda x: x - x**3, 1)
+    box = (IntervalArray.from_floats([0.4], [4.0]),)
+    for target, left in ((0, True), (9, False)):
+        parts, empty = shaved(lambda z, t=target: contracted(formula, z, [IntervalArray([t])]), box)
+        assert left == (not empty.any())
+        assert not left or (parts[0].sup < 2).all()

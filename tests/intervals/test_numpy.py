@@ -8,6 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray
+from intervals.jet import Jet
 from intervals.zeros import zeros
 from tests.intervals.boxes import for_all
 
@@ -199,6 +200,51 @@ def test_scalars_that_are_no_exact_numbers_are_refused_at_once(bad):
                 op(*pair)
 
 
+TIMES = [np.timedelta64(3, "ns"), np.timedelta64("NaT", "ns"), np.timedelta64(2, "s")]
+
+
+@pytest.mark.parametrize("time", [*TIMES, *(np.array([t, t, t]) for t in TIMES)])
+def test_spans_of_time_are_no_integers_though_numpy_counts_them_so(time):
+    jet = Jet(X, X * 0 + 1)
+    operations = [
+        *(lambda op=op, y=y: op(y, time) for op in OPERATORS for y in (X, jet)),
+        *(lambda op=op, y=y: op(time, y) for op in OPERATORS for y in (X, jet)),
+        *(lambda: X.contains(time), lambda: X.certainly_less(time), lambda: X.maximum(time)),
+        *(lambda: np.where(True, X, time), lambda: IntervalArray(time), lambda: X.atan2(time)),
+        *(lambda: np.maximum(X, time), lambda: np.concatenate([X[0], time])),
+    ]
+    if not time.ndim:
+        operations.append(lambda: Interval(time))
+    for operation in operations:
+        with pytest.raises((TypeError, ValueError)):
+            operation()
+
+
+OPERATORS = (operator.add, operator.sub, operator.mul, operator.truediv, operator.pow)
+
+
+def test_integers_that_binary64_does_not_hold_are_enclosed():
+    big = np.array([2**53 + 1, 2**62 + 1, 3])
+    for total in (X[0] + big, big + X[0], np.add(X[0], big), X[0] - (-big)):
+        assert contains(total, exact(X[0].sup) + np.array([int(n) for n in big], dtype=object))
+    assert contains(X[0] * np.uint64(2**64 - 1), exact(X[0].inf) * (2**64 - 1))
+
+
+def test_an_int_of_a_subclass_is_its_value():
+    class Odd(int):
+        def __abs__(self):
+            return 1
+
+    assert same(X * Odd(5), X * 5) and same(X ** Odd(2), X**2)
+
+
+def test_odd_arguments_have_their_errors():
+    with pytest.raises(ValueError, match="order -1"):
+        np.diff(X, -1)
+    with pytest.raises(TypeError):
+        np.array_equal(X, np.ones((2, 3)))
+
+
 def test_masked_arrays_are_refused():
     masked = np.ma.array([1, 2, 3], mask=[False, True, False])
     for operation in (
@@ -226,6 +272,20 @@ COMPUTED = {  # a function of numpy's, and the same of exact numbers
     "trace": (lambda a: np.trace(a, 1), lambda a: np.array(np.trace(a, 1))),
     "inner": (lambda a: np.inner(a, a), lambda a: np.inner(a, a)),
     "inner of vectors": (lambda a: np.inner(a[0], a[1]), lambda a: np.array(np.inner(*a[:2]))),
+    "outer": (lambda a: np.outer(a[0], a[1]), lambda a: np.outer(a[0], a[1])),
+    "vdot": (lambda a: np.vdot(a, a), lambda a: np.array(np.vdot(a, a))),
+    "product of three": (
+        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
+        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
+    ),
+    "trace by subscripts": (
+        lambda a: np.einsum("ii", a[:, :3]),
+        lambda a: np.array(np.einsum("ii", a[:, :3])),
+    ),
+    "with ints": (
+        lambda a: np.einsum("ij,j->i", a, np.arange(4)),
+        lambda a: np.einsum("ij,j->i", a, np.array([0, 1, 2, 3], dtype=object)),
+    ),
     "max": (lambda a: np.max(a, axis=1), lambda a: np.max(a, axis=1)),
     "min": (np.min, lambda a: np.array(np.min(a))),
     "clip": (lambda a: np.clip(a, -1, 2), lambda a: np.clip(a, -1, 2)),

@@ -365,3 +365,23 @@ def test_signs():
     touching = sign_of(lambda x, y: (x - y).sqr(), box, limit=2000)
     assert touching.sign is Sign.UNDECIDED
     assert -tiny < touching.lower <= 0 and 4 <= touching.upper < 4 + tiny
+
+
+def test_rational_zeros_on_the_boundary_are_counted_once():
+    """x y = 0, x + 3 y = 1 in the unit square: (1, 0) at a corner, (0, 1/3) on a side."""
+    found = zeros(lambda x, y: [x * y, x + 3 * y - 1], [Interval(0, 1)] * 2)
+    assert [x.outcome for x in found] == [Roots.UNIQUE] * 2
+    exact = {(0, Fraction(1, 3)), (1, 0)}
+    for result in found:
+        assert (
+            sum(all(x.contains(v) for x, v in zip(result.box, p, strict=True)) for p in exact) == 1
+        )
+
+
+def test_an_irrational_zero_on_the_boundary_stays_undecided():
+    """x + y^2 = 2, x - y^2 = -2: the zero (0, sqrt 2) is on a side; (-1/10^9, ...) is beyond it."""
+    box = [Interval(0, 1), Interval(1, 2)]
+    found = zeros(lambda x, y: [x + y**2 - 2, x - y**2 + 2], box)
+    assert [x.outcome for x in found] == [Roots.UNDECIDED]
+    tiny = Fraction(1, 10**9)
+    assert not zeros(lambda x, y: [x + y**2 - 2 + tiny, x - y**2 + 2 + tiny], box)

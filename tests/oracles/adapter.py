@@ -22,6 +22,8 @@ _MORE = {  # properties that sentences or rows rest on
     "ThinShift": ("rate",),
     "MarkovSet": ("growth", "fixed_points"),
     "Digits": ("readings",),
+    "Excess": ("level",),
+    "LinearDimension": ("measure",),
     "Itinerary": ("cut",),
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),
@@ -29,7 +31,7 @@ _MORE = {  # properties that sentences or rows rest on
 }
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",
-    "velocities", "reach",
+    "velocities", "reach", "signs",
 )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from tests.oracles.motion import (
     next_impact,
     separation,
     sticks,
+    two_pi,
 )
 from tests.oracles.plastic import between, full_shift, points
 
@@ -201,6 +202,39 @@ def superstable_motion(view, rng):
     return told
 
 
+def chattering_motion(view, rng):
+    """The flight from phi_s, and states of the first box, go through the boxes to rest."""
+    away, found = _released(view)
+    if away is None or not inside(away, view.separation):
+        return ["the separation phase is not that"]
+    if not isinstance(found, Impact):
+        return [f"the flight from phi_s: {found}"] if found else []
+    told, states = [], [(found.lifted, found.velocity)]
+    if not (
+        inside_mod(found.lifted, view.boxes[0][0]) and inside(found.velocity, view.boxes[0][1])
+    ):
+        told.append(f"the flight from phi_s leads to ({found.phase:.9g}, {float(found.velocity)})")
+    for _ in range(3):
+        states.append([ball(between(side, Fraction(rng.random()))) for side in view.boxes[0]])
+    for phi, gamma in states:
+        told += _through(view, phi, gamma)
+    return told
+
+
+def _through(view, phi, gamma):
+    """Follow a state of the first box through the others, and then bounces until they are tiny."""
+    for target in (*view.boxes[1:], None):
+        found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
+        if not isinstance(found, Impact):
+            return [f"in a box: {found}"] if found else []
+        phi, gamma = found.lifted.mid(), found.velocity.mid()
+        if target and not (inside_mod(found.lifted, target[0]) and inside(gamma, target[1])):
+            return [f"F leads to ({found.phase:.9g}, {float(gamma):.9g})"]
+    turns = -int((float(view.separation[0]) - found.phase) // TURN)
+    on_line = ball(found.lifted) - round((float(found.lifted) - found.phase) / TURN) * two_pi()
+    return _bounces(view, (on_line - turns * two_pi(), found.speed), view.epsilon)
+
+
 def _bounces(view, state, epsilon):
     """Follow impacts with a phase on the line and a relative speed, until they are tiny."""
     phase, speed = state
@@ -227,12 +261,15 @@ def stable_cycle(view, rng):
     told = ["the boxes meet"] if any(a[1] >= b[0] for a, b in pairwise(phases)) else []
     for _ in range(4):
         phi, gamma = (between(side, Fraction(rng.random())) for side in view.boxes[0])
-        for target in (*view.boxes[1:], view.boxes[0]):
+        around = [*view.boxes[1:], *[None] * (len(view.boxes) * (view.rounds - 1)), view.boxes[0]]
+        for target in around:
             found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
             if isinstance(found, str):
                 told.append(f"a state of the orbit: {found}")
-            elif found and not (
-                inside_mod(found.lifted, target[0]) and inside(found.velocity, target[1])
+            elif (
+                found
+                and target
+                and not (inside_mod(found.lifted, target[0]) and inside(found.velocity, target[1]))
             ):
                 told.append(f"F leads to ({found.phase:.9g}, {float(found.velocity):.9g})")
             if not isinstance(found, Impact):
@@ -305,5 +342,6 @@ JUDGES = {
     "TouchingFamily": touching_family,
     "SuperstableMotion": superstable_motion,
     "StableCycle": stable_cycle,
+    "ChatteringMotion": chattering_motion,
     "TwoAttractors": two_attractors,
 }

@@ -18,7 +18,6 @@ import sys
 from collections import Counter
 from dataclasses import dataclass, field, fields
 from fractions import Fraction
-from functools import cache
 from typing import Any, ClassVar
 
 from proofs.trusted import paper, verify
@@ -27,6 +26,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.parameters import Parameters
+from tests.once import once
 from tests.oracles.judge import oracle
 from tests.oracles.sources import certificates, committed, proved
 from tests.oracles.verdicts import verdict_oracle
@@ -99,7 +99,7 @@ class Tally:
     complaints: list[str] = field(default_factory=list)
 
 
-@cache
+@once
 def base_of(group: str, eta: str = "", nu: str = "") -> Base:
     """A committed certificate, or what the prover finds at other parameters."""
     made = proved(group, eta, nu) if eta else committed(group)

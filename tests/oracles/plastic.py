@@ -223,28 +223,6 @@ def entropy_bound(view, rng):
     return told
 
 
-def fixed_point(view, rng):
-    """f grows by `least` or more on the domain, across it; the bracket holds the fixed point."""
-    told = [] if view.least > 1 else ["f is not said to expand"]
-    told += smooth(view, view.domain, (view.least, 10**9), rng, 4)
-    if not view.domain[0] <= view.bracket[0] <= view.bracket[1] <= view.domain[1]:
-        told.append("the bracket of the fixed point leaves the domain")
-    images = [lifted(view, phase) for phase in view.domain]
-    if None in images:
-        return told
-    turns = images[0] // TURN
-    low, high = (x - turns * TURN for x in images)
-    if not (low < view.domain[0] and view.domain[1] < high < TURN):
-        told.append(f"the domain is mapped to ({low:.9g}, {high:.9g}): no fixed point is seen")
-    if not float(view.first[0]) - 1e-9 < low < float(view.first[1]) + 1e-9:
-        told.append(f"the lower end is mapped to {low:.12g}")
-    for end, side in zip(view.bracket, (1, -1), strict=True):
-        image = lifted(view, end)
-        if image is not None and side * (image - turns * TURN - float(end)) > 1e-9:
-            told.append("the fixed point is not in the bracket")
-    return told
-
-
 def full_shift(view, rng):
     """Disjoint cells in the order of phases, each mapped over the interval, and nothing else."""
     told, cells, bounds = [], view.cells, view.slopes
@@ -327,7 +305,7 @@ def image_arc(view, rng):
 def horseshoe_faults(sets, rng):
     """What is wrong with H1 to H6 at these numbers, each complaint beginning with its id."""
     told = []
-    for part in (sets.left, sets.right):
+    for part, sign in zip((sets.left, sets.right), sets.signs, strict=True):
         images = []
         for phase in points(part, rng, 2):
             found = _impact(sets, phase)
@@ -336,10 +314,10 @@ def horseshoe_faults(sets, rng):
             if isinstance(found, str):
                 told.append(f"H1 H2 H3 the launch at {float(phase):.9g}: {found}")
                 continue
-            slope, within = float(found.slope), part[0] < phase < part[1]
+            slope, within = sign * float(found.slope), part[0] < phase < part[1]
             images.append(float(found.lifted))
             if within and slope < float(sets.slopes[0]) - 1e-12:
-                told.append(f"H1 H6 f'({float(phase):.12g}) is {slope:.12g}")
+                told.append(f"H1 H6 {sign} f'({float(phase):.12g}) is {slope:.12g}")
             if within and slope > float(sets.slopes[1]) + 1e-12:
                 told.append(f"H2 f'({float(phase):.12g}) is {slope:.12g}")
             if slope < 0:
@@ -393,7 +371,6 @@ JUDGES = {
     "EntropyBound": entropy_bound,
     "FullShift": full_shift,
     "StayingOrbit": staying_orbit,
-    "FixedPoint": fixed_point,
     "ImageArc": image_arc,
     "Horseshoe": horseshoe,
     "Itinerary": itinerary,

@@ -140,10 +140,11 @@ def _rates(derivative, rates):
         for row in ([float(x) for x in row] for row in derivative)
     )
     r, s = (r - slope * p) / width, (s - slope * q) / width
+    p, q = (p, q) if p > 0 else (-p, -q)  # no size changes
     grow = min(abs(p + q * t) for t in (-1, 0, 1))
     edges = ((s - q) / (p - r), (-s - q) / (p + r)) if p > abs(r) else ()
     shrink = max((abs(r * t + s) for t in edges), default=1)
-    if grow < float(rates[0]) - 1e-9 or shrink > float(rates[1]) + 1e-9 or p <= 0:
+    if grow < float(rates[0]) - 1e-9 or shrink > float(rates[1]) + 1e-9:
         yield f"the rates are {grow:.6g}, {shrink:.6g}"
     if not rates[1] < 1 < rates[0]:
         yield "the rates are not hyperbolic"
@@ -179,7 +180,7 @@ def rectangle_horseshoe(view, rng):
             continue
         told += _rates(found.derivative(), view.rates)
         turns = round((float(edges[0].lifted + edges[1].lifted) - float(low + high)) / 2 / TURN)
-        first, last = (one.turned(turns) for one in edges)
+        first, last = sorted((one.turned(turns) for one in edges), key=float)
         ends = following[0][0][0] - view.margin, following[1][0][1] + view.margin
         if first > ball(ends[0]) or last < ball(ends[1]):
             told.append(f"edges are mapped to {first.str(9)}, {last.str(9)}, not beyond both sets")
@@ -228,7 +229,7 @@ def hyperbolic(view, rng):
             told.append(found)
             continue
         (p, q), (_, s) = ([float(x) for x in row] for row in found.derivative())
-        if p < float(view.grow) - 1e-9 or abs(q) + abs(s) > float(view.shrink) + 1e-9:
+        if abs(p) < float(view.grow) - 1e-9 or abs(q) + abs(s) > float(view.shrink) + 1e-9:
             told.append(f"distances grow {p:.6g} times, shrink to {abs(q) + abs(s):.6g}")
         told += _rates(found.derivative(), view.rates)
     return told if view.grow > 1 > view.shrink else [*told, "not hyperbolic"]

@@ -219,7 +219,7 @@ def repeller(view, rng):
             y, slope = _inverse(branches[int(letter)], y)
             if y is None:
                 return [f"no inverse branch for the word {word}"]
-            rate = rate / slope
+            rate = rate / abs(slope)
         images.append(y)
         rates.append(rate)
         if np.any(1 / rate < float(slopes[0]) - 1e-7) or np.any(1 / rate > float(slopes[1]) + 1e-7):
@@ -271,8 +271,11 @@ def _interpolated(view, domain):
 
 
 def _inverse(branch, targets):
-    """The points of the domain that f maps to the targets, f increasing, and f' there."""
+    """The points of the domain that f, monotone there, maps to the targets, and f' there."""
     fit, (low, high) = branch
+    if fit(low) > fit(high):
+        points, slopes = _inverse((-fit, (low, high)), -targets)
+        return points, None if points is None else -slopes
     if fit(low) > min(targets) + 1e-9 or fit(high) < max(targets) - 1e-9:
         return None, None
     a, b = np.full_like(targets, low), np.full_like(targets, high)

@@ -8,10 +8,8 @@ import json
 import pkgutil
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
-from pathlib import Path
 
-REPORTS = Path(__file__).parents[2] / "reports"
+from tests.once import REPORTS, once, report
 
 
 def _parts(document):
@@ -54,7 +52,7 @@ def conclusions(made):
     return context.of, context.known
 
 
-@cache
+@once
 def curves(epsilon="0", n=2):
     """The conclusions about a part of the last curve of grazing that the prover sees."""
     from proofs.search.curves import Curves, seen_curves
@@ -68,10 +66,10 @@ def curves(epsilon="0", n=2):
     return tuple(context.known.values())
 
 
-@cache
 def committed_conclusions(name):
     """The same of a committed certificate."""
-    return conclusions(committed(name))
+    context = report(name).context
+    return context.of, context.known
 
 
 def rows(made, claims, of, known):
@@ -83,7 +81,7 @@ def rows(made, claims, of, known):
         yield claim, found.verdict.value, (*found.because, *found.corrected)
 
 
-@cache
+@once
 def committed_rows(name):
     """The same of a committed certificate."""
     made, (of, known) = committed(name), committed_conclusions(name)

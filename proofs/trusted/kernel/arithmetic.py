@@ -16,6 +16,7 @@ from operator import mul
 from proofs.trusted.kernel.meter import METER
 
 _NARROW, _MANY = 1 << 10, 512  # units, where there are many bits
+_Ends = tuple[int, int]
 _MIXED = "enclosures of different precision do not mix"
 
 
@@ -44,13 +45,13 @@ class Enclosure:
         return Fraction(self.lo, unit), Fraction(self.hi, unit)
 
     def _like(self, other: Enclosure | Fraction | int) -> Enclosure:
+        if isinstance(other, Enclosure):
+            if other.bits != self.bits:
+                raise ValueError(_MIXED)
+            return other
         if isinstance(other, int):
             return Enclosure(other << self.bits, other << self.bits, self.bits)
-        if isinstance(other, Fraction):
-            return rational(other, self.bits)
-        if other.bits != self.bits:
-            raise ValueError(_MIXED)
-        return other
+        return rational(other, self.bits)
 
     def __neg__(self) -> Enclosure:
         return Enclosure(-self.hi, -self.lo, self.bits)
@@ -79,7 +80,7 @@ class Enclosure:
                 raise ValueError(_MIXED)
             METER.get().spend(1 + (bits >> 7))
             a, b, c, d = self.lo, self.hi, value.lo, value.hi
-            products = (a * c, a * d, b * c, b * d)
+            products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
             return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
@@ -95,9 +96,9 @@ class Enclosure:
         if other.lo <= 0 <= other.hi:
             raise Unproved("division by an enclosure of 0")
         METER.get().spend(3 + (self.bits >> 6) + ((self.bits >> 8) ** 2 >> 1))
-        quotients = [(a << self.bits, b) for a in (self.lo, self.hi) for b in (other.lo, other.hi)]
-        low = min(a // b for a, b in quotients)
-        return Enclosure(low, max(-(-a // b) for a, b in quotients), self.bits)
+        a, b, c, d = self.lo << self.bits, self.hi << self.bits, other.lo, other.hi
+        low = min(a // c, a // d, b // c, b // d)
+        return Enclosure(low, max(-(-a // c), -(-a // d), -(-b // c), -(-b // d)), self.bits)
 
     def __rtruediv__(self, value: Fraction | int) -> Enclosure:
         return self._like(value) / self
@@ -130,18 +131,14 @@ class Enclosure:
         sin, cos, first, _ = _sincos(self.lo, self.bits)
         width, one = self.hi - self.lo, 1 << self.bits
         if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
-            for value in (sin, cos):
-                value.lo, value.hi = max(value.lo - width, -one), min(value.hi + width, one)
-            return sin, cos
-        sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
-        sin, cos = sin.hull(sin_hi), cos.hull(cos_hi)
-        for turn in range(first + 1, min(last, first + 4) + 1):
-            target = (cos, sin)[turn & 1]
-            if turn & 2:
-                target.lo = -one
-            else:
-                target.hi = one
-        return sin, cos
+            ends = [[max(x - width, -one), min(y + width, one)] for x, y in (sin, cos)]
+        else:
+            sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
+            ends = [[min(x[0], y[0]), max(x[1], y[1])] for x, y in ((sin, sin_hi), (cos, cos_hi))]
+            for turn in range(first + 1, min(last, first + 4) + 1):
+                ends[1 - (turn & 1)][1 - (turn >> 1 & 1)] = -one if turn & 2 else one
+        (a, b), (c, d) = ends
+        return Enclosure(a, b, self.bits), Enclosure(c, d, self.bits)
 
 
 def rational(value: Fraction, bits: int) -> Enclosure:
@@ -174,8 +171,20 @@ def _atan_inverse(n: int, bits: int) -> tuple[int, int]:
     return total, k + 1
 
 
-def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
-    """Return sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last.
+def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
+    """Return the ends of sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last.
+
+    The work counts whether or not the values are known: flights meet at the same times.
+    """
+    halvings = isqrt(bits) >> 1 if bits >= _MANY else 0
+    work = bits + 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
+    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> (2 + 2 * (halvings > 0))))  # work / 4 steps
+    return _sincos_at(x, bits, halvings, work)
+
+
+@lru_cache(maxsize=4096)
+def _sincos_at(x: int, bits: int, halvings: int, work: int) -> tuple[_Ends, _Ends, int, int]:
+    """Return what `_sincos` does.
 
     Proof. With g = 12 + (bit length of x above the point) guard bits, x is exact, k the nearest
     multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. exp(ir) is summed as
@@ -185,10 +194,7 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
     With many bits r is halved h times before, rounded by a unit, and (sin, cos) taken to
     (2 sin cos, 1 - 2 sin^2) as often: errors of at most e units become at most 4 e + 2.
     """
-    halvings = isqrt(bits) >> 1 if bits >= _MANY else 0
-    guard = 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
-    work = bits + guard
-    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> (2 + 2 * (halvings > 0))))  # work / 4 steps
+    guard, one = work - bits, 1 << bits
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
     x <<= guard
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
@@ -207,12 +213,11 @@ def _sincos(x: int, bits: int) -> tuple[Enclosure, Enclosure, int, int]:
         sums = [2 * sums[0] * sums[1] >> work, (1 << work) - (2 * sums[0] ** 2 >> work)]
         error = 4 * error + 2
     error += r_hi - r
-    sin, cos = (Enclosure((v - error) >> guard, -((-v - error) >> guard), bits) for v in sums)
-    one = 1 << bits
-    for value in (sin, cos):
-        value.lo, value.hi = max(value.lo, -one), min(value.hi, one)
-    turned = ((sin, cos), (cos, -sin), (-sin, -cos), (-cos, sin))[k & 3]
-    return *turned, k - (r <= 0), k - (r_hi < 0)
+    (a, b), (c, d) = (
+        (max((v - error) >> guard, -one), min(-((-v - error) >> guard), one)) for v in sums
+    )
+    turned = (((a, b), (c, d)), ((c, d), (-b, -a)), ((-b, -a), (-d, -c)), ((-d, -c), (a, b)))
+    return *turned[k & 3], k - (r <= 0), k - (r_hi < 0)
 
 
 def log(value: Fraction, bits: int) -> Enclosure:

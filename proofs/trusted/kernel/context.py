@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.parameters import Parameters, Place
+
+if TYPE_CHECKING:
+    from proofs.trusted.kernel.formulas import Formulas
 
 C = TypeVar("C", bound=Conclusion)
 

@@ -24,7 +24,7 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import show
+from proofs.trusted.numbers import Range, show
 
 MAX_POWER = 100
 _MAX_DIMENSION = 6
@@ -41,6 +41,12 @@ class HSet(Conclusion):
     centre: tuple[Fraction, ...]
     matrix: Rows
     inverse: Rows
+
+    @property
+    def span(self) -> Range:
+        """The least and the greatest first coordinate of its points."""
+        reach = sum(map(abs, self.matrix[0]))
+        return self.centre[0] - reach, self.centre[0] + reach
 
     @property
     def described(self) -> str:

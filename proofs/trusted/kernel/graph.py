@@ -91,15 +91,25 @@ def graph(context: Context, reader: Reader) -> Graph:
         ends = (step.local.source, step.local.target)
         for node in ends:
             if id(node) not in places:
-                if not all(disjoint(node, other) for other in nodes):
-                    raise Unproved("two h-sets are not proved disjoint")
                 places[id(node)] = len(nodes)
                 nodes.append(node)
         edge = (places[id(ends[0])], places[id(ends[1])])
         if edge in edges:
             raise name.fail("a relation twice")
         edges[edge] = step
+    _require_disjoint(nodes)
     return Graph(tuple(edges.values()), tuple(nodes), tuple(edges))
+
+
+def _require_disjoint(nodes: list[HSet]) -> None:
+    """Raise Unproved unless any two are disjoint: by their first coordinates, or by `disjoint`."""
+    near: list[tuple[Fraction, HSet]] = []
+    for low, high, i in sorted((*node.span, i) for i, node in enumerate(nodes)):
+        METER.get().spend(10 + len(near))
+        near = [(end, node) for end, node in near if end >= low]
+        if not all(disjoint(nodes[i], node) for _, node in near):
+            raise Unproved("two h-sets are not proved disjoint")
+        near.append((high, nodes[i]))
 
 
 def entropy(context: Context, reader: Reader) -> Entropy:

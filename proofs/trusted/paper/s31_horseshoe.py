@@ -14,18 +14,24 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phases, Range, ceil_text, show, show_range, within
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc
+from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc, signed
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+_MONOTONE = {1: "increasing", -1: "decreasing"}
 
 
 @dataclass(frozen=True)
 class Horseshoe(Conclusion):
-    """f is a horseshoe on I0 = left and I1 = right, with `slopes` that bound f', all above 1."""
+    """f is a horseshoe on I0 = left and I1 = right, with `slopes` that bound |f'|, all above 1.
+
+    signs: those of f' on I0 and on I1.
+    """
 
     at: Place
     left: Phases
     right: Phases
     slopes: Range
+    signs: tuple[int, int] = (1, 1)
 
     def __post_init__(self) -> None:
         """Raise Unproved unless I0 lies before I1, and f expands."""
@@ -33,6 +39,8 @@ class Horseshoe(Conclusion):
             raise Unproved("I0 does not lie before I1")
         if not 1 < self.slopes[0] <= self.slopes[1]:
             raise Unproved("the slopes do not expand")
+        if not set(self.signs) <= {1, -1}:
+            raise Unproved("f is not monotone")
 
     @property
     def interval(self) -> Phases:
@@ -50,6 +58,11 @@ class Horseshoe(Conclusion):
         return f"I0 = {show_range(self.left)}, I1 = {show_range(self.right)}"
 
     @property
+    def size(self) -> str:
+        """What `slopes` bound."""
+        return "f'" if self.signs == (1, 1) else "|f'|"
+
+    @property
     def is_null(self) -> bool:
         """Whether the set has measure zero: 2^n intervals of |I| / g^(n-1) cover it, g > 2."""
         return self.slopes[0] > 2
@@ -58,9 +71,11 @@ class Horseshoe(Conclusion):
     def sentence(self) -> str:
         low, high = map(show, self.slopes)
         null = " of Lebesgue measure zero" if self.is_null else ""
+        first, second = (_MONOTONE[sign] for sign in self.signs)
         return (
             f"let I = {show_range(self.interval)}, {self.sets}. The impact map f is continuously "
-            f"differentiable and increasing on I0 and on I1, with {low} <= f' <= {high}; f(I0) and "
+            f"differentiable and {first} on I0 and {f'{second} ' * (first != second)}on I1, "
+            f"with {low} <= {self.size} <= {high}; f(I0) and "
             f"f(I1) both contain I, and f maps every phase of ({show(self.gap[0])}, "
             f"{show(self.gap[1])}) outside I. Hence, for every n, each of the 2^n words w_1 ... w_n"
             " over {0, 1} has its own closed interval of phases phi with f^(k-1)(phi) in I_(w_k) "
@@ -73,29 +88,29 @@ class Horseshoe(Conclusion):
 
     @property
     def brief(self) -> str:
-        return f"a horseshoe on {self.sets}, f' >= {show(self.slopes[0])}"
+        return f"a horseshoe on {self.sets}, {self.size} >= {show(self.slopes[0])}"
 
     @property
     def latex(self) -> str:
         low, high = map(show, self.slopes)
-        bounds = rf"{low} \le f' \le {high} \text{{ on }} I_0 \cup I_1"
+        bounds = rf"{low} \le {self.size} \le {high} \text{{ on }} I_0 \cup I_1"
         return rf"f(I_0) \supseteq I,\quad f(I_1) \supseteq I,\quad {bounds}"
 
 
 def horseshoe(left: SlopeRange, right: SlopeRange, gap: Avoids, slopes: Range) -> Horseshoe:
-    """Theorem. Let f' lie in `slopes`, from above 1, on I0 and on I1, I0 before I1, let f(I0) and
+    """Theorem. Let |f'| lie in `slopes`, from above 1, on I0 and on I1, I0 before I1, let f(I0) and
     f(I1) contain I, from the left end of I0 to the right end of I1, and let f map the closed gap
     between them outside I. Then what `Horseshoe.sentence` says.
 
-    Proof, the paper's own for Theorem 2. f is C^1 and increasing on I0 and I1, each image contains
+    Proof, the paper's own for Theorem 2. f is C^1 and monotone on I0 and I1, each image contains
     I, and the rest of I leaves it. So the points of I with itinerary w_1 ... w_n form a closed
     interval, that f maps onto the one of w_2 ... w_n, which is at least slopes[0] times longer;
     nested intervals shrink to one point for every infinite word, and itineraries conjugate f to
     the shift. Raises Unproved where a hypothesis is not proved.
     """
-    found = Horseshoe(left.at, left.domain, right.domain, slopes)
+    found = Horseshoe(left.at, left.domain, right.domain, slopes, (left.sign, right.sign))
     for part in (left, right):
-        if part.minimum[0] < slopes[0] or part.maximum[1] > slopes[1]:
+        if not within(part.bounds(part.sign), slopes):
             raise Unproved(f"{part.brief}, not within {show_range(slopes)}")
         if not image_arc(part).covers(found.interval):
             raise Unproved(f"{image_arc(part).brief}: I is not covered")
@@ -132,6 +147,14 @@ def read_part(context: Context, reader: Reader) -> SlopeRange:
     return part
 
 
+def _signed_at(of: Parameters, point: Impact) -> Range | None:
+    """Return f' at a point inside I0 or I1, times the statement's sign there."""
+    for (low, high), sign in zip((of.left, of.right), of.signs, strict=True):
+        if low < point.phase < high:
+            return signed(point.slope, sign)
+    return None
+
+
 def _slopes_on(of: Parameters, found: Found) -> list[SlopeRange]:
     """Return what is proved about f' on I0 and on I1, as far as it is known."""
     parts = []
@@ -158,17 +181,19 @@ def _bounded(
 ) -> Decision:
     """Decide that f' is bounded on I0 and I1, by bounds on both or by a point in their interior.
 
-    margin: how far bounds (low, high) on f' are inside; of (high, low) it is how far at most.
+    On each it is f' times the sign of the statement.
+    margin: how far bounds (low, high) on it are inside; of (high, low) it is how far at most.
     asked: whether a point of I0 or I1 is one of those that the claim is about.
     """
     for point in found.all(Impact):
-        inside = any(low < point.phase < high for low, high in (of.left, of.right))
-        if inside and asked(point) and margin(point.slope[::-1]) < 0:
+        slope = _signed_at(of, point)
+        if slope and asked(point) and margin(slope[::-1]) < 0:
             return decided(Verdict.REFUTED, point, corrected=found.all(Horseshoe)[:1])
     parts = _slopes_on(of, found)
     if len(parts) < 2:
         return undecided("no proof that f is differentiable on I0 and I1 with bounded slope")
-    least = min(margin((part.minimum[0], part.maximum[1])) for part in parts)
+    both = zip(parts, of.signs, strict=True)
+    least = min(margin(part.bounds(sign)) for part, sign in both)
     known: dict[str, Range] = {}
     for index, part in enumerate(parts):
         known |= {f"slope_min_I{index}": part.minimum, f"slope_max_I{index}": part.maximum}
@@ -217,7 +242,10 @@ def _short_preimages(of: Parameters, found: Found) -> Decision:
 
     def lands(point: Impact) -> bool:
         low, high = point.image
-        return point.slope[0] > 0 and any(a < low and high < b for a, b in (of.left, of.right))
+        slope = _signed_at(of, point)
+        return bool(slope and slope[0] > 0) and any(
+            a < low and high < b for a, b in (of.left, of.right)
+        )
 
     decision = _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0], True, lands)
     if decision.verdict is Verdict.VERIFIED and len(_arcs_on(of, found)) < 2:
@@ -231,21 +259,21 @@ ROWS = (
         "H1",
         "3.1, Figure 2",
         "df/dphi >= gamma_2 := 4.2",
-        _AT + "f' >= {lo} on the interiors of I0 = {i0} and I1 = {i1}.",
+        _AT + "{slope} >= {lo} on the interiors of I0 = {i0} and I1 = {i1}{signed}.",
         lambda of, found: _bounded(of, found, lambda bounds: bounds[0] - of.slopes[0]),
     ),
     Row(
         "H2",
         "3.1, Figure 2",
         "gamma_1 := 5.25 >= df/dphi",
-        _AT + "f' <= {hi} on the interiors of I0 = {i0} and I1 = {i1}.",
+        _AT + "{slope} <= {hi} on the interiors of I0 = {i0} and I1 = {i1}{signed}.",
         lambda of, found: _bounded(of, found, lambda bounds: of.slopes[1] - bounds[1]),
     ),
     Row(
         "H3",
         "3.1",
         "monotonically increasing on I_0 and I_1",
-        _AT + "f, lifted to a continuous function, increases on I0 = {i0} and on I1 = {i1}.",
+        _AT + "f, lifted to a continuous function, {moves} on I0 = {i0} and {again}on I1 = {i1}.",
         lambda of, found: _bounded(of, found, lambda bounds: bounds[0], strict=True),
     ),
     Row(

@@ -123,7 +123,7 @@ def test_another_rounding_is_noticed(transcription, monkeypatch):
 
     def wider(x, bits):
         sin, cos, first, last = original(x, bits)
-        return Enclosure(sin.lo, sin.hi + 1, bits), cos, first, last
+        return (sin[0], sin[1] + 1), cos, first, last
 
     monkeypatch.setattr(arithmetic, "_sincos", wider)
     assert differences(transcription, 2, 3) != []

@@ -11,7 +11,7 @@ from intervals.jet import Jet
 from proofs.methods.cells import Region, invariant_cover
 from proofs.methods.horseshoes import full_horseshoe
 from proofs.methods.orbits import periodic_points
-from proofs.methods.periodic import iterate, periodic_orbits
+from proofs.methods.periodic import periodic_orbits
 from proofs.methods.words import Words
 
 
@@ -89,7 +89,7 @@ def test_the_linear_horseshoe(period):
     for orbit in orbits:
         (a, b), (c, d) = orbit.derivative
         assert abs(a).contains(3**orbit.period) and d.contains(Fraction(1, 4**orbit.period))
-        assert b.mag == 0 and c.mag == 0
+        assert max(b.mag, c.mag) < Fraction(1, 10**300)
 
 
 @pytest.mark.slow
@@ -106,7 +106,10 @@ def test_three_dimensions():
         assert len(points) == 2 * 2**period
         for x, _, z in points:
             assert (z.sqr() - z + Fraction(1, 5)).contains(0)
-            assert (iterate(logistic, period)(x)[0] - x).contains(0)
+            after = x
+            for _ in range(period):
+                after = logistic(after)
+            assert (after - x).contains(0)
 
 
 def test_boxes_that_are_cut_beside_a_point():

@@ -152,7 +152,10 @@ def test_sticking_is_no_reason_of_its_own():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
+@pytest.mark.parametrize(
+    "right",
+    [pytest.param(("3.379", "3.3791"), marks=pytest.mark.long), ("3.379353", "3.379354")],
+)
 def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
     sets = ["--left", "3.3", "3.31", "--right", *right]
     assert horseshoe(["--only", "H1", "H2", "H3", *sets, "--out", str(tmp_path)]) == 0

@@ -2,14 +2,17 @@
 
 import json
 import random
+import re
 from fractions import Fraction
 from itertools import islice
 
 import pytest
 
-from proofs.plane import summary
-from proofs.plane.page import MOST, corner, data, said, size
-from proofs.plane.store import quarters
+from proofs.plane import picture, summary
+from proofs.plane.cost import Cost, by_depth
+from proofs.plane.overlay import Overlay
+from proofs.plane.page import MOST, corner, data, page, said, size
+from proofs.plane.store import opened, quarters
 from proofs.trusted.atlas import Region, without_proof
 from proofs.trusted.numbers import show_range
 
@@ -110,3 +113,32 @@ def test_kinds_that_nobody_named_have_words():
     assert summary.words("CoveringShift").startswith("a full shift")
     assert summary.words("SomeOtherThing") == "some other thing"
     assert summary.kinds(["Zebra", "AtRest", "StableOrbit"]) == ["StableOrbit", "AtRest", "Zebra"]
+
+
+@pytest.mark.parametrize(
+    ("epsilon", "told"),
+    [
+        (None, "Impacts are plastic"),
+        ((F("0.3"), F("0.3")), "Impacts have the restitution ε = 0.3"),
+        ((F(0), F("1/3")), "Impacts have the restitution ε in [0, 1/3]"),
+    ],
+)
+def test_the_page_says_what_impacts_it_is_about(tmp_path, epsilon, told, monkeypatch):
+    pytest.importorskip("jinja2")
+    monkeypatch.setattr(picture, "overlay", lambda region: Overlay([], []))
+    region = Region(PLAIN.eta, PLAIN.nu, "orbits", epsilon)
+    with opened(tmp_path, region) as store:
+        store.put([without_proof(region, "0/", "UNDECIDED", "nothing is found")])
+        made = summary.summary(store)
+        text = page(store, picture.shown(store, made), "", [])
+    lede = re.search('<p class="lede">(.*?)</p>', text)[1]
+    assert re.sub("<.*?>", "", lede).startswith(f"{told}. In each cell")
+
+
+def test_costs_are_told_by_depth():
+    spent = [Cost(2, 0.2, 0.1, "proved", float(k)) for k in range(1, 12)]
+    told = by_depth([*spent, Cost(0, 0.2, 0.1, "cut in four", 40.0)])
+    assert told == [
+        {"depth": 0, "cells": 1, "median": "40", "mean": "40", "nine_tenths": "40"},
+        {"depth": 2, "cells": 11, "median": "6", "mean": "6", "nine_tenths": "10"},
+    ]

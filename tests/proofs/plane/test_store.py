@@ -17,7 +17,7 @@ import pytest
 from proofs import atlas
 from proofs.check import _mapped
 from proofs.check import main as check
-from proofs.plane import picture, summary
+from proofs.plane import cost, picture, summary
 from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
 from proofs.plane.store import NAME, Held, opened
@@ -36,7 +36,7 @@ LARGE = ["--eta", "0.211", "0.2134", "--nu", "-0.204", "-0.2", "--ask", "horsesh
 def draw(monkeypatch):
     """Pictures take longer than all else here: what makes one is returned, not done."""
     made = atlas._draw
-    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made: None)
+    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made, spent: None)
     return made
 
 
@@ -52,6 +52,11 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     assert "VERIFIED         16 cells, 1 of the area" in said and "Opposite: " in said
     made = json.loads((tmp_path / "atlas.json").read_text())
     assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
+    assert [(row["depth"], row["cells"]) for row in made["cpu_milliseconds"]] == [
+        (0, 1),
+        (1, 4),
+        (2, 16),
+    ]
     assert check([str(tmp_path / NAME)]) == 0
     assert "16 VERIFIED cells, all as their certificates prove" in capsys.readouterr().out
     assert check([str(tmp_path / NAME), "--jobs", "2", "--quiet"]) == 0
@@ -71,7 +76,7 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
         with style("atlas"):
             drawing = picture.picture(store.region, picture.shown(store, made))
         (path,) = drawing.axes[0].patches[1:]  # but for what is below it
-        draw(tmp_path, store, made)
+        draw(tmp_path, store, made, cost.costs(store))
         proved = {cell.key for cell in store.cells(Verdict.REFUTED)}
         inside = [path.get_path().contains_point(middle(store.region.box(key))) for key in proved]
         left = [cell.key for cell in store.cells(Verdict.UNDECIDED)]

@@ -2,7 +2,6 @@
 
 import json
 import shutil
-from pathlib import Path
 
 import pytest
 
@@ -10,8 +9,8 @@ from proofs.report.atlases import atlases
 from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
 from proofs.report.pictures import pictures
+from tests.once import REPORTS, report
 
-REPORTS = Path(__file__).parents[3] / "reports"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
@@ -48,10 +47,17 @@ def visit(browser):
     assert set(noise) == asked
 
 
+class Committed(Certificates):
+    """The committed certificates, each derived once for all workers."""
+
+    def __getitem__(self, name):
+        return report(name).context
+
+
 @pytest.fixture(scope="session")
 def documents():
-    """The committed certificates, each derived once."""
-    return Certificates(REPORTS)
+    """What the committed certificates prove."""
+    return Committed(REPORTS)
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from proofs import atlas
-from proofs.plane import summary
+from proofs.plane import cost, summary
 from proofs.plane.store import opened
 from tests.proofs.plane.test_page import CUT as REGION
 from tests.proofs.plane.test_page import cells as some_cells
@@ -20,7 +20,7 @@ def made(tmp_path_factory):
     folder, cells = tmp_path_factory.mktemp("atlas"), list(some_cells(REGION, 2, random.Random(5)))
     with opened(folder, REGION) as store:
         store.put(cells)
-        atlas._draw(folder, store, summary.summary(store))
+        atlas._draw(folder, store, summary.summary(store), cost.costs(store))
     assert {cell.verdict for cell in cells} == {"VERIFIED", "REFUTED", "UNDECIDED"}
     return folder / "atlas.html", {cell.key: cell for cell in cells}
 

@@ -104,10 +104,24 @@ def test_nothing_is_wider_than_the_screen_even_with_all_open(view, width):
 def test_axe_finds_nothing_serious(view, colours, axe):
     tab = view("#H7", colours=colours)
     tab.evaluate("document.querySelectorAll('#S3, #S3 details').forEach(x => x.open = true)")
+    assert serious(tab, axe) == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("colours", ["light", "dark"])
+@pytest.mark.parametrize("asked", ["attractor", "horseshoe"])
+def test_axe_finds_nothing_serious_in_an_atlas(visit, asked, colours, axe):
+    tab = visit(REPORTS / "atlas" / asked / "atlas.html", colours=colours)
+    tab.focus("#map")
+    assert serious(tab, axe) == []
+
+
+def serious(tab, axe):
+    """What the checker of accessibility finds."""
     tab.evaluate(axe)
     found = tab.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
     bad = [x for x in found if x["impact"] in ("serious", "critical")]
-    assert [(x["id"], x["nodes"][0]["html"][:200]) for x in bad] == []
+    return [(x["id"], x["nodes"][0]["html"][:200]) for x in bad]
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ pytest.importorskip("matplotlib")
 from proofs import explore
 from proofs.report.figures import curves, dossier, figures, names
 from proofs.report.figures.__main__ import main
-from proofs.report.figures.figure import Certificates, all_of
+from proofs.report.figures.figure import all_of
 from proofs.report.figures.style import PROVED, style, svg_of
 
 pytestmark = pytest.mark.slow
@@ -35,11 +35,6 @@ REPORTS = Path(__file__).parents[3] / "reports"
 FIGURES = figures()
 BY_NAME = {figure.name: figure for figure in FIGURES}
 ETA, NU = mpf("0.2121"), mpf("-0.2")
-
-
-@pytest.fixture(scope="module")
-def documents():
-    return Certificates(REPORTS)
 
 
 @pytest.fixture(scope="module")

@@ -175,8 +175,8 @@ def watch(monkeypatch):
 def _evaluated(value, start, now, order=0):
     """The row and the number of an evaluation of the gap, by its arguments."""
     numbers = [*start[1:4], *now]
-    kind = INTERVALS if any(isinstance(x, Interval | Jet) for x in numbers) else FLOATS
-    plain = order == 0 and not any(isinstance(x, Jet) for x in numbers)
+    kind = INTERVALS if any(isinstance(x, Interval | Dual) for x in numbers) else FLOATS
+    plain = order == 0 and not any(isinstance(x, Dual) for x in numbers)
     return {(GAP if plain else RATES, kind): 1}
 
 

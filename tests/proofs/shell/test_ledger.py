@@ -1,12 +1,14 @@
 """python -m proofs: what is asked for is proved once, what is there is checked."""
 
 import json
+import shutil
 
 import pytest
 
 from proofs.report import build as report
 from proofs.report import current
 from proofs.shell import files
+from proofs.shell import ledger as shell
 from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.verify import check
@@ -39,11 +41,56 @@ def test_proves_writes_and_reuses(tmp_path, capsys):
     assert [each.id for each in check((tmp_path / "horseshoe.json").read_text()).claims] == FLAT
     before = (tmp_path / "horseshoe.json").stat().st_mtime_ns
     assert "proved and checked" in capsys.readouterr().out
+    current.place(tmp_path).unlink()
     assert run(tmp_path) == 0
     assert "checked again" in capsys.readouterr().out
     assert (tmp_path / "horseshoe.json").stat().st_mtime_ns == before
     assert run(tmp_path, "--fresh") == 0
     assert "proved and checked" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_nothing_is_checked_again_where_nothing_has_changed(tmp_path, monkeypatch, capsys):
+    """Neither certificates nor pages nor the program: else all is, and a forgery is found."""
+
+    def ran(*more):
+        assert main(["--only", "H16", "--out", str(tmp_path), *more]) == 0
+        return capsys.readouterr().out
+
+    def drawn(folder, *arguments, **known):
+        return {"ledger.md": (folder / "ledger.json").read_text()}
+
+    monkeypatch.setattr(report, "built", drawn)
+    assert "proved and checked" in ran()
+    found = (tmp_path / "ledger.json").read_text()
+    assert "nothing has changed" in ran() and ran("--json", "-") == found
+    for name in ("horseshoe.json", "ledger.json", "MANIFEST.json", "ledger.md"):
+        path = tmp_path / name
+        path.write_text(path.read_text().replace('"VERIFIED"', '"REFUTED"', 1))
+        assert "nothing has changed" not in ran(), name
+        assert (tmp_path / "ledger.json").read_text() == found
+        assert "nothing has changed" in ran()
+    folder = tmp_path / "from somebody else"
+    shutil.copytree(tmp_path, folder)
+    assert main(["--only", "H16", "--out", str(folder)]) == 0
+    assert "checked again" in capsys.readouterr().out, "nothing in a folder vouches for it"
+    for more in (["--digits", "30"], ["--fresh"], ["--stats"], ["--only", "H11"]):
+        assert "nothing has changed" not in ran(*more), more
+    assert "nothing has changed" not in ran() and "nothing has changed" in ran()
+    monkeypatch.setattr(current, "_digests", without("trusted/verify.py"))
+    assert "checked again" in ran() and "nothing has changed" in ran()
+
+
+def test_what_is_undecided_is_tried_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(current, "pages", lambda *about: {"ledger.md"})
+    rows = [{"id": claim, "verdict": "UNDECIDED"} for claim in FLAT]
+    (tmp_path / "ledger.json").write_text(json.dumps({"claims": rows}))
+    assert shell._unchanged(tmp_path, FLAT) is None
+    (tmp_path / "ledger.json").write_text(
+        json.dumps({"claims": [{**row, "verdict": "VERIFIED"} for row in rows]})
+    )
+    assert shell._unchanged(tmp_path, FLAT) is not None
+    assert shell._unchanged(tmp_path, FLAT[:2]) is None
 
 
 def test_pages_are_made_again_only_where_something_has_changed(tmp_path, monkeypatch, capsys):
@@ -69,8 +116,8 @@ def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkey
         return current.pages(tmp_path, current.inputs(tmp_path))
 
     def write():
-        made = {**texts, current.NAME: current.record(current.inputs(tmp_path), texts)}
-        files.write_files(tmp_path, made)
+        files.write_files(tmp_path, texts)
+        current.record(tmp_path, current.inputs(tmp_path), texts)
 
     assert there() is None
     write()
@@ -80,7 +127,7 @@ def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkey
         lambda: (tmp_path / "figures" / "one.svg").unlink(),
         lambda: (tmp_path / "one.json").write_text("[]"),
         lambda: (tmp_path / "two.json").write_text("{}"),
-        lambda: (tmp_path / current.NAME).write_text("{"),
+        lambda: current.place(tmp_path).write_text("{"),
         lambda: monkeypatch.setattr(current, "_version", lambda package: "another"),
         lambda: monkeypatch.setattr(current, "_digests", without("report/html.py")),
         lambda: monkeypatch.setattr(current, "_digests", without("templates/page.html")),

@@ -19,7 +19,7 @@ from proofs import orbits
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words, lyndon
 from proofs.trusted.parameters import PAPER
-from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper import periodic_dimension, reference
 
 ROOT = Path(__file__).parents[3]
 ETA, NU = mpf("0.2121"), mpf("-0.2")
@@ -153,6 +153,41 @@ def test_the_cycles_give_the_dimension_of_their_closure():
     low, high = map(mpf, claims[0]["quantities"]["dimension"].values())
     below, above = (determinant(x, 7) for x in (low - mpf(10) ** -13, high + mpf(10) ** -13))
     assert below * above < 0
+
+
+def length_left(n):
+    """The total length of I's images by the inverse branches along all words of n letters."""
+    parts = [tuple(map(float, EXACT.interval))]
+    for _ in range(n):
+        parts = [
+            tuple(periodic_dimension.inverse(j, x)[0] for x in part)
+            for part in parts
+            for j in (0, 1)
+        ]
+    return sum(high - low for low, high in parts)
+
+
+@pytest.mark.slow
+def test_the_escape_rate_by_the_operator_by_cycles_and_by_lengths(capsys):
+    found = answer(capsys, "--cycles", "8", "--digits", "20")["escape"]
+    (low, high), (first, last) = (map(mpf, found[name].values()) for name in ("rate", "by_cycles"))
+    assert found["periods"] == 8 and "with s = 1" in found["statement"]
+    assert 0 < high - low < 1e-19 and 0 < last - first < 1e-19
+    assert abs(low - first) < 1e-15
+    assert abs(low - mp.log(length_left(6) / length_left(7))) < 1e-6
+
+
+def test_the_escape_rate_in_words(capsys):
+    assert orbits.main(["--cycles", "2", "--fast"]) == 0
+    text = capsys.readouterr().out
+    assert "the periods up to 2 (what longer ones add is not bounded)" in text
+    assert "0.9445098774" in text and "proved by the transfer operator" in text
+
+
+@pytest.mark.slow
+def test_no_operator_where_f_decreases(capsys):
+    escape = answer(capsys, "--eta", "0.103", "--nu", "0.541", "--cycles", "2", "--fast")["escape"]
+    assert escape["rate"] is escape["statement"] is None and escape["by_cycles"]
 
 
 def test_the_words_that_come_before_their_rotations():

@@ -4,11 +4,12 @@ import copy
 import json
 
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verify import Rejected, premises
+from proofs.trusted.verify import Rejected, derive, premises
 
 REFUSED = (Malformed, Rejected, Unproved)
 
@@ -47,3 +48,15 @@ def renewed(document):
 def fresh(of=PAPER, claims=GROUPS["horseshoe"]):
     """A new certificate of plastic claims, parsed."""
     return json.loads(produce({"horseshoe": claims}, of, digits=30).certificate)
+
+
+def rederived(context, steps, changed):
+    """What is proved where one step is changed: it is derived again, and all that rest on it."""
+    again = {changed}
+    for name, step in steps.items():
+        if again.intersection(Reader(step["witness"]).mentioned()):
+            again.add(name)
+    known = {name: each for name, each in context.known.items() if name not in again}
+    result = Context(context.parameters, context.functions, known)
+    derive(result, Reader({name: step for name, step in steps.items() if name in again}))
+    return result

@@ -10,6 +10,8 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed, Reader
@@ -18,7 +20,8 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES, find_rule
-from proofs.trusted.slopes import _meets
+from proofs.trusted.slopes import meets
+from tests.proofs.motion.test_phase import TURNS, numbers
 from tests.proofs.trusted.paper import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
@@ -486,7 +489,7 @@ def test_avoids_counts_every_window():
 
 
 @pytest.mark.parametrize(
-    ("phases", "time", "target", "meets"),
+    ("phases", "time", "target", "expected"),
     [
         (("1", "1"), ("5.1", "5.2"), ("6.2001", "6.25"), False),
         (("1", "1"), ("5.1", "5.2"), ("6.2", "6.25"), True),
@@ -502,9 +505,24 @@ def test_avoids_counts_every_window():
         (("0.5", "0.5"), ("62.83", "62.84"), ("0.51", "6.28"), False),
     ],
 )
-def test_meets_mod_two_pi(phases, time, target, meets):
+def test_meets_mod_two_pi(phases, time, target, expected):
     ranges = [tuple(map(Fraction, pair)) for pair in (phases, time, target)]
-    assert _meets(*ranges) is meets
+    assert meets(*ranges) is expected
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=300)
+@given(
+    numbers,
+    st.fractions(0, 7, max_denominator=50),
+    st.fractions(0, 6, max_denominator=50),
+    st.fractions(0, 2, max_denominator=50),
+)
+def test_what_meets_is_never_missed(time, width, start, length):
+    target = (start, min(start + length, Fraction(628, 100)))
+    if not meets((Fraction(0), Fraction(0)), (time, time + width), target):
+        low, high = time - target[1], time + width - target[0]
+        assert not any(low <= turns <= high for turns in TURNS)
 
 
 # -- moran-root ------------------------------------------------------------------------------------

@@ -226,8 +226,10 @@ COVERS = ("1.1", "1.33")
 def test_covering(sign, first, escape, expected):
     found = [*covering((first, COVERS), sign), *([avoids()] if escape else [])]
     assert verdict("H5", found) is expected
-    if expected is VERIFIED and sign > 0:
-        assert horseshoe(*found, span("4.2", "5.25")).interval == PAPER.interval
+    if expected is VERIFIED:
+        made = horseshoe(*found, span("4.2", "5.25"))
+        assert (made.interval, made.signs) == (PAPER.interval, (sign, sign))
+        assert ("decreasing on I0 and on I1" in made.sentence) is (sign < 0)
     elif escape:
         with pytest.raises(Unproved):
             horseshoe(*found, span("4.2", "5.25"))

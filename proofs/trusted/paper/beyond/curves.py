@@ -1,4 +1,4 @@
-"""Curves of folds and flips of single-impact orbits in the plane of eta and nu; rows C1 to C3.
+"""Curves of folds and flips of single-impact orbits in the plane of eta and nu; rows C1 to C4.
 
 In formulas a, b stand for psi_k, psi_(k+1), delta for their difference, z for a multiplier.
 """
@@ -92,6 +92,54 @@ def curves() -> str:
     )
 
 
+NU_SEPARATING = "eta**2/((1 - eta**2)*sin(phi))"
+_FALL = "(eta*cos(phi)/sin(phi)*cos(eta*tau) - sin(eta*tau))"
+_LATER = f"a=phi, b=phi, delta=2*tau, epsilon=0, nu={NU_SEPARATING}"
+_TABLE = f"at(nu*cos(phi), nu={NU_SEPARATING})"
+AGAIN = (
+    Equal(f"at({E14}, {_LATER})", f"2*sin(eta*tau)*{_FALL}/(1 - eta**2)"),
+    Equal(f"eta*at({E15}, {_LATER}) - {_TABLE}", f"-2*eta*cos(eta*tau)*{_FALL}/(1 - eta**2)"),
+)
+ONSET = Equal(
+    "at((p**2 + q**2*e)/(1 - p)**2, p=eta**2, q=1, e=(eta**2*cos(phi)/sin(phi))**2)",
+    f"({NU_SEPARATING})**2",
+)
+
+
+@theorem(*AGAIN, ONSET)
+def sticking() -> str:
+    """Let r = nu cos(phi_s), side the sign of nu, c = eta cot(phi_s), T = eta tau. 1. The launch
+    acceleration side (nu (1 - eta^2) sin(phi) - eta^2) is < 0 inside the arc, and 0 at its ends,
+    where the sine is that of phi_s; it rises at phi_s. An impact on the arc sticks until phi_s,
+    where the motion begins anew; others nearby stick as well. 2. By AGAIN the gap of the flight
+    from phi_s, side times (14), at a time 2 tau when the sine is that of phi_s, is 2 side sin(T) (c
+    cos(T) - sin(T))/(1 - eta^2). At pi - phi_s, where nu cos is -r, gap' = -side (eta gamma - r) =
+    2 side eta cos(T) (c cos(T) - sin(T))/(1 - eta^2): 0 if tan(T) = c, 2 side r if sin(T) = 0. At
+    phi_s, 2 side r less, it is 0 if sin(T) = 0, -2 side r if tan(T) = c. At a first impact gap' <=
+    0, side r has the sign of 1 - eta^2, and gap'' is the launch acceleration. 3. A first impact
+    inside the arc is transversal: else gap' = 0 > gap'' there, and gap < 0 before. So as long as
+    there is no touch before, it stays the first one nearby, and the set is open. At its boundary,
+    where there is an arc, the third derivative of the gap, > 0 at phi_s, keeps impacts away from
+    time 0: limits are times <= 2 pi n with gap = 0 on the closed arc, gap >= 0 before; if there is
+    no touch before, at an end of it. With e = (eta tan(pi n eta))^2 = (eta c)^2 ONSET is the curve
+    of C1.
+    """
+    return (
+        "Let epsilon = 0, |nu| |1 - eta^2| > eta^2, so that the mass sticks on an arc of phases "
+        "from pi - phi_s to phi_s, mod 2 pi, sin(phi_s) = eta^2/(nu (1 - eta^2)), cos(phi_s) of "
+        "the sign of 1 - eta^2. Where the flight from phi_s has its first impact inside this arc, "
+        "and n turns after the flight began the arc ends, it is a superstable motion with one "
+        "impact in n table periods. In the plane of eta and nu, for one n, these (eta, nu) are an "
+        "open set. At its boundary the arc vanishes, |nu| |1 - eta^2| = eta^2 or eta = 1; or the "
+        "flight touches the table before that impact (grazing); or the impact comes at an end of "
+        "the arc: at phi_s, on nu^2 = (eta^4 + (eta tan(pi n eta))^2)/(1 - eta^2)^2, where sticking"
+        " begins (C1), gap' = -2 |nu| cos(phi_s) and eta < 1, or where n eta is an integer, gap' = "
+        "gap'' = 0; or at pi - phi_s, for some integer k, where eta (pi/2 - phi_s + pi k) is a "
+        "multiple of pi, gap' = 2 |nu| cos(phi_s) and eta > 1, or on tan(eta (pi/2 - phi_s + pi k))"
+        " = eta cot(phi_s), where gap' = gap'' = 0."
+    )
+
+
 def _about(known: Sequence[GrazingCurve | Meeting], missing: str) -> Decision:
     return decided(Verdict.VERIFIED, *known, corrected=known) if known else undecided(missing)
 
@@ -131,5 +179,13 @@ ROWS = (
         "For epsilon = {epsilon} there are points in the plane of eta and nu where such a curve of "
         "grazing meets the curve of folds or that of flips.",
         _meeting,
+    ),
+    derived_row(
+        Passage("C4", "beyond", ""),
+        "For plastic impacts the curves in the plane of eta and nu on which orbits with one impact "
+        "in n table periods and a sticking phase end, other than by grazing, have a closed form.",
+        Verdict.VERIFIED,
+        sticking,
+        corrected=(sticking,),
     ),
 )

@@ -1,4 +1,4 @@
-"""Flights without an end, at any parameters. Row X5."""
+"""How much of the circle comes to rest on the table, or never to it, at any parameters. X5, X10."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import first_proved
+from proofs.trusted.paper.beyond.attractors import AtRest, NeverSticks, first_proved
+from proofs.trusted.paper.s34_circle.circle import basin, most
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -43,6 +44,13 @@ def _flies(of: Parameters, found: Found) -> Decision:
     return undecided("none are proved") if none is None else decided(Verdict.REFUTED, none)
 
 
+def _comes(of: Parameters, found: Found) -> Decision:
+    none = first_proved(of.place, AtRest, NeverSticks)
+    if none is not None:
+        return decided(Verdict.REFUTED, none)
+    return basin(most, printed=False)(of, found)
+
+
 ROWS = (
     Row(
         "X5",
@@ -52,5 +60,14 @@ ROWS = (
         "which the mass leaves the table and never makes an impact again (a touch without relative "
         "velocity is none).",
         _flies,
+    ),
+    Row(
+        "X10",
+        "beyond",
+        "",
+        "At (eta, nu) = ({eta}, {nu}), for plastic impacts: from more than half of the circle "
+        "orbits come to a periodic motion with one impact, after which the mass sticks, and one "
+        "separation a period.",
+        _comes,
     ),
 )

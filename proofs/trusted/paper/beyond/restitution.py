@@ -1,4 +1,4 @@
-"""Motions with restitution, at any parameters: chaos, stable motions, rest. Rows X6 to X8."""
+"""Motions with restitution, at any parameters: chaos, stable motions, rest. Rows X6 to X9."""
 
 from __future__ import annotations
 
@@ -8,25 +8,34 @@ from fractions import Fraction
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
+from proofs.trusted.paper.beyond.chatter import ChatteringMotion
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s33_restitution.rebounds import restitution
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.touching import touching_family
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 
 @dataclass(frozen=True)
 class ComesToRest(Conclusion):
-    """Theorem. Let nu > 0, A = eta^2 + nu |1 - eta^2|, b = eta^2 - nu |1 - eta^2| > 0 and
-    epsilon^2 A < b. Then what the sentence says.
+    """Theorem. Let nu > 0, c = nu |1 - eta^2|, A = eta^2 + c, b = eta^2 - c > 0, K the lesser one
+    of A / b and 1 + c / (b eta), and epsilon^2 K < 1. Then what the sentence says.
 
-    Proof. The relative acceleration a of a free mass at the table lies in [-A, -b] at all phases.
+    Proof. The relative acceleration a of a free mass at the table, -eta^2 + c sin(phi) up to the
+    sign of c, lies in [-A, -b] at all phases.
     In flight gap >= 0 and gap'' = a - eta^2 gap <= -b: each flight ends with an impact, after a
-    rebound w within 2 w / b, and its speed is v <= sqrt(A / b) w as in the chatter lemma of
-    `superstable-motion`. So the next rebound is epsilon v <= r w, r = epsilon sqrt(A / b) < 1: the
-    times sum to at most 2 w / (b (1 - r)), the speeds tend to 0. Then the mass is at rest on the
-    table, and stays, as a < 0.
+    rebound w within 2 w / b. Its speed v has v^2 <= K w^2: 1. v <= sqrt(A / b) w as in the chatter
+    lemma of `superstable-motion`. 2. gap'' gap' integrated over the flight, by parts, is v^2 - w^2
+    = 2 c times the integral of -cos(phi) gap. The solution y of y'' + eta^2 y = -b with y = 0, y' =
+    w at first is >= gap until eta t = pi, by variation of constants, and falls to 0 before, at
+    tan(eta t / 2) = x, x = w eta / b. So the integral of gap is at most that of y until then,
+    2 b (x - arctan x) / eta^3 <= b x^2 / (2 eta^3), as x^2 / 4 + arctan x - x has the derivative
+    x (x - 1)^2 / (2 (1 + x^2)) >= 0. Hence v^2 <= w^2 (1 + c / (b eta)).
+    So the next rebound is epsilon v <= r w, r = epsilon sqrt(K) < 1: the times sum to at most 2 w /
+    (b (1 - r)), the speeds tend to 0. Then the mass is at rest on the table, and stays, as a < 0.
     """
 
     at: Place
@@ -36,7 +45,9 @@ class ComesToRest(Conclusion):
         if (eta, nu) != (last, most) or nu < 0:
             raise Unproved("one eta and one nu > 0 are expected")
         push, change = eta * eta, nu * abs(1 - eta * eta)
-        if restitution(self.at)[1] ** 2 * (push + change) >= push - change:
+        least = push - change
+        growth = min(push + change, least + change / eta)  # K b
+        if least <= 0 or restitution(self.at)[1] ** 2 * growth >= least:
             raise Unproved("the speeds of the rebounds are not proved to shrink")
 
     @property
@@ -64,11 +75,21 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    motions = [*found.all(SuperstableMotion), *found.all(StableCycle)]
+    kinds = (SuperstableMotion, ChatteringMotion, StableCycle)
+    motions = [motion for kind in kinds for motion in found.all(kind)]
     if motions:
         return decided(Verdict.VERIFIED, *motions)
     none = _rest(of)
     return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
+def _touches(of: Parameters, found: Found) -> Decision:
+    never, none = found.first(NeverImpacts), _rest(of)
+    if none is not None:
+        return decided(Verdict.REFUTED, none)
+    if never is None or not of.epsilon:
+        return undecided("no phases are proved after which there is no impact, or epsilon is 0")
+    return decided(Verdict.VERIFIED, touching_family(never))
 
 
 def _rests(of: Parameters, found: Found) -> Decision:
@@ -99,4 +120,12 @@ ROWS = (
         _stable,
     ),
     Row("X8", "beyond", "", _AT + "every motion comes to rest on the table for ever.", _rests),
+    Row(
+        "X9",
+        "beyond",
+        "",
+        _AT + "an open set of states, phases and velocities, is attracted to motions that touch "
+        "the table for ever, without relative velocity.",
+        _touches,
+    ),
 )

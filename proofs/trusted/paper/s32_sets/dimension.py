@@ -65,8 +65,9 @@ class StayingDimension(Conclusion):
     @property
     def sentence(self) -> str:
         (flat, steep), (low, high) = hull(self.repeller.slopes), self.bounds
+        slopes = "sizes of the slopes" if self.repeller.falls else "slopes"
         return (
-            f"{self.staying.sentence} The slopes of f along the words "
+            f"{self.staying.sentence} The {slopes} of f along the words "
             f"{', '.join(self.repeller.words)} are between {floor_text(flat, 2)} and "
             f"{ceil_text(steep, 2)}, and the Hausdorff dimension of Lambda lies between {low} and "
             f"{high}."

@@ -59,6 +59,8 @@ class Itinerary(InHorseshoe):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the orbit is in the sets, but for its last point."""
+        if self.base.signs != (1, 1):
+            raise Unproved("orbits are followed where f increases on I0 and on I1")
         for x in self.orbit:
             Phase(*x)
         *inside, last = (spot % 2 for spot in self.spots)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
+from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
@@ -23,7 +24,8 @@ _MOST_CUTS = 50
 
 @dataclass(frozen=True)
 class Letter:
-    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`; F' > 0.
+    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`; F' has a
+    sign.
 
     The first impact from cuts[i], cuts[i + 1] is transversal, in the window of steps[i].
     """
@@ -34,14 +36,22 @@ class Letter:
 
     @classmethod
     def read(cls, context: Context, cuts_of: Reader, flights: Reader, turns: Reader) -> Letter:
-        """Read a letter; F' > 0 as the slope's other factors have known signs."""
+        """Read a letter."""
         cuts = cuts_of.numbers(2, _MOST_CUTS)
         pieces = [Phases(*piece) for piece in pairwise(cuts)]
         named = zip(flights.items(len(pieces), len(pieces)), pieces, strict=True)
         steps = tuple(transversal_step(context, name, piece) for name, piece in named)
-        if any(step.motion.clock(step.windows[0]).mass_sin.hi >= 0 for step in steps):
-            raise Unproved("f is not proved to increase on a domain")
         return cls(cuts, steps, integer(turns, 0, 10**6))
+
+    @cached_property
+    def sign(self) -> int:
+        """The sign of F', that of -sin(eta t), as the slope's other factors have known ones."""
+        sines = [step.motion.clock(step.windows[0]).mass_sin for step in self.steps]
+        if all(sine.hi < 0 for sine in sines):
+            return 1
+        if all(sine.lo > 0 for sine in sines):
+            return -1
+        raise Unproved("f is not proved monotone on a domain")
 
     @property
     def domain(self) -> Phases:
@@ -54,19 +64,21 @@ class Letter:
         return self.steps[0].motion
 
     def require_once(self, whole: Range) -> None:
-        """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain.
+        """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain, at the
+        lower one first if F increases.
 
         So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b]. At the
-        lower end y that is so if b - 2 pi - y + 2 pi turns is a time before the impact, which is
+        first end y that is so if b - 2 pi - y + 2 pi turns is a time before the impact, which is
         in the window, where the gap is positive before it and negative after.
         """
         (low, high), turn = whole, whole_turns(1, BITS)
-        bottom, top = self.domain
+        bottom, top = self.domain[:: self.sign]
+        first, last = (0, -1)[:: self.sign]
         time = self.time(bottom, (high - turn[1], high - turn[0]), BITS)
-        begin, end = self._ends(0)
+        begin, end = self._ends(first)
         above = time[1] < begin or (time[1] <= end and self._height(bottom, time).lo > 0)
         time = self.time(top, (low + turn[0], low + turn[1]), BITS)
-        begin, end = self._ends(-1)
+        begin, end = self._ends(last)
         below = time[0] > end or (time[0] >= begin and self._height(top, time).hi < 0)
         if not (above and below):
             raise Unproved("f is not proved to pass the hull only once on a domain")
@@ -149,7 +161,7 @@ class Inverses:
     have one sign for x = g_v(z), |y - y_w(z)| <= r = radii[w], |Gamma_y| >= c, any two of its
     values be at most k c apart, k < 1, and |Gamma(y_w(z), x)| <= e c, e + k r <= r. Then for z in E
     there is one y with |y - y_w(z)| <= r and Gamma(y, g_v(z)) = 0, analytic in z; it is within
-    e / (1 - k). Let its derivative have a positive real part on the boundary: then so it has in E.
+    e / (1 - k). Let its derivative have a real part of one sign on the boundary: then so in E.
 
     Proof. A(z) = Gamma_y(y_w(z), g_v(z)) is not 0 in E, by the sign of its real part on the
     boundary. N(z, y) = y - Gamma(y, g_v(z)) / A(z) has |dN/dy| <= k on the boundary, so for each
@@ -170,6 +182,10 @@ class Inverses:
         """Raise Unproved unless f passes the hull once on each domain."""
         for letter in self.letters:
             letter.require_once(self.ellipse.hull)
+
+    def sign(self, word: str) -> int:
+        """The sign of g_w'."""
+        return prod(self.letters[int(letter)].sign for letter in word)
 
     def over(self, arc: Arc) -> list[tuple[Complex, Complex]]:
         """Enclose g_w and g_w' for the words on an arc of the boundary.
@@ -197,8 +213,8 @@ class Inverses:
             distance = error / (least - by_y.spread)
             self.found[word] = max(distance, self.found.get(word, distance))
             faster = -(by_x / by_y) * rate
-            if faster.re.lo <= 0:
-                raise Unproved(f"an inverse branch by {word} is not proved to increase")
+            if (faster.re * self.sign(word)).lo <= 0:
+                raise Unproved(f"an inverse branch by {word} is not proved monotone")
             known[word] = y, y.values.widened(distance), faster, distance
         return [known[word][1:3] for word in self.words]
 
@@ -233,7 +249,7 @@ class Inverses:
     def require(self, bits: int) -> None:
         """Raise Unproved unless g_w, real on [a, b], is what F on a domain takes to g_v.
 
-        g_w increases (see `over`); so its values are in the domain if those at a and b are. At a
+        g_w is monotone (`over`); so its values are in the domain if those at a and b are. At a
         the zero of the gap is in the window, where it is the first impact. The gap is positive at
         the beginning of a window and negative at its end, for all launches that it is for; so it
         stays the zero there up to b, also where the window changes at a cut: there both hold the
@@ -244,7 +260,7 @@ class Inverses:
         for word in self.paths:
             letter = self.letters[int(word[0])]
             (first, _), (last, _), (image, _) = low[word], high[word], low[word[1:]]
-            if not within((first.range[0], last.range[1]), letter.domain):
+            if not within(hull([first.range, last.range]), letter.domain):
                 raise Unproved(f"an inverse image by {word} is not proved in its domain")
             if not letter.starts_within(first.range, image.range, bits):
                 raise Unproved(f"an inverse image by {word} is not proved to be the first impact's")

@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import product
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show, show_range
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST_WORD = 12
-LEVELS = 13
 
 
 @dataclass(frozen=True)
@@ -96,10 +94,14 @@ class ExactMeasure(LinearSet):
 
 @dataclass(frozen=True)
 class LinearDimension(ExactMeasure):
-    """The root s is in `root`, the Hausdorff measure |I|^s of the linear set in `measure`."""
+    """The root s is in `root`; so the Hausdorff measure |I|^s of the linear set is enclosed."""
 
     root: Range
-    measure: Range
+
+    @property
+    def measure(self) -> Range:
+        """Bounds of |I|^s."""
+        return power(self.interval[1] - self.interval[0], self.root).range
 
     @property
     def quantities(self) -> Mapping[str, Range]:
@@ -112,39 +114,34 @@ def power(base: Fraction, exponent: Range) -> Enclosure:
     return exp(Enclosure.of(*exponent, bits) * log(base, bits))
 
 
-def linear_set(context: Context, reader: Reader) -> LinearDimension:
-    """Rule `linear-set`: {root: name of a moran-root step}.
-
-    Conclusion: for its ratios, r0 + r1 < 1, `ExactMeasure`, with bounds on s and on |I|^s.
-    """
-    (name,) = reader.fields("root")
-    step, interval = context.step(name, MoranRoot), context.of.interval
-    measure = power(interval[1] - interval[0], step.root).range
-    return LinearDimension(step.ratios, interval, step.root, measure)
-
-
 @dataclass(frozen=True)
 class Excess(LinearSet):
     """Theorem. (11) fails for all n >= level >= 1 and all epsilon that it admits: as the sentence.
 
-    root: bounds of s < 1. Proof. Let d = epsilon/2^(n+1), l = |L| <= eta1^(n+1) |I|. As t^s is
+    root: bounds of s. Proof. s < 1. Let d = epsilon/2^(n+1), l = |L| <= eta1^(n+1) |I|. As t^s is
     concave, (l + d)^s - l^s >= s (l + d)^(s-1) d, which is > d if (l + d)^(1-s) < s. And l + d is
     less than u = eta1^(n+1) |I| + (eta1^n - eta1^(n+1))/2^(n+1), which decreases in n: u^(1-s) < s
     at n = level is enough. The longest L' has the length eta1^(n+1) |I| + d.
     """
 
     root: Range
-    level: int
 
     def __post_init__(self) -> None:
         """Raise Unproved unless it refutes (11)."""
         super().__post_init__()
-        if not (self.level >= 1 and 0 < self.root[0] <= self.root[1] < 1):
-            raise Unproved("a level >= 1 and a root between 0 and 1 are expected")
-        n, longest, (low, high) = self.level, self.ratios[1], self.interval
-        most = longest ** (n + 1) * (high - low) + longest**n * (1 - longest) / 2 ** (n + 1)
-        if power(most, (1 - self.root[1], 1 - self.root[0])).range[1] >= self.root[0]:
-            raise Unproved(f"(11) is not refuted from n = {n} on")
+        if not 0 < self.root[0] <= self.root[1] < 1:
+            raise Unproved("a root between 0 and 1 is expected")
+        _ = self.level
+
+    @cached_property
+    def level(self) -> int:
+        """The first n at which the bounds give u^(1-s) < s."""
+        longest, (low, high), (least, most) = self.ratios[1], self.interval, self.root
+        for n in range(1, _LONGEST_WORD + 1):
+            u = longest ** (n + 1) * (high - low) + longest**n * (1 - longest) / 2 ** (n + 1)
+            if power(u, (1 - most, 1 - least)).range[1] < least:
+                return n
+        raise Unproved(f"(11) is not refuted from n = {_LONGEST_WORD} on")
 
     @property
     def sentence(self) -> str:
@@ -166,18 +163,6 @@ class Excess(LinearSet):
     @property
     def brief(self) -> str:
         return f"(11) fails for the linear set {self.named}, every n >= {self.level}"
-
-
-def excess(context: Context, reader: Reader) -> Excess:
-    """Rule `excess`: {root: name of a moran-root step, level: from 1 to 12}.
-
-    Conclusion: `Excess`, r0 + r1 < 1.
-    """
-    root_of, level_of = reader.fields("root", "level")
-    step, level = context.step(root_of, MoranRoot), level_of.number()
-    if level not in range(1, LEVELS):
-        raise level_of.fail("a whole number from 1 to 12 is expected")
-    return Excess(step.ratios, context.of.interval, step.root, int(level))
 
 
 @dataclass(frozen=True)
@@ -243,20 +228,19 @@ def _linear_dimension(of: Parameters, found: Found) -> Decision:
     ends = low + first * (high - low), high - second * (high - low)
     if (of.left, of.right) != ((low, ends[0]), (ends[1], high)):
         return undecided("lines of these slopes do not map I0 and I1 exactly onto I")
-    for each in found.all(LinearDimension):
-        if (each.ratios, each.interval) == (of.reciprocals, of.interval):
-            return decided(Verdict.VERIFIED, each)
+    for step in found.all(MoranRoot):
+        if step.ratios == of.reciprocals:
+            return decided(Verdict.VERIFIED, LinearDimension(step.ratios, of.interval, step.root))
     return undecided("no bracket of s_0 for the ratios 1 / slopes")
 
 
 def _covering_sum(of: Parameters, found: Found) -> Decision:
     """H14: for both pairs of ratios."""
-    sets = linear_sets(of)
-    known = {(each.ratios, each.interval): each for each in found.all(Excess)}
-    refuted = [known.get((each.ratios, each.interval)) for each in sets]
-    if None in refuted:
-        return undecided("(11) is not examined for one of the pairs of ratios")
-    return decided(Verdict.REFUTED, *filter(None, refuted), corrected=sets[-1:])
+    sets, roots = linear_sets(of), {each.ratios: each.root for each in found.all(MoranRoot)}
+    if any(each.ratios not in roots for each in sets):
+        return undecided("no bracket of s_0 for one of the pairs of ratios")
+    refuted = [Excess(each.ratios, each.interval, roots[each.ratios]) for each in sets]
+    return decided(Verdict.REFUTED, *refuted, corrected=sets[-1:])
 
 
 def _gap_estimates(of: Parameters, found: Found) -> Decision:

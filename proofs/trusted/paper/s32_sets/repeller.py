@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.complexes import BITS, Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -26,7 +26,7 @@ from proofs.trusted.numbers import (
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.parameters import Place
 
-_ONE = Fraction(1)
+_ONE, _LOG_BITS = Fraction(1), 64
 _WORD = re.compile("[0-9]{1,16}")
 _MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 2000, 4000
 
@@ -35,12 +35,12 @@ _MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 
 class Repeller(Conclusion):
     """The compact set K = union of g_w(K) over the words; g_w is g_j after g_v where w = jv.
 
-    f increases on the domains; g_j is its inverse from `hull` into domains[j], for letters that
+    f is monotone on each domain; g_j is its inverse from `hull` into domains[j], for letters that
     end a word, and on its part that g_v reaches for others; f takes no other points of domains[j]
-    there. The g_w map the hull into itself, to disjoint images; 1 / g_w' lies in the range that
+    there. The g_w map the hull into itself, to disjoint images; 1 / |g_w'| lies in the range that
     `slopes` has for w, all above 1. With some h > 0 on the hull and s = `exponent`, the sum over
-    the words of (g_w')^s h(g_w), divided by h, lies in `growth`; the Hausdorff dimension of K, in
-    `dimension`.
+    the words of |g_w'|^s h(g_w), divided by h, lies in `growth`; the Hausdorff dimension of K, in
+    `dimension`. falls: whether f decreases on some domain.
     """
 
     at: Place
@@ -51,6 +51,7 @@ class Repeller(Conclusion):
     exponent: Fraction
     growth: Range
     dimension: Range
+    falls: bool = False
 
     def __post_init__(self) -> None:
         """Raise Unproved unless domains and bounds are in order."""
@@ -62,7 +63,15 @@ class Repeller(Conclusion):
             raise Unproved("the inverse branches are not proved to contract")
 
     @property
+    def rate(self) -> Range:
+        """Bounds of -log of the growth."""
+        bits = _LOG_BITS + int(1 / (self.growth[1] - self.growth[0])).bit_length()
+        low, high = (log(end, bits).range for end in self.growth)
+        return -high[1], -low[0]
+
+    @property
     def sentence(self) -> str:
+        rate = "|g_w'|" if self.falls else "(g_w')"
         return (
             f"let g_0, ..., g_{len(self.domains) - 1} take phases of {show_range(self.hull)} back "
             f"to those of {', '.join(map(show_range, self.domains))} that f maps to them, where "
@@ -70,7 +79,7 @@ class Repeller(Conclusion):
             f"{show_range(self.hull)} g_w is defined for w = {', '.join(self.words)}, with images "
             "there that are disjoint. The compact set K that is the union of its images by these "
             f"has a Hausdorff dimension in {between(self.dimension, 12)}; with "
-            f"s = {show(self.exponent)} and some h > 0, the sum of (g_w')^s h(g_w) over these "
+            f"s = {show(self.exponent)} and some h > 0, the sum of {rate}^s h(g_w) over these "
             f"words w lies between {floor_text(self.growth[0], 12)} h and "
             f"{ceil_text(self.growth[1], 12)} h on {show_range(self.hull)}."
         )
@@ -119,17 +128,17 @@ def by_length(word: str) -> tuple[int, str]:
 def dimension(context: Context, reader: Reader) -> Repeller:
     """Rule `dimension`: {flights, turns, hull, domains, words, rho, arcs, paths, radii, ...}.
 
-    f is the impact map. domains[j]: increasing phases; flights[j]: for each two that follow one
+    f is the impact map. domains[j]: phases in order; flights[j]: for each two that follow one
     another a transversal first-impact step that contains them. F = phase + time of flight -
     2 pi turns[j]. paths: a polynomial for each word and each shorter
     end of a word, shorter ones first. Special, since inverse branches of the impact map have no
     formula: they are proved near these polynomials, in a complex neighbourhood (`Inverses`).
 
-    Hypotheses: F' > 0, by sin(eta t) < 0 in the window, and F passes hull = [a, b] once on each
-    domain (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b and `rho`; those
-    of the theorem `kernel.transfer.growth` for the g_w of the words, `exponent`, `growth`, with the
-    test function h whose coefficients by Chebyshev's polynomials are `test`, divided by the first,
-    so many `arcs` and `nodes`, and in so many `bits`; g_w' < 1.
+    Hypotheses: F' has the sign of -sin(eta t), one in all windows of a domain, and F passes
+    hull = [a, b] once on it (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b
+    and `rho`; those of the theorem `kernel.transfer.growth` for the g_w of the words, `exponent`,
+    `growth`, with the test function h whose coefficients by Chebyshev's polynomials are `test`,
+    divided by the first, so many `arcs` and `nodes`, and in so many `bits`; |g_w'| < 1.
 
     Conclusion: `Repeller`, K the compact set with K = union of g_w(K) (Hutchinson), its dimension
     by the theorem `kernel.transfer.Growth.dimension`.
@@ -142,7 +151,7 @@ def repeller(inverses: Inverses, found: Growth, bits: int) -> Repeller:
     """Return what the rule `dimension` concludes."""
     inverses.require(bits)
     if min(low for low, _ in found.rates) <= 0:
-        raise Unproved("the inverse branches are not proved to increase")
+        raise Unproved("the inverse branches are not proved monotone")
     slopes = tuple((1 / high, 1 / low) for low, high in found.rates)
     return Repeller(
         inverses.letters[0].steps[0].at,
@@ -153,4 +162,5 @@ def repeller(inverses: Inverses, found: Growth, bits: int) -> Repeller:
         found.s,
         found.bounds,
         found.dimension(bits),
+        any(letter.sign < 0 for letter in inverses.letters),
     )

@@ -88,17 +88,19 @@ def rates(parts: Sequence[Rebound], cone: Cone = PLAIN) -> Rates:
     """Return the rates of hypothesis 3 of the rule `rectangle-horseshoe`, or Unproved.
 
     Theorem. In the coordinates of `Rates` let all DF on each of these boxes of states have entries
-    with |R| + |S| < P - |Q|, P - |Q| >= expansion > 1, |Q| + |S| <= steepest (P - |R|), and
-    steepest |R| + |S| <= contraction < 1. Then so has each mean D of DF: (1) if |y| <= |x|, then
-    |y'| < |x'| and |x'| >= expansion |x|; (2) if |x'| <= |y'|, then |y'| <= contraction |y|.
-    Proof. The inequalities say that convex functions of the entries are at most 0, so means obey
-    them. (1) |x'| >= (P - |Q|) |x| > (|R| + |S|) |x| >= |y'|. (2) P |x| <= |x'| + |Q y| <= |R x| +
-    (|S| + |Q|) |y|, so |x| <= steepest |y|, as P - |R| > 0, and |y'| <= |R x| + |S y|.
+    with |R| + |S| < |P| - |Q|, |P| - |Q| >= expansion > 1, |Q| + |S| <= steepest (|P| - |R|), and
+    steepest |R| + |S| <= contraction < 1. Then so has each mean D of DF over a connected union of
+    such boxes: (1) if |y| <= |x|, then |y'| < |x'| and |x'| >= expansion |x|; (2) if |x'| <= |y'|,
+    then |y'| <= contraction |y|.
+    Proof. P, continuous and not 0, has one sign there; so the inequalities say that convex
+    functions of the entries are at most 0, and means obey them.
+    (1) |x'| >= (|P| - |Q|) |x| > (|R| + |S|) |x| >= |y'|. (2) |P x| <= |x'| + |Q y| <= |R x| +
+    (|S| + |Q|) |y|, so |x| <= steepest |y|, as |P| - |R| > 0, and |y'| <= |R x| + |S y|.
     """
     if cone.width <= 0:
         raise Unproved("a cone has a width > 0")
     found = [cone.turned(part.derivative) for part in parts]
-    bounds = [(p[0], size(q), size(r), size(s)) for p, q, r, s in found]
+    bounds = [(max(p[0], -p[1]), size(q), size(r), size(s)) for p, q, r, s in found]
     if any(p - q <= r + s for p, q, r, s in bounds):
         raise Unproved("the cone condition is not proved")
     steepest = max((q + s) / (p - r) for p, q, r, s in bounds)

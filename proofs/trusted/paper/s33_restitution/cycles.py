@@ -15,6 +15,7 @@ from proofs.trusted.kernel.covers import multiply
 from proofs.trusted.kernel.enclose import Matrix, enclosed
 from proofs.trusted.numbers import Range, show_range, within
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
+from proofs.trusted.paper.s33_restitution.rectangles import meet
 from proofs.trusted.parameters import Place
 
 _MOST_IMPACTS = 100
@@ -24,17 +25,19 @@ Box = tuple[Range, Range]
 
 @dataclass(frozen=True)
 class StableCycle(Conclusion):
-    """F maps each of k boxes of states, phases x velocities, but the last one into the next; F^k
-    maps the first into itself, and contracts it.
+    """F maps each of k boxes of states, phases x velocities, but the last one into the next; F^n,
+    n = k times `rounds`, maps the first into itself, and contracts it.
     """
 
     at: Place
     boxes: tuple[Box, ...]
+    rounds: int = 1
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the phases of the boxes are apart."""
         phases = sorted(box[0] for box in self.boxes)
-        if not phases or any(one[1] >= two[0] for one, two in pairwise(phases)):
+        apart = all(one[1] < two[0] for one, two in pairwise(phases))
+        if not phases or not apart or self.rounds < 1:
             raise Unproved("the boxes are not apart")
 
     @property
@@ -42,11 +45,10 @@ class StableCycle(Conclusion):
         count = len(self.boxes)
         boxes = ", ".join(" x ".join(map(show_range, box)) for box in self.boxes)
         each = f"an impact in each of {boxes} (phases x velocities gamma), in this order"
-        power, box = "F", "this box"
+        power, box = f"F^{count * self.rounds}", "the first box"
         if count == 1:
             each = f"its impacts in {boxes} (phases x velocities gamma)"
-        else:
-            power, box = f"F^{count}", "the first box"
+            power, box = "F" if self.rounds == 1 else power, "this box"
         return (
             f"F has a {count}-periodic orbit, {each}; {power} contracts {box}, so that this orbit "
             "attracts every motion with an impact there."
@@ -59,16 +61,18 @@ class StableCycle(Conclusion):
 
 
 def stable_cycle(boxes: Sequence[Rebound], centres: Sequence[Rebound]) -> StableCycle:
-    """Theorem. Let `Rebound`s be about F on boxes B_1, ..., B_k and on boxes C_i in B_i, for the
+    """Theorem. Let `Rebound`s be about F on boxes B_1, ..., B_n and on boxes C_i in B_i, for the
     same oscillators, with the same turns. Let F(B_i) lie in B_(i+1) and F(C_i) in C_(i+1) for
-    i < k; let the phases of the B_i be disjoint. With D = DF(B_k) ... DF(B_1), intervals, let
-    F(C_k) + D (B_1 - C_1) lie in B_1, and |D| r < r: r the sides of B_1, |D| the largest absolute
-    values of entries. Then `StableCycle`.
+    i < n; let the phases of B_1, ..., B_k be disjoint, k dividing n. With intervals
+    D_i = DF(B_i) ... DF(B_1) let B' = F(C_n) + D_n (B_1 - C_1) lie in B_1, and |D_n| r < r: r the
+    sides of B_1, |D| the largest absolute values of entries. If k < n, let F(C_k) + D_k (B' - C_1)
+    lie in B_1. Then `StableCycle`.
 
-    Proof, for each oscillator. F^k(C_1) lies in F(C_k). On B_1 the derivative of F^k is in D, and
-    so are its means. By the mean value theorem F^k maps the convex B_1 into itself, and contracts
-    it in the norm max |x_i| / r_i: it has one fixed point there, by Banach, which attracts B_1. The
-    boxes are apart, so that its period is k.
+    Proof, for each oscillator. F^i(C_1) lies in F(C_i). On B_1 the derivative of F^i is in D_i, and
+    so are its means. By the mean value theorem F^n maps the convex B_1 into B', and contracts
+    it in the norm max |x_i| / r_i: it has one fixed point x there, by Banach, which attracts B_1.
+    x is in B', so that F^k(x) is in B_1, and fixed by F^n as well: it is x. B_1, ..., B_k are
+    apart, so that the period is k.
     """
     if not boxes or len({step.at for step in (*boxes, *centres)}) > 1:
         raise Unproved("the steps are not about the same oscillators, or there are none")
@@ -81,21 +85,26 @@ def stable_cycle(boxes: Sequence[Rebound], centres: Sequence[Rebound]) -> Stable
     for before, after in pairwise(centres):
         if not _in(_image(before), _states(after)):
             raise Unproved("a centre is not proved to be mapped into the next")
-    product = loop(boxes)
-    reach = [
-        max(b - c, d - a)
-        for (a, b), (c, d) in zip(_states(boxes[0]), _states(centres[0]), strict=True)
-    ]
-    image = [
-        (low - more, high + more)
-        for (low, high), more in zip(_image(centres[-1]), _moved(product, reach), strict=True)
-    ]
-    if not _in(image, _states(boxes[0])):
+    product, first = loop(boxes), _states(boxes[0])
+    count = next((i for i, box in enumerate(boxes) if i and meet(box.phases, first[0])), len(boxes))
+    image = _reached(first, centres, product)
+    if len(boxes) % count or not _in(image, first):
         raise Unproved("the first box is not proved to be mapped into itself")
+    if count < len(boxes) and not _in(_reached(image, centres[:count], loop(boxes[:count])), first):
+        raise Unproved("the period of the orbit is not proved")
     sides = [high - low for low, high in _states(boxes[0])]
     if not all(after < side for after, side in zip(_moved(product, sides), sides, strict=True)):
         raise Unproved("the loop is not proved to contract the first box")
-    return StableCycle(boxes[0].at, tuple(map(_states, boxes)))
+    return StableCycle(boxes[0].at, tuple(map(_states, boxes[:count])), len(boxes) // count)
+
+
+def _reached(box: Sequence[Range], centres: Sequence[Rebound], product: Matrix) -> list[Range]:
+    """Enclose the image of a box by the mean value theorem, from that of the first centre."""
+    reach = [max(b - c, d - a) for (a, b), (c, d) in zip(box, _states(centres[0]), strict=True)]
+    return [
+        (low - more, high + more)
+        for (low, high), more in zip(_image(centres[-1]), _moved(product, reach), strict=True)
+    ]
 
 
 def _states(step: Rebound) -> Box:

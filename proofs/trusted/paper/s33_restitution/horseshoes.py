@@ -25,9 +25,11 @@ from proofs.trusted.paper.s33_restitution.rectangles import (
     crossing,
     parts_of,
     read_maps,
+    require_rising,
     strips,
 )
 from proofs.trusted.parameters import Place
+from proofs.trusted.slopes import signed
 
 
 @dataclass(frozen=True)
@@ -58,14 +60,14 @@ class Hyperbolic(Conclusion):
 
 
 def hyperbolic(maps: Maps) -> Hyperbolic:
-    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and p > 1,
+    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and |p| > 1,
     |q| + |s| < 1.
 
     Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
     mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
     on a compact invariant set makes it hyperbolic.
     """
-    grow = min(each.derivative[0][0][0] for each in maps)
+    grow = min(signed(each.derivative[0][0], each.sign)[0] for each in maps)
     shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
     if grow <= 1 or shrink >= 1:
         raise Unproved("distances are not proved to grow and to shrink")
@@ -125,9 +127,10 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     left of N_3, and where an image may have a phase of one of N_0 to N_3 that is not next, its
     velocity is not one of it. For other arrows see `golden-mean`.
 
-    Hypotheses: 1. All are about the same oscillators; in all the next phase increases with phi, and
-    images do not reach around the circle. 2. Of each N_i the left edge goes to the left and the
-    right edge to the right of all next N_j; images of parts of N_i that may have phases of a next
+    Hypotheses: 1. All are about the same oscillators; in each the next phase increases with phi, or
+    in each that decreases epsilon > 0, and images do not reach around the circle. 2. Of each N_i
+    the left edge goes to the left and the right edge to the right of all next N_j, or the other way
+    around where the next phase decreases; images of parts of N_i that may have phases of a next
     N_j have velocities in the interior of those of N_j. 3. The inequalities of `rates`.
 
     Conclusion: let V1 be the union of those N_i on the left, V2 of those on the right, and A the
@@ -163,6 +166,8 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
         margin = crossing(maps, ((0, 1), (2, 3)) * 2)
     else:
         raise names.fail("two or four rectangles")
+    if sides(maps[0].at)[2][0] == 0:  # the sentence is about f' then, not about |f'|
+        require_rising(maps)
     return RectangleHorseshoe(maps[0].at, sets, margin, rates(parts_of(maps), cone))
 
 
@@ -229,11 +234,14 @@ class HorseshoeFamily(Conclusion):
             min(shoe.rates.expansion for shoe in self.shoes),
             max(shoe.rates.contraction for shoe in self.shoes),
         )
+        ends = dict.fromkeys((self.shoes[0], self.shoes[-1]))
         return (
             "for each epsilon there are disjoint sets V1 and V2 of states, each one rectangle of "
-            "phases x velocities or the union of two, closed, and a number e, as listed here: "
-            f"{'; '.join(map(_listed, self.shoes))}. All their states are physically possible "
-            "(gap' <= 0), and F is smooth on them. Where they are one rectangle each, "
+            "phases x velocities or the union of a first and a second one, closed, and a number e, "
+            f"the same on each of {len(self.shoes)} intervals of epsilon, one after the other, of "
+            f"which the first and the last are: {'; '.join(map(_listed, ends))}. All their states "
+            "are physically possible (gap' <= 0), and F is smooth on them. Where they are one "
+            "rectangle each, "
             f"{Strips.CROSSED}; where they are unions, {Blocks.CROSSED}; {self.brief}. "
             + FULL_SHIFT.format(
                 "uniformly hyperbolic: unstable directions are stretched at least "

@@ -94,6 +94,19 @@ class RectangleMap(Rebound):
     parts: tuple[Rebound, ...]
 
     @property
+    def sign(self) -> int:
+        """1 where the next phase is proved to increase with the phase, -1 where it decreases."""
+        least, most = self.derivative[0][0]
+        if least <= 0 <= most:
+            raise Unproved("the next phase is not proved to be monotone in the phase")
+        return 1 if least > 0 else -1
+
+    @property
+    def reach(self) -> tuple[Range, Range]:
+        """The images of the edge with the lesser ones, and of that with the greater ones."""
+        return (self.left, self.right) if self.sign > 0 else (self.right, self.left)
+
+    @property
     def sentence(self) -> str:
         left, right = between(self.left), between(self.right)
         return f"{super().sentence} The left edge goes to phases in {left}, the right to {right}."

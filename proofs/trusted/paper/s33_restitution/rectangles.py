@@ -126,7 +126,7 @@ def blocks(maps: Maps) -> Blocks:
 
 def _check_on_line(maps: Maps) -> None:
     """Raise Unproved unless maps are about one box of oscillators and in all the next phase
-    increases with phi, and images do not reach around the circle.
+    is monotone in phi, and images do not reach around the circle.
 
     So only one of the values of a next phase modulo 2 pi can lie in a rectangle, as image phases
     are between those of the edges: the line replaces the circle.
@@ -135,10 +135,15 @@ def _check_on_line(maps: Maps) -> None:
     for each in maps:
         if each.at != maps[0].at:
             raise Unproved("the rectangles are about different oscillators")
-        if each.derivative[0][0][0] <= 0:
-            raise Unproved("the next phase is not proved to increase with the phase")
-        if each.right[1] >= low + TURN or each.left[0] <= high - TURN:
+        lesser, greater = each.reach
+        if greater[1] >= low + TURN or lesser[0] <= high - TURN:
             raise Unproved("an image reaches around the circle")
+
+
+def require_rising(maps: Maps) -> None:
+    """Raise Unproved unless in all maps the next phase increases with phi."""
+    if min(each.sign for each in maps) < 0:
+        raise Unproved("the next phase is not proved to increase with the phase")
 
 
 def parts_of(maps: Maps) -> list[Rebound]:
@@ -164,7 +169,8 @@ def crossing(maps: Maps, arrows: Arrows) -> Fraction:
     margins = []
     for each, targets in zip(maps, arrows, strict=True):
         low, high = hull([maps[target].phases for target in targets])
-        margins += [low - each.left[1], each.right[0] - high]
+        lesser, greater = each.reach
+        margins += [low - lesser[1], greater[0] - high]
         for part, target in ((part, maps[k]) for part in each.parts for k in targets):
             (lowest, highest), (least, most) = target.velocities, part.velocity
             if meet(part.phase, target.phases) and not lowest < least <= most < highest:

@@ -15,7 +15,13 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import floor_text, within
 from proofs.trusted.paper.s33_restitution.cones import Rates, rates
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
-from proofs.trusted.paper.s33_restitution.rectangles import Strips, crossing, read_maps, strips
+from proofs.trusted.paper.s33_restitution.rectangles import (
+    Strips,
+    crossing,
+    read_maps,
+    require_rising,
+    strips,
+)
 from proofs.trusted.parameters import Place
 
 _LONGEST = 10  # symbols of a barred word
@@ -53,12 +59,12 @@ class BarredWord(Conclusion):
 def barred_word(context: Context, reader: Reader) -> BarredWord:
     """Rule `barred-word`: {rectangles: two names, word of 0 and 1, images: rebound steps, from}.
 
-    from: "above" or "below". Hypotheses: 1 of `rectangle-horseshoe`; from above, image k is about
-    the states {b_k} x G_k at least, b_k a phase of the rectangle word[k], G_0 its velocities,
-    G_(k+1) the image velocities of the rectangle word[k]; with e_0 the right end of word[0] and
-    e_(k+1) the greatest phase of image k, min(e_k, right end of word[k]) <= b_k; the last e_n is
-    left of word[n]. From below: with left for right and <= for >=. Conclusion: no orbit x_0, ...,
-    x_n has x_k in the rectangle word[k] for all k.
+    from: "above" or "below". Hypotheses: 1 of `rectangle-horseshoe`, the next phase increasing;
+    from above, image k is about the states {b_k} x G_k at least, b_k a phase of the rectangle
+    word[k], G_0 its velocities, G_(k+1) the image velocities of the rectangle word[k]; with e_0 the
+    right end of word[0] and e_(k+1) the greatest phase of image k, min(e_k, right end of word[k])
+    <= b_k; the last e_n is left of word[n]. From below: with left for right and <= for >=.
+    Conclusion: no orbit x_0, ..., x_n has x_k in the rectangle word[k] for all k.
     Proof. The next phase increases with phi. So if phi_k <= b_k and gamma_k is in G_k,
     then phi_(k+1) <= e_(k+1), and phi_(k+1) <= b_(k+1) if it is in the rectangle.
     """
@@ -85,6 +91,7 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
         extreme, gammas = image.phase[end], here.velocity
         if not within(gammas, here.velocities):
             raise Unproved("an image velocity leaves the rectangles")
+    require_rising(maps)
     short = sign * (last.phases[1 - end] - extreme)
     return BarredWord(maps[0].at, strips(maps), tuple(map(int, word)), short)
 
@@ -117,9 +124,10 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     """Rule `golden-mean`: {rectangles: two names, part: a rectangle, words: barred-word steps}.
 
     Hypotheses: epsilon > 0; every word of some length that ends in 11 (V2 twice) contains a barred
-    word; V1 and N = `part`, a part of V2 with the same left edge, obey the hypotheses of
-    `rectangle-horseshoe` with the arrows V1 -> V1, V1 -> N, N -> V1. Conclusion: F on the states
-    whose full orbits stay in V1 and V2 is conjugate to the two-sided shift on sequences without 22.
+    word; the next phase increases; V1 and N = `part`, a part of V2 with the same left edge, obey
+    the hypotheses of `rectangle-horseshoe` with the arrows V1 -> V1, V1 -> N, N -> V1. Conclusion:
+    F on the states whose full orbits stay in V1 and V2 is conjugate to the two-sided shift on
+    sequences without 22.
     Proof. 1. V2 is never followed by V2 in a full orbit, thus by V1. 2. The right edge of N goes to
     the right of V1 and the next phase increases on V2, so a state of V2 outside N does not go to
     V1. So full orbits in V1 and V2 follow the arrows, and `rectangle-horseshoe` describes those.
@@ -138,6 +146,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     if not same or part.phases[1] > second.phases[1]:
         raise Unproved("N is no part of V2 with the same left edge")
     strips((first, part))
+    require_rising((first, second, part))
     crossing((first, part), ((0, 1), (0,)))
     return GoldenMean(first.at, found, rates((*first.parts, *part.parts)))
 

@@ -34,6 +34,7 @@ from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
+UNIT = Fraction(1, 2**48)  # of the cuts and times there
 _MOST_STEPS = 400
 _LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
@@ -151,15 +152,15 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     """Rule `absorption`: {separation, lands, never, cells: [{branch, cuts, times, after}], rest,
     within, sunk}.
 
-    Hypotheses: the phases of the `lands` steps, of the `never-impacts` step, if there is one, and
-    of cells between the cuts of each branch do not overlap, and lie on a line that reaches from
-    before the separation phase, less 2 pi, to beyond the start of the sticking arc; at each cut the
-    gap is > 0 at the time given and < 0 by 2^-40 later, both in the window of the branch, which
-    begins at `after` if gap > 0 then; sin(eta t) has one sign there. rest: bounds of what is left
-    after 0, 1, ... steps, by `absorbed`; within: [low, high, n] such that all cells in [low, high]
-    are absorbed within n; sunk: a lower bound of what comes to the phases of the `never-impacts`
-    step, between which and those of branches, on both sides, there is one cell. Conclusion:
-    `Absorption`.
+    Cuts and times are counted in units of 2^-48. Hypotheses: the phases of the `lands` steps, of
+    the `never-impacts` step, if there is one, and of cells between the cuts of each branch do not
+    overlap, and lie on a line that reaches from before the separation phase, less 2 pi, to beyond
+    the start of the sticking arc; at each cut the gap is > 0 at the time given and < 0 by 2^-40
+    later, both in the window of the branch, which begins at `after` if gap > 0 then; sin(eta t) has
+    one sign there. rest: bounds of what is left after 0, 1, ... steps, by `absorbed`; within: [low,
+    high, n] such that all cells in [low, high] are absorbed within n; sunk: a lower bound of what
+    comes to the phases of the `never-impacts` step, between which and those of branches, on both
+    sides, there is one cell. Conclusion: `Absorption`.
 
     Proof. f' = (sin(eta t) / eta) A / gap' has one sign on a branch, so that f is monotone there
     and a cell's image lies between those of its ends, and has an inverse. Phases between cells form
@@ -213,8 +214,9 @@ def _within(reader: Reader, cells: Sequence[Cell], found: Absorbed) -> tuple[Ran
 def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
-    branch, cuts, after = context.step(branch_of, Branch), cuts_of.numbers(2), after_of.number()
-    times = times_of.numbers(len(cuts), len(cuts))
+    branch, after = context.step(branch_of, Branch), after_of.number()
+    cuts = [x * UNIT for x in cuts_of.numbers(2)]
+    times = [t * UNIT for t in times_of.numbers(len(cuts), len(cuts))]
     if not increasing(cuts):
         raise cuts_of.fail("phases must increase")
     window, sign = branch.direction((cuts[0], cuts[-1]), after)

@@ -41,6 +41,8 @@ class TwoAttractors(Conclusion):
         if not self.cycles or sides(self.cycles[0].at)[2][0] <= 0:
             raise Unproved("no stable cycle for epsilon > 0")
         for each in self.cycles:
+            if each.rounds > 1:
+                raise Unproved("an orbit that contracts a box after several rounds only")
             if sides(each.at)[:2] != sides(self.motion.at)[:2]:
                 raise Unproved("the motions are about different oscillators")
         for before, after in pairwise(self.cycles):

@@ -87,7 +87,7 @@ def bounces_end(context: Context, reader: Reader) -> BouncesEnd:
     if len(rest) == 2:
         if rest[1] >= arc.phase[0]:
             raise Unproved("the phase of rest is not below the separation phase")
-        settle(context.of, phases, rest[1], epsilon * speeds[1], (epsilon, rest[0]))
+        settle(context.of.place, phases, rest[1], epsilon * speeds[1], (epsilon, rest[0]))
     else:
         kicks = epsilon * speeds[0], epsilon * speeds[1]
         _check_flight(context.of, arc, phases, kicks)

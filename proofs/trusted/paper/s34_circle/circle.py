@@ -7,21 +7,11 @@ next impact phase; in section 3.4, where (4.64, 6.05) has period 2, to the separ
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import (
-    Phase,
-    Phases,
-    Range,
-    between,
-    floor_text,
     hull,
-    show_range,
     within,
 )
 from proofs.trusted.paper.s2_foundations import unending
@@ -29,8 +19,7 @@ from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
 from proofs.trusted.paper.s34_circle.transients import long_transients
-from proofs.trusted.parameters import PAPER, Parameters, Place
-from proofs.trusted.slopes import SlopeRange, image_arc
+from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 CONSTANT = (Fraction("3.38"), Fraction("6.04"))  # where f' = 0, as printed
@@ -42,73 +31,6 @@ _OPEN_SHARE = Fraction(1, 10**6)  # of the circle, of which G13 says nothing
 _END = Fraction(1, 10**9)  # how narrowly G13 brackets the ends of an interval
 _OPEN = Verdict.UNDECIDED
 _NOT_FOLLOWED = "no proof which phases reach the sticking arc"
-
-
-# -- a repelling fixed point -----------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class FixedPoint(Conclusion):
-    """f, C^1 on `domain` with f' >= least > 1, has one fixed point there, in `bracket`.
-
-    first: the image of the lower end of `domain`, below it.
-    """
-
-    at: Place
-    domain: Phases
-    least: Fraction
-    first: Phase
-    bracket: Phase
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"f is C^1 on {show_range(self.domain)} =: [a, b] with f' >= {floor_text(self.least)}, "
-            "maps it across itself, and has exactly one fixed point p there, in "
-            f"{between(self.bracket, 20)}. It repels, and the mass does not stick there: for every "
-            "n, all phases near enough to p need more than n impacts to reach the arc where the "
-            f"mass sticks. All of [a, p) have an iterate in [{floor_text(self.first[0])}, a]."
-        )
-
-    @property
-    def brief(self) -> str:
-        return f"a repelling fixed point in {between(self.bracket, 9)}"
-
-    @property
-    def quantities(self) -> dict[str, Range]:
-        return {"fixed_point": self.bracket}
-
-
-def repelling_fixed_point(slopes: SlopeRange) -> FixedPoint:
-    """Theorem. Let f be C^1 with f' > 1 on an interval, and map it onto an arc shorter than the
-    circle that begins before it and ends behind it, both at phases in [0, 2 pi). Then f has one
-    fixed point p there. Where f(x) < x, f(y) > y for x < y, p is between, and p - x =
-    (x - f(x)) / (f'(z) - 1) for a z between. See also `FixedPoint`.
-
-    Proof. (1) Such an arc does not pass phase 0, so f is a real function there; f(x) - x increases
-    strictly, from below 0 to above 0; then the mean value theorem for it. (2) f is continuous at
-    p = f(p), where the mass leaves the table: phases near p stay near it for n impacts. (3) Below p
-    f(x) < x: iterates decrease, to no other fixed point, until one is in [f(a), a].
-    """
-    arc, least = image_arc(slopes), slopes.minimum[0]
-    if least <= 1:
-        raise Unproved("f' > 1 is not proved")
-    if not (arc.low[1] < slopes.domain[0] and slopes.domain[1] < arc.high[0]):
-        raise Unproved("f is not proved to map the interval across itself")
-    images = list(enumerate(zip(slopes.points, slopes.images, strict=True)))
-    first = max(i for i, (point, image) in images if image[1] < point)
-    last = min(i for i, (point, image) in images if point < image[0])
-    pieces = slopes.pieces[first:last]
-    slowest, fastest = min(low for low, _ in pieces), max(high for _, high in pieces)
-    x, (low, high) = images[first][1]
-    bracket = Phase(x + (x - high) / (fastest - 1), x + (x - low) / (slowest - 1))
-    return FixedPoint(slopes.at, slopes.domain, least, slopes.images[0], bracket)
-
-
-def fixed_point(context: Context, reader: Reader) -> FixedPoint:
-    """Rule `fixed-point`: {slopes: a slope-range step}. Conclusion: `repelling_fixed_point`."""
-    (slopes,) = reader.fields("slopes")
-    return repelling_fixed_point(context.step(slopes, SlopeRange))
 
 
 # -- the rows --------------------------------------------------------------------------------------
@@ -147,8 +69,13 @@ def _is_the_printed_orbit(arc: Separation) -> bool:
     return arc.returns and all(within(phase, (x - _HALF, x + _HALF)) for x, phase in printed)
 
 
-def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Decide:
-    """Decide by how much of the circle is proved to come to the orbit, and what not to."""
+def basin(
+    decide: Callable[[Absorption, Sequence[Conclusion]], Verdict], *, printed: bool
+) -> Decide:
+    """Decide by how much of the circle is proved to come to the orbit, and what not to.
+
+    printed: whether the orbit is to be the one printed.
+    """
 
     def decision(of: Parameters, found: Found) -> Decision:
         del of
@@ -159,8 +86,9 @@ def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Dec
         rest += found.all(NeverImpacts)[:1]
         lost = max((each.share for each in rest), default=Fraction(0))
         basin = {"basin_fraction": (known.share, 1 - lost)}
-        nearby = (known.arc, known, *rest, *found.all(FixedPoint)[:1])
-        verdict = decide(known, rest) if _is_the_printed_orbit(known.arc) else _OPEN
+        nearby = (known.arc, known, *rest)
+        is_meant = not printed or _is_the_printed_orbit(known.arc)
+        verdict = decide(known, rest) if is_meant else _OPEN
         if verdict is _OPEN:
             missing = f"{known.brief}; of the rest not enough is known"
             return Decision(_OPEN, (), nearby, missing=missing, quantities=basin)
@@ -169,7 +97,7 @@ def _basin(decide: Callable[[Absorption, Sequence[Conclusion]], Verdict]) -> Dec
     return decision
 
 
-def _most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
+def most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G4: "all the initial conditions chosen", "most of the initial conditions": the latter says
     what of the circle; which ones were chosen the paper does not say.
     """
@@ -245,7 +173,7 @@ ROWS = (
         "most of the initial conditions are attracted to the stable 2-periodic orbit",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts most "
         "initial phases: more than half of the circle.",
-        _basin(_most),
+        basin(most, printed=True),
         PAPER.place,
     ),
     Row(
@@ -263,7 +191,7 @@ ROWS = (
         "",
         _AT + "the periodic orbit that sticks, (4.64, 6.05) to the places printed, attracts almost "
         "every phase.",
-        _basin(_almost_every),
+        basin(_almost_every, printed=True),
         PAPER.place,
     ),
     Row(
@@ -273,7 +201,7 @@ ROWS = (
         _AT + "all of the circle but for at most a millionth part of it comes either to the "
         "periodic orbit that sticks, (4.64, 6.05) to the places printed, or to an interval of "
         "phases, known to 10^-9 at both ends, after which there is no impact.",
-        _basin(_two_basins),
+        basin(_two_basins, printed=True),
         PAPER.place,
     ),
 )

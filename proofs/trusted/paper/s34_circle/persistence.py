@@ -123,13 +123,13 @@ def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
         epsilon = epsilons[1]
         shrinking = epsilon, ratio.number()
         rests.append(rest.number())
-        settle(context.of, box[0], rests[-1], epsilon * box[1][1], shrinking)
+        settle(context.of.place, box[0], rests[-1], epsilon * box[1][1], shrinking)
     return SuperstableMotion(arc, epsilon, spread, max(rests))
 
 
-def _push(of: Parameters, phases: Range, bits: int = COVER_BITS) -> Range:
+def _push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
     """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(of.place, phases, bits).start())
+    push: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
     return push.range
 
 
@@ -158,7 +158,7 @@ def bounce(
     gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
     if not brackets(gap_of, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
-    strong, weak = _push(of, (phases[0], phases[1] + time[1]), bits)
+    strong, weak = _push(of.place, (phases[0], phases[1] + time[1]), bits)
     if weak >= 0:
         raise Unproved("the table is not proved to push all through a bounce")
     (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
@@ -166,7 +166,7 @@ def bounce(
     return (phases[0] + time[0], phases[1] + time[1]), speeds
 
 
-def settle(of: Parameters, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
+def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
     """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
     r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
     are none if w = 0 (the mass sticks), infinitely many if w > 0 and epsilon > 0.
@@ -184,7 +184,7 @@ def settle(of: Parameters, phases: Range, rest: Fraction, kick: Fraction, shrink
     (first, last), (epsilon, ratio) = phases, shrinking
     if rest <= last or not 0 < ratio < 1:
         raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
-    strong, weak = _push(of, (first, rest))
+    strong, weak = _push(at, (first, rest))
     if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
         raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
     if last + 2 * kick / (-weak * (1 - ratio)) > rest:

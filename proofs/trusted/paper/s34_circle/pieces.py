@@ -64,8 +64,8 @@ def _limit(grazing: Grazing | None, *, above: bool) -> Range | None:
 class Pieces(Conclusion):
     """Theorem. Let the circle consist of the arc where the mass sticks, to which the flight from it
     returns, of phases that land there at once, and between these of branches with f' > 0 or f' < 0
-    and phases that never impact, all with an interval with one graze after each. Then what
-    the sentence says.
+    and one interval of phases that never impact, all with an interval with one graze after each.
+    Then what the sentence says.
 
     Proof. Neighbours have a phase in common, and f is C^1 on both with f' of one sign, up to the
     graze: so f is C^1 and monotone from one graze to the next. The first impact after the others
@@ -92,6 +92,8 @@ class Pieces(Conclusion):
         grazes = [isinstance(each, Grazing) for each in self.arcs]
         if any(grazes[::2]) or not all(grazes[1::2]) or grazes[-1]:
             raise Unproved("parts without and with a graze do not take turns")
+        if sum(isinstance(each, NeverImpacts) for each in self.arcs) != 1:
+            raise Unproved("one part without impacts is expected")
         for before, grazing, after in zip(self.arcs, self.arcs[1:], self.arcs[2:], strict=False):
             if isinstance(grazing, Grazing):
                 sides = (before, after) if grazing.below else (after, before)
@@ -138,8 +140,8 @@ class Pieces(Conclusion):
 
 
 def pieces(context: Context, reader: Reader) -> Pieces:
-    """Rule `pieces`: {separation, lands [two], branches [{branch, after}], grazings, never [at most
-    one]}, names of steps; after: see `Branch.direction`. Conclusion: `Pieces`.
+    """Rule `pieces`: {separation, lands [two], branches [{branch, after}], grazings, never [one]},
+    names of steps; after: see `Branch.direction`. Conclusion: `Pieces`.
     """
     arc_of, lands_of, branches_of, grazings_of, never_of = reader.fields(
         "separation", "lands", "branches", "grazings", "never"
@@ -147,7 +149,7 @@ def pieces(context: Context, reader: Reader) -> Pieces:
     parts: list[Branch | Grazing | NeverImpacts] = [
         *(_monotone(context, entry) for entry in branches_of.items(1, 1000)),
         *(context.step(name, Grazing) for name in grazings_of.items(0, 1000)),
-        *(context.step(name, NeverImpacts) for name in never_of.items(0, 1)),
+        *(context.step(name, NeverImpacts) for name in never_of.items(1, 1)),
     ]
     first, last = (context.step(name, Lands) for name in lands_of.items(2, 2))
     parts.sort(key=lambda each: each.phases)

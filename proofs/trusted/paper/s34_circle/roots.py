@@ -22,12 +22,12 @@ ENDS = tuple(map(Fraction, ("1.2", "1.36", "1.5", "1.57")))  # where row H18 loo
 @dataclass(frozen=True)
 class Between(Conclusion):
     """Theorem. Let grazes, in order, be those at the ends of pieces that follow one another, with
-    f' > 0. Then what the sentence says.
+    f' > 0, the impacts after a piece in one window. Then what the sentence says.
 
-    Proof. On a piece f is monotone, between its limits at the grazes. Let the first m pieces all
-    have images that contain the phases from phi_1 to phi_(m+1). Each has a compact part that f maps
-    onto these, apart from the grazes, whose limits are beyond; so for each sequence of pieces the
-    phases that follow it for n steps are compact, not empty, and nested.
+    Proof. On a piece f is monotone, between its limits at the grazes, less the same turns. Let the
+    first m pieces all have images that contain the phases from phi_1 to phi_(m+1). Each has a
+    compact part that f maps onto these, apart from the grazes, whose limits are beyond; so for each
+    sequence of pieces the phases that follow it for n steps are compact, not empty, and nested.
     """
 
     pieces: Pieces
@@ -39,6 +39,8 @@ class Between(Conclusion):
         for one, two in pairwise(self.grazes):
             if not any(_ends(piece, one, two) for piece in self.pieces.monotone):
                 raise Unproved("no piece is proved to lie between two grazes")
+            if one.other is None or one.beyond != two.turn:
+                raise Unproved("between two grazes images are not less the same turns")
 
     @property
     def at(self) -> Place:
@@ -47,8 +49,8 @@ class Between(Conclusion):
 
     @property
     def images(self) -> list[tuple[Range, Range]]:
-        """Enclose the limits of f on both ends of each piece."""
-        return [(one.other or one.graze, two.graze) for one, two in pairwise(self.grazes)]
+        """Enclose the limits of f on both ends of each piece, less the same turns."""
+        return [(one.other, two.graze) for one, two in pairwise(self.grazes) if one.other]
 
     @property
     def full(self) -> int:
@@ -71,7 +73,7 @@ class Between(Conclusion):
         if self.full > 1:
             shift = (
                 f" So each of the first {self.full} of these intervals is mapped over all phases "
-                f"from phi_1 to phi_{self.full + 1}: every sequence of {self.full} symbols is "
+                f"from phi_1 to phi_{self.full + 1}: each infinite sequence of them is "
                 "followed by an orbit there, at a distance from all grazes, though f' is not "
                 "bounded on these intervals."
             )

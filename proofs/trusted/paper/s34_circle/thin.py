@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, decimals, show_range, within
 from proofs.trusted.paper.s32_sets.repeller import Repeller
@@ -15,7 +15,6 @@ from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
-_LOG_BITS = 64
 _SYMBOLS = (2, 3)
 
 
@@ -31,8 +30,8 @@ class ThinShift(Conclusion):
     Proof. 1. If x and f(x) are in I, x is in a cell, on which f is one-to-one, and x = g_j(f(x)),
     which lies in that cell and is mapped to f(x) too. Conversely f maps g_j(y) to y. So phases with
     n images in I are those of the disjoint intervals g_W(I), W the words of n letters, and those
-    that stay are K. 2. The length of g_W(I) is the integral of g_W' over I; the sum over W is that
-    of L^n 1, L h = the sum of g_j' h(g_j). With low h <= L h <= high h, L^n 1 is between
+    that stay are K. 2. The length of g_W(I) is the integral of |g_W'| over I; the sum over W is
+    that of L^n 1, L h = the sum of |g_j'| h(g_j). With low h <= L h <= high h, L^n 1 is between
     low^n h / max h and high^n h / min h.
     """
 
@@ -62,9 +61,8 @@ class ThinShift(Conclusion):
 
     @property
     def rate(self) -> Range:
-        """Bounds of the escape rate, -log of the growth."""
-        low, high = (log(end, _bits(self.escape.growth)).range for end in self.escape.growth)
-        return -high[1], -low[0]
+        """Bounds of the escape rate."""
+        return self.escape.rate
 
     @property
     def sentence(self) -> str:
@@ -94,10 +92,6 @@ class ThinShift(Conclusion):
             f"eigenvalue_{symbols}_symbols": self.escape.growth,
             f"escape_rate_{symbols}_symbols": self.rate,
         }
-
-
-def _bits(bounds: Range) -> int:
-    return _LOG_BITS + int(1 / (bounds[1] - bounds[0])).bit_length()
 
 
 def _thin(of: Parameters, found: Found) -> Decision:

@@ -3,7 +3,7 @@
 import json
 import random
 from fractions import Fraction
-from itertools import pairwise, product
+from itertools import combinations, pairwise, product
 
 import flint
 import pytest
@@ -11,7 +11,9 @@ import pytest
 from intervals import Undecided
 from proofs.methods.formulas import inverse
 from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import HSet, disjoint
+from proofs.trusted.kernel.graph import _require_disjoint
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.kernel.lemma_examples import henon, text
 
@@ -117,6 +119,33 @@ def test_touching_sets_are_not_disjoint():
     one, two = h([0, 0], [[1, 0], [0, 1]]), h([2, 0], [[1, 0], [0, 1]])
     assert not disjoint(one, two)
     assert disjoint(one, h([Fraction(2000001, 1000000), 0], [[1, 0], [0, 1]]))
+
+
+def accepted(nodes):
+    try:
+        _require_disjoint(nodes)
+    except Unproved:
+        return False
+    return True
+
+
+def test_families_are_disjoint_if_all_pairs_are():
+    """Squares of the side 2/5 on a lattice, in any order; neighbours on it touch at 2/5."""
+    rng = random.Random(7)
+    outcomes = []
+    for _ in range(300):
+        step = Fraction(rng.choice([2, 3]), 5)
+        nodes = [
+            h(
+                [step * rng.randint(0, 5), step * rng.randint(0, 5)],
+                [[Fraction(1, 5), 0], [0, Fraction(1, 5)]],
+            )
+            for _ in range(rng.randint(2, 4))
+        ]
+        pairs = [disjoint(*pair) for pair in combinations(nodes, 2)]
+        assert accepted(nodes) is all(pairs)
+        outcomes.append(all(pairs))
+    assert 50 < sum(outcomes) < 250
 
 
 # -- covers ----------------------------------------------------------------------------------------

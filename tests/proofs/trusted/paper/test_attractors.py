@@ -3,6 +3,7 @@
 True values come from `reference` (equations (14) and (15) typed by hand, mpmath, 50 digits).
 """
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -229,6 +230,54 @@ def test_the_image_of_the_loop_needs_room():
     low, high = boxes[0].phases
     with pytest.raises(Unproved, match="mapped into itself"):
         stable_cycle(boxes, [centres[0], replace(centres[1], phase=(low, (low + high) / 2))])
+
+
+def spiral(root, turn, shift=0):
+    """F around 0: a rotation by an angle, times `root`, on boxes of half sides 1 / 100, and 0."""
+    at, entries = both().cycles[0].at, [[math.cos(turn), -math.sin(turn)], [math.sin(turn)] * 2]
+    entries[1][1] = math.cos(turn)
+    rows = [[Fraction(root * x) for x in row] for row in entries]
+    derivative = tuple(tuple((x, x) for x in row) for row in rows)
+    found, sides = [], [Fraction(1, 100)] * 2
+    for _ in range(8):
+        box = [(1 - x, 1 + x) for x in sides]
+        sides = [sum(abs(x) * side for x, side in zip(row, sides, strict=True)) for row in rows]
+        image = [(1 - x, 1 + x) for x in sides]
+        found.append(Rebound(at, *box, 0, *image, derivative))
+    point = (Fraction(1),) * 2
+    still = {"phases": point, "velocities": point, "phase": point, "velocity": moved(point, shift)}
+    return found, [replace(each, **still) for each in found]
+
+
+def test_an_orbit_around_which_states_turn():
+    """|F'| expands every box, |(F^n)'| does not: the period is told from the boxes, and proved."""
+    boxes, centres = spiral(0.8, 1.0)
+    with pytest.raises(Unproved):
+        stable_cycle(boxes[:1], centres[:1])
+    assert stable_cycle(boxes[:2], centres[:2]).rounds == 2
+    found = stable_cycle(boxes, centres)
+    assert (found.boxes, found.rounds) == (((boxes[0].phases, boxes[0].velocities),), 8)
+    assert "a 1-periodic orbit" in found.sentence and "F^8 contracts this box" in found.sentence
+    apart = [replace(centres[0], phase=moved(centres[0].phase, Fraction(1, 100))), *centres[1:]]
+    with pytest.raises(Unproved):  # a centre that leads elsewhere
+        stable_cycle(boxes, apart)
+    with pytest.raises(Unproved):
+        replace(found, rounds=0)
+    with pytest.raises(Unproved, match="several rounds"):
+        replace(both(), cycles=(replace(both().cycles[0], rounds=2), *both().cycles[1:]))
+
+
+def test_the_period_of_an_orbit_is_proved():
+    """F^2 contracts by 1/100, but F^1 leads out of the box: no orbit of period 1."""
+    boxes, centres = spiral(0.1, 0.0)
+    wide = tuple(((row[0][0] * 500,) * 2, row[1]) for row in boxes[0].derivative)
+    first = replace(boxes[0], derivative=wide)
+    flat = tuple(((Fraction(0),) * 2,) * 2 for _ in range(2))
+    second = replace(boxes[1], derivative=flat)
+    assert stable_cycle([boxes[0], second], centres[:2]).rounds == 2
+    away = replace(centres[1], phase=moved(centres[1].phase, Fraction(1, 200)))
+    with pytest.raises(Unproved, match="period"):
+        stable_cycle([first, second], [centres[0], away])
 
 
 def test_the_intervals_meet():

@@ -1,7 +1,11 @@
 """What is said at any parameters: only from hypotheses that are proved."""
 
+import json
+import math
+import random
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
@@ -21,12 +25,19 @@ from proofs.trusted.paper.beyond.attractors import (
     sticking_motion,
 )
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
+from proofs.trusted.paper.beyond.chatter import ChatteringMotion, chattering_motion
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s34_circle.absorption import Absorption
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
-from proofs.trusted.verify import check
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import check, premises
+from tests.oracles.judge import oracle
+from tests.oracles.motion import flight, next_impact, sticks
 
 F = Fraction
 HERE, THERE = PAPER.place, Place.plastic(F(1, 4), F(-1, 5))
@@ -179,6 +190,8 @@ def restituting(eta, nu, epsilon):
         ("1/2", "1/5", "0.4999", True),
         ("1/2", "1/5", "1/2", False),  # 1/4 of 0.4 is 0.1
         ("1/2", "1/5", "0.5001", False),
+        ("2", "1", "0.632", True),  # 1 + c / (b eta) = 5/2, where A / b = 7
+        ("2", "1", "0.633", False),
         ("1", "7", "0.999", True),  # A = b: the table does not change its push
         ("1/2", "1/3", "1/10", False),  # no push at one phase
         ("1/2", "-1/5", "1/10", False),
@@ -191,6 +204,37 @@ def test_motions_with_restitution_come_to_rest(eta, nu, epsilon, holds):
     else:
         with pytest.raises(Unproved):
             ComesToRest(at)
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("2", "1"), ("1.5582", "1.6178"), ("0.5", "0.2")])
+def test_a_flight_gains_no_more_speed_than_is_said(eta, nu):
+    """v^2 <= w^2 (1 + c / (b eta)), by the oracle's flights; the bound is not far off."""
+    change = float(nu) * abs(1 - float(eta) ** 2)
+    most = 1 + change / ((float(eta) ** 2 - change) * float(eta))
+    rng, found = random.Random(1), []
+    for _ in range(150):
+        phase, kick = F(rng.uniform(0, 6.28)), 10 ** rng.uniform(-2, 1)
+        gamma = (2 * kick - float(nu) * math.cos(phase)) / float(eta)  # speed 2 w, epsilon = 1/2
+        impact = flight(F(eta), F(nu), phase, F("1/2"), F(gamma))
+        found.append((float(impact.speed) / kick) ** 2)
+    assert most / 4 < max(found) < most
+
+
+def test_only_motions_that_impact_no_more_touch_for_ever():
+    """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it."""
+    never = NeverImpacts(HERE, Phases(F("1.5"), F("1.6")))
+    of = replace(PAPER, epsilon=F("0.1"))
+    decide = find("X9").decide
+    assert decide(of, [never]).verdict is Verdict.VERIFIED
+    assert "touches the table" in decide(of, [never]).because[0].sentence
+    for other, known in (
+        (replace(of, epsilon=F(0)), [never]),
+        (of, []),
+        (of, [replace(never, at=THERE)]),
+    ):
+        assert decide(other, known).verdict is Verdict.UNDECIDED
+    pushed = replace(of, eta=F(1, 2), nu=F(1, 5))
+    assert decide(pushed, [replace(never, at=pushed.place)]).verdict is Verdict.REFUTED
 
 
 def test_the_greatest_epsilon_of_a_range_counts():
@@ -287,23 +331,82 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 
 # -- from parameters to verdicts, by the search and the checker ------------------------------------
 
-ASKED = [  # verdicts of X1 to X5; X2, X4 and X5 by simulation in the oracles
-    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED"),
-    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED"),
-    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED"),
-    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED"),
-    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED"),
-    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED"),
+ASKED = [  # verdicts of X1 to X5, X10; X2, X4 and X5 by simulation in the oracles
+    ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED UNDECIDED"),
+    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED REFUTED"),
+    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED UNDECIDED"),
+    ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED REFUTED"),
+    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED REFUTED"),
 ]
 
 
-REBOUNDING = [  # verdicts of X6 to X8; by simulation in the oracles
-    ("0.22", "-0.2", "0.01", "VERIFIED UNDECIDED REFUTED"),
-    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED"),
-    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED"),
-    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED"),
-    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED"),
+REBOUNDING = [  # verdicts of X6 to X9; by simulation in the oracles
+    ("0.22", "-0.2", "0.01", "VERIFIED VERIFIED REFUTED VERIFIED"),
+    # rectangles that are turned over
+    ("0.103", "0.541", "0.02", "VERIFIED VERIFIED REFUTED UNDECIDED"),
+    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED VERIFIED"),
+    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("1.1122", "-1.9778", "0.259", "UNDECIDED VERIFIED REFUTED UNDECIDED"),  # turns around
+    ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED REFUTED"),
+    ("0.1727", "-0.3328", "0.0879", "UNDECIDED VERIFIED REFUTED VERIFIED"),  # 9 impacts, and rest
+    ("2.9138", "-1.4676", "0.257", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED UNDECIDED"),
 ]
+
+
+@cache
+def chatter():
+    """What is proved of the motion from the separation phase, with two impacts before it rests."""
+    of = replace(PAPER, eta=F("1.8959"), nu=F("-1.8502"), epsilon=F("0.0948"), reach=None)
+    made = produce({"rebounding": ["X7"]}, of, digits=20, effort=1)
+    steps = json.loads(made.certificate)["steps"]
+    witness = next(x["witness"] for x in steps.values() if x["rule"] == "chattering-motion")
+    known = premises(made.certificate).known
+    impacts = [known[name] for name in witness["impacts"]]
+    return known[witness["separation"]], impacts, F(witness["ratio"]), F(witness["rest"]), of
+
+
+def test_a_motion_that_chatters_is_what_the_oracle_sees():
+    *given, of = chatter()
+    found = chattering_motion(*given)
+    assert len(found.boxes) == 2 and "superstable" in found.sentence
+    assert not oracle(found, random.Random(1), of)
+
+
+def moved(bounds, by):
+    return bounds[0] + F(by), bounds[1] + F(by)
+
+
+def rebounding(impacts, low, high):
+    return [replace(x, at=replace(x.at, epsilon=(F(low), F(high)))) for x in impacts]
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda a, x, r, t: (a, [], r, t), "impacts"),
+        (lambda a, x, r, t: (a, x[1:], r, t), "first box"),
+        (lambda a, x, r, t: (a, x[:1], r, t), None),  # a bounce that Lemma 2 is not about
+        (lambda a, x, r, t: (a, x[::-1], r, t), None),
+        (lambda a, x, r, t: (a, x, r, a.phase[0]), "sticks"),  # rest at the separation
+        (lambda a, x, r, t: (a, x, r, t - 1), "rest"),
+        (lambda a, x, r, t: (a, x, F(1, 100), t), "shrink"),
+        (lambda a, x, r, t: (a, x, F(1), t), "ratio"),
+        (lambda a, x, r, t: (replace(a, speed=moved(a.speed, "1e-5")), x, r, t), "first box"),
+        (lambda a, x, r, t: (replace(a, arrival=moved(a.arrival, "1e-5")), x, r, t), "first box"),
+        (lambda a, x, r, t: (replace(a, at=HERE), x, r, t), "different"),
+        (lambda a, x, r, t: (a, [replace(x[0], phase=(F(0), F(1))), x[1]], r, t), "next"),
+        (lambda a, x, r, t: (a, [replace(x[0], velocity=(F(0), F(9))), x[1]], r, t), "next"),
+        (lambda a, x, r, t: (a, [x[0], *rebounding(x[1:], 0, 0)], r, t), "one oscillator"),
+        (lambda a, x, r, t: (a, rebounding(x, 0, 0), r, t), "plastic"),
+        (lambda a, x, r, t: (a, rebounding(x, "0.09", "0.1"), r, t), "plastic"),
+    ],
+)
+def test_a_motion_that_chatters_needs_all(change, reason):
+    arc, impacts, ratio, rest, _ = chatter()
+    with pytest.raises(Unproved, match=reason):
+        chattering_motion(*change(arc, impacts, ratio, rest))
 
 
 @pytest.mark.slow
@@ -312,7 +415,10 @@ def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu), epsilon=F(epsilon), reach=None)
     made = produce({"rebounding": BEYOND["rebounding"]}, of, digits=20, effort=1)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
-    assert len(check(made.certificate).claims) == 3
+    assert len(check(made.certificate).claims) == 4
+    for found in premises(made.certificate).known.values():
+        if isinstance(found, RectangleHorseshoe | StableCycle | ChatteringMotion):
+            assert not oracle(found, random.Random(1), of)
 
 
 @pytest.mark.slow
@@ -321,7 +427,41 @@ def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     of = replace(PAPER, eta=F(eta), nu=F(nu))
     made = produce({"explore": BEYOND["explore"]}, of, digits=20, effort=2)
     assert [line.verdict.value for line in made.lines] == verdicts.split()
-    assert len(check(made.certificate).claims) == 5
+    assert len(check(made.certificate).claims) == 6
+
+
+def test_how_much_of_the_circle_comes_to_the_motion_that_sticks():
+    """Between bounds, by orbits of random phases: the oracle's impacts, until the mass sticks."""
+    of, rng, sticking, none = replace(PAPER, eta=F("0.25"), nu=F("-0.3")), random.Random(3), 0, 0
+    made = produce({"explore": ["X10"]}, of, digits=20, effort=2)
+    (line,) = made.lines
+    assert line.verdict is Verdict.VERIFIED and check(made.certificate)
+    for _ in range(60):
+        phase = F(rng.uniform(0, math.tau))
+        while not sticks(of.eta, of.nu, phase):
+            found = next_impact(of.eta, of.nu, phase)
+            if isinstance(found, str):
+                none += found in ("touches", "none")
+                break
+            phase = F(found.phase)
+        else:
+            sticking += 1
+    low, high = line.quantities["basin_fraction"]
+    assert 0.6 < low < F(sticking, 60) < high < 0.97 and sticking + none == 60
+
+
+def test_the_share_is_asked_of_a_motion_that_sticks():
+    """By what reaches the arc, if the flight from the separation ends there; refuted at rest."""
+    row, more = find("X10"), Absorption(arc(4), (F(6), F(2)), ())
+    assert row.decide(PAPER, [more]).verdict is Verdict.VERIFIED
+    for known in (
+        replace(more, rest=(F(6), F(4))),  # less than half
+        replace(more, arc=arc(1)),  # it does not stick there
+        replace(more, arc=arc(4, THERE)),
+    ):
+        assert row.decide(PAPER, [known]).verdict is Verdict.UNDECIDED
+    at_rest = replace(PAPER, eta=F(1, 2), nu=F(1, 5))
+    assert row.decide(at_rest, []).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize("eta", ["1e30", "101"])

@@ -177,11 +177,11 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "fixed-point", "full-shift", "horseshoe", "itinerary", "point",
+    "avoids", "first-impact", "full-shift", "horseshoe", "itinerary", "point",
     "separation", "slope-range", "staying-orbit",
 }  # fmt: skip
 ONE_OSCILLATOR = {
-    "bounces-end", "branch", "dimension", "excess", "grazing", "lands", "linear-set",
+    "bounces-end", "branch", "dimension", "grazing", "lands",
     "never-impacts", "superstable-motion",
 }  # fmt: skip
 

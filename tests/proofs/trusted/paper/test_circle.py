@@ -28,14 +28,13 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
+from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
-from proofs.trusted.paper.s34_circle.circle import ROWS, repelling_fixed_point
+from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import FullShift
+from proofs.trusted.paper.s34_circle.other_sets import FullShift, StayingSet, staying_orbit
 from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
 from tests.oracles.motion import flight
@@ -47,14 +46,14 @@ SYSTEM = System(PAPER.eta, PAPER.nu)
 CLAIMS = tuple(row.id for row in ROWS)
 
 
-UNIT = Fraction(1, 2**60)
+SMALL = Fraction(1, 2**60)
 
 
 def affine(phases, images, slope):
     """A cell on which 1/|f'| is constant, and one for each of its images."""
     images = [tuple(map(Fraction, image)) for image in images]
     ends = (Fraction(slope),) * 2
-    known = [Inverse.of(((u, u), (v, v)), (ends, ends), (0 * UNIT, 0 * UNIT)) for u, v in images]
+    known = [Inverse.of(((u, u), (v, v)), (ends, ends), (0 * SMALL, 0 * SMALL)) for u, v in images]
     return Cell(tuple(map(Fraction, phases)), tuple(images), tuple(known))
 
 
@@ -87,7 +86,7 @@ def test_absorbed_cells_one_after_the_other():
     inner = [Cell((a, b), ((a - 3 * quarter, a - quarter),)) for a, b in others]
     found = absorbed([touching[0], *inner], 6)
     assert found.steps == [1, 2, 3, 4]
-    assert all(0 <= x - n < UNIT for x, n in zip(found.rest, [4, 3, 2, 1, 0, 0, 0], strict=True))
+    assert all(0 <= x - n < SMALL for x, n in zip(found.rest, [4, 3, 2, 1, 0, 0, 0], strict=True))
 
 
 def test_an_unknown_cell_is_never_absorbed_and_blocks_others():
@@ -102,7 +101,7 @@ def test_an_unknown_cell_is_never_absorbed_and_blocks_others():
 
 def test_images_without_an_inverse_bound_nothing():
     cells = [Cell((Fraction(0), Fraction(1)), ((Fraction(0), Fraction(1)),))]
-    assert all(0 <= x - 1 < UNIT for x in absorbed(cells, 3).rest)
+    assert all(0 <= x - 1 < SMALL for x in absorbed(cells, 3).rest)
 
 
 @pytest.mark.parametrize(("shift", "least"), [("0", "1.5"), ("0.5", "0.5")])
@@ -115,7 +114,7 @@ def test_what_is_sunk_may_lie_in_the_part_of_a_cell_that_is_not_reached(shift, l
     cells = [Cell((Fraction(i), Fraction(i + 1))) for i in range(7)]
     cells[1] = affine((1, 2), [(5 + shift, 6 + shift)], 1)
     cells[2] = affine((2, 3), [(half, 3 * half)], 1)
-    assert 0 <= 1 + Fraction(least) - absorbed(cells, 5, sink=5).sunk < UNIT
+    assert 0 <= 1 + Fraction(least) - absorbed(cells, 5, sink=5).sunk < SMALL
 
 
 @pytest.mark.parametrize("slope", [1, 3])
@@ -345,9 +344,9 @@ def coarse(arc):
     """A coarse partition: few branches, wide cells, 12 impacts."""
     prover = Prover(SYSTEM, 30, HORIZON)
     separation = circle.prove_arc(prover)
-    never, fixed = circle.prove_longest(prover), circle.prove_fixed_point(prover)
+    never = circle.prove_longest(prover)
     step = Partition(prover, separation, never, goal=0.1, most=500, turns=25, impacts=12).prove()
-    proofs = {"G3": [separation], "G10": [never, step, fixed]}
+    proofs = {"G3": [separation], "G10": [never, step]}
     evidence = Evidence(prover.steps, proofs)
     entries = [decide(claim, PAPER, evidence, 30)[1] for claim in proofs]
     return certificate(PAPER, prover.steps, entries), step[1]
@@ -426,10 +425,10 @@ EDITS = {
     "out of order": ((*ABSORPTION, "within"), lambda x: x[::-1], "not in order"),
     "an interval twice": ((*ABSORPTION, "within"), lambda x: [x[0], *x], "not in order"),
     "further": ((*ABSORPTION, "within"), lambda x: [*x, ["1", "3/2", "12"]], "so soon"),
-    "a cut moved": ((*CELLS, 0, "cuts", 2), add("1e-7"), "signs"),
-    "a cut outside": ((*CELLS, 0, "cuts", -1), add("1/10"), "outside the branch"),
+    "a cut moved": ((*CELLS, 0, "cuts", 2), add(2**25), "signs"),
+    "a cut outside": ((*CELLS, 0, "cuts", -1), add(2**45), "outside the branch"),
     "cuts reversed": ((*CELLS, 0, "cuts"), lambda x: x[::-1], "must increase"),
-    "a time moved": ((*CELLS, 0, "times", 2), add("1e-7"), "signs"),
+    "a time moved": ((*CELLS, 0, "times", 2), add(2**25), "signs"),
     "a later start": ((*CELLS, 1, "after"), lambda x: "1000", "begins later, or ends before"),
     "an earlier start": ((*CELLS, 1, "after"), lambda x: "0", "begins later, or ends before"),
     "another branch": ((*CELLS, 0, "branch"), lambda x: "branch-2", "begins later|outside"),
@@ -483,7 +482,7 @@ def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coar
         if half_turns(derived[cell["branch"]].begin) < half_turns(cell["after"])
     )
     branch = derived[cell["branch"]]
-    late = (min(map(Fraction, cell["times"])) + min(branch.ends)) / 2
+    late = (min(map(Fraction, cell["times"])) * UNIT + min(branch.ends)) / 2
     for time, message in ((branch.begin, "one sign"), (late, "not excluded")):
         refused(
             coarse,
@@ -497,7 +496,7 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
     """The gap, continued below the table, falls through 0 again later: signs +, - there too."""
     steps = coarse[0]["steps"]
     cell = steps["absorption-1"]["witness"]["cells"][0]
-    cut, first = float(Fraction(cell["cuts"][1])), float(Fraction(cell["times"][1]))
+    cut, first = (float(Fraction(cell[name][1]) * UNIT) for name in ("cuts", "times"))
 
     def gap(t):
         return -reference.left_side_10(ETA, NU, mpf(cut), t)
@@ -506,7 +505,7 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
     signs = [gap(mpf(t)) > 0 for t in grid]
     begin = next(t for t, u, v in zip(grid, signs, signs[1:], strict=False) if u and not v)
     root = mp.findroot(gap, (mpf(begin), mpf(begin + 0.05)), solver="anderson")
-    later = Fraction(int((root - mpf(2) ** -41) * 2**48), 2**48)
+    later = int((root - mpf(2) ** -41) * 2**48)
     forged = edited(steps, (*CELLS, 0, "times", 1), lambda x: str(later))
     refused(coarse, derived, forged, "leaves the window")
 
@@ -521,51 +520,7 @@ def test_the_figure_draws_what_is_proved(coarse):
         assert impacts_until_stuck(0.3 * low + 0.7 * high) <= count
 
 
-# -- a repelling fixed point ---------------------------------------------------------------------
-
-
-def slopes(points, images, *pieces):
-    """An invented step: f' in [2, 3] where nothing else is said."""
-    pieces = pieces or ((2, 3),) * (len(points) - 1)
-    ranges = tuple((Fraction(low), Fraction(high)) for low, high in pieces)
-    phases = tuple(Phase(Fraction(low), Fraction(high)) for low, high in images)
-    points = tuple(map(Fraction, points))
-    return SlopeRange(PAPER.place, points, (ranges[0], *ranges), phases, ranges)
-
-
-LOW, HIGH = ("0.5", "0.6"), ("2.9", "3")
-INNER = (LOW, ("1.1", "1.11"), ("1.6", "1.61"), HIGH)
-
-
-@pytest.mark.parametrize(
-    ("inner", "image"), [((), None), (("1.3",), ("1.29", "1.31"))], ids=["near", "undecided"]
-)
-def test_a_fixed_point_by_newtons_method(inner, image):
-    """From 6/5, the image within [1.1, 1.11], slopes from 2 to 3: p - 6/5 in [0.09/2, 0.1].
-
-    A point whose image is not told from it changes nothing.
-    """
-    images = [*INNER[:2], *([image] if inner else []), *INNER[2:]]
-    found = repelling_fixed_point(slopes(("1", "1.2", *inner, "1.4", "2"), images))
-    assert found.bracket == (Fraction("1.2") + Fraction("0.045"), Fraction("1.3"))
-    assert (found.domain, found.least, found.first) == ((1, 2), 2, tuple(map(Fraction, LOW)))
-
-
-@pytest.mark.parametrize(
-    ("images", "piece", "reason"),
-    [
-        ((("0.5", "1"), HIGH), (2, 3), "across itself"),
-        ((LOW, ("2", "3")), (2, 3), "across itself"),
-        ((("6", "6.1"), HIGH), (2, 3), "across itself"),
-        ((LOW, ("0.1", "0.2")), (2, 3), "across itself"),
-        ((LOW, HIGH), (1, 3), "f' > 1"),
-        ((LOW, HIGH), (2, 7), "longer"),
-        ((HIGH, LOW), (-3, -2), "f' > 1"),
-    ],
-)
-def test_no_fixed_point_without_its_hypotheses(images, piece, reason):
-    with pytest.raises(Unproved, match=reason):
-        repelling_fixed_point(slopes(("1", "2"), images, piece))
+# -- images beside phase 0 -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -595,8 +550,8 @@ def test_an_image_that_straddles_a_turn_is_none(eta, nu, phases):
     pieces = [{"flight": "wide", "time": whole}]
     witness = {"points": [point(x, *b) for x, b in zip(ends, brackets, strict=True)]}
     found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
-    with pytest.raises(Unproved, match="across itself"):
-        repelling_fixed_point(found)
+    with pytest.raises(Unproved, match="closed path"):
+        staying_orbit(StayingSet((Phases(*ends),), (found,), ()))
     witness["points"][1] = point(ends[1], early, hits[1] + thin)
     with pytest.raises(Unproved, match="straddles 2 pi"):
         apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
@@ -808,8 +763,6 @@ def test_all_claims_at_the_papers_numbers():
     assert Fraction("0.999634") < low < high < Fraction("0.999637")
     assert high - low < Fraction("1e-6")
     assert "[1.1, 1.49]" in lines["G6"].why
-    low, high = lines["G10"].quantities["fixed_point"]
-    assert low < Fraction("1.104775829127550847838252004") < high + Fraction(1, 10**27)
 
 
 @pytest.mark.long

@@ -313,8 +313,9 @@ def known_with(**change):
     ("change", "reason"),
     [
         ({"transversal": False}, "transversal"),
-        # sin(eta t) > 0 for t in (0, 14): in such a window f' < 0
-        ({"windows": ((Fraction(5), Fraction(6)),)}, "increase"),
+        # sin(eta t) > 0 for t in (0, 14) alone: in such a window f' < 0, or has no known sign
+        ({"windows": ((Fraction(5), Fraction(6)),)}, "once"),
+        ({"windows": ((Fraction(14), Fraction(15)),)}, "monotone"),
         # it ends before the true impact: the gap is positive on all of it
         ({"windows": ((Fraction("25.09"), Fraction("25.10")),)}, None),
     ],

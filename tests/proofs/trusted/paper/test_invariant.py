@@ -214,6 +214,13 @@ def test_no_itinerary_without_its_orbit(orbit):
         Itinerary(BASE, tuple((Fraction(a), Fraction(b)) for a, b in orbit))
 
 
+@pytest.mark.parametrize("signs", [(-1, -1), (1, -1), (-1, 1)])
+def test_orbits_are_followed_where_f_increases(signs):
+    """The order of phases is that of itineraries, and of images, there alone."""
+    with pytest.raises(Unproved, match="increases"):
+        follow(replace(BASE, signs=signs), [STEPS], Fraction("1.1"))
+
+
 # -- decisions -------------------------------------------------------------------------------------
 
 AROUND = horseshoe(sets(("1.1", "1.15"), ("1.27", "1.32")))
@@ -366,12 +373,8 @@ FORGED = {
     "the fixed point's side": (witness("itinerary-1", phase="11/10"), None),
     "orbit without slopes": (witness("itinerary-1", slopes=[]), "not known"),
     "orbit in no horseshoe": (witness("itinerary-1", horseshoe="avoids-1"), "Horseshoe"),
-    "level 0": (witness("excess-1", level="0"), "1 to 12"),
-    "half a level": (witness("excess-1", level="3/2"), "1 to 12"),
-    "a level beyond": (witness("excess-1", level="13"), "1 to 12"),
-    "no root": (witness("excess-1", root="linear-set-1"), "MoranRoot"),
-    "another root": (witness("linear-set-1", root="moran-root-2"), "moran-root|MoranRoot"),
-    "root of no such step": (witness("linear-set-1", root="horseshoe-1"), "MoranRoot"),
+    "another root": (witness("moran-root-1", root=["0.449", "0.45"]), "canonical"),
+    "a root beyond": (witness("moran-root-1", root=["9/20", "1/2"]), "signs"),
     "onto after all": (claim("H7", verdict=always("VERIFIED")), "REFUTED"),
     "chaos denied": (claim("H8", verdict=always("REFUTED")), "VERIFIED"),
     "another word": (claim("H7", witness=lambda text: text.replace("000", "010")), None),
@@ -382,7 +385,7 @@ FORGED = {
     "another reason": (claim("H10", why=always("f' >= 5")), None),
     "no orbit": (claim("H8", proof=without("itinerary-1")), "H8"),
     "no horseshoe": (claim("H10", proof=always([])), "H10"),
-    "an L for one pair of ratios": (claim("H14", proof=without("excess-2")), "H14"),
+    "an L for one pair of ratios": (claim("H14", proof=without("moran-root-2")), "H14"),
     "statement softened": (claim("H17", statement=lambda x: x.replace("keeps", "may keep")), None),
     "entropy tightened": (
         claim("H7", quantities=always({"growth": {"lower": "1.8393", "upper": "1.84"}})),

@@ -29,6 +29,7 @@ from proofs.trusted.paper.s34_circle.expansion import (
     part,
 )
 from proofs.trusted.paper.s34_circle.grazing import Grazing
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
 from proofs.trusted.paper.s34_circle.roots import Between
@@ -232,7 +233,7 @@ def test_f_between_grazes_and_the_horseshoe_that_they_carry(known):
         m for m in range(1, len(ends)) if all(a < ends[0] and ends[m] < b for a, b in images[:m])
     ]
     assert between.full == max(fulls) == 2
-    assert "every sequence of 2 symbols" in between.sentence
+    assert "each infinite sequence of them" in between.sentence
 
 
 def test_pieces_between_other_grazes_are_not_told_of(known, roots):
@@ -245,8 +246,12 @@ def test_pieces_between_other_grazes_are_not_told_of(known, roots):
     last = [x for x in pieces.arcs if isinstance(x, Grazing) and not x.below]
     with pytest.raises(Unproved, match="no piece"):
         Between(pieces, tuple(last))
+    with pytest.raises(Unproved, match="the same turns"):
+        Between(pieces, (grazes[0], replace(grazes[1], turn=grazes[1].turn + 1)))
+    with pytest.raises(Unproved, match="the same turns"):
+        Between(pieces, (replace(grazes[0], landing=None), grazes[1]))
     assert Between(pieces, grazes[2:]).full < 2
-    assert "symbols" not in Between(pieces, grazes[2:]).sentence
+    assert "sequence" not in Between(pieces, grazes[2:]).sentence
 
 
 # -- lies ------------------------------------------------------------------------------------------
@@ -322,7 +327,7 @@ PIECES_LIES = {
         w["grazings"].pop(0),
     ),
     ("a graze left out", "not in order"): lambda w: w["grazings"].pop(1),
-    ("what never impacts left out", "not in order"): lambda w: w.update(never=[]),
+    ("what never impacts left out", "0 entries"): lambda w: w.update(never=[]),
     ("a branch twice", "not in order"): lambda w: w["branches"].append(w["branches"][0]),
     ("landings exchanged", "do not adjoin it"): lambda w: w["lands"].reverse(),
     ("one landing", "1 entries"): lambda w: w["lands"].pop(),
@@ -334,6 +339,14 @@ PIECES_LIES = {
 @pytest.mark.parametrize("lie", PIECES_LIES, ids=" ".join)
 def test_forged_pieces_are_refused(steps, known, lie):
     refused(steps, known, "pieces-1", PIECES_LIES[lie], lie[1])
+
+
+def test_pieces_have_one_part_that_never_impacts(known):
+    (pieces,) = only(Pieces, known)
+    never = next(x for x in pieces.arcs if isinstance(x, NeverImpacts))
+    twice = [replace(never, phases=x.phases) if x is pieces.arcs[0] else x for x in pieces.arcs]
+    with pytest.raises(Unproved, match="one part without impacts"):
+        replace(pieces, arcs=tuple(twice))
 
 
 GRAPH_LIES = {

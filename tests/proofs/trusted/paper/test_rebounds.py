@@ -135,7 +135,7 @@ NONE = (Fraction(0), Fraction(0))
         ({"at": replace(HERE, eta=pair_of("1/2", 2))}, "different"),
         ({"phases": Phases(*pair_of("1/2", "5/4"))}, None),
         ({"phases": Phases(*pair_of(1, "15/8"))}, "overlap"),
-        ({"derivative": ((pair_of(-1, 5), NONE), (NONE, NONE))}, "increase"),
+        ({"derivative": ((pair_of(-1, 5), NONE), (NONE, NONE))}, "monotone"),
         ({"derivative": ((pair_of("1/2", 5), NONE), (NONE, NONE))}, "hyperbolic"),
         ({"derivative": ((pair_of(5, 5), pair_of(-9, 9)), (pair_of(-1, 1),) * 2)}, "cone"),
         ({"derivative": ((pair_of(5, 5), NONE), (pair_of(10, 10), NONE))}, "cone"),
@@ -149,6 +149,25 @@ def test_hypotheses_of_a_horseshoe(change, reason):
     left, right = joined(LEFT, TRUE["left"]), joined(RIGHT, TRUE["right"])
     with pytest.raises(Unproved, match=reason):
         horseshoe(known_as(left, **change), right)
+
+
+FALLING = {"left": Fraction(9, 8), "right": Fraction(39, 8)}
+
+
+@pytest.mark.parametrize("both", [True, False])
+def test_where_the_next_phase_decreases(both):
+    """The same horseshoe, by the edges in the other order; for epsilon > 0, and not for words."""
+    rising = joined(LEFT, TRUE["left"]), joined(RIGHT, TRUE["right"])
+    falls = joined(LEFT, FALLING["left"], slope=-5), joined(RIGHT, FALLING["right"], slope=-5)
+    maps = falls if both else (rising[0], falls[1])
+    assert horseshoe(*maps) == horseshoe(*rising)
+    with pytest.raises(Unproved, match="beyond"):  # its edges are where they would be if not
+        horseshoe(maps[0], known_as(maps[1], left=maps[1].right, right=maps[1].left))
+    with pytest.raises(Unproved, match="beyond"):
+        horseshoe(maps[0], joined(RIGHT, FALLING["right"] - Fraction(1, 4), slope=-5))
+    plastic = replace(HERE, epsilon=pair_of(0, "1/2"))
+    with pytest.raises(Unproved, match="increase"):
+        horseshoe(*(replace(each, at=plastic) for each in maps))
 
 
 def test_rectangles_in_the_other_order():
@@ -202,7 +221,7 @@ def test_four_rectangles():
         (lambda x: [known_as(x[0], velocity=pair_of(0, "1/20")), *x[1:]], "interior"),
         (lambda x: [*x[:2], replace(x[2], left=pair_of(1, 1)), x[3]], "not mapped beyond"),
         (lambda x: [x[0], replace(x[1], right=pair_of(2, 2)), *x[2:]], "not mapped beyond"),
-        (lambda x: [*x[:3], known_as(x[3], derivative=((pair_of(-1, 5), NONE),) * 2)], "increase"),
+        (lambda x: [*x[:3], known_as(x[3], derivative=((pair_of(-1, 5), NONE),) * 2)], "monotone"),
         (
             lambda x: [
                 *x[:3],
@@ -255,11 +274,14 @@ def test_a_family_has_the_worst_bounds():
     assert "stretched at least 4 times" in family.sentence and "f' >= 4;" in family.sentence
 
 
-def test_a_family_names_all_its_sets():
-    one, two = at_epsilon(0, "1/10"), at_epsilon("1/10", "1/5", left=(Fraction(9, 10), LEFT[1]))
-    sentence = HorseshoeFamily((one, two)).sentence
-    assert f"epsilon in [0, 0.1]: {one.strips.named}, e = 0; epsilon in [0.1, 0.2]: " in sentence
+def test_a_family_names_its_first_and_last_sets_and_counts_them():
+    one, two = at_epsilon(0, "1/10"), at_epsilon("1/8", "1/5", left=(Fraction(9, 10), LEFT[1]))
+    sentence = HorseshoeFamily((one, at_epsilon("1/10", "1/8"), two)).sentence
+    assert "on each of 3 intervals" in sentence
+    assert f"epsilon in [0, 0.1]: {one.strips.named}, e = 0; epsilon in [0.125, 0.2]: " in sentence
     assert f"{two.strips.named}, e = 0. All" in sentence and one.strips != two.strips
+    alone = HorseshoeFamily((one,)).sentence
+    assert "on each of 1 intervals" in alone and alone.count(one.strips.named) == 1
 
 
 @pytest.mark.parametrize(
@@ -499,6 +521,13 @@ PART = printed(pair_of("1.27", "1.293"), "1.06", "1.17")
 WORDS = [word(symbols) for symbols in ("0011", "1011", "0111", "1111")]
 
 
+def falling(rectangle):
+    """The same images of rectangle and edges, the next phase decreasing."""
+    (p, q), rows = rectangle.derivative
+    sides = {"left": rectangle.right, "right": rectangle.left}
+    return known_as(rectangle, derivative=(((-p[1], -p[0]), q), rows), **sides)
+
+
 def golden(first=V1, second=V2, part=PART, words=WORDS):
     known = {"a": first, "b": second, "n": part} | {f"w{n}": x for n, x in enumerate(words)}
     names = [name for name in known if name.startswith("w")]
@@ -526,6 +555,8 @@ def test_golden_mean():
         {"part": replace(PART, at=replace(EXACT, eta=pair_of("0.2", "0.2")))},
         {"second": replace(V2, derivative=((pair_of(-1, 6), STEEP[0][1]), STEEP[1]))},
         {"first": replace(V1, left=pair_of("1.12", "1.12"))},
+        {"first": falling(V1)},
+        {"second": falling(V2), "part": falling(PART)},
     ],
 )
 def test_golden_mean_needs_all(change):
@@ -591,10 +622,12 @@ def test_a_slope_helps_where_images_are_steep():
             rates([steep], Cone(Fraction(1), Fraction(width)))
 
 
-def test_reversing_maps_are_not_taken():
-    rates([box_of(((pair_of(5, 6), NONE), (NONE, NONE)))])
-    with pytest.raises(Unproved):
-        rates([box_of(((pair_of(-6, -5), NONE), (NONE, NONE)))])
+def test_rates_are_those_of_the_reversed_map():
+    rising = rates([box_of(((pair_of(5, 6), NONE), (NONE, NONE)))])
+    assert rates([box_of(((pair_of(-6, -5), NONE), (NONE, NONE)))]) == rising
+    for ends in ((-6, 5), (-6, "-1/2"), (-6, 0)):
+        with pytest.raises(Unproved):
+            rates([box_of(((pair_of(*ends), NONE), (NONE, NONE)))])
 
 
 @pytest.mark.parametrize(

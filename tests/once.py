@@ -1,0 +1,45 @@
+"""What takes long is made once in a run of the tests, by whichever worker asks for it first."""
+
+import fcntl
+import hashlib
+import os
+import pickle
+from functools import cache, wraps
+from pathlib import Path
+
+FOLDER = "TESTS_MADE_ONCE"  # in the environment: a folder of this run
+
+
+def once(function):
+    """Keep what a function returns, for this run; arguments are hashable and have a repr.
+
+    Workers get their own copies, by pickle. Outside of pytest this is `functools.cache`.
+    """
+
+    @cache
+    @wraps(function)
+    def made(*arguments):
+        folder = os.environ.get(FOLDER)
+        if folder is None:
+            return function(*arguments)
+        key = f"{function.__module__} {function.__qualname__} {arguments!r}"
+        path = Path(folder) / hashlib.sha256(key.encode()).hexdigest()
+        with path.open("ab+") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            if not file.tell():
+                file.write(pickle.dumps(function(*arguments)))
+            file.seek(0)
+            return pickle.load(file)
+
+    return made
+
+
+REPORTS = Path(__file__).parents[1] / "reports"
+
+
+@once
+def report(name):
+    """What the checker makes of a committed certificate."""
+    from proofs.trusted.verify import check
+
+    return check((REPORTS / f"{name}.json").read_text(encoding="utf-8"))

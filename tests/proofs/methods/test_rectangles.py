@@ -1,0 +1,82 @@
+"""Sets around cycles: a horseshoe whose entropy is known, and what is refused."""
+
+from fractions import Fraction
+from functools import cache
+from math import log
+
+import numpy as np
+import pytest
+
+from intervals import Interval, Undecided
+from proofs.methods.cells import Region, function_of, invariant_cover
+from proofs.methods.periodic import periodic_orbits
+from proofs.methods.rectangles import Rectangles, _disjoint, lemma, rectangles
+from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.certificate import render
+from proofs.trusted.verify import check
+from tests.proofs.trusted.kernel.lemma_examples import henon
+
+HORSESHOE = henon("5", "3/10")  # all bounded orbits have |x| < 0.596: conjugate to the full shift
+
+
+@cache
+def horseshoe():
+    f = function_of(SymbolicLemmas({"F": HORSESHOE}).function("F"))
+    cover = invariant_cover(f, Region((Interval("-0.6", "0.6"), Interval("-0.2", "0.2"))), depth=6)
+    orbits = [o for n in range(1, 8) for o in periodic_orbits(cover, n) if o.period == n]
+    assert sum(orbit.period for orbit in orbits if 6 % orbit.period == 0) == 2**6
+    return f, orbits
+
+
+@pytest.mark.parametrize(("past", "future"), [(1, 1), (1, 2)])
+def test_the_full_shift(past, future):
+    """One set for each word, two arrows from each; the entropy is log 2, and no more is proved."""
+    f, orbits = horseshoe()
+    sets = rectangles(f, orbits, angle=0.2, past=past, future=future)
+    assert len(sets.centres) == 2 ** (past + future)
+    assert np.bincount(sets.arrows[:, 0]).tolist() == [2] * len(sets.centres)
+    file = SymbolicLemmas({"F": HORSESHOE})
+    name = lemma(file, "F", sets)
+    (sentence,) = check(render(file.document(name))).sentences
+    low, high = map(Fraction, sentence.rpartition("[")[2].rstrip("].").split(", "))
+    assert log(2) - 1e-9 < low < high < log(2) + 1e-9
+
+
+def test_each_point_is_in_the_set_of_its_word():
+    f, orbits = horseshoe()
+    sets = rectangles(f, orbits, angle=0.2, past=1, future=2)
+    points = np.concatenate([orbit.boxes.mid for orbit in orbits])
+    local = np.linalg.solve(sets.matrices, (points[:, np.newaxis] - sets.centres)[..., np.newaxis])
+    inside = (np.abs(local[..., 0]) < 1).all(axis=2)
+    assert (inside.sum(axis=1) == 1).all() and inside.any(axis=0).all()
+
+
+def test_relations_that_are_not_proved_are_left_out():
+    """An arrow the wrong way: without it there is the horseshoe as before."""
+    f, orbits = horseshoe()
+    sets = rectangles(f, orbits, angle=0.2, past=1, future=1)
+    missing = {(i, j) for i in range(4) for j in range(4)} - set(map(tuple, sets.arrows.tolist()))
+    more = Rectangles(*sets[:2], np.concatenate([sets.arrows, sorted(missing)]))
+    files = [SymbolicLemmas({"F": HORSESHOE}) for _ in range(2)]
+    one, two = (lemma(file, "F", some) for file, some in zip(files, (sets, more), strict=True))
+    assert files[0].steps[one]["witness"]["growth"] == files[1].steps[two]["witness"]["growth"]
+    assert len(files[0].steps) == len(files[1].steps)
+    with pytest.raises(Undecided, match="no closed path"):
+        lemma(files[0], "F", Rectangles(*sets[:2], np.array(sorted(missing))[:1]))
+
+
+def test_what_is_refused():
+    f, orbits = horseshoe()
+    with pytest.raises(Undecided, match="no two words"):
+        rectangles(f, orbits, angle=1, past=1, future=1)
+    with pytest.raises(Undecided, match="without end"):
+        rectangles(f, orbits, angle=0.2, past=1, future=1, spare=3)
+
+
+def test_sets_that_meet_go():
+    """Three squares on a line, the middle one over the left one, with arrows between all."""
+    centres, matrices = np.array([[0, 0], [0.5, 0], [3, 0]]), np.array([np.eye(2)] * 3)
+    arrows = np.array([[i, j] for i in range(3) for j in range(3)])
+    kept = _disjoint(centres, matrices / 2, arrows)
+    assert set(kept.ravel().tolist()) in ({0, 2}, {1, 2}) and len(kept) == 4
+    assert len(_disjoint(centres, matrices / 5, arrows)) == 9
