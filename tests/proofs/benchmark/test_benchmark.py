@@ -27,17 +27,6 @@ def diagram():
     return Diagram("curves", "Work", curves=[Curve("work", "way", "kB", points=[Point(2, 1, [1])])])
 
 
-@pytest.mark.slow
-def test_the_main_job_is_measured_beside_imports_and_the_script(capsys):
-    assert main(["horseshoe", "--smallest"]) in (0, 1)  # speed is never asserted
-    text = capsys.readouterr().out
-    assert re.search(r"^\| what +\| target +\| measured +\| reached +\|$", text, re.M)
-    for name in ("import numpy, mpmath (pairs)", "script in python-flint (pairs)", "memory",
-                 "first run", "the main job's, witness kept", "no earlier impact"):  # fmt: skip
-        assert name in text
-    assert "NOT AN ENCLOSURE" not in text
-
-
 def test_an_absent_peer_and_a_failing_process_are_reported(monkeypatch, capsys):
     done = horseshoe.Process(1.0, 0, 99.0)
     monkeypatch.setattr(horseshoe, "process", lambda command: done)

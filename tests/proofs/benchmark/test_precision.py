@@ -309,7 +309,12 @@ def test_the_smallest_run_measures_everything(tmp_path, capsys):
     pytest.importorskip("matplotlib")
     target, out = tmp_path / "samples.json", tmp_path / "out"
     assert main(["--smallest", "--json", str(target), "--out", str(out)]) in (0, 1)
-    assert "NOT AN ENCLOSURE" not in capsys.readouterr().out
+    text = capsys.readouterr().out
+    assert "NOT AN ENCLOSURE" not in text
+    assert re.search(r"^\| what +\| target +\| measured +\| reached +\|$", text, re.M)
+    for name in ("import numpy, mpmath (pairs)", "script in python-flint (pairs)", "memory",
+                 "first run", "the main job's, witness kept", "no earlier impact"):  # fmt: skip
+        assert name in text
     rows = json.loads(target.read_text())["rows"]
     found = [row["samples"] for row in rows if "points" in row["samples"]]
     assert len(found) > 30 and all(one["points"][0]["seconds"] for one in found)
