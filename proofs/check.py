@@ -115,7 +115,10 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
         if path != PIPED and _is_store(path):
             said, is_open = _check_store(path, name, work, jobs)
         else:
-            said, is_open = _check_text(path, name, work)
+            source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
+            if (schema := schema_of(source)) in FOLDERS:
+                name = f"{name}: {FOLDERS[schema][0]}"
+            said, is_open = _check_text(source, schema, path.parent, name, work)
     except Malformed as error:
         return _refused(2, f"{name}: malformed: {error}")
     except OSError as error:
@@ -129,14 +132,13 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
     return int(is_open)
 
 
-def _check_text(path: Path, name: str, work: int) -> tuple[list[str], bool]:
+def _check_text(
+    source: str, schema: str, folder: Path, name: str, work: int
+) -> tuple[list[str], bool]:
     """Check a certificate, or a list of some; return what to say, and if anything is undecided."""
-    source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
-    schema = schema_of(source)
     if schema in FOLDERS:
-        kind, check_listed = FOLDERS[schema]
-        listed = check_listed(source, path.parent, work)
-        said = f"{name}: {kind} of {_counted(listed)}, all as the certificates beside it prove"
+        listed = FOLDERS[schema][1](source, folder, work)
+        said = f"{name} of {_counted(listed)}, all as the certificates beside it prove"
         return [said], Verdict.UNDECIDED in {each.verdict for each in listed}
     report = check(source, work)
     is_open = Verdict.UNDECIDED in {claim.verdict for claim in report.claims}

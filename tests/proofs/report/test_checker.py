@@ -11,7 +11,7 @@ from proofs.report import __main__ as command
 from proofs.report.checker import NoPyodide, checker, runtime, trusted
 from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
-from tests.proofs.report.test_browser import CHROMIUM
+from tests.proofs.report.conftest import CHROMIUM
 
 
 def test_the_archive_holds_the_trusted_part_alone_and_is_the_same_each_time():
