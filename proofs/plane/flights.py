@@ -7,7 +7,8 @@ is proposed here is proved by the checker alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -15,13 +16,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals import Interval, IntervalArray, Undecided
-from proofs.trusted.equations import Launch, clock, gap, launch
+from intervals import Interval, IntervalArray, Jet, Undecided
+from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.floating[Any]]
-COARSE, FINE = Fraction(1, 4), Fraction(1, 16)
+_UNITS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)
 _SPANS = (1, 2, 3, 5, 8, 12, 16, 22, 32, 48, 64, 88)  # lengths of pieces, in units
 _LONGEST = Fraction(11, 2)  # piece
 _SPARE = 1.02  # by which a gap must be above what the checker asks for
@@ -41,7 +42,7 @@ class Flights:
     box: Place
     phases: Range
     separating: bool = False
-    unit: Fraction = COARSE
+    unit: Fraction = _UNITS[0]
 
     @cached_property
     def _eta(self) -> IntervalArray:
@@ -57,6 +58,17 @@ class Flights:
         times = IntervalArray.from_floats(low, high)
         found: IntervalArray = gap(self._start, clock(self._eta, times), order)
         return found
+
+    def sharp_heights(self, times: Floats) -> IntervalArray:
+        """Enclose the gap at times, over a range of eta by the mean value theorem."""
+        low, high = self.box.eta
+        middle = (low + high) / 2
+        centre = replace(self, box=replace(self.box, eta=(middle, middle)))
+        moving = Jet.variable(self._eta)
+        at = clock(moving, IntervalArray.from_floats(times, times))
+        along: Jet = gap(self._start._replace(eta=moving), at)
+        found: IntervalArray = along.derivative() * _array([(low - middle, high - middle)])
+        return found + centre.gap(times, times)
 
     def times(self, latest: float) -> list[Fraction]:
         """Return times for the rule, for flights that end at about `latest` at most.
@@ -83,7 +95,7 @@ class Flights:
         for _ in range(_ZOOMS):
             grid = [low + (high - low) * Fraction(k, _PARTS) for k in range(_PARTS + 1)]
             floats = np.array([float(time) for time in grid])
-            heights = self.gap(floats, floats)
+            heights = self.sharp_heights(floats)
             up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
             if not up.size or not down.size or up[-1] > down[0]:
                 raise Undecided("the first impacts are not bracketed")
@@ -93,8 +105,9 @@ class Flights:
     def _first(self) -> Fraction:
         """Return a time up to which the launches leave the table."""
         times = np.array([0.5**k for k in range(_EARLIEST)])
-        order = 3 if self.separating else 2
-        leaving = np.flatnonzero(self.gap(np.zeros(_EARLIEST), times, order).inf > 0)
+        pushed = self.separating or bool(launch_acceleration(self._start).inf[0] >= 0)
+        rates = [self.gap(np.zeros(_EARLIEST), times, order).inf for order in (2, 2 + pushed)]
+        leaving = np.flatnonzero(np.maximum(*rates) > 0)
         if not leaving.size:
             raise Undecided("some launches stick, or leave too slowly")
         return Fraction(1, 2 ** int(leaving[0]))
@@ -125,6 +138,14 @@ class Flights:
                 raise Undecided("an earlier impact is not excluded")
             here += int(spans[fitting[-1]])
             yield here
+
+
+def times_for(flights: Flights, latest: float) -> list[Fraction]:
+    """Return what `times` gives, on the coarsest grid that shows it."""
+    for unit in _UNITS[:-1]:
+        with suppress(Undecided):
+            return replace(flights, unit=unit).times(latest)
+    return replace(flights, unit=_UNITS[-1]).times(latest)
 
 
 def _array(ranges: list[Range]) -> IntervalArray:

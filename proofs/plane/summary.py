@@ -22,6 +22,7 @@ LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 _WORDS = {
     "CoveringShift": "a full shift on two symbols is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
+    "ReturningMotion": "a stable periodic motion, sticking or not",
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",
@@ -88,7 +89,7 @@ def picture(store: Store) -> Drawing:
     region, found = store.region, defaultdict[str, list[str]](list)
     for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
         found[cell.kind].append(cell.key)
-    colours = style.BLUE, style.GREEN, style.ORANGE, style.PURPLE, style.GREY
+    colours = style.BLUE, style.GREEN, style.SKY, style.ORANGE, style.PURPLE, style.GREY
     drawing, axes = style.sheet(4.6)
     for kind, colour in zip(_WORDS, colours, strict=True):
         boxes = [region.box(key) for key in merged(found[kind])]

@@ -26,8 +26,9 @@ from proofs.trusted.certificate import MAX_BYTES, Malformed, parse, texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
 from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift
+from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import Place
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -65,7 +66,7 @@ QUESTIONS = {
     "attractor": Question(
         "a periodic motion, or rest, attracts all motions from an open set of phases",
         "none of this is ever refuted",
-        (StickingMotion, StableOrbit, AllStick, AtRest),
+        (StickingMotion, ReturningMotion, StableOrbit, AllStick, AtRest),
         (),
     ),
 }

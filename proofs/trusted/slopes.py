@@ -94,6 +94,11 @@ class SlopeRange(Conclusion):
         return max(low for low, _ in self.slopes), max(high for _, high in self.pieces)
 
     @property
+    def steepest(self) -> Fraction:
+        """A bound on |f'|."""
+        return max(-self.minimum[0], self.maximum[1])
+
+    @property
     def expands(self) -> bool:
         """Whether |f'| > 1."""
         return self.minimum[0] > 1 or self.maximum[1] < -1
@@ -158,8 +163,7 @@ def image_arc(slopes: SlopeRange) -> ImageArc:
     Raises Unproved where a hypothesis is not.
     """
     low, high = slopes.domain
-    steepest = max(-slopes.minimum[0], slopes.maximum[1])
-    if steepest * (high - low) >= TURN:
+    if slopes.steepest * (high - low) >= TURN:
         raise Unproved("an image may be longer than the circle")
     first, last = slopes.images[0], slopes.images[-1]
     if slopes.minimum[0] > 0:
@@ -167,6 +171,32 @@ def image_arc(slopes: SlopeRange) -> ImageArc:
     if slopes.maximum[1] < 0:
         return ImageArc(slopes.at, slopes.domain, last, first)
     raise Unproved("f is not proved monotone")
+
+
+def image_range(slopes: SlopeRange) -> Range:
+    """Enclose the image of an interval, on the line: from the images of its ends, and f' between.
+
+    Of the numbers that are the image of the last one mod 2 pi, only one is as far from that of the
+    first as f' allows. Raises Unproved where that is not seen, or an image may be too long.
+    """
+    width, change = slopes.domain[1] - slopes.domain[0], (slopes.minimum[0], slopes.maximum[1])
+    if slopes.steepest * width >= TURN:
+        raise Unproved("an image may be longer than the circle")
+    first, moved = slopes.images[0], [lifted(slopes.images[-1], k, COVER_BITS) for k in (-1, 0, 1)]
+    last = [
+        end
+        for end in moved
+        if end[0] - first[1] <= change[1] * width and change[0] * width <= end[1] - first[0]
+    ]
+    if len(last) != 1:
+        raise Unproved("an image is not told from what is a turn away")
+    return mean_values(first, last[0], change, width)
+
+
+def inside(values: Range, target: Range) -> bool:
+    """Whether an interval is inside another one, modulo 2 pi."""
+    moved = (lifted(values, turns, COVER_BITS) for turns in (-1, 0, 1))
+    return any(target[0] < low and high < target[1] for low, high in moved)
 
 
 @dataclass(frozen=True)

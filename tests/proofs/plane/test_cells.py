@@ -12,12 +12,13 @@ from proofs.motion.many import next_impacts
 from proofs.motion.system import System
 from proofs.plane import settling
 from proofs.plane.cells import decide
-from proofs.plane.flights import FINE, Flights
+from proofs.plane.flights import Flights, times_for
 from proofs.plane.head import Here, executor
 from proofs.plane.horseshoe import Sets, propose
 from proofs.plane.summary import merged
 from proofs.trusted.atlas import Region
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.parameters import Place
 from proofs.trusted.verify import check
 
@@ -48,7 +49,7 @@ def test_times_are_those_of_the_rule_and_none_where_flights_differ():
     times = Flights(box("0.212", "-0.2"), (F("1.1"), F("1.12"))).times(25.5)
     assert times == sorted(times) and 23 < times[-2] < times[-1] < 26
     with pytest.raises(Undecided):  # some of these graze the table, and fly on
-        Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3")), unit=FINE).times(60.0)
+        times_for(Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3"))), 60.0)
     with pytest.raises(Undecided):  # some stick
         Flights(box("0.212", "-0.2"), (F("3.2"), F("3.6"))).times(60.0)
 

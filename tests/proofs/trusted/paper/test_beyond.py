@@ -16,13 +16,12 @@ from proofs.trusted.paper.beyond.attractors import (
     Leaves,
     NeverSticks,
     StableOrbit,
-    StickingMotion,
     stable_orbit,
-    sticking_motion,
 )
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
+from proofs.trusted.paper.beyond.returning import StickingMotion, sticking_motion
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange
