@@ -36,6 +36,7 @@ _LATER = 1e-3  # after the separation, where floats tell that the mass leaves
 _GRID, _TRANSIENT = 600, 64  # phases whose orbits are followed, and for how long
 _CLOSER, _TRIES = 80, 3
 _NEAR = 1e-6
+_SHARE, _LARGER = 0.15, 1.05  # of cells, for what enclosures are wider
 _AFTER, _BEYOND, _MORE, _APART = 0.004, 0.35, 0.3, 2.5  # launches beyond the arc
 _SHORT = 2.9  # of eta times how long the mass flies until it lands on the arc
 
@@ -160,7 +161,7 @@ def _returning(box: Place, up_to: float | None) -> tuple[Steps, float | None]:
     while not (target := _target(box, *map(float, arrival))):
         if len(cells) == _MOST_IMPACTS:
             raise Undecided("the mass is not seen to stick again soon")
-        cells.append(_cell(made, _around(arrival)))
+        cells.append(_cell(made, _rounded(*map(float, arrival))))
         arrival = cells[-1].image
     early, last = target
     if last > (up_to or float(_separations(box).min())):
@@ -218,6 +219,8 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
     """
     seen, (etas, nus) = _separations(made.box), corners(made.box)
     phase = _rounded(float(seen.min()), float(seen.max()) + after)
+    if phase[1] > TURN:
+        raise Undecided("the mass leaves the table next to phase 0")
     flown = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
@@ -229,17 +232,13 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
 
 
 def _rounded(low: float, high: float) -> Range:
-    """Return decimals around phases, with some room; Undecided where that passes phase 0."""
-    ends = round(Fraction(low) - _ROOM, _PLACES), round(Fraction(high) + _ROOM, _PLACES)
-    if not 0 <= ends[0] < ends[1] <= TURN:
-        raise Undecided("an interval of phases passes phase 0")
-    return ends
-
-
-def _around(arrival: Range) -> Range:
-    """Return decimals around what is phase + time."""
-    turns = math.tau * (float(arrival[0]) // math.tau)
-    return _rounded(float(arrival[0]) - turns, float(arrival[1]) - turns)
+    """Return decimals around phases on the line, with some room, from the turn of the lower one."""
+    turns = math.tau * ((low - float(_ROOM)) // math.tau)
+    ends = (Fraction(low - turns) - _ROOM, Fraction(high - turns) + _ROOM)
+    rounded = round(ends[0], _PLACES), round(ends[1], _PLACES)
+    if not 0 <= rounded[0] < rounded[1] <= rounded[0] + _APART or rounded[0] > TURN:
+        raise Undecided("an interval of phases is too wide")
+    return rounded
 
 
 # -- cells, and orbits that do not stick -----------------------------------------------------------
@@ -288,15 +287,21 @@ def _orbits(box: Place) -> Iterator[list[Range]]:
         phases = np.array([cycle] * len(etas)).T
         for _ in range(_CLOSER):
             found = next_impacts(side(box), etas, nus, phases, _FARTHEST)
-            before, phases = phases, np.roll(found.images % math.tau, 1, axis=0)
+            before, phases = phases, _next_to(phases, np.roll(found.images, 1, axis=0))
             moved = float(np.abs(phases - before).max())
             if not moved > _NEAR:
                 break
         steep = np.abs(found.slopes)
         if moved <= _NEAR and (steep.prod(axis=0) < 1).all():
-            apart = np.abs(phases[1:] - phases[0]).max(axis=1)
+            phases = _next_to(phases[:, :1], phases)
+            apart = np.abs(_next_to(phases[0], phases[1:]) - phases[0]).max(axis=1)
             period = 1 + int(np.append(np.flatnonzero(apart < 100 * _NEAR), len(apart))[0])
-            yield _cells(phases[:period], steep[:period])
+            yield _cells(phases[:period], found.slopes[:period])
+
+
+def _next_to(phases: Floats, others: Floats) -> Floats:
+    """Return other phases in the turns that bring them next to these."""
+    return np.asarray(others - math.tau * np.round((others - phases) / math.tau))
 
 
 def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
@@ -320,12 +325,15 @@ def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
             yield [float(phases[k]) for k in cycle]
 
 
-def _cells(points: Floats, steep: Floats) -> list[Range]:
+def _cells(points: Floats, slopes: Floats) -> list[Range]:
     """Return intervals around the points of orbits, wide enough to be sent into the next."""
-    low, high, slopes = points.min(axis=1), points.max(axis=1), steep.max(axis=1)
-    room = np.full(len(low), float(_ROOM))
+    low, high, steep = points.min(axis=1), points.max(axis=1), np.abs(slopes).max(axis=1)
+    rising_fixed_point = len(points) == 1 and slopes.min() > 0  # what is lowest stays lowest
+    apart = 0 if rising_fixed_point else high - low
+    least = 2 * float(_ROOM) + _SHARE * (high - low)
+    room = least
     for _ in range(_TRANSIENT):  # f sends what is w + r from an orbit to s (w + r) from the next
-        room = np.maximum(room, 1.2 * np.roll(slopes * (high - low + room), 1) + 2 * float(_ROOM))
+        room = np.maximum(room, np.roll(steep * (apart + _LARGER * room), 1) + least)
         if room.max() > 1:
             raise Undecided("a stable orbit moves too much over the box")
     return [_rounded(float(a - r), float(b + r)) for a, b, r in zip(low, high, room, strict=True)]

@@ -194,11 +194,11 @@ class FirstImpact(Conclusion):
         )
 
 
-def read_phases(reader: Reader) -> Range:
-    """Read an interval of phases from 0 to 2 pi, one phase as well."""
+def read_phases(reader: Reader, turns: int = 1) -> Range:
+    """Read an interval of phases from 0 to 2 pi, or some turns more; one phase as well."""
     low, high = reader.range()
-    if low < 0 or high > TURN:
-        raise reader.fail("phases lie between 0 and 2 pi")
+    if low < 0 or high > turns * TURN:
+        raise reader.fail(f"phases lie between 0 and {2 * turns} pi")
     return low, high
 
 
@@ -211,7 +211,7 @@ def read_times(reader: Reader) -> tuple[Fraction, ...]:
 
 
 def first_impact(context: Context, reader: Reader) -> FirstImpact:
-    """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}.
+    """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}; phases from 0 to 4 pi.
 
     Hypotheses: on phases x [0, t_1] gap'' > 0, or gap''' > 0 with gap'' >= 0 at launch; gap < 0
     at t_n. A piece [t_j, t_(j+1)] of width
@@ -223,7 +223,7 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, at = read_times(times_of), context.place
-    motion = Motion(at, read_phases(phases_of), bits_for_pieces(times))
+    motion = Motion(at, read_phases(phases_of, 2), bits_for_pieces(times))
     orders = (2, 3) if launch_acceleration(motion.start()).lo >= 0 else (2,)
     return FirstImpact(at, motion, *first_windows(motion.gap_of, times, *orders))
 

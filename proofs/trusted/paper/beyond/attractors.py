@@ -14,7 +14,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, ceil_text, show_range
+from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.parameters import Parameters, Place
@@ -139,12 +139,13 @@ class StableOrbit(Conclusion):
     """f maps each cell inside the next, the last inside the first, and the loop contracts."""
 
     at: Place
-    cells: tuple[Phases, ...]
+    cells: tuple[Range, ...]
     contraction: Range
 
     def __post_init__(self) -> None:
         ordered = sorted(self.cells)
-        if not ordered or any(one[1] >= two[0] for one, two in pairwise(ordered)):
+        around = [*ordered, *((low + TURN, high + TURN) for low, high in ordered[:1])]
+        if not ordered or any(one[1] >= two[0] for one, two in pairwise(around)):
             raise Unproved("the cells of a stable orbit are not apart")
         if not 0 <= self.contraction[0] <= self.contraction[1] < 1:
             raise Unproved("f is not proved to contract around the loop")
@@ -153,7 +154,7 @@ class StableOrbit(Conclusion):
     def sentence(self) -> str:
         named = ", ".join(map(show_range, self.cells))
         return (
-            f"{self.brief}, one point in each of {named}, in this order, and it "
+            f"{self.brief}, one point in each of {named}, mod 2 pi, in this order, and it "
             "attracts all phases of these sets; all its impacts are transversal, and after each "
             "the mass leaves the table at once."
         )
@@ -179,15 +180,15 @@ def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
     """
     if len({part.at for part in parts}) != 1:
         raise Unproved("the hypotheses are about different oscillators")
-    first = min(range(len(parts)), key=lambda i: parts[i].domain)
+    first = min(range(len(parts)), key=lambda i: parts[i].ends)
     parts = [*parts[first:], *parts[:first]]
     following = zip(parts, [*parts[1:], parts[0]], strict=True)
-    if not all(inside(image_range(part), after.domain) for part, after in following):
+    if not all(inside(image_range(part), after.ends) for part, after in following):
         raise Unproved("an image is not proved to be inside the next set")
     zero, one = Fraction(0), Fraction(1)
     most = prod((part.steepest for part in parts), start=one)
     least = prod((max(part.minimum[0], -part.maximum[1], zero) for part in parts), start=one)
-    return StableOrbit(parts[0].at, tuple(part.domain for part in parts), (least, most))
+    return StableOrbit(parts[0].at, tuple(part.ends for part in parts), (least, most))
 
 
 def prove_stable_orbit(context: Context, reader: Reader) -> StableOrbit:

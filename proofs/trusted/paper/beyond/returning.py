@@ -13,7 +13,6 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import (
     TURN,
-    Phases,
     Range,
     between,
     ceil_text,
@@ -28,8 +27,8 @@ from proofs.trusted.slopes import SlopeRange, image_range, inside
 _MOST_IMPACTS = 200
 
 
-def _named(cells: Sequence[Phases]) -> str:
-    return ", ".join(map(show_range, cells))
+def _named(cells: Sequence[Range]) -> str:
+    return ", ".join(map(show_range, cells)) + ", mod 2 pi"
 
 
 def _earliest(arc: Separation, landing: Lands | None) -> Fraction:
@@ -49,7 +48,7 @@ class StickingMotion(Conclusion):
     """
 
     arc: Separation
-    cells: tuple[Phases, ...]
+    cells: tuple[Range, ...]
     landing: Lands | None = None
 
     def __post_init__(self) -> None:
@@ -92,8 +91,8 @@ class ReturningMotion(Conclusion):
     """
 
     arc: Separation
-    beyond: Phases
-    cells: tuple[Phases, ...]
+    beyond: Range
+    cells: tuple[Range, ...]
     contraction: Fraction
     landing: Lands | None = None
 
@@ -158,17 +157,17 @@ def sticking_motion(
         raise Unproved("the hypotheses are about different oscillators")
     images = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
     for part in parts:
-        if not all(inside(image, part.domain) for image in images):
+        if not all(inside(image, part.ends) for image in images):
             raise Unproved("an image is not proved to be inside the next set")
         images = [image_range(part)]
-    back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.domain[1]
+    back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.ends[1]
     if not all(inside(image, back) for image in images):
         raise Unproved("the last impact is not proved to be where the mass sticks")
-    cells = tuple(part.domain for part in parts)
+    cells = tuple(part.ends for part in parts)
     if beyond is None:
         return StickingMotion(arc, cells, landing)
     steepest = max(_steepest(arc), beyond.steepest) * prod(part.steepest for part in parts)
-    return ReturningMotion(arc, beyond.domain, cells, steepest, landing)
+    return ReturningMotion(arc, beyond.ends, cells, steepest, landing)
 
 
 def _steepest(arc: Separation) -> Fraction:

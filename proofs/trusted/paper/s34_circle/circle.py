@@ -95,14 +95,15 @@ def repelling_fixed_point(slopes: SlopeRange) -> FixedPoint:
         raise Unproved("f' > 1 is not proved")
     if not (arc.low[1] < slopes.domain[0] and slopes.domain[1] < arc.high[0]):
         raise Unproved("f is not proved to map the interval across itself")
-    images = list(enumerate(zip(slopes.points, slopes.images, strict=True)))
+    phases = [Phase(*image) for image in slopes.images]
+    images = list(enumerate(zip(slopes.points, phases, strict=True)))
     first = max(i for i, (point, image) in images if image[1] < point)
     last = min(i for i, (point, image) in images if point < image[0])
     pieces = slopes.pieces[first:last]
     slowest, fastest = min(low for low, _ in pieces), max(high for _, high in pieces)
     x, (low, high) = images[first][1]
     bracket = Phase(x + (x - high) / (fastest - 1), x + (x - low) / (slowest - 1))
-    return FixedPoint(slopes.at, slopes.domain, least, slopes.images[0], bracket)
+    return FixedPoint(slopes.at, slopes.domain, least, phases[0], bracket)
 
 
 def fixed_point(context: Context, reader: Reader) -> FixedPoint:
