@@ -28,7 +28,7 @@ _LONGEST = Fraction(11, 2)  # piece
 _SPARE = 1.02  # by which a gap must be above what the checker asks for
 _EARLIEST = 8  # halvings of the first time
 _SHARE = 0.3  # of the height from which the gap falls, where the window of the impact begins
-_ZOOMS, _PARTS = 3, 16  # parts of the window of an impact
+_PARTS = 512  # of the window of an impact
 _BITS = 80
 
 
@@ -92,15 +92,12 @@ class Flights:
     def bracket(self, times: list[Fraction]) -> Range:
         """Return a bracket of all first impacts, in the last of the pieces between `times`."""
         low, high = times[-2:]
-        for _ in range(_ZOOMS):
-            grid = [low + (high - low) * Fraction(k, _PARTS) for k in range(_PARTS + 1)]
-            floats = np.array([float(time) for time in grid])
-            heights = self.sharp_heights(floats)
-            up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
-            if not up.size or not down.size or up[-1] > down[0]:
-                raise Undecided("the first impacts are not bracketed")
-            low, high = grid[int(up[-1])], grid[int(down[0])]
-        return low, high
+        heights = self.sharp_heights(np.linspace(float(low), float(high), _PARTS + 1))
+        up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
+        if not up.size or not down.size or up[-1] > down[0]:
+            raise Undecided("the first impacts are not bracketed")
+        unit = (high - low) / _PARTS
+        return low + int(up[-1]) * unit, low + int(down[0]) * unit
 
     def _first(self) -> Fraction:
         """Return a time up to which the launches leave the table."""

@@ -36,6 +36,7 @@ _LATER = 1e-3  # after the separation, where floats tell that the mass leaves
 _GRID, _TRANSIENT = 600, 64  # phases whose orbits are followed, and for how long
 _CLOSER, _TRIES = 80, 3
 _NEAR = 1e-6
+_SAMPLES = 5  # of a set
 _SHARE, _LARGER = 0.15, 1.05  # of cells, for what enclosures are wider
 _AFTER, _BEYOND, _MORE, _APART = 0.004, 0.35, 0.3, 2.5  # launches beyond the arc
 _SHORT = 2.9  # of eta times how long the mass flies until it lands on the arc
@@ -67,20 +68,28 @@ def propose(box: Place) -> Iterator[Steps]:
 
 
 def _rehearse(box: Place) -> None:
-    """Follow motions from the separation at the centre and the corners of a box, while together.
+    """Follow motions from the separation, at the centre and the corners of a box, in fixed sets.
 
-    Raises Undecided where they do not seem to come back to the arc so.
+    Raises Undecided where they do not seem to come back to the arc, or to contract, so.
     """
-    phases, (etas, nus) = _separations(box) + _LATER, corners(box)
-    for _ in range(_MOST_IMPACTS):
-        images = next_impacts(side(box), etas, nus, phases, _FARTHEST).images
+    seen, (etas, nus), steep = _separations(box), corners(box), 1.0
+    phases = (seen + _LATER)[None, :]
+    for _ in range(_MOST_IMPACTS + 1):
+        _, images, slopes = next_impacts(side(box), etas, nus, phases, _FARTHEST)
+        steep = max(1.0, steep * float(np.abs(slopes).max())) if len(phases) > 1 else 1.0
         low, high = float(images.min()), float(images.max())
         if not high - low < _APART:
             raise Undecided("motions from the separation differ too much over the box")
-        if _target(box, low, high):
-            return
-        phases = images - math.tau * (low // math.tau)
-    raise Undecided("the mass is not seen to stick again soon")
+        if target := _target(box, low, high):
+            break
+        phases = np.linspace(low, high, _SAMPLES)[:, None] - math.tau * (low // math.tau)
+    else:
+        raise Undecided("the mass is not seen to stick again soon")
+    last = target[1] + _MORE * (target[1] - float(seen.max()))
+    if last > float(seen.min()):
+        slopes = next_impacts(side(box), etas, nus, last, _FARTHEST).slopes
+        if not steep * float(np.abs(slopes).max()) < 1:
+            raise Undecided("motions from just after the separation do not come back closer")
 
 
 def _sticks_at_centre(box: Place) -> bool:
