@@ -26,7 +26,7 @@ from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
-_FARTHEST = 200.0
+_FARTHEST = 70.0
 _SOON = 3 / 7  # eta at most, for rule `settles`
 _SOONER = 7  # than two turns
 _PLACES = 6  # decimals of phases

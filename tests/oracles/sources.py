@@ -105,12 +105,15 @@ def boxes():
     from proofs.trusted.parameters import Place
     from proofs.trusted.verify import premises
 
-    full, short, stable = (
+    full, short, stable, back, late, zero = (
         Place(*(tuple(map(Fraction, side)) for side in sides))
         for sides in (
             (("0.2119", "0.2122"), ("-0.2004", "-0.1996")),
             (("0.3", "0.302"), ("0.19", "0.192")),
             (("0.237", "0.2372"), ("0.3", "0.3002")),
+            (("0.2378", "0.2382"), ("-0.2059", "-0.2055")),
+            (("0.2213", "0.2217"), ("-0.1843", "-0.1839")),
+            (("0.2655", "0.2661"), ("-0.1978", "-0.1972")),
         )
     )
     for name, made in {
@@ -118,6 +121,9 @@ def boxes():
         "sticking": next(settling.propose(full)),
         "all stick": settling.settles(short),
         "stable": next(settling.propose(stable)),
+        "back": settling.sticks(back),
+        "late": settling.sticks(late),
+        "zero": settling.stays_stable(zero),
     }.items():
         yield from ((f"{name} {x}", one) for x, one in premises(made.certificate()).known.items())
 
