@@ -76,7 +76,7 @@ def _rehearse(box: Place) -> None:
     phases = (seen + _LATER)[None, :]
     for _ in range(_MOST_IMPACTS + 1):
         _, images, slopes = next_impacts(side(box), etas, nus, phases, _FARTHEST)
-        steep = max(1.0, steep * float(np.abs(slopes).max())) if len(phases) > 1 else 1.0
+        steep *= float(np.abs(slopes).max()) if len(phases) > 1 else 1.0
         low, high = float(images.min()), float(images.max())
         if not high - low < _APART:
             raise Undecided("motions from the separation differ too much over the box")
@@ -87,7 +87,8 @@ def _rehearse(box: Place) -> None:
         raise Undecided("the mass is not seen to stick again soon")
     last = target[1] + _MORE * (target[1] - float(seen.max()))
     if last > float(seen.min()):
-        slopes = next_impacts(side(box), etas, nus, last, _FARTHEST).slopes
+        launches = np.maximum(last, seen + _LATER)
+        slopes = next_impacts(side(box), etas, nus, launches, _FARTHEST).slopes
         if not steep * float(np.abs(slopes).max()) < 1:
             raise Undecided("motions from just after the separation do not come back closer")
 
