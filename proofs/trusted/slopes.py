@@ -256,12 +256,12 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
     phases, slopes, images = zip(
         *(_launched(context, entry) for entry in points_of.items(least=2)), strict=True
     )
-    if not increasing(phases):
-        raise points_of.fail("phases must increase")
     pieces, count = [], len(phases) - 1
     for index, entry in enumerate(pieces_of.items(count, count)):
         flight, time_of = entry.fields("flight", "time")
         piece = phases[index], phases[index + 1]
+        if piece[0] >= piece[1]:
+            raise points_of.fail("phases must increase")
         motion, time = bracketed(transversal_step(context, flight, piece), piece, time_of)
         bend, width = motion.curvature(time).range, piece[1] - piece[0]
         pieces.append(mean_values(slopes[index], slopes[index + 1], bend, width))
