@@ -7,7 +7,8 @@ is proposed here is proved by the checker alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -15,19 +16,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals import Interval, IntervalArray, Undecided
-from proofs.trusted.equations import Launch, clock, gap, launch
+from intervals import Interval, IntervalArray, Jet, Undecided
+from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.floating[Any]]
-COARSE, FINE = Fraction(1, 4), Fraction(1, 16)
+_UNITS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)
 _SPANS = (1, 2, 3, 5, 8, 12, 16, 22, 32, 48, 64, 88)  # lengths of pieces, in units
 _LONGEST = Fraction(11, 2)  # piece
 _SPARE = 1.02  # by which a gap must be above what the checker asks for
 _EARLIEST = 8  # halvings of the first time
 _SHARE = 0.3  # of the height from which the gap falls, where the window of the impact begins
-_ZOOMS, _PARTS = 3, 16  # parts of the window of an impact
+_PARTS = 512  # of the window of an impact
 _BITS = 80
 
 
@@ -41,7 +42,7 @@ class Flights:
     box: Place
     phases: Range
     separating: bool = False
-    unit: Fraction = COARSE
+    unit: Fraction = _UNITS[0]
 
     @cached_property
     def _eta(self) -> IntervalArray:
@@ -53,15 +54,27 @@ class Flights:
         return launch(side, self._eta, _array([self.box.nu]), _array([self.phases]))
 
     @property
-    def _order(self) -> int:
-        """The first derivative of the gap that may be > 0 at launch."""
-        return 3 if self.separating else 2
+    def _orders(self) -> list[int]:
+        """The derivatives of the gap one of which has to be > 0 at first."""
+        pushed = self.separating or bool(launch_acceleration(self._start).inf[0] >= 0)
+        return [2, 3] if pushed else [2]
 
     def gap(self, low: Floats, high: Floats, order: int = 0) -> IntervalArray:
         """Enclose a derivative of the gap on intervals of times."""
         times = IntervalArray.from_floats(low, high)
         found: IntervalArray = gap(self._start, clock(self._eta, times), order)
         return found
+
+    def sharp_heights(self, times: Floats) -> IntervalArray:
+        """Enclose the gap at times, over a range of eta by the mean value theorem."""
+        low, high = self.box.eta
+        middle = (low + high) / 2
+        centre = replace(self, box=replace(self.box, eta=(middle, middle)))
+        moving = Jet.variable(self._eta)
+        at = clock(moving, IntervalArray.from_floats(times, times))
+        along: Jet = gap(self._start._replace(eta=moving), at)
+        found: IntervalArray = along.derivative() * _array([(low - middle, high - middle)])
+        return found + centre.gap(times, times)
 
     def times(self, latest: float) -> list[Fraction]:
         """Return times for the rule, for flights that end at about `latest` at most.
@@ -85,20 +98,18 @@ class Flights:
     def bracket(self, times: list[Fraction]) -> Range:
         """Return a bracket of all first impacts, in the last of the pieces between `times`."""
         low, high = times[-2:]
-        for _ in range(_ZOOMS):
-            grid = [low + (high - low) * Fraction(k, _PARTS) for k in range(_PARTS + 1)]
-            floats = np.array([float(time) for time in grid])
-            heights = self.gap(floats, floats)
-            up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
-            if not up.size or not down.size or up[-1] > down[0]:
-                raise Undecided("the first impacts are not bracketed")
-            low, high = grid[int(up[-1])], grid[int(down[0])]
-        return low, high
+        heights = self.sharp_heights(np.linspace(float(low), float(high), _PARTS + 1))
+        up, down = np.flatnonzero(heights.inf > 0), np.flatnonzero(heights.sup < 0)
+        if not up.size or not down.size or up[-1] > down[0]:
+            raise Undecided("the first impacts are not bracketed")
+        unit = (high - low) / _PARTS
+        return low + int(up[-1]) * unit, low + int(down[0]) * unit
 
     def _first(self) -> Fraction:
         """Return a time up to which the launches leave the table."""
         times = np.array([0.5**k for k in range(_EARLIEST)])
-        leaving = np.flatnonzero(self.gap(np.zeros(_EARLIEST), times, self._order).inf > 0)
+        rates = [self.gap(np.zeros(_EARLIEST), times, order).inf for order in self._orders]
+        leaving = np.flatnonzero(np.max(rates, axis=0) > 0)
         if not leaving.size:
             raise Undecided("some launches stick, or leave too slowly")
         return Fraction(1, 2 ** int(leaving[0]))
@@ -129,6 +140,14 @@ class Flights:
                 raise Undecided("an earlier impact is not excluded")
             here += int(spans[fitting[-1]])
             yield here
+
+
+def times_for(flights: Flights, latest: float) -> list[Fraction]:
+    """Return what `times` gives, on the coarsest grid that shows it."""
+    for unit in _UNITS[:-1]:
+        with suppress(Undecided):
+            return replace(flights, unit=unit).times(latest)
+    return replace(flights, unit=_UNITS[-1]).times(latest)
 
 
 def _array(ranges: list[Range]) -> IntervalArray:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
-from proofs.motion.many import next_impacts
+from proofs.motion.many import float_gap, next_impacts
 from proofs.motion.system import System
-from proofs.plane.flights import Flights
+from proofs.plane.flights import Flights, times_for
 from proofs.plane.steps import Steps, corners, side
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch, launch_acceleration
@@ -26,8 +26,9 @@ from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
-_FARTHEST = 200.0
+_FARTHEST = 70.0
 _SOON = 3 / 7  # eta at most, for rule `settles`
+_SOONER = 7  # than two turns
 _PLACES = 6  # decimals of phases
 _ROOM = Fraction(1, 10**5)  # around phases that are seen
 _MOST_IMPACTS = 12
@@ -35,6 +36,10 @@ _LATER = 1e-3  # after the separation, where floats tell that the mass leaves
 _GRID, _TRANSIENT = 600, 64  # phases whose orbits are followed, and for how long
 _CLOSER, _TRIES = 80, 3
 _NEAR = 1e-6
+_SAMPLES = 5  # of a set
+_SHARE, _LARGER = 0.15, 1.05  # of cells, for what enclosures are wider
+_AFTER, _BEYOND, _MORE, _APART = 0.004, 0.35, 0.3, 2.5  # launches beyond the arc
+_SHORT = 2.9  # of eta times how long the mass flies until it lands on the arc
 
 
 class Cell(NamedTuple):
@@ -54,11 +59,38 @@ def propose(box: Place) -> Iterator[Steps]:
         yield rests(box)
         return
     try:
+        _rehearse(box)
         yield sticks(box)
     except Undecided:
         if _sticks_at_centre(box):
             raise
     yield stays_stable(box)
+
+
+def _rehearse(box: Place) -> None:
+    """Follow motions from the separation, at the centre and the corners of a box, in fixed sets.
+
+    Raises Undecided where they do not seem to come back to the arc, or to contract, so.
+    """
+    seen, (etas, nus), steep = _separations(box), corners(box), 1.0
+    phases = (seen + _LATER)[None, :]
+    for _ in range(_MOST_IMPACTS + 1):
+        _, images, slopes = next_impacts(side(box), etas, nus, phases, _FARTHEST)
+        steep *= float(np.abs(slopes).max()) if len(phases) > 1 else 1.0
+        low, high = float(images.min()), float(images.max())
+        if not high - low < _APART:
+            raise Undecided("motions from the separation differ too much over the box")
+        if target := _target(box, low, high):
+            break
+        phases = np.linspace(low, high, _SAMPLES)[:, None] - math.tau * (low // math.tau)
+    else:
+        raise Undecided("the mass is not seen to stick again soon")
+    last = target[1] + _MORE * (target[1] - float(seen.max()))
+    if last > float(seen.min()):
+        launches = np.maximum(last, seen + _LATER)
+        slopes = next_impacts(side(box), etas, nus, launches, _FARTHEST).slopes
+        if not steep * float(np.abs(slopes).max()) < 1:
+            raise Undecided("motions from just after the separation do not come back closer")
 
 
 def _sticks_at_centre(box: Place) -> bool:
@@ -96,8 +128,10 @@ def settles(box: Place) -> Steps:
     if box.nu[0] < 0 or box.eta[1] > _SOON:
         raise Undecided("not all motions are seen to come to rest, or to stick")
     made = Steps(box)
-    name, arrival = _separation(made)
-    if not _on_arc(box, arrival, turns=1):
+    name, _, arrival = _separation(made)
+    early, last = _target(box, *map(float, arrival)) or (0.0, math.inf)
+    later = last > float(_separations(box).min()) or float(arrival[1]) - last > _SOONER
+    if early is not None or later:
         raise Undecided("the flight from the separation is not seen to end soon on the arc")
     made.add("settles", {"separation": name})
     return made
@@ -107,18 +141,69 @@ def settles(box: Place) -> Steps:
 
 
 def sticks(box: Place) -> Steps:
-    """Return the steps for rule `sticking-motion`."""
+    """Return the steps for rule `sticking-motion`.
+
+    Where the last impact seems to come after the arc at some oscillators, launches up to there are
+    followed as well.
+    """
+    up_to = None
+    for _ in range(_TRIES):
+        made, last = _returning(box, up_to)
+        if last is None:
+            return made
+        up_to = last + _MORE * (last - float(_separations(box).max()))
+    raise Undecided("impacts come ever later after the arc")
+
+
+def _returning(box: Place, up_to: float | None) -> tuple[Steps, float | None]:
+    """Follow the motion from the separation, and launches up to a phase after it, until it returns.
+
+    Return the steps; and where there is a last impact after that phase, where it is.
+    """
     made = Steps(box)
-    name, arrival = _separation(made)
-    cells: list[Cell] = []
-    while not _on_arc(box, arrival):
+    after = 0.0 if up_to is None else _AFTER + 2 * float(np.ptp(_separations(box)))
+    name, start, arrival = _separation(made, after)
+    beyond, cells = None, list[Cell]()
+    if up_to is not None:
+        up_to = max(up_to, float(start) + _AFTER)
+        beyond = _cell(made, _rounded(float(start) - _AFTER / 4, up_to))
+        arrival = hull([arrival, beyond.image])
+    while not (target := _target(box, *map(float, arrival))):
         if len(cells) == _MOST_IMPACTS:
             raise Undecided("the mass is not seen to stick again soon")
-        cells.append(_cell(made, _around(arrival)))
+        cells.append(_cell(made, _rounded(*map(float, arrival))))
         arrival = cells[-1].image
-    witness = {"separation": name, "cells": [cell.witness for cell in cells]}
+    early, last = target
+    if last > (up_to or float(_separations(box).min())):
+        return made, last
+    landing = None
+    if early is not None:
+        cuts = _rounded(early, float(_start(box).max()) + after + _AFTER)
+        landing = made.add("lands", {"separation": name, "cuts": texts(cuts), "turns": "0"})
+    witness = {
+        "separation": name,
+        "cells": [cell.witness for cell in cells],
+        "beyond": beyond and beyond.witness,
+        "landing": landing,
+    }
     made.add("sticking-motion", witness)
-    return made
+    return made, None
+
+
+def _target(box: Place, low: float, high: float) -> tuple[float | None, float] | None:
+    """Return the ends of where last impacts seem to be, in the turn of the arc; None if elsewhere.
+
+    The first is None where it is on the arc; else launches from there land on the arc next.
+    """
+    seen, start, (etas, nus) = _separations(box), _start(box), map(np.array, corners(box))
+    turns = math.ceil((high - float(seen.max()) - _BEYOND) / math.tau)
+    low, high = low - math.tau * turns, high - math.tau * turns
+    if low > float(start.max()):
+        return None, high
+    heights = float_gap(side(box), etas, nus, low, seen - low)
+    if low > 0 and (etas * (seen - low)).max() < _SHORT and (heights < 0).all():
+        return low, high
+    return None
 
 
 def _separations(box: Place) -> Floats:
@@ -131,42 +216,39 @@ def _separations(box: Place) -> Floats:
     return np.asarray(np.where(eta < 1, phases, math.pi - phases) % math.tau)
 
 
-def _separation(made: Steps) -> tuple[str, Range]:
-    """Add the separation; return where the mass has its next impact, as phase + time."""
+def _start(box: Place) -> Floats:
+    """Return about the phases at which the mass begins to stick, in the turn before it leaves."""
+    seen = _separations(box)
+    return np.asarray(math.pi * (1 + 2 * ((seen / math.pi - 0.5) // 1)) - seen)
+
+
+def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
+    """Add the separation, with launches until some time after it.
+
+    Return its name, the last phase, and where there are impacts next, as phase + time.
+    """
     seen, (etas, nus) = _separations(made.box), corners(made.box)
-    phase = _rounded(float(seen.min()), float(seen.max()))
-    after = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
-    if not np.isfinite(after).all():
+    phase = _rounded(float(seen.min()), float(seen.max()) + after)
+    if phase[1] > TURN:
+        raise Undecided("the mass leaves the table next to phase 0")
+    flown = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
+    if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
     flights = Flights(made.box, phase, separating=True)
-    times = flights.times(float(after.max()))
+    times = times_for(flights, float(flown.max()))
     time = flights.bracket(times)
     witness = {"phase": texts(phase), "times": texts(times), "time": texts(time)}
-    return made.add("separation", witness), (phase[0] + time[0], phase[1] + time[1])
-
-
-def _on_arc(box: Place, arrival: Range, turns: int | None = None) -> bool:
-    """Whether phases seem to be inside the arc where the mass sticks, after so many turns."""
-    seen = _separations(box)
-    odd = math.pi * (1 + 2 * ((seen / math.pi - 0.5) // 1))
-    first, last = float((odd - seen).max()), float(seen.min())
-    low, high = map(float, arrival)
-    count = math.ceil((high - last) / math.tau) if turns is None else turns
-    return first < low - count * math.tau and high - count * math.tau < last
+    return made.add("separation", witness), phase[1], (phase[0] + time[0], phase[1] + time[1])
 
 
 def _rounded(low: float, high: float) -> Range:
-    """Return decimals around phases, with some room; Undecided where that passes phase 0."""
-    ends = round(Fraction(low) - _ROOM, _PLACES), round(Fraction(high) + _ROOM, _PLACES)
-    if not 0 <= ends[0] < ends[1] <= TURN:
-        raise Undecided("an interval of phases passes phase 0")
-    return ends
-
-
-def _around(arrival: Range) -> Range:
-    """Return decimals around what is phase + time."""
-    turns = math.tau * (float(arrival[0]) // math.tau)
-    return _rounded(float(arrival[0]) - turns, float(arrival[1]) - turns)
+    """Return decimals around phases on the line, with some room, from the turn of the lower one."""
+    turns = math.tau * ((low - float(_ROOM)) // math.tau)
+    ends = (Fraction(low - turns) - _ROOM, Fraction(high - turns) + _ROOM)
+    rounded = round(ends[0], _PLACES), round(ends[1], _PLACES)
+    if not 0 <= rounded[0] < rounded[1] <= rounded[0] + _APART or rounded[0] > TURN:
+        raise Undecided("an interval of phases is too wide")
+    return rounded
 
 
 # -- cells, and orbits that do not stick -----------------------------------------------------------
@@ -215,15 +297,21 @@ def _orbits(box: Place) -> Iterator[list[Range]]:
         phases = np.array([cycle] * len(etas)).T
         for _ in range(_CLOSER):
             found = next_impacts(side(box), etas, nus, phases, _FARTHEST)
-            before, phases = phases, np.roll(found.images % math.tau, 1, axis=0)
+            before, phases = phases, _next_to(phases, np.roll(found.images, 1, axis=0))
             moved = float(np.abs(phases - before).max())
             if not moved > _NEAR:
                 break
         steep = np.abs(found.slopes)
         if moved <= _NEAR and (steep.prod(axis=0) < 1).all():
-            apart = np.abs(phases[1:] - phases[0]).max(axis=1)
+            phases = _next_to(phases[:, :1], phases)
+            apart = np.abs(_next_to(phases[0], phases[1:]) - phases[0]).max(axis=1)
             period = 1 + int(np.append(np.flatnonzero(apart < 100 * _NEAR), len(apart))[0])
-            yield _cells(phases[:period], steep[:period])
+            yield _cells(phases[:period], found.slopes[:period])
+
+
+def _next_to(phases: Floats, others: Floats) -> Floats:
+    """Return other phases in the turns that bring them next to these."""
+    return np.asarray(others - math.tau * np.round((others - phases) / math.tau))
 
 
 def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
@@ -247,12 +335,15 @@ def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
             yield [float(phases[k]) for k in cycle]
 
 
-def _cells(points: Floats, steep: Floats) -> list[Range]:
+def _cells(points: Floats, slopes: Floats) -> list[Range]:
     """Return intervals around the points of orbits, wide enough to be sent into the next."""
-    low, high, slopes = points.min(axis=1), points.max(axis=1), steep.max(axis=1)
-    room = np.full(len(low), float(_ROOM))
+    low, high, steep = points.min(axis=1), points.max(axis=1), np.abs(slopes).max(axis=1)
+    rising_fixed_point = len(points) == 1 and slopes.min() > 0  # what is lowest stays lowest
+    apart = 0 if rising_fixed_point else high - low
+    least = 2 * float(_ROOM) + _SHARE * (high - low)
+    room = least
     for _ in range(_TRANSIENT):  # f sends what is w + r from an orbit to s (w + r) from the next
-        room = np.maximum(room, 1.2 * np.roll(slopes * (high - low + room), 1) + 2 * float(_ROOM))
+        room = np.maximum(room, np.roll(steep * (apart + _LARGER * room), 1) + least)
         if room.max() > 1:
             raise Undecided("a stable orbit moves too much over the box")
     return [_rounded(float(a - r), float(b + r)) for a, b, r in zip(low, high, room, strict=True)]

@@ -153,8 +153,8 @@ class SingleFlights(Flights):
         return Launch(side, *(None if x is None else _array(x) for x in numbers))
 
     @property
-    def _order(self) -> int:
-        return 2 if launch_acceleration(self.part.start).lo > 0 else 1
+    def _orders(self) -> list[int]:
+        return [2] if launch_acceleration(self.part.start).lo > 0 else [1]
 
 
 def _array(value: Enclosure) -> IntervalArray:

@@ -8,7 +8,7 @@ from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.plane.flights import FINE, Flights
+from proofs.plane.flights import Flights, times_for
 from proofs.trusted.certificate import SCHEMA, box_to_json, render, texts
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
@@ -34,10 +34,7 @@ class Steps:
 
         latest: about when the last of them comes.
         """
-        try:
-            times = Flights(self.box, phases).times(latest)
-        except Undecided:
-            times = Flights(self.box, phases, unit=FINE).times(latest)
+        times = times_for(Flights(self.box, phases), latest)
         return self.add("first-impact", {"phases": texts(phases), "times": texts(times)}), times
 
     def impacts(self, phases: Range, latest: float, halvings: int = _HALVINGS) -> list[str]:

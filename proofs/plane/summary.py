@@ -23,6 +23,7 @@ _VERDICTS = [verdict.value for verdict in LEAVES]
 _WORDS = {
     "CoveringShift": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
+    "ReturningMotion": "a stable periodic motion, sticking or not",
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",

@@ -28,8 +28,9 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.beyond.attractors import stable_orbit, sticking_motion
+from proofs.trusted.paper.beyond.attractors import stable_orbit
 from proofs.trusted.paper.beyond.chaos import markov_set
+from proofs.trusted.paper.beyond.returning import sticking_motion
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
@@ -167,7 +168,7 @@ def _sticking(run: Run) -> Proof:
         steep = math.prod(max(2 * abs(slope), 1.0) for _, slope in points)
         parts = _around(prover, points, min(_RADIUS, _LEAST / steep), 2.0)
     found = sticking_motion(arc, [part for _, part in parts])
-    witness = {"separation": name, "cells": _cells(parts)}
+    witness = {"separation": name, "cells": _cells(parts), "beyond": None, "landing": None}
     return [(prover.add("sticking-motion", witness), found)]
 
 

@@ -13,7 +13,7 @@ from functools import partial
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -142,20 +142,16 @@ class Motion:
         value: Enclosure = gap(start, self.clock(time), order)
         return value
 
-    def height(self, time: Range) -> Enclosure:
-        """Enclose the gap."""
-        return self.gap(self.start(), time)
-
-    def sharp_height(self, time: Range) -> Enclosure:
-        """Enclose the gap over a range of eta by the mean value theorem."""
+    def sharp_gap(self, time: Range, order: int = 0) -> Enclosure:
+        """Enclose what `gap_of` does, over a range of eta by the mean value theorem."""
         low, high = self.at.eta
         middle = (low + high) / 2
         centre = replace(self, at=replace(self.at, eta=(middle, middle)))
         moving = Dual(self.eta, rational(Fraction(1), self.bits))
         t = Enclosure.of(*time, self.bits)
-        along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t))
+        along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t), order)
         reach = Enclosure.of(low - middle, high - middle, self.bits)
-        return centre.height(time) + along.derivative * reach
+        return centre.gap_of(time, order) + along.derivative * reach
 
     @property
     def gap_of(self) -> Gap:
@@ -198,11 +194,11 @@ class FirstImpact(Conclusion):
         )
 
 
-def read_phases(reader: Reader) -> Range:
-    """Read an interval of phases from 0 to 2 pi, one phase as well."""
+def read_phases(reader: Reader, turns: int = 1) -> Range:
+    """Read an interval of phases from 0 to 2 pi, or some turns more; one phase as well."""
     low, high = reader.range()
-    if low < 0 or high > TURN:
-        raise reader.fail("phases lie between 0 and 2 pi")
+    if low < 0 or high > turns * TURN:
+        raise reader.fail(f"phases lie between 0 and {2 * turns} pi")
     return low, high
 
 
@@ -215,9 +211,10 @@ def read_times(reader: Reader) -> tuple[Fraction, ...]:
 
 
 def first_impact(context: Context, reader: Reader) -> FirstImpact:
-    """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}.
+    """Rule `first-impact`: {phases, times 0 < t_1 < ... < t_n}; phases from 0 to 4 pi.
 
-    Hypotheses: gap'' > 0 on phases x [0, t_1]; gap < 0 at t_n. A piece [t_j, t_(j+1)] of width
+    Hypotheses: on phases x [0, t_1] gap'' > 0, or gap''' > 0 with gap'' >= 0 at launch; gap < 0
+    at t_n. A piece [t_j, t_(j+1)] of width
     w is closed if min(gap(t_j), gap(t_(j+1))) > w^2/8 max(0, sup gap'') on it, else open.
     Conclusion: since gap = gap' = 0 at launch, gap > 0 on (0, t_1]; by the error of linear
     interpolation gap > 0 on closed pieces; so each launch has a first impact, in an open piece.
@@ -226,8 +223,9 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, at = read_times(times_of), context.place
-    motion = Motion(at, read_phases(phases_of), bits_for_pieces(times))
-    return FirstImpact(at, motion, *first_windows(motion.gap_of, times, 2))
+    motion = Motion(at, read_phases(phases_of, 2), bits_for_pieces(times))
+    orders = (2, 3) if launch_acceleration(motion.start()).lo >= 0 else (2,)
+    return FirstImpact(at, motion, *first_windows(motion.gap_of, times, *orders))
 
 
 def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpact:
@@ -266,7 +264,7 @@ def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
         inner = replace(motion, phases=phases, bits=min(factor * bits, MAX_BITS))
-        if brackets(inner.gap_of, time):
+        if any(brackets(gap_of, time) for gap_of in (inner.gap_of, inner.sharp_gap)):
             return inner, time
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
@@ -282,8 +280,8 @@ def excess(step: FirstImpact, phase: Fraction, image: Range, turns: int, bits: i
     if time[1] < begin or time[0] > end:
         return 1 if time[1] < begin else -1
     motion = replace(step.motion, phases=(phase, phase), bits=bits)
-    for height_of in (motion.height, motion.sharp_height):
-        height = height_of(time)
+    for gap_of in (motion.gap_of, motion.sharp_gap):
+        height = gap_of(time, 0)
         if height.lo > 0 and time[1] <= end:
             return 1
         if height.hi < 0 and begin <= time[0]:

@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
 from proofs.trusted.paper.beyond.boxes import MOST_CELLS, AllStick, CoveringShift
+from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
 from proofs.trusted.verdicts import Verdict
 
@@ -36,7 +37,7 @@ class Question(NamedTuple):
         return Verdict.UNDECIDED
 
 
-_ATTRACTORS = StickingMotion, StableOrbit, AllStick, AtRest
+_ATTRACTORS = StickingMotion, ReturningMotion, StableOrbit, AllStick, AtRest
 _ATTRACTOR = Question(
     "attractor",
     0,

@@ -66,7 +66,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
         "markov-set": "paper.beyond.chaos.prove_markov_set",
-        "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
+        "sticking-motion": "paper.beyond.returning.prove_sticking_motion",
         "chattering-motion": "paper.beyond.chatter.prove_chattering_motion",
         "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",

@@ -58,18 +58,22 @@ def signed(slope: Range, sign: int) -> Range:
 
 @dataclass(frozen=True)
 class SlopeRange(Conclusion):
-    """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between."""
+    """f is C^1 on [points[0], points[-1]]; f' and f at the points, f' over each piece between.
+
+    Phases are on the line: points may pass 2 pi; images are f, mod 2 pi, and may pass 2 pi as well.
+    """
 
     at: Place
     points: tuple[Fraction, ...]
     slopes: tuple[Range, ...]
-    images: tuple[Phase, ...]
+    images: tuple[Range, ...]
     pieces: tuple[Range, ...]
 
     def __post_init__(self) -> None:
-        Phases(self.points[0], self.points[-1])
         if not increasing(self.points):
             raise Unproved("points must be in order")
+        if not 0 <= self.points[0] <= TURN or self.points[-1] - self.points[0] >= TURN:
+            raise Unproved("points of one turn are expected")
 
     def over(self, domain: Range) -> SlopeRange | None:
         """Return the part between two of the points; None if an end is not one of them."""
@@ -85,9 +89,14 @@ class SlopeRange(Conclusion):
         )
 
     @property
+    def ends(self) -> Range:
+        """The phases that it is about, on the line."""
+        return self.points[0], self.points[-1]
+
+    @property
     def domain(self) -> Phases:
-        """The phases that it is about."""
-        return Phases(self.points[0], self.points[-1])
+        """The phases that it is about, where they do not pass 2 pi."""
+        return Phases(*self.ends)
 
     @property
     def minimum(self) -> Range:
@@ -109,6 +118,11 @@ class SlopeRange(Conclusion):
         return int(self.minimum[0] > 0) - int(self.maximum[1] < 0)
 
     @property
+    def steepest(self) -> Fraction:
+        """A bound on |f'|."""
+        return max(-self.minimum[0], self.maximum[1])
+
+    @property
     def expands(self) -> bool:
         """Whether |f'| > 1."""
         return self.minimum[0] > 1 or self.maximum[1] < -1
@@ -120,12 +134,12 @@ class SlopeRange(Conclusion):
     @property
     def brief(self) -> str:
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
-        return f"{low} <= f' <= {high} on {show_range(self.domain)}"
+        return f"{low} <= f' <= {high} on {show_range(self.ends)}"
 
     @property
     def latex(self) -> str:
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
-        return rf"{low} \le f'(\varphi) \le {high},\ \varphi \in {show_range(self.domain)}"
+        return rf"{low} \le f'(\varphi) \le {high},\ \varphi \in {show_range(self.ends)}"
 
 
 @dataclass(frozen=True)
@@ -173,15 +187,40 @@ def image_arc(slopes: SlopeRange) -> ImageArc:
     Raises Unproved where a hypothesis is not.
     """
     low, high = slopes.domain
-    steepest = max(-slopes.minimum[0], slopes.maximum[1])
-    if steepest * (high - low) >= TURN:
+    if slopes.steepest * (high - low) >= TURN:
         raise Unproved("an image may be longer than the circle")
-    first, last = slopes.images[0], slopes.images[-1]
+    first, last = Phase(*slopes.images[0]), Phase(*slopes.images[-1])
     if slopes.minimum[0] > 0:
         return ImageArc(slopes.at, slopes.domain, first, last)
     if slopes.maximum[1] < 0:
         return ImageArc(slopes.at, slopes.domain, last, first)
     raise Unproved("f is not proved monotone")
+
+
+def image_range(slopes: SlopeRange) -> Range:
+    """Enclose the image of an interval, on the line: from the images of its ends, and f' between.
+
+    Of the numbers that are the image of the last one mod 2 pi, only one is as far from that of the
+    first as f' allows. Raises Unproved where that is not seen, or an image may be too long.
+    """
+    width, change = slopes.ends[1] - slopes.ends[0], (slopes.minimum[0], slopes.maximum[1])
+    if slopes.steepest * width >= TURN:
+        raise Unproved("an image may be longer than the circle")
+    first, moved = slopes.images[0], [lifted(slopes.images[-1], k, COVER_BITS) for k in (-1, 0, 1)]
+    last = [
+        end
+        for end in moved
+        if end[0] - first[1] <= change[1] * width and change[0] * width <= end[1] - first[0]
+    ]
+    if len(last) != 1:
+        raise Unproved("an image is not told from what is a turn away")
+    return mean_values(first, last[0], change, width)
+
+
+def inside(values: Range, target: Range) -> bool:
+    """Whether an interval is inside another one, modulo 2 pi."""
+    moved = (lifted(values, turns, COVER_BITS) for turns in (-1, 0, 1))
+    return any(target[0] < low and high < target[1] for low, high in moved)
 
 
 @dataclass(frozen=True)
@@ -206,12 +245,17 @@ def point(context: Context, reader: Reader) -> Impact:
 
     Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
     """
+    phase, slope, image = _launched(context, reader)
+    return Impact(context.place, phase, slope, Phase(*image))
+
+
+def _launched(context: Context, reader: Reader) -> tuple[Fraction, Range, Range]:
+    """Return the phase of a {flight, phase, time}, f' there, and f as `phase_after` has it."""
     flight, phase_of, time_of = reader.fields("flight", "phase", "time")
     phase = phase_of.number()
     step = transversal_step(context, flight, (phase, phase))
     motion, time = bracketed(step, (phase, phase), time_of)
-    image = Phase(*phase_after(phase, time, motion.bits))
-    return Impact(step.at, phase, motion.slope(time).range, image)
+    return phase, motion.slope(time).range, phase_after(phase, time, motion.bits)
 
 
 def slope_range(context: Context, reader: Reader) -> SlopeRange:
@@ -224,24 +268,19 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
     f'(x_(i+1)) - f'' [0, w] (mean value theorem).
     """
     points_of, pieces_of = reader.fields("points", "pieces")
-    facts = [point(context, entry) for entry in points_of.items(least=2)]
-    pieces = []
-    for index, entry in enumerate(pieces_of.items(len(facts) - 1, len(facts) - 1)):
-        flight, time_of = entry.fields("flight", "time")
-        left, right = facts[index], facts[index + 1]
-        if left.phase >= right.phase:
-            raise points_of.fail("phases must increase")
-        phases = (left.phase, right.phase)
-        motion, time = bracketed(transversal_step(context, flight, phases), phases, time_of)
-        bend, width = motion.curvature(time).range, right.phase - left.phase
-        pieces.append(mean_values(left.slope, right.slope, bend, width))
-    return SlopeRange(
-        facts[0].at,
-        tuple(fact.phase for fact in facts),
-        tuple(fact.slope for fact in facts),
-        tuple(fact.image for fact in facts),
-        tuple(pieces),
+    phases, slopes, images = zip(
+        *(_launched(context, entry) for entry in points_of.items(least=2)), strict=True
     )
+    pieces, count = [], len(phases) - 1
+    for index, entry in enumerate(pieces_of.items(count, count)):
+        flight, time_of = entry.fields("flight", "time")
+        piece = phases[index], phases[index + 1]
+        if piece[0] >= piece[1]:
+            raise points_of.fail("phases must increase")
+        motion, time = bracketed(transversal_step(context, flight, piece), piece, time_of)
+        bend, width = motion.curvature(time).range, piece[1] - piece[0]
+        pieces.append(mean_values(slopes[index], slopes[index + 1], bend, width))
+    return SlopeRange(context.place, phases, slopes, images, tuple(pieces))
 
 
 def avoids(context: Context, reader: Reader) -> Avoids:

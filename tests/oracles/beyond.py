@@ -135,7 +135,8 @@ def all_stick(view, rng):
 
 
 def _in_cell(phase, cell, slack=1e-9):
-    return float(cell[0]) - slack < phase < float(cell[1]) + slack
+    low, high = float(cell[0]) - slack, float(cell[1]) + slack
+    return any(low < phase + TURN * k < high for k in (0, 1))
 
 
 def sticking_motion(view, rng):
@@ -148,15 +149,49 @@ def sticking_motion(view, rng):
         if sticks(view.arc.eta, view.arc.nu, found.phase) or not _in_cell(found.phase, cell):
             return [*told, f"an impact at {found.phase:.12g}, not in {cell}"]
         found = next_impact(view.arc.eta, view.arc.nu, Fraction(found.phase))
-    if isinstance(found, Impact) and not sticks(view.arc.eta, view.arc.nu, found.phase):
+    if isinstance(found, Impact) and not _comes_to_stick(view, found.phase):
         told.append(f"the last impact, at {found.phase:.12g}, does not stick")
+    return told
+
+
+def _comes_to_stick(view, phase):
+    """Whether the mass sticks at an impact, or, if a landing is said, at the next one."""
+    eta, nu = view.arc.eta, view.arc.nu
+    if sticks(eta, nu, phase) or view.landing is None:
+        return sticks(eta, nu, phase)
+    found = next_impact(eta, nu, Fraction(phase))
+    return not isinstance(found, Impact) or sticks(eta, nu, found.phase)
+
+
+def returning_motion(view, rng):
+    """Flights from phi_s and from the last phase come back there, or stick, and are closer then."""
+    told, back, (away, first) = separation_arc(view.arc, rng), [], _released(view.arc)
+    last = float(view.beyond[1]) - float(away)
+    for found in (first, next_impact(view.arc.eta, view.arc.nu, view.beyond[1])):
+        impacts = [found]
+        for cell in view.cells:
+            if not isinstance(impacts[-1], Impact):
+                return told
+            if not _in_cell(impacts[-1].phase, cell):
+                told.append(f"an impact at {impacts[-1].phase:.12g}, not in {cell}")
+            impacts.append(next_impact(view.arc.eta, view.arc.nu, Fraction(impacts[-1].phase)))
+        if not isinstance(impacts[-1], Impact):
+            return told
+        phase = impacts[-1].phase
+        late = (phase - float(away)) % TURN
+        if late > last + 1e-9 and not _comes_to_stick(view, phase):
+            told.append(f"a last impact at {phase:.12g}")
+        back.append(late if late < last else 0.0)
+    if not view.contraction < 1 or abs(back[1] - back[0]) > view.contraction * last + 1e-9:
+        told.append(f"they come back {back[1] - back[0]:.9g} apart")
     return told
 
 
 def stable_orbit(view, rng):
     """Cells that are apart, mapped into each other in turn; the product of slopes is bounded."""
     told, cells, slopes = [], view.cells, []
-    if any(b[0] <= a[1] for a, b in pairwise(sorted(cells))):
+    around = [*sorted(cells), *((low + TURN, high) for low, high in sorted(cells)[:1])]
+    if any(b[0] <= a[1] for a, b in pairwise(around)):
         told.append("the cells overlap")
     if not view.contraction[1] < 1:
         told.append("no contraction is said")
@@ -183,6 +218,7 @@ JUDGES = {
     "FlightsEnd": flights_end,
     "ComesToRest": comes_to_rest,
     "MarkovSet": markov_set,
+    "ReturningMotion": returning_motion,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,
 }

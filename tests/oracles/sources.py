@@ -103,7 +103,7 @@ def boxes():
     from proofs.trusted.parameters import Place
     from proofs.trusted.verify import premises
 
-    full, short, stable, single, none = (
+    full, short, stable, single, none, back, late, zero = (
         Place(*(tuple(map(Fraction, side)) for side in sides))
         for sides in (
             (("0.2119", "0.2122"), ("-0.2004", "-0.1996")),
@@ -111,6 +111,9 @@ def boxes():
             (("0.237", "0.2372"), ("0.3", "0.3002")),
             (("0.6", "0.6002"), ("-0.75", "-0.7498"), ("0.3", "0.3")),
             (("1.3", "1.3002"), ("-0.7", "-0.6998"), ("0.3", "0.31")),
+            (("0.2378", "0.2382"), ("-0.2059", "-0.2055")),
+            (("0.2213", "0.2217"), ("-0.1843", "-0.1839")),
+            (("0.2655", "0.2661"), ("-0.1978", "-0.1972")),
         )
     )
     for name, made in {
@@ -121,6 +124,9 @@ def boxes():
         "short single": singles.propose(stable, 3),
         "single": singles.propose(single, 2),
         "no single": singles.propose(none, 5),
+        "back": settling.sticks(back),
+        "late": settling.sticks(late),
+        "zero": settling.stays_stable(zero),
     }.items():
         yield from ((f"{name} {x}", one) for x, one in premises(made.certificate()).known.items())
 

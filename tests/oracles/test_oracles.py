@@ -411,7 +411,16 @@ FALSE = {
         put("growth", (F(3), F(4))),
         put("fixed_points", (2, 4, 8, 16, 32, 64, 128, 250)),
     ],
+    "ReturningMotion": [
+        put("cells", lambda old: tuple(off(x) for x in old)),
+        put("cells", lambda old: old[:-1]),
+        put("contraction", F(1)),
+        put("contraction", F(1, 10**6)),
+        put("beyond", lambda old: (old[0], old[0] + F(1, 10**4))),
+        _of("arc", offs("phase")),
+    ],
     "StickingMotion": [
+        put("landing", None),
         put("cells", lambda old: tuple(off(x) for x in old)),
         put("cells", lambda old: old[:-1]),
         _of("arc", offs("phase")),

@@ -13,9 +13,10 @@ from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phases
-from proofs.trusted.paper.beyond.attractors import StableOrbit, StickingMotion
+from proofs.trusted.numbers import Phases, Range
+from proofs.trusted.paper.beyond.attractors import StableOrbit
 from proofs.trusted.paper.beyond.chaos import MarkovSet
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 
@@ -31,7 +32,7 @@ def crossings(found: MarkovSet) -> list[tuple[Phases, Phases]]:
     return [(found.cells[i], found.cells[j]) for i, after in enumerate(found.onward) for j in after]
 
 
-def steps(cells: tuple[Phases, ...]) -> list[tuple[Phases, Phases]]:
+def steps(cells: tuple[Range, ...]) -> list[tuple[Range, Range]]:
     """Return boxes that hold f on each of these sets, which is mapped into the next."""
     return list(pairwise(cells))
 

@@ -2,6 +2,7 @@
 
 import math
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 import pytest
@@ -12,14 +13,16 @@ from proofs.motion.many import next_impacts
 from proofs.motion.system import System
 from proofs.plane import settling
 from proofs.plane.cells import decide
-from proofs.plane.flights import FINE, Flights
+from proofs.plane.flights import Flights, times_for
 from proofs.plane.head import Here, executor
-from proofs.plane.horseshoe import Sets, propose
+from proofs.plane.horseshoe import Sets, _pieces, propose
 from proofs.plane.summary import joined, merged
+from proofs.search.shifts import pieces
 from proofs.trusted.atlas import Region
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit, StickingMotion
+from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
+from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import Place
-from proofs.trusted.verify import check
+from proofs.trusted.verify import Rejected, check
 
 F = Fraction
 REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
@@ -48,7 +51,7 @@ def test_times_are_those_of_the_rule_and_none_where_flights_differ():
     times = Flights(box("0.212", "-0.2"), (F("1.1"), F("1.12"))).times(25.5)
     assert times == sorted(times) and 23 < times[-2] < times[-1] < 26
     with pytest.raises(Undecided):  # some of these graze the table, and fly on
-        Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3")), unit=FINE).times(60.0)
+        times_for(Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3"))), 60.0)
     with pytest.raises(Undecided):  # some stick
         Flights(box("0.212", "-0.2"), (F("3.2"), F("3.6"))).times(60.0)
 
@@ -70,12 +73,50 @@ def test_sets_of_a_neighbour_are_tried_first():
         (box("0.212", "-0.2"), StickingMotion, 0),
         (box("0.5", "0.2"), AtRest, 0),
         (box("0.237", "0.3"), StableOrbit, 1),
+        (box("0.2213", "-0.1843"), StickingMotion, 0),  # one impact before the arc
+        (box("0.2674", "-0.2168", "0.001"), ReturningMotion, 0),  # on the arc or just after it
+        (box("0.2378", "-0.2059", "0.0004"), ReturningMotion, 1),
     ],
 )
 def test_attractors(place, kind, impacts):
     (found,) = check(next(settling.propose(place)).certificate()).conclusions
     assert isinstance(found, kind) and found.at == place
     assert len(getattr(found, "cells", ())) == impacts
+
+
+def test_what_is_rehearsed_is_what_is_proved():
+    """At boxes over the region: a proof of `sticks` where the rehearsal ends well, none else."""
+    told = set()
+    for eta, nu in product(("0.1641", "0.2121", "0.3113"), ("-0.3", "-0.2", "-0.13")):
+        place = box(eta, nu, "0.0008")
+        try:
+            settling._rehearse(place)
+        except Undecided:
+            with pytest.raises((Undecided, Rejected)):
+                check(settling.sticks(place).certificate())
+            told.add(False)
+        else:
+            check(settling.sticks(place).certificate())
+            told.add(True)
+    assert told == {False, True}
+
+
+def test_pieces_of_branches_that_are_seen_at_once():
+    """Each is part of one that is seen phase by phase, with the same images."""
+    slowly = pieces(System(F("0.212"), F("-0.2")), 800)
+    found = _pieces(-1, 0.212, -0.2)
+    assert len(found) > 5
+    for piece in found:
+        (other,) = [x for x in slowly if x.phases[0] <= piece.phases[0] <= x.phases[-1]]
+        assert set(piece.phases) <= set(other.phases)
+        images = dict(zip(other.phases, other.images, strict=True))
+        for phase, image in zip(piece.phases, piece.images, strict=True):
+            assert image == pytest.approx(images[phase], abs=1e-6)
+
+
+def test_phases_are_brought_next_to_others():
+    moved = settling._next_to(np.array([0.1, 6.2, 3.0]), np.array([6.2, 0.1 + 3 * math.tau, -3.2]))
+    assert moved == pytest.approx([6.2 - math.tau, 0.1 + math.tau, math.tau - 3.2])
 
 
 def test_a_cell_without_a_proof_is_split_and_undecided_at_the_last_depth():

@@ -10,23 +10,18 @@ from itertools import pairwise
 from math import prod
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import COVER_BITS, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, between, ceil_text, show_range
+from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s31_horseshoe import read_part
-from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc
+from proofs.trusted.slopes import SlopeRange, image_range, inside
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _MOST_IMPACTS = 200
-
-
-def _named(cells: Sequence[Phases]) -> str:
-    return ", ".join(map(show_range, cells))
 
 
 # -- X1: the mass that never leaves ----------------------------------------------------------------
@@ -129,87 +124,6 @@ def _rests(of: Parameters, found: Found) -> Decision:
 # -- X3: motions that stick ------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class StickingMotion(Conclusion):
-    """After the separation the mass makes an impact in each of the cells and then sticks."""
-
-    arc: Separation
-    cells: tuple[Phases, ...]
-
-    def __post_init__(self) -> None:
-        if not self.cells and not self.arc.returns:
-            raise Unproved("the flight after the separation does not end where the mass sticks")
-
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.arc.at
-
-    @property
-    def sentence(self) -> str:
-        between_them = f" at phases in {_named(self.cells)}," if self.cells else ""
-        return (
-            f"{self.brief}. It leaves the table at a phase in {between(self.arc.phase, 12)}, with "
-            f"impacts{between_them} the last one where the mass sticks until it leaves again. The "
-            "motion is superstable: a mass that sticks anywhere joins it exactly when it leaves, "
-            "and so do those that make their next impact near one of these."
-        )
-
-    @property
-    def brief(self) -> str:
-        count = len(self.cells) + 1
-        each = "1 impact" if count == 1 else f"{count} impacts"
-        return f"a periodic motion has {each} and one separation a period"
-
-    @property
-    def quantities(self) -> dict[str, Range]:
-        return {"separation_phase": self.arc.phase}
-
-
-def sticking_motion(arc: Separation, parts: Sequence[SlopeRange]) -> StickingMotion:
-    """Theorem. Let the first impact after the separation be in a set C_1 of phases on which f is
-    C^1, f(C_i) inside C_(i+1), and that of the last one inside the arc where the mass sticks; or
-    let it be there at once. Then what `StickingMotion.sentence` says.
-
-    Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick; so its
-    motion from there repeats. f is continuous on the C_i and phi_1 is inside C_1: impacts near
-    those of the motion are followed by impacts near its next ones, the last inside the arc.
-    """
-    if any(part.at != arc.at for part in parts):
-        raise Unproved("the hypotheses are about different oscillators")
-    if parts and not _inside(arc.arrival, parts[0].domain):
-        raise Unproved("the first impact is not proved to be in the first set")
-    arcs = [image_arc(part) for part in parts]
-    if not all(_sends(one, two.domain) for one, two in zip(arcs, parts[1:], strict=False)):
-        raise Unproved("an image is not proved to be inside the next set")
-    sticking = arc.start[1], arc.phase[0]
-    for last in arcs[-1:]:
-        if not (last.is_interval and _inside((last.low[0], last.high[1]), sticking)):
-            raise Unproved("the last impact is not proved to be where the mass sticks")
-    return StickingMotion(arc, tuple(part.domain for part in parts))
-
-
-def _inside(values: Range, target: Range) -> bool:
-    """Whether numbers are inside an interval, modulo 2 pi."""
-    moved = (lifted(values, turns, COVER_BITS) for turns in (-1, 0, 1))
-    return any(target[0] < low and high < target[1] for low, high in moved)
-
-
-def _sends(arc: ImageArc, target: Phases) -> bool:
-    """Whether an image is inside a set of phases."""
-    return arc.is_interval and target[0] < arc.low[0] and arc.high[1] < target[1]
-
-
-def prove_sticking_motion(context: Context, reader: Reader) -> StickingMotion:
-    """Rule `sticking-motion`: {separation: name of a step, cells: [{slopes, domain}]}.
-
-    slopes: a slope-range step; domain: two of its points. Conclusion: `sticking_motion`.
-    """
-    separation_of, cells_of = reader.fields("separation", "cells")
-    parts = [read_part(context, cell) for cell in cells_of.items(0, _MOST_IMPACTS)]
-    return sticking_motion(context.step(separation_of, Separation), parts)
-
-
 def _sticks(of: Parameters, found: Found) -> Decision:
     motion, none = found.first(StickingMotion), first_proved(of.place, AtRest, NeverSticks)
     if motion is not None:
@@ -225,20 +139,22 @@ class StableOrbit(Conclusion):
     """f maps each cell inside the next, the last inside the first, and the loop contracts."""
 
     at: Place
-    cells: tuple[Phases, ...]
+    cells: tuple[Range, ...]
     contraction: Range
 
     def __post_init__(self) -> None:
         ordered = sorted(self.cells)
-        if not ordered or any(one[1] >= two[0] for one, two in pairwise(ordered)):
+        around = [*ordered, *((low + TURN, high + TURN) for low, high in ordered[:1])]
+        if not ordered or any(one[1] >= two[0] for one, two in pairwise(around)):
             raise Unproved("the cells of a stable orbit are not apart")
         if not 0 <= self.contraction[0] <= self.contraction[1] < 1:
             raise Unproved("f is not proved to contract around the loop")
 
     @property
     def sentence(self) -> str:
+        named = ", ".join(map(show_range, self.cells))
         return (
-            f"{self.brief}, one point in each of {_named(self.cells)}, in this order, and it "
+            f"{self.brief}, one point in each of {named}, mod 2 pi, in this order, and it "
             "attracts all phases of these sets; all its impacts are transversal, and after each "
             "the mass leaves the table at once."
         )
@@ -254,7 +170,7 @@ class StableOrbit(Conclusion):
 
 
 def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
-    """Theorem. Let f be C^1 on disjoint closed intervals C_1, ..., C_k of phases, monotone on each,
+    """Theorem. Let f be C^1 on disjoint closed intervals C_1, ..., C_k of phases,
     f(C_i) inside C_(i+1), f(C_k) inside C_1, and let the product of sup |f'| be below 1. Then what
     `StableOrbit.sentence` says.
 
@@ -264,16 +180,15 @@ def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
     """
     if len({part.at for part in parts}) != 1:
         raise Unproved("the hypotheses are about different oscillators")
-    first = min(range(len(parts)), key=lambda i: parts[i].domain)
+    first = min(range(len(parts)), key=lambda i: parts[i].ends)
     parts = [*parts[first:], *parts[:first]]
-    arcs = [image_arc(part) for part in parts]
-    following = [*parts[1:], parts[0]]
-    if not all(_sends(arc, part.domain) for arc, part in zip(arcs, following, strict=True)):
+    following = zip(parts, [*parts[1:], parts[0]], strict=True)
+    if not all(inside(image_range(part), after.ends) for part, after in following):
         raise Unproved("an image is not proved to be inside the next set")
-    one = Fraction(1)
-    most = prod((max(-part.minimum[0], part.maximum[1]) for part in parts), start=one)
-    least = prod((max(part.minimum[0], -part.maximum[1]) for part in parts), start=one)
-    return StableOrbit(parts[0].at, tuple(part.domain for part in parts), (least, most))
+    zero, one = Fraction(0), Fraction(1)
+    most = prod((part.steepest for part in parts), start=one)
+    least = prod((max(part.minimum[0], -part.maximum[1], zero) for part in parts), start=one)
+    return StableOrbit(parts[0].at, tuple(part.ends for part in parts), (least, most))
 
 
 def prove_stable_orbit(context: Context, reader: Reader) -> StableOrbit:

@@ -98,7 +98,9 @@ def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> It
     points of one set, f(p) <= f(x) <= f(q). Raises Unproved where that does not decide.
     """
     parts = [each for each in slopes if each.at == base.at]
-    known = [pair for each in parts for pair in zip(each.points, each.images, strict=True)]
+    known = [
+        (x, Phase(*y)) for each in parts for x, y in zip(each.points, each.images, strict=True)
+    ]
     orbit = [(phase, phase)]
     while (spot := _spot(base, orbit[-1])) % 2:
         if len(orbit) > _LONGEST:

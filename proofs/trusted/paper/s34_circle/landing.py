@@ -183,18 +183,22 @@ def lands(context: Context, reader: Reader) -> Lands:
         raise cuts_of.fail("phases must increase")
     first = lifted(arc.phase if turns == 0 else arc.start, -1, BITS)[1]
     last = arc.phase[0] if turns == 0 else arc.start[0]
-    if cuts[0] < first or cuts[-1] > last or context.of.eta * (arc.phase[1] - cuts[0]) >= _THREE:
+    if (
+        cuts[0] < first
+        or cuts[-1] > last
+        or context.place.eta[1] * (arc.phase[1] - cuts[0]) >= _THREE
+    ):
         raise Unproved("the launches are not proved to stay up until the sticking arc")
     start, end = (lifted(each, int(turns), BITS) for each in (arc.start, arc.phase))
     for low, high in pairwise(cuts if turns else (cuts[0], cuts[0])):
-        motion = Motion(context.of.place, (low, high), BITS)
+        motion = Motion(context.place, (low, high), BITS)
         if turns:
             if end[0] - high <= start[1] - low:
                 raise Unproved("a piece is longer than the sticking arc")
             clear(motion, (arc.start[0] - high, start[1] - low))
         if level(motion, end[0] - high)[1] >= 0:
             raise Unproved("the gap is not negative at the end of the sticking arc")
-    return Lands(context.of.place, (cuts[0], cuts[-1]))
+    return Lands(context.place, (cuts[0], cuts[-1]))
 
 
 # -- landing nowhere -------------------------------------------------------------------------------

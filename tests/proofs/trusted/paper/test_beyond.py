@@ -20,20 +20,23 @@ from proofs.trusted.paper.beyond.attractors import (
     Leaves,
     NeverSticks,
     StableOrbit,
-    StickingMotion,
     stable_orbit,
-    sticking_motion,
 )
 from proofs.trusted.paper.beyond.chaos import contains, markov_set, misses
 from proofs.trusted.paper.beyond.chatter import ChatteringMotion, chattering_motion
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
+from proofs.trusted.paper.beyond.returning import (
+    ReturningMotion,
+    StickingMotion,
+    sticking_motion,
+)
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s34_circle.absorption import Absorption
-from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.parameters import PAPER, Place
-from proofs.trusted.slopes import ImageArc, SlopeRange
+from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc, image_range, inside
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
 from tests.oracles.judge import oracle
@@ -44,7 +47,7 @@ HERE, THERE = PAPER.place, Place.plastic(F(1, 4), F(-1, 5))
 
 
 def around(value):
-    return Phase(F(value) - F(1, 10**6), F(value) + F(1, 10**6))
+    return F(value) - F(1, 10**6), F(value) + F(1, 10**6)
 
 
 def affine(low, high, first, last, at=HERE):
@@ -283,6 +286,127 @@ def test_what_is_no_motion_that_sticks(arrival, parts):
     if not parts:
         with pytest.raises(Unproved):
             StickingMotion(arc(arrival), ())
+
+
+# -- motions that come back to the arc, or to just after it ----------------------------------------
+
+LANDING = Lands(HERE, (F(2), F("3.45")))
+AFTER = affine("5.9999", "6.2", "6.1", "6.05")  # launches after the arc's end
+
+
+def test_the_last_impact_may_be_before_the_arc_where_the_next_one_is_on_it():
+    found = sticking_motion(arc("2.5"), (), landing=LANDING)
+    assert isinstance(found, StickingMotion) and "1 or 2 impacts" in found.sentence
+    assert sticking_motion(arc(4), (), landing=LANDING).landing == LANDING
+
+
+def test_the_last_impact_may_be_after_the_arc():
+    beyond = affine("5.9999", "6.2", "6.1", "6.05")
+    found = sticking_motion(arc("6.1"), (), beyond)
+    assert isinstance(found, ReturningMotion) and found.beyond == (F("5.9999"), F("6.2"))
+    assert F("0.24") < found.contraction < F("0.26")  # 0.05 / 0.2001
+    assert "0.250876" in found.sentence and "6.2" in found.sentence
+    parts = (affine("5.8", "6.15", "1.2", "0.3"), affine("0.2", "1.3", "5.7", "5.8"))
+    found = sticking_motion(arc("6.1"), parts, beyond)
+    assert found.cells == ((F("5.8"), F("6.15")), (F("0.2"), F("1.3")))
+    assert F("0.05") < found.contraction < F("0.07")  # times 18/7 and 1/11
+
+
+def test_sets_may_pass_phase_0():
+    turn = F("6.283185307179586")
+    beyond = affine("5.9999", "6.5", "6.25", "6.35")
+    found = sticking_motion(arc("6.25"), (), beyond)
+    assert found.beyond[1] == F("6.5") and F("0.19") < found.contraction < F("0.21")
+    for shift in (-turn, F(0), turn):
+        assert inside((F("6.2") + shift, F("6.4") + shift), (F(6), F("6.5")))
+        assert not inside((F("6.2") + shift, F("6.51") + shift), (F(6), F("6.5")))
+    across = affine("6.2", "6.4", "6.25", "6.35")
+    assert stable_orbit([across]).cells == ((F("6.2"), F("6.4")),)
+    with pytest.raises(Unproved, match="no interval of phases"):
+        image_arc(across)
+    with pytest.raises(Unproved):  # the same phases, a turn later
+        replace(stable_orbit([across]), cells=((F("0.1"), F("0.2")), (F("6.2"), F("6.4"))))
+    for ends in (("6.3", "6.4"), ("-0.1", "0.1"), ("0.1", "6.39")):
+        with pytest.raises(Unproved, match="one turn"):
+            affine(*ends, "6.25", "6.35")
+
+
+@pytest.mark.parametrize(
+    ("arrival", "parts", "beyond", "landing"),
+    [
+        ("1.9", (), None, LANDING),  # before the launches that are known to land
+        ("2.5", (), None, replace(LANDING, at=THERE)),
+        ("2.5", (), None, replace(LANDING, phases=(F(2), F("3.3")))),  # not up to the arc
+        ("6.1", (), affine("5.9999", "6.2", "6.1", "6.25"), None),  # comes back later than 6.2
+        ("6.1", (), affine("5.9999", "6.2", "6.1", "3.3"), None),  # before the arc
+        ("6.3", (), affine("5.9999", "6.2", "6.1", "6.05"), None),
+        ("6.1", (), affine("6.001", "6.2", "6.1", "6.05"), None),  # not from its end on
+        ("6.1", (), affine("5.9999", "6.2", "6.1", "6.05", at=THERE), None),
+        ("5.9", (), affine("5.9999", "6.2", "5.9", "6.1001"), None),  # hardly contracts
+        (
+            "6.1",
+            (affine("5.8", "6.15", "1.2", "0.3"),),
+            affine("5.9999", "6.2", "4.1", "4.2"),
+            None,
+        ),  # another set
+        (
+            "6.1",
+            (affine("6.04", "6.15", "4.1", "4.6"),),  # 0.25 times 50/11
+            affine("5.9999", "6.2", "6.1", "6.05"),
+            None,
+        ),
+    ],
+)
+def test_what_does_not_come_back(arrival, parts, beyond, landing):
+    with pytest.raises(Unproved):
+        sticking_motion(arc(arrival), parts, beyond, landing)
+
+
+def test_a_motion_that_comes_back_cannot_be_made_of_false_data():
+    found = sticking_motion(arc("6.1"), (), affine("5.9999", "6.2", "6.1", "6.05"))
+    for changes in (
+        {"contraction": F(1)},
+        {"contraction": F(-1)},
+        {"beyond": (F("6.01"), F("6.2"))},
+        {"beyond": (F("5.9"), F("5.99"))},
+        {"beyond": (F("5.9999"), F("6.05"))},
+        {"beyond": (F("5.9999"), F("9.7"))},  # more than a turn
+        {"arc": arc("6.1", THERE), "landing": LANDING},
+        {"landing": replace(LANDING, phases=(F(2), F(3)))},
+    ):
+        with pytest.raises(Unproved):
+            replace(found, **changes)
+    slow = replace(found.arc, speed=(F(0), F(1)))
+    with pytest.raises(Unproved, match="transversal"):
+        sticking_motion(slow, (), affine("5.9999", "6.2", "6.1", "6.05"))
+    slow = replace(found.arc, speed=(F(1, 200), F(1)))  # then f may be steep after phi_s
+    with pytest.raises(Unproved, match="contract"):
+        sticking_motion(slow, (), affine("5.9999", "6.2", "6.1", "6.05"))
+
+
+@pytest.mark.parametrize("first", ["0.1", "3", "6.2"])
+@pytest.mark.parametrize("slope", ["-12", "-3", "-0.2", "0.2", "3", "12"])
+def test_images_on_the_line_are_those_of_every_phase(first, slope):
+    """A line on the circle, from the images of its ends, which are known mod 2 pi alone."""
+    first, slope, turn = F(first), F(slope), F("6.283185307179586")
+    part = affine(1, "1.5", first, first + slope / 2)
+    moved = tuple((low % turn, low % turn + high - low) for low, high in part.images)
+    low, high = image_range(replace(part, images=moved))
+    assert high - low < abs(slope) / 2 + F(1, 100)
+    for k in range(11):
+        true = first + slope * F(k, 20)
+        assert any(low <= true + turn * n <= high for n in (-1, 0, 1))
+
+
+def test_images_that_are_not_told_from_others():
+    part = affine(1, 2, 3, 5)
+    for changes in (
+        {"pieces": ((F(-5), F(5)),)},  # 5 - 2 pi is possible as well
+        {"pieces": ((F(2), F(7)),)},  # longer than the circle
+        {"pieces": ((F(3), F(4)),)},  # no image is that far
+    ):
+        with pytest.raises(Unproved):
+            image_range(replace(part, **changes))
 
 
 # -- stable orbits ---------------------------------------------------------------------------------

@@ -5,26 +5,36 @@ import json
 import random
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from itertools import product
 
 import numpy as np
 import pytest
-from mpmath import mpf
+from mpmath import diff, mpf
 
 from proofs.motion.many import next_impacts
+from proofs.plane.flights import Flights
 from proofs.plane.horseshoe import propose
-from proofs.plane.settling import settles, sticks
-from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse
-from proofs.trusted.flights import Motion
+from proofs.plane.settling import settles, stays_stable, sticks
+from proofs.trusted.certificate import (
+    FIELDS,
+    Malformed,
+    Reader,
+    parameters_from_json,
+    parse,
+    texts,
+)
+from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_function
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, covering_shift
+from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
+from proofs.trusted.slopes import avoids
 from proofs.trusted.verify import Rejected, check, premises
 from tests.oracles.judge import oracle
 from tests.oracles.sources import REPORTS
@@ -65,16 +75,18 @@ def rejected(document, match=None, error=Rejected):
 # -- enclosures ------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("order", [0, 1])
 @pytest.mark.parametrize("time", ["3", "25.5", "56.25"])
-def test_the_gap_over_a_box_contains_that_of_each_of_its_oscillators(time):
+def test_the_gap_over_a_box_contains_that_of_each_of_its_oscillators(time, order):
     """By equation (10), in mpmath; at the corners and inside."""
     whole = Motion(BOX, (F("1.1"), F("1.1")))
     times = F(time), F(time)
-    found = [each(times).range for each in (whole.height, whole.sharp_height)]
+    found = [each(times, order).range for each in (whole.gap_of, whole.sharp_gap)]
     assert found[1][1] - found[1][0] < found[0][1] - found[0][0] + F(1, 10**9)
     shares = [F(k, 4) for k in range(5)]
     for eta, nu in product(*([low + (high - low) * x for x in shares] for low, high in sides())):
-        true = exact(reference.left_side_10(mpf(float(eta)), mpf(float(nu)), mpf("1.1"), mpf(time)))
+        heights = partial(reference.left_side_10, mpf(float(eta)), mpf(float(nu)), mpf("1.1"))
+        true = exact(diff(heights, mpf(time), order))
         for low, high in found:  # nu < 0: the gap is the negative
             assert low - F(1, 10**12) < -true < high + F(1, 10**12)
 
@@ -177,12 +189,11 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "full-shift", "horseshoe", "itinerary", "point",
+    "avoids", "first-impact", "full-shift", "horseshoe", "itinerary", "lands", "point",
     "separation", "slope-range", "staying-orbit",
 }  # fmt: skip
 ONE_OSCILLATOR = {
-    "bounces-end", "branch", "dimension", "grazing", "lands",
-    "never-impacts", "superstable-motion",
+    "bounces-end", "branch", "dimension", "grazing", "never-impacts", "superstable-motion",
 }  # fmt: skip
 
 
@@ -309,3 +320,105 @@ def test_a_motion_that_sticks_for_all_oscillators_of_a_box():
     (found,) = check(sticks(BOX).certificate()).conclusions
     assert found.at == BOX and found.cells == ()
     assert oracle(found, random.Random(3)) == []
+
+
+# -- motions that come back to the arc, or to just after it ----------------------------------------
+
+BACK = Place((F("0.2378"), F("0.2382")), (F("-0.2059"), F("-0.2055")))  # to after the arc
+LATE = Place((F("0.2213"), F("0.2217")), (F("-0.1843"), F("-0.1839")))  # sticks one impact later
+ZERO = Place((F("0.2655"), F("0.2661")), (F("-0.1978"), F("-0.1972")))  # a cell passes phase 0
+MADE = {BACK: sticks, LATE: sticks, ZERO: stays_stable}
+
+
+@cache
+def made_at(place):
+    return MADE[place](place).certificate()
+
+
+def at(place):
+    made = json.loads(made_at(place))
+    steps = list(made["steps"].values())
+    return made, steps, steps[-1]["witness"]
+
+
+def test_motions_that_come_back_for_all_oscillators_of_a_box():
+    found = {place: check(made_at(place)).conclusions[0] for place in MADE}
+    assert all(one.at == place for place, one in found.items())
+    assert isinstance(found[BACK], ReturningMotion) and len(found[BACK].cells) == 1
+    assert isinstance(found[LATE], StickingMotion) and found[LATE].landing is not None
+    ((low, high),) = found[ZERO].cells
+    assert low < F("6.283") and F("6.284") < high
+    for one in found.values():
+        assert oracle(one, random.Random(4)) == []
+
+
+@pytest.mark.parametrize("place", MADE)
+def test_a_box_a_little_larger_is_another_one(place):
+    made, _, _ = at(place)
+    made["parameters"]["eta"] = [str(place.eta[0] - F(1, 100)), str(place.eta[1] + F(1, 100))]
+    rejected(made)
+
+
+def test_launches_that_land_only_at_some_oscillators():
+    made, steps, _ = at(LATE)
+    (lands,) = [each["witness"] for each in steps if each["rule"] == "lands"]
+    lands["cuts"][0] = "2"
+    rejected(made, "negative at the end")
+    made, _, last = at(LATE)
+    last["landing"] = None
+    del made["steps"]["lands-2"]
+    rejected(made, "end where the mass sticks|where the mass sticks")
+    made, _, last = at(LATE)
+    last["landing"] = last["separation"]
+    rejected(made, "names no earlier step that is a Lands", Malformed)
+
+
+def test_launches_after_the_arc_are_all_followed():
+    made, steps, last = at(BACK)
+    ends = last["beyond"]["domain"]
+    last["beyond"] = last["cells"][0]
+    rejected(made)
+    for name in ("cells", "beyond", "landing"):
+        made, _, last = at(BACK)
+        del last[name]
+        rejected(made, "missing field", Malformed)
+    made, steps, last = at(BACK)
+    last["cells"] = []
+    rejected(made)
+    made, steps, last = at(BACK)
+    middle = str((F(ends[0]) + F(ends[1])) / 2)
+    for each in steps:
+        if each["rule"] == "slope-range" and each["witness"]["points"][0]["phase"] == ends[0]:
+            each["witness"]["points"][0]["phase"] = last["beyond"]["domain"][0] = middle
+    rejected(made)
+
+
+def test_a_cell_that_passes_phase_0_is_no_set_in_order():
+    known = premises(made_at(ZERO)).known
+    flight = next(x for x in known.values() if isinstance(x, FirstImpact))
+    with pytest.raises(Unproved, match="no interval of phases"):
+        _ = Sheet((flight,), 3).cell
+    (name,) = [x for x in known if x.startswith("first-impact")]
+    with pytest.raises(Unproved, match="no interval of phases"):
+        avoids(Context(ZERO, {}, known), Reader({"flights": [name], "target": ["1", "2"]}))
+    made, steps, _ = at(ZERO)
+    steps[0]["witness"]["phases"][1] = "13"
+    rejected(made, "between 0 and 4 pi", Malformed)
+
+
+@pytest.mark.parametrize(("low", "holds"), [("6.04543", True), ("6.0454", False)])
+def test_flights_just_after_the_separation(low, holds):
+    """phi_s is 6.0454239...: gap'' is 0 there at first, and no bound from below later on."""
+    here = PAPER.place
+    phases = F("6.04543"), F("6.06")
+    times = Flights(here, phases).times(26.0)
+    assert times[0] > F(1, 4)  # gap'' > 0 is seen for less
+    motion = Motion(here, (F(low), phases[1]))
+    assert motion.gap_of((F(0), times[0]), 2).lo <= 0 < motion.gap_of((F(0), times[0]), 3).lo
+    witness = Reader({"phases": texts((F(low), phases[1])), "times": texts(times)})
+    if holds:
+        found = first_impact(Context(here), witness)
+        assert oracle(found, random.Random(5)) == []
+    else:
+        with pytest.raises(Unproved, match="leave the table"):
+            first_impact(Context(here), witness)

@@ -1,0 +1,197 @@
+"""Motions that come back to the arc where the mass sticks, or to just after it. X3."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import prod
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import (
+    TURN,
+    Range,
+    between,
+    ceil_text,
+    show,
+    show_range,
+)
+from proofs.trusted.paper.s31_horseshoe import read_part
+from proofs.trusted.paper.s34_circle.landing import Lands, Separation
+from proofs.trusted.parameters import Place
+from proofs.trusted.slopes import SlopeRange, image_range, inside
+
+_MOST_IMPACTS = 200
+
+
+def _named(cells: Sequence[Range]) -> str:
+    return ", ".join(map(show_range, cells)) + ", mod 2 pi"
+
+
+def _earliest(arc: Separation, landing: Lands | None) -> Fraction:
+    """Return a phase after which a mass sticks, up to phi_s, or does so at its next impact."""
+    if landing is None:
+        return arc.start[1]
+    if landing.at != arc.at or landing.phases[1] < arc.start[1]:
+        raise Unproved("the launches that land on the arc are not known up to it")
+    return landing.phases[0]
+
+
+@dataclass(frozen=True)
+class StickingMotion(Conclusion):
+    """After the separation the mass makes an impact in each of the cells and then sticks.
+
+    landing: of launches up to the arc, where the last impact, or the one before, may be.
+    """
+
+    arc: Separation
+    cells: tuple[Range, ...]
+    landing: Lands | None = None
+
+    def __post_init__(self) -> None:
+        sticking = _earliest(self.arc, self.landing), self.arc.phase[0]
+        if not self.cells and not inside(self.arc.arrival, sticking):
+            raise Unproved("the flight after the separation does not end where the mass sticks")
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.arc.at
+
+    @property
+    def sentence(self) -> str:
+        between_them = f" at phases in {_named(self.cells)}," if self.cells else ""
+        return (
+            f"{self.brief}. It leaves the table at a phase in {between(self.arc.phase, 12)}, with "
+            f"impacts{between_them} the last one where the mass sticks until it leaves again. The "
+            "motion is superstable: a mass that sticks anywhere joins it exactly when it leaves, "
+            "and so do those that make their next impact near one of these."
+        )
+
+    @property
+    def brief(self) -> str:
+        count = len(self.cells) + 1
+        most = f"{count} or {count + 1}" if self.landing else f"{count}"
+        each = "1 impact" if most == "1" else f"{most} impacts"
+        return f"a periodic motion has {each} and one separation a period"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"separation_phase": self.arc.phase}
+
+
+@dataclass(frozen=True)
+class ReturningMotion(Conclusion):
+    """As `StickingMotion`, but the last impact may be after the arc, up to `beyond[1]`, as well.
+
+    contraction: of launches there, until they are there again.
+    """
+
+    arc: Separation
+    beyond: Range
+    cells: tuple[Range, ...]
+    contraction: Fraction
+    landing: Lands | None = None
+
+    def __post_init__(self) -> None:
+        if not self.beyond[0] <= self.arc.phase[1] <= self.beyond[1]:
+            raise Unproved("the launches after the arc are not known from its end on")
+        back = _earliest(self.arc, self.landing), self.beyond[1]
+        if not self.cells and not inside(self.arc.arrival, back):
+            raise Unproved("the flight after the separation does not end there")
+        if back[1] - back[0] >= TURN or not 0 <= self.contraction < 1:
+            raise Unproved("f is not proved to contract around the loop")
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.arc.at
+
+    @property
+    def sentence(self) -> str:
+        each = f" an impact at a phase in each of {_named(self.cells)}, and" if self.cells else ""
+        sticks = "sticks until phi_s" + (", perhaps after one more impact," if self.landing else "")
+        return (
+            f"{self.brief}: it has{each} a last one at a phase, mod 2 pi, after "
+            f"{ceil_text(_earliest(self.arc, self.landing))} and up to {show(self.beyond[1])}, "
+            f"where the mass {sticks} if it is before phi_s, in {between(self.arc.phase)}, and "
+            "leaves at once if it is after that. It attracts all motions that have an impact "
+            "between these two phases."
+        )
+
+    @property
+    def brief(self) -> str:
+        most = ceil_text(self.contraction)
+        return f"a periodic motion is stable, |multiplier| <= {most}, whether it sticks or not"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"separation_phase": self.arc.phase}
+
+
+def sticking_motion(
+    arc: Separation,
+    parts: Sequence[SlopeRange],
+    beyond: SlopeRange | None = None,
+    landing: Lands | None = None,
+) -> StickingMotion | ReturningMotion:
+    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases. Let the first impact after the
+    separation at phi_s, and those after the launches beyond it, in (phi_s, u], be in C_1,
+    f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impacts, inside (b, u), where after
+    each launch between b and the arc the first impact is on the arc; without `landing`, b is where
+    the arc starts, without `beyond`, u is phi_s. If there is a `beyond`, let the product of
+    sup |f'| on (phi_s, u] and on all C_i be below 1. Then what the conclusion's sentence says.
+
+    Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick, and what
+    makes an impact in (b, phi_s) comes to stick. So without `beyond` the motion from phi_s repeats;
+    f is continuous on the C_i and phi_1 is inside C_1: impacts near those of the motion are
+    followed by impacts near its next ones, the last inside (b, phi_s). With `beyond`, let R(x) be
+    f^(n+1)(x) where that is after phi_s, else phi_s, for x in [phi_s, u]: the phase of the next
+    launch from there. As max(phi_s, y) does not expand, R contracts [phi_s, u] into itself: all
+    its orbits come to one fixed point, a motion that sticks if that is phi_s, else one of f.
+    """
+    if any(each.at != arc.at for each in (*parts, beyond, landing) if each is not None):
+        raise Unproved("the hypotheses are about different oscillators")
+    images = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
+    for part in parts:
+        if not all(inside(image, part.ends) for image in images):
+            raise Unproved("an image is not proved to be inside the next set")
+        images = [image_range(part)]
+    back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.ends[1]
+    if not all(inside(image, back) for image in images):
+        raise Unproved("the last impact is not proved to be where the mass sticks")
+    cells = tuple(part.ends for part in parts)
+    if beyond is None:
+        return StickingMotion(arc, cells, landing)
+    steepest = max(_steepest(arc), beyond.steepest) * prod(part.steepest for part in parts)
+    return ReturningMotion(arc, beyond.ends, cells, steepest, landing)
+
+
+def _steepest(arc: Separation) -> Fraction:
+    """Bound |f'| for launches from phi_s to arc.phase[1].
+
+    By `slope` |f'| <= A / (eta |gap'|), and A = 0 at phi_s, |A'| <= |nu (1 - eta^2)|.
+    """
+    (low, high), width = arc.at.eta, arc.phase[1] - arc.phase[0]
+    if arc.speed[0] <= 0:
+        raise Unproved("the first impact is not proved to be transversal")
+    rise = max(map(abs, arc.at.nu)) * max(abs(1 - low**2), abs(1 - high**2))
+    return rise * width / (low * arc.speed[0])
+
+
+def prove_sticking_motion(context: Context, reader: Reader) -> StickingMotion | ReturningMotion:
+    """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
+
+    separation, landing: names of steps; slopes: a slope-range step; domain: two of its points;
+    beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`.
+    """
+    separation_of, cells_of, beyond_of, landing_of = reader.fields(
+        "separation", "cells", "beyond", "landing"
+    )
+    parts = [read_part(context, cell) for cell in cells_of.items(0, _MOST_IMPACTS)]
+    beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
+    landing = None if landing_of.is_null() else context.step(landing_of, Lands)
+    return sticking_motion(context.step(separation_of, Separation), parts, beyond, landing)
