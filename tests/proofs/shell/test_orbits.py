@@ -174,7 +174,7 @@ def test_the_escape_rate_by_the_operator_by_cycles_and_by_lengths(capsys):
     assert found["periods"] == 8 and "with s = 1" in found["statement"]
     assert 0 < high - low < 1e-19 and 0 < last - first < 1e-19
     assert abs(low - first) < 1e-15
-    assert abs(low - mp.log(length_left(6) / length_left(7))) < 1e-6
+    assert abs(low - mp.log(length_left(9) / length_left(10))) < 1e-8
 
 
 def test_the_escape_rate_in_words(capsys):
