@@ -221,10 +221,13 @@ def test_a_flight_gains_no_more_speed_than_is_said(eta, nu):
 
 
 def test_only_motions_that_impact_no_more_touch_for_ever():
-    """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it."""
+    """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it: so
+    what rests on the table, and touches it for ever, must be none of the motions that it is about.
+    """
     never = NeverImpacts(HERE, Phases(F("1.5"), F("1.6")))
     of = replace(PAPER, epsilon=F("0.1"))
     decide = find("X9").decide
+    assert "leave the table and touch it again" in find("X9").says(of)
     assert decide(of, [never]).verdict is Verdict.VERIFIED
     assert "touches the table" in decide(of, [never]).because[0].sentence
     for other, known in (
