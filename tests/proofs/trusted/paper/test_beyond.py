@@ -412,6 +412,12 @@ def test_a_motion_that_chatters_needs_all(change, reason):
         chattering_motion(*change(arc, impacts, ratio, rest))
 
 
+def test_a_motion_that_reaches_over_the_phase_0_is_no_malformed_one():
+    of = replace(PAPER, eta=F("0.266"), nu=F("0.497"), epsilon=F("0.151"), reach=None)
+    (line,) = produce({"rebounding": ["X7"]}, of, digits=20, effort=1).lines
+    assert line.verdict is Verdict.UNDECIDED
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu", "epsilon", "verdicts"), REBOUNDING)
 def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
