@@ -13,7 +13,7 @@ from proofs.motion.simulate import late_state
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver
-from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.numbers import TURN, Range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.parameters import Place
@@ -102,6 +102,8 @@ def follow(
     """Prove impacts of a box of states, of one that contains its image, and so on."""
     steps: list[tuple[str, Rebound]] = []
     for _ in range(count):
+        if not within(box[0], (Fraction(0), TURN)):
+            raise Undecided("a box of states reaches over the phase 0")
         steps.append(prover.rebound(at, box[0], box[1]))
         image = steps[-1][1]
         box = [(-rounded(-low), rounded(high)) for low, high in (image.phase, image.velocity)]

@@ -124,8 +124,8 @@ ROWS = (
         "X9",
         "beyond",
         "",
-        _AT + "an open set of states, phases and velocities, is attracted to motions that touch "
-        "the table for ever, without relative velocity.",
+        _AT + "an open set of states, phases and velocities, is attracted to motions that leave "
+        "the table and touch it again, without relative velocity, and so on for ever.",
         _touches,
     ),
 )

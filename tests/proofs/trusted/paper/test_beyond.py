@@ -224,10 +224,13 @@ def test_a_flight_gains_no_more_speed_than_is_said(eta, nu):
 
 
 def test_only_motions_that_impact_no_more_touch_for_ever():
-    """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it."""
+    """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it: so
+    what rests on the table, and touches it for ever, must be none of the motions that it is about.
+    """
     never = NeverImpacts(HERE, Phases(F("1.5"), F("1.6")))
     of = replace(PAPER, epsilon=F("0.1"))
     decide = find("X9").decide
+    assert "leave the table and touch it again" in find("X9").says(of)
     assert decide(of, [never]).verdict is Verdict.VERIFIED
     assert "touches the table" in decide(of, [never]).because[0].sentence
     for other, known in (
@@ -531,6 +534,12 @@ def test_a_motion_that_chatters_needs_all(change, reason):
     arc, impacts, ratio, rest, _ = chatter()
     with pytest.raises(Unproved, match=reason):
         chattering_motion(*change(arc, impacts, ratio, rest))
+
+
+def test_a_motion_that_reaches_over_the_phase_0_is_no_malformed_one():
+    of = replace(PAPER, eta=F("0.266"), nu=F("0.497"), epsilon=F("0.151"), reach=None)
+    (line,) = produce({"rebounding": ["X7"]}, of, digits=20, effort=1).lines
+    assert line.verdict is Verdict.UNDECIDED
 
 
 @pytest.mark.slow
