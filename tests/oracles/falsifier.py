@@ -53,6 +53,7 @@ PARAMETERS = {  # some of one's own
     "epsilon": (None, "0", "1/100", "1/1000", "99/100", "1/50"),
     "velocities": (None, ["-9/20", "0"], ["-1/2", "0"], ["-9/20", "-1/5"], ["-1", "1"]),
     "reach": (None, ["0", "0", "0"], ["1/20000", "1/20000", "1/200"], ["1/100", "1/100", "1/200"]),
+    "signs": (["-1", "-1"], ["-1", "1"], ["1", "-1"]),
 }
 
 
@@ -193,8 +194,8 @@ def edit_text(text: str, chance: random.Random) -> str:
 def edit_parameters(given: dict[str, Any], chance: random.Random) -> dict[str, Any]:
     """Another number, one of `PARAMETERS` or near by."""
     made = copy.deepcopy(given)
-    name = chance.choices(list(PARAMETERS), (1, 1, 2, 2, 3, 3, 3, 2, 2, 2, 2))[0]
-    if chance.random() < 0.5 or made[name] is None:
+    name = chance.choices(list(PARAMETERS), (1, 1, 2, 2, 3, 3, 3, 2, 2, 2, 2, 1))[0]
+    if chance.random() < 0.5 or made.get(name) is None:
         made[name] = copy.copy(chance.choice(PARAMETERS[name]))
     else:
         _put(made, (name, *place(made[name], chance)), chance)
