@@ -206,15 +206,16 @@ def image_range(slopes: SlopeRange) -> Range:
     width, change = slopes.ends[1] - slopes.ends[0], (slopes.minimum[0], slopes.maximum[1])
     if slopes.steepest * width >= TURN:
         raise Unproved("an image may be longer than the circle")
-    first, moved = slopes.images[0], [lifted(slopes.images[-1], k, COVER_BITS) for k in (-1, 0, 1)]
-    last = [
+    first, last = slopes.images[0], slopes.images[-1]  # which may both pass 2 pi: two turns apart
+    moved = [lifted(last, turns, COVER_BITS) for turns in range(-2, 3)]
+    near = [
         end
         for end in moved
         if end[0] - first[1] <= change[1] * width and change[0] * width <= end[1] - first[0]
     ]
-    if len(last) != 1:
+    if len(near) != 1:
         raise Unproved("an image is not told from what is a turn away")
-    return mean_values(first, last[0], change, width)
+    return mean_values(first, near[0], change, width)
 
 
 def inside(values: Range, target: Range) -> bool:

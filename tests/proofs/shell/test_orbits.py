@@ -185,9 +185,11 @@ def test_the_escape_rate_in_words(capsys):
 
 
 @pytest.mark.slow
-def test_no_operator_where_f_decreases(capsys):
-    escape = answer(capsys, "--eta", "0.103", "--nu", "0.541", "--cycles", "2", "--fast")["escape"]
-    assert escape["rate"] is escape["statement"] is None and escape["by_cycles"]
+def test_operator_and_cycles_where_f_decreases(capsys):
+    at = "--eta", "0.103", "--nu", "0.541"
+    escape = answer(capsys, *at, "--cycles", "7", "--digits", "15")["escape"]
+    (low, high), (first, last) = (map(mpf, escape[name].values()) for name in ("rate", "by_cycles"))
+    assert high - low < 1e-14 and last - first < 1e-14 and abs(low - first) < 1e-12
 
 
 def test_the_words_that_come_before_their_rotations():

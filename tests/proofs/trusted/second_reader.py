@@ -84,9 +84,9 @@ def interval(value, limit=3000):
     return low, high
 
 
-def phases(value, limit=3000):
+def phases(value, limit=3000, turns=1):
     low, high = interval(value, limit)
-    form(low >= 0 and high <= BELOW_TURN, "phases in [0, 2 pi)")
+    form(low >= 0 and high <= turns * BELOW_TURN, "phases in [0, 2 pi), or [0, 4 pi)")
     return low, high
 
 
@@ -149,7 +149,7 @@ def read_step(step, earlier, used):
         inside, times = fields(witness, "phases", "times")
         times = increasing(entries(times, number, 2))
         form(times[0] > 0 and times[-1] <= 10**6, "times from 0 to 10^6")
-        return rule, (phases(inside), times)
+        return rule, (phases(inside, turns=2), times)
     if rule == "point":
         return rule, point(witness)
     if rule == "slope-range":

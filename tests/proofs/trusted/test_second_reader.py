@@ -31,6 +31,7 @@ BOTH_FAULTS = {
     "claim id changed": "another statement; another claim has the id",
     "flight of the gap dropped": "the gap is not covered; a step is unused",
     "flight phases moved": "no impact proved; points lie outside the phases",
+    "flight phases moved a turn": "no impact proved; the phases do not touch the next",
     "flight phases the whole circle": "no impact proved; the phases do not touch the next",
     "phase of a point changed": "no impact proved; the sets are no points of the slopes",
     "proof of another claim": "another verdict; a step that nothing uses",
@@ -38,6 +39,7 @@ BOTH_FAULTS = {
     "reference dropped": "a fact is missing; its step is unused",
     "other type": "a quantity that the claim does not have; it is no pair of bounds",
     "unknown field": "a quantity that the claim does not have; it is no pair of bounds",
+    "why changed": "another text; none at all",
 }
 # The second reader leaves it to the checker how a reason is worded.
 WORDING = re.compile(r"rejected: \$\.claims\[\d+\]\.(why|witness|corrected): ")

@@ -410,6 +410,10 @@ def test_images_that_are_not_told_from_others():
     ):
         with pytest.raises(Unproved):
             image_range(replace(part, **changes))
+    turn, little = F("6.283185307179586"), F(1, 1000)
+    images = (F(0), little), (turn - little, turn + little)  # of the last phase two turns less, too
+    with pytest.raises(Unproved, match="a turn away"):
+        image_range(replace(part, images=images, pieces=((little / 2 - turn, F(1, 100)),)))
 
 
 # -- stable orbits ---------------------------------------------------------------------------------
