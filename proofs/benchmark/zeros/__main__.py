@@ -27,9 +27,10 @@ SCHEMA = "impact-proofs.zeros/1"
 _SMALLEST = 2.0**-52  # sub-boxes, in proportion to the given box
 _ABOUT = """\
 Each zero counted is proved to exist and to be the only one in its box; where the system is decided,
-no other zero is in the given box. "known" is the number published with the system, or one that
-follows from its definition. "not decided" are boxes that may hold zeros: double ones, or what was
-left after a number of sub-boxes (100 to 100,000, see `systems.py`; `--boxes`).
+no other zero is in the given box. "known" is the number that is commonly given for the system, or
+one that follows from its definition; those of IBEX, MGH, PHC and Floudas were not read again at
+their sources. "not decided" are boxes that may hold zeros: double ones, or what was left after a
+number of sub-boxes (100 to 100,000, see `systems.py`; `--boxes`).
 
 Henon's cycles are counted once each, from their least point, and both fixed points with them: so
 366 are 364 cycles of prime period 19 and 2. The page of COPRIN has 16 and 32 zeros of Brent's
