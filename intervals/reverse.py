@@ -130,6 +130,7 @@ def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
     below = np.where(rows > -_LEAST, 0.0, -size * (1 - _SLACK))
     candidate = np.where(rows > 0, size * (1 + _SLACK), below)
     proved = near & ((IntervalArray.from_floats(candidate) ** n).inf >= rows)
+    proved |= (candidate == 0) & (rows <= 0)  # exact, where an enclosure of 0^n may reach below 0
     return IntervalArray._of_rows(np.where(proved, candidate, MAX))
 
 

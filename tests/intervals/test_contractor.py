@@ -209,6 +209,14 @@ def test_roots_are_enclosed(ends, n, shift):
         assert (found.wid <= float(high - low) + 1e-12 * float(max(abs(low), abs(high)))).all()
 
 
+@pytest.mark.parametrize("n", [3, 5, 11])
+def test_roots_of_sets_that_end_at_zero(n):
+    for low, high in ((0, 2), (-2, 0), (0, 0), (0, Fraction(1, 2**40))):
+        found = root(IntervalArray([(low**n, high**n)]), IntervalArray([(-9, 9)]), n)
+        assert found.contains(low).all() and found.contains(high).all()
+        assert (found.wid <= float(high - low) + 1e-12).all()
+
+
 def test_a_root_that_is_wrong_is_not_believed(monkeypatch):
     monkeypatch.setattr(reverse, "_SLACK", -(2.0**-30))
     found = root(IntervalArray([(-32, 243), (32, 243)]), IntervalArray([(-9, 9), (0, 9)]), 5)
