@@ -193,7 +193,7 @@ class Oscillator:
     def _rectangles(self, left: Range, right: Range, gamma: Range, digits: int) -> Theorem:
         of = self._parameters(left, right, gamma)
         epsilon = of.epsilon or Fraction(0)
-        at = Place((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
+        at = Place.restituting(of.eta, of.nu, epsilon)
         prover = ReboundProver(of, Prover(self._system, digits, HORIZON))
         name = prover.horseshoe(at, (left, right))
         found = prover.get(name, RectangleHorseshoe)

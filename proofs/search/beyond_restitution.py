@@ -16,7 +16,7 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.beyond import EFFORT, Budget, too_fast
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
-from proofs.search.s33_cycles import follow, rounded, stable_cycles, state_before
+from proofs.search.s33_cycles import around_image, follow, stable_cycles, state_before
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_circle import prove_arc, prove_longest
@@ -56,7 +56,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     """Prove a horseshoe on rectangles that are found (rule rectangle-horseshoe)."""
     system, of = prover.plain.system, prover.of
     epsilon = of.epsilon or Fraction(0)
-    at = Place((of.eta,) * 2, (of.nu,) * 2, (epsilon,) * 2)
+    at = Place.restituting(of.eta, of.nu, epsilon)
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
     failure = "no two rectangles are seen that F maps across both"
     for (sets, velocities), _ in zip(
@@ -95,7 +95,7 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
 def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusion]:
     """Follow the motion from the separation until bounces end in rest (rule chattering-motion)."""
     system = prover.plain.system
-    at = Place((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2)
+    at = Place.restituting(system.eta, system.nu, epsilon)
     separation, arc = prove_arc(prover.plain)
     prover.known[separation] = arc
     pushing = Pushing(system, arc.phase[0])
@@ -105,7 +105,7 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     while len(impacts) < _MOST_IMPACTS:
         ((name, found),) = follow(prover, at, box, 1)
         impacts.append(name)
-        box = [(-rounded(-low), rounded(high)) for low, high in (found.phase, found.velocity)]
+        box = around_image(found)
         for turns in (0, -1):
             phases = lifted(found.phase, turns, COVER_BITS)
             if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:

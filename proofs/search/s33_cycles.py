@@ -34,7 +34,7 @@ def stable_cycles(
 ) -> Iterator[tuple[str, StableCycle]]:
     """Prove the stable orbits of F, of one period or of any, that simulated motions come to."""
     eta, nu = prover.of.eta, prover.of.nu
-    at = Place((eta, eta), (nu, nu), (epsilon, epsilon))
+    at = Place.restituting(eta, nu, epsilon)
     seen: list[Floats] = []
     for states in _candidates(System(eta, nu), float(epsilon), tries):
         known = any(math.dist(states[0], other) < _HALF for other in seen)
@@ -105,9 +105,13 @@ def follow(
         if not within(box[0], (Fraction(0), TURN)):
             raise Undecided("a box of states reaches over the phase 0")
         steps.append(prover.rebound(at, box[0], box[1]))
-        image = steps[-1][1]
-        box = [(-rounded(-low), rounded(high)) for low, high in (image.phase, image.velocity)]
+        box = around_image(steps[-1][1])
     return steps
+
+
+def around_image(step: Rebound) -> list[Range]:
+    """Return a box of states, short numbers, that contains the image of another one."""
+    return [(-rounded(-low), rounded(high)) for low, high in (step.phase, step.velocity)]
 
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:

@@ -51,7 +51,7 @@ def prove(
     if of.box is None or of.epsilon is None or of.velocities is None:
         return Evidence()
     prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
-    at = Place((of.eta, of.eta), (of.nu, of.nu), (of.epsilon, of.epsilon))
+    at = Place.restituting(of.eta, of.nu, of.epsilon)
     exact = [claim for claim in claims if claim not in ("N4", "N5")]
     named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
     if "N4" in claims:

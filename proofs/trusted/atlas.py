@@ -104,7 +104,7 @@ class Region:
         if schema_of(text) != SCHEMA:
             raise Malformed(f"$.schema: the schema is not {SCHEMA!r}")
         stored = parse(text)
-        more = ["epsilon"] if "epsilon" in dict(stored.entries()) else []
+        more = ["epsilon"] if stored.has("epsilon") else []
         _, eta, nu, name, *rest = stored.fields("schema", "eta", "nu", "question", *more)
         try:
             return cls(eta.range(), nu.range(), name.string(), *(each.range() for each in rest))

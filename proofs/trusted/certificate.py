@@ -99,6 +99,10 @@ class Reader:
         for name, value in self.value.items():
             yield name, self._inner(value, f".{_shown(name)}")
 
+    def has(self, name: str) -> bool:
+        """Whether an object has a field."""
+        return name in dict(self.entries())
+
     def members(self) -> Iterator[tuple[str, Reader]]:
         """Iterate over the members of an object with free names."""
         for name, inner in self.entries():
@@ -264,13 +268,13 @@ def parameters_to_json(of: Parameters) -> dict[str, Any]:
         "epsilon": None if of.epsilon is None else text(of.epsilon),
         "velocities": None if of.velocities is None else texts(of.velocities),
         "reach": None if of.reach is None else texts(of.reach),
-    } | ({} if of.signs == (1, 1) else {"signs": list(map(str, of.signs))})
+    } | ({} if of.signs == (1, 1) else {_SIGNS: list(map(str, of.signs))})
 
 
 def parameters_from_json(reader: Reader) -> Parameters:
     """Read and validate one statement's numbers."""
     names = [field.name for field in dataclasses.fields(Parameters)]
-    if _SIGNS not in dict(reader.entries()):
+    if not reader.has(_SIGNS):
         names.remove(_SIGNS)
     eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(*names)
     velocities, reach, *signs = more
@@ -307,7 +311,7 @@ def subject_from_json(reader: Reader) -> Parameters | Place | None:
     """Read and validate what a file is about: one statement's numbers, a box, formulas alone."""
     if reader.is_null():
         return None
-    names = ["eta", "nu", "epsilon"][: 3 if "epsilon" in dict(reader.entries()) else 2]
+    names = ["eta", "nu", "epsilon"][: 3 if reader.has("epsilon") else 2]
     if {name for name, _ in reader.entries()} != {*names}:
         return parameters_from_json(reader)
     _require_short(reader)

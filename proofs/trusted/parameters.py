@@ -33,6 +33,11 @@ class Place:
         """Return one oscillator with plastic impacts."""
         return cls((eta, eta), (nu, nu))
 
+    @classmethod
+    def restituting(cls, eta: Fraction, nu: Fraction, epsilon: Fraction) -> Place:
+        """Return one oscillator whose impacts have a coefficient of restitution."""
+        return cls((eta, eta), (nu, nu), (epsilon, epsilon))
+
     @property
     def point(self) -> tuple[Fraction, Fraction]:
         """The one eta and the one nu, or Unproved: what a rule needs that knows no boxes."""

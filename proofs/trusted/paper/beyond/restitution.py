@@ -59,8 +59,7 @@ class ComesToRest(Conclusion):
 
 
 def _at(of: Parameters) -> Place:
-    epsilon = of.epsilon or Fraction(0)
-    return Place((of.eta, of.eta), (of.nu, of.nu), (epsilon, epsilon))
+    return Place.restituting(of.eta, of.nu, of.epsilon or Fraction(0))
 
 
 def _rest(of: Parameters) -> Conclusion | None:
