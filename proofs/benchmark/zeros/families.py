@@ -235,15 +235,6 @@ def chebyquad(*x: Any) -> list[Any]:
     ]
 
 
-def power_sums(*x: Any) -> list[Any]:
-    """Return the sums of x_j^i less those of 1, ..., n: the n! permutations are the zeros."""
-    n = len(x)
-    return [
-        sum((y**i for y in x[1:]), x[0] ** i) - sum(j**i for j in range(1, n + 1))
-        for i in range(1, n + 1)
-    ]
-
-
 def noon(*x: Any) -> list[Any]:
     """Return x_i times the sum of the other squares, - 1.1 x_i + 1 (Noonburg's neural network)."""
     total = sum((y.sqr() for y in x[1:]), x[0].sqr())
