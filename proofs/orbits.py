@@ -46,8 +46,8 @@ from proofs.shell.cli import Parser, number, whole
 from proofs.shell.files import write_target
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range, show, show_range
-from proofs.trusted.paper.beyond.chaos import markov_set
 from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
+from proofs.trusted.paper.s34_circle.other_sets import staying_set
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Verdict
@@ -106,7 +106,7 @@ def horseshoe(of: Parameters) -> ImpactMap:
 def own_horseshoe(of: Parameters) -> ImpactMap:
     """Prove a full shift on two sets that are found, f increasing or decreasing on each.
 
-    Its theorem, `markov_set`, has f monotone and C^1 on both, |f'| > 1. Here both images must be
+    Its theorem, `staying_set`, has f monotone and C^1 on both, |f'| > 1. Here both images must be
     intervals of phases as well, that contain both sets: then they contain I, and the turns that are
     left out are the same on all of a set, as in `horseshoe`.
     """
@@ -115,11 +115,11 @@ def own_horseshoe(of: Parameters) -> ImpactMap:
         with suppress(Undecided, Unproved):
             prover = Prover(system, _FAST_DIGITS, HORIZON)
             parts = [prover.slopes(list(domain))[1] for domain in (left, right)]
-            shift = markov_set(parts)
+            shift = staying_set([part.domain for part in parts], parts, [])
             if shift.full and all(image_arc(part).is_interval for part in parts):
                 sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
                 images = [part.images[0] for part in parts]
-                return _impact_map(sets, shift.slopes[0], images)
+                return _impact_map(sets, shift.expansion, images)
     raise Undecided(f"no two sets are found at {of.place} with both images across both")
 
 

@@ -23,13 +23,13 @@ from proofs.search.loops import loops
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_chaos import FASTEST, prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
+from proofs.search.s34_staying import record
 from proofs.search.shifts import full_shifts, pieces, reach
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.attractors import stable_orbit
-from proofs.trusted.paper.beyond.chaos import markov_set
 from proofs.trusted.paper.beyond.returning import sticking_motion
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
@@ -139,15 +139,18 @@ def _chaos(run: Run) -> Proof:
 
 
 def _markov(run: Run, candidates: Iterator[list[Range]]) -> Proof:
-    """Prove a subshift (rule markov-set), on the first sets that allow it."""
+    """Prove a subshift (rule staying-set), on the first sets that allow it."""
     failure, prover = "no sets are seen that f maps over each other in several ways", run.prover
     for sets, _ in zip(candidates, range(run.budget.tries), strict=False):
         run.budget.check()
         try:
             with prover.undone():
                 parts = [prover.slopes(list(domain)) for domain in sets]
-                found = markov_set([part for _, part in parts])
-                return [(prover.add("markov-set", {"cells": _cells(parts)}), found)]
+                cells = [part.domain for _, part in parts]
+                kept = record(prover, cells, list(zip(parts, cells, strict=True)))
+                if kept[1].orbit:
+                    raise Undecided("one orbit alone stays in the sets")
+                return [kept]
         except FAILED as error:
             failure = str(error)
     raise Undecided(failure)

@@ -34,7 +34,7 @@ from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
@@ -112,7 +112,7 @@ class _Run:
         return self.prover.add("dimension", witness), found
 
     def shift(
-        self, shift: FullShift, words: tuple[str, ...], exponent: Fraction | None
+        self, shift: StayingSet, words: tuple[str, ...], exponent: Fraction | None
     ) -> tuple[str, Repeller]:
         """Enclose the dimension of a full shift, by domains as small as may be in its cells."""
         domains = [self._image(shift.interval, cell) for cell in shift.cells]

@@ -1,4 +1,4 @@
-"""Which orbits stay in an interval: witnesses for the rules of `s34_circle.other_sets`."""
+"""Which orbits stay in an interval: witnesses for the rule `staying-set`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
-from typing import TypeVar
 
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
@@ -16,18 +15,10 @@ from proofs.motion.phase import phase_after
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, Range, within
-from proofs.trusted.paper.s34_circle.other_sets import (
-    FullShift,
-    StayingOrbit,
-    StayingSet,
-    full_shift,
-    staying_orbit,
-)
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet, staying_set
 from proofs.trusted.slopes import Avoids, SlopeRange
 
-C = TypeVar("C", bound=Conclusion)
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
 _FINEST = Fraction(1, 10**4)
@@ -147,9 +138,9 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     found: Proof = []
     orbits: list[tuple[Phases, ...]] = []
     with suppress(*FAILED):
-        name, orbit = proofs.prove(few, "staying-orbit", staying_orbit)
-        found.append((name, orbit))
-        orbits.append(orbit.cells)
+        name, kept = proofs.prove(few)
+        found.append((name, kept))
+        orbits += filter(None, [kept.orbit])
     for name, shift in _shifts(proofs, shifts):
         found.append((name, shift))
         orbits += [(shift.cells[0],), (shift.cells[-1],)]
@@ -157,31 +148,35 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     for cells in orbits:
         if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
             with suppress(*FAILED):
-                name, orbit = periodic_orbit(prover, cells)
-                found.append((name, orbit))
-                known.append(orbit.cells)
+                name, kept = periodic_orbit(prover, cells)
+                found.append((name, kept))
+                known.append(kept.orbit)
     return found
 
 
-def prove_shift(prover: Prover, around: Range, symbols: int) -> tuple[str, FullShift]:
+def prove_shift(prover: Prover, around: Range, symbols: int) -> tuple[str, StayingSet]:
     """Prove a full shift on the least interval around the given one that looks like one."""
     sketch = Sketcher(prover).full_shift(around, symbols)
     if sketch is None:
         raise Undecided("no full shift is seen")
-    return Pieces(prover, [sketch]).prove(sketch, "full-shift", full_shift)
+    return Pieces(prover, [sketch]).prove(sketch)
 
 
-def prove_full_shifts(prover: Prover, printed: Range, around: Range) -> list[tuple[str, FullShift]]:
+def prove_full_shifts(
+    prover: Prover, printed: Range, around: Range
+) -> list[tuple[str, StayingSet]]:
     """Prove the full shifts of `prove_staying` alone."""
     shifts = Sketcher(prover).full_shifts(printed, around)
     return _shifts(Pieces(prover, shifts), shifts)
 
 
-def _shifts(proofs: Pieces, sketches: Sequence[Sketch]) -> list[tuple[str, FullShift]]:
+def _shifts(proofs: Pieces, sketches: Sequence[Sketch]) -> list[tuple[str, StayingSet]]:
     found = []
     for sketch in sketches:
         with suppress(*FAILED):
-            found.append(proofs.prove(sketch, "full-shift", full_shift))
+            name, kept = proofs.prove(sketch)
+            if kept.whole:
+                found.append((name, kept))
     return found
 
 
@@ -193,8 +188,8 @@ class Pieces:
     sketches: Sequence[Sketch]
     _known: list[tuple[str, SlopeRange]] = field(default_factory=list)
 
-    def prove(self, sketch: Sketch, rule: str, theorem: Callable[[StayingSet], C]) -> tuple[str, C]:
-        """Record the step of a rule about the staying set, and those that it needs."""
+    def prove(self, sketch: Sketch) -> tuple[str, StayingSet]:
+        """Record the step about what stays, and those that it needs."""
         slopes = [self._slopes(piece) for piece in sketch.pieces]
         gaps = [self.prover.avoids(gap, sketch.interval) for gap in sketch.gaps]
         ends = [
@@ -202,7 +197,7 @@ class Pieces:
             for known, cuts in zip(slopes, sketch.pieces, strict=True)
             for pair in pairwise(cuts)
         ]
-        return record(self.prover, rule, theorem, [sketch.interval], ends, gaps=gaps)
+        return record(self.prover, [sketch.interval], ends, gaps)
 
     def _slopes(self, piece: Sequence[Fraction]) -> tuple[str, SlopeRange]:
         for name, known in self._known:
@@ -219,34 +214,29 @@ class Pieces:
 
 def record(
     prover: Prover,
-    rule: str,
-    theorem: Callable[[StayingSet], C],
     region: Sequence[Range],
     cells: Sequence[tuple[tuple[str, SlopeRange], Range]],
-    *,
     gaps: Sequence[tuple[str, Avoids]] = (),
-) -> tuple[str, C]:
-    """Record the step of a rule about a staying set, with its conclusion by the theorem.
+) -> tuple[str, StayingSet]:
+    """Record the step `staying-set`, with its conclusion by the theorem.
 
     cells: each a slope-range step and two of its points.
     """
     parts = [known.over(ends) for (_, known), ends in cells]
-    found = theorem(
-        StayingSet(
-            tuple(Phases(*part) for part in region),
-            tuple(part for part in parts if part is not None),
-            tuple(gap for _, gap in gaps),
-        )
+    found = staying_set(
+        [Phases(*part) for part in region],
+        [part for part in parts if part is not None],
+        [gap for _, gap in gaps],
     )
     witness = {
         "region": [texts(part) for part in region],
         "cells": [{"slopes": name, "domain": texts(ends)} for (name, _), ends in cells],
         "gaps": [name for name, _ in gaps],
     }
-    return prover.add(rule, witness), found
+    return prover.add("staying-set", witness), found
 
 
-def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, StayingOrbit]:
+def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, StayingSet]:
     """Bracket a periodic orbit with one point in each cell: it is all that stays in the brackets.
 
     f expands, so it maps each bracket over the next one.
@@ -259,7 +249,7 @@ def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, Staying
         brackets.append((low, high))
         phase = _value(prover, phase)[0]
     parts = [(prover.slopes(list(ends)), ends) for ends in brackets]
-    return record(prover, "staying-orbit", staying_orbit, brackets, parts)
+    return record(prover, brackets, parts)
 
 
 def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fraction:

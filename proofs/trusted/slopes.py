@@ -165,12 +165,14 @@ class ImageArc(Conclusion):
         return self.high[1] < self.low[0]
 
     def covers(self, target: Range) -> bool:
-        """Whether the image is proved to be an interval that contains an interval of phases."""
-        return self.low[1] <= target[0] and target[1] <= self.high[0]
+        """Whether the image is proved to contain an interval of phases."""
+        after, before = self.low[1] <= target[0], target[1] <= self.high[0]
+        return after or before if self.passes_zero else after and before
 
     def misses(self, target: Range) -> bool:
-        """Whether the image is proved to be an interval that misses an interval of phases."""
-        return self.is_interval and (target[1] < self.low[0] or self.high[1] < target[0])
+        """Whether the image is proved to miss an interval of phases."""
+        before, after = target[1] < self.low[0], self.high[1] < target[0]
+        return before and after if self.passes_zero else self.is_interval and (before or after)
 
     @property
     def sentence(self) -> str:

@@ -20,7 +20,7 @@ _MORE = {  # properties that sentences or rows rest on
     "EntropyRange": ("entropy",),
     "Pieces": ("region",),
     "ThinShift": ("rate",),
-    "MarkovSet": ("growth", "fixed_points"),
+    "StayingSet": ("growth", "fixed_points", "orbit", "expansion"),
     "Digits": ("readings",),
     "Excess": ("level",),
     "LinearDimension": ("measure",),

@@ -8,7 +8,7 @@ import numpy as np
 
 from tests.oracles.circle import _released, separation_arc
 from tests.oracles.motion import TURN, Impact, flight, inside, next_impact, sticks
-from tests.oracles.plastic import _impact, lifted, points, smooth
+from tests.oracles.plastic import _impact, maps_over, points, smooth
 
 
 def _pushes(view, count=720):
@@ -63,55 +63,13 @@ def comes_to_rest(view, rng):
     return []
 
 
-def _over(view, cell, target):
-    """Whether f maps a cell over another, or misses it; None where neither is seen."""
-    ends = [lifted(view, phase) for phase in cell]
-    if None in ends:
-        return "unknown"
-    low, high = min(ends), max(ends)
-    for turns in range(int(low // TURN) - 1, int(high // TURN) + 2):
-        first, last = (float(end) + turns * TURN for end in target)
-        if low <= first + 1e-12 and last - 1e-12 <= high:
-            return True
-        if first <= high and low <= last:
-            return None
-    return False
-
-
-def markov_set(view, rng):
-    """Disjoint cells, f steeper than 1, and each mapped over those that are said, past the rest."""
-    told, cells = [], view.cells
-    if any(b[0] <= a[1] for a, b in pairwise(cells)) or view.slopes[0] <= 1:
-        told.append("the cells are out of order or overlap, or f does not expand")
-    if len(view.onward) != len(cells):
-        return [*told, "the arrows are not those of these cells"]
-    for i, cell in enumerate(cells):
-        found = _impact(view, sum(cell) / 2)
-        sign = -1 if isinstance(found, Impact) and found.slope < 0 else 1
-        told += smooth(view, cell, sorted(sign * each for each in view.slopes), rng, 1)
-        for j, other in enumerate(cells):
-            seen = _over(view, cell, other)
-            if seen != "unknown" and seen is not (j in view.onward[i]):
-                told.append(f"cell {i} is mapped over cell {j}: {seen}")
-    matrix = np.array([[int(j in after) for j in range(len(cells))] for after in view.onward])
-    radius = max(abs(np.linalg.eigvals(matrix)))
-    if not float(view.growth[0]) - 1e-9 <= radius <= float(view.growth[1]) + 1e-9:
-        told.append(f"the spectral radius is {radius}")
-    counts = [int(np.trace(np.linalg.matrix_power(matrix, n))) for n in range(1, 9)]
-    if list(view.fixed_points) != counts:
-        told.append(f"there are {counts} closed paths")
-    if not (np.linalg.matrix_power(np.eye(len(cells)) + matrix, 2 * len(cells)) > 0).all():
-        told.append("no path leads from some cell to some other")
-    return told
-
-
 def covering_shift(view, rng):
     """On disjoint cells f does not jump, and maps each over the interval from first to last."""
     told, cells = [], view.cells
     if len(cells) < 2 or any(b[0] <= a[1] for a, b in pairwise(cells)):
         told.append("the cells are out of order or overlap")
     for cell in cells:
-        if _over(view, cell, (cells[0][0], cells[-1][1])) in (False, None):
+        if maps_over(view, cell, (cells[0][0], cells[-1][1])) in (False, None):
             told.append(f"f does not map {cell} over all cells")
         found = [_impact(view, phase) for phase in points(cell, rng, 5)]
         slopes = [each.slope for each in found if isinstance(each, Impact)]
@@ -217,7 +175,6 @@ JUDGES = {
     "NeverSticks": never_sticks,
     "FlightsEnd": flights_end,
     "ComesToRest": comes_to_rest,
-    "MarkovSet": markov_set,
     "ReturningMotion": returning_motion,
     "StickingMotion": sticking_motion,
     "StableOrbit": stable_orbit,

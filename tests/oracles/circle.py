@@ -19,7 +19,7 @@ from tests.oracles.motion import (
     sticks,
     two_pi,
 )
-from tests.oracles.plastic import between, full_shift, points
+from tests.oracles.plastic import between, points, staying_set
 
 _SAMPLE = 96
 _LONGEST = 2.0e6  # time for which a flight that never impacts is watched
@@ -164,8 +164,8 @@ def sink(view, rng):
 
 def long_transients(view, rng):
     """Phases in the interval of a full shift stick, soon, and none there at once."""
-    told = full_shift(view.shift, rng)
-    low, high = view.shift.interval
+    told = staying_set(view.shift, rng)
+    ((low, high),) = view.shift.region
     if not low <= view.inside[0] < view.inside[1] <= high:
         told.append("phases outside of the interval")
     for phase in points((low, high), rng, 4):

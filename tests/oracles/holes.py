@@ -60,7 +60,7 @@ def swapped_cells():
     """Hole 1: the cells of a full shift out of the order of phases."""
     made = committed("chaos")
     for step in made["steps"].values():
-        if step["rule"] == "full-shift":
+        if step["rule"] == "staying-set" and len(step["witness"]["cells"]) == 3:
             cells = step["witness"]["cells"]
             cells[0], cells[1] = cells[1], cells[0]
     return made
@@ -104,7 +104,7 @@ def _straddling(eta, nu, phases):
     }
     cell = {"slopes": "straddling", "domain": _texts(*ends)}
     made["steps"]["false-orbit"] = {
-        "rule": "staying-orbit",
+        "rule": "staying-set",
         "witness": {"region": [_texts(*ends)], "cells": [cell], "gaps": []},
     }
     return made
@@ -139,14 +139,14 @@ def one_phase():
 
 ORDER = (
     Lines(
-        "paper.s34_circle.other_sets:StayingSet.__post_init__",
+        "paper.s34_circle.other_sets:staying_set",
         (
-            ("tuple(sorted(self.cells, key=lambda x: x.domain))", "self.cells"),
+            ("sorted(cells, key=lambda x: x.domain)", "list(cells)"),
             ('raise Unproved("cells overlap")', "pass"),
         ),
     ),
     Lines(
-        "paper.s34_circle.other_sets:FullShift.__post_init__",
+        "paper.s34_circle.other_sets:StayingSet.__post_init__",
         (("not apart(self.cells)", "False"),),
     ),
 )

@@ -223,36 +223,83 @@ def entropy_bound(view, rng):
     return told
 
 
-def full_shift(view, rng):
-    """Disjoint cells in the order of phases, each mapped over the interval, and nothing else."""
-    told, cells, bounds = [], view.cells, view.slopes
-    if any(b[0] <= a[1] for a, b in pairwise(cells)) or len(cells) < 2:
+def maps_over(view, cell, target):
+    """Whether f maps a cell over another, or misses it; None where neither is seen."""
+    ends = [lifted(view, phase) for phase in cell]
+    if None in ends:
+        return "unknown"
+    low, high = min(ends), max(ends)
+    for turns in range(int(low // TURN) - 1, int(high // TURN) + 2):
+        first, last = (float(end) + turns * TURN for end in target)
+        if low <= first + 1e-12 and last - 1e-12 <= high:
+            return True
+        if first <= high and low <= last:
+            return None
+    return False
+
+
+def staying_set(view, rng):
+    """Disjoint cells in the order of phases, f steeper than 1; what is outside of them leaves."""
+    told, cells, count = [], view.cells, len(view.cells)
+    if any(b[0] <= a[1] for a, b in pairwise(cells)) or not cells:
         told.append("the cells are not in the order of phases, or overlap")
-    if not 1 < bounds[0] <= bounds[1]:
+    if not len(view.slopes) == len(view.onward) == count:
+        return [*told, "slopes and arrows are not those of these cells"]
+    steep = [min(abs(end) for end in bounds) for bounds in view.slopes]
+    if min(steep) <= 1 or view.expansion != min(steep):
         told.append("f is not said to expand")
-    for cell in cells:
-        if not view.interval[0] <= cell[0] < cell[1] <= view.interval[1]:
-            told.append("a cell is empty, or leaves the interval")
+    for cell, bounds in zip(cells, view.slopes, strict=True):
+        if not any(low <= cell[0] < cell[1] <= high for low, high in view.region):
+            told.append("a cell is empty, or leaves the region")
         told += smooth(view, cell, bounds, rng, 1)
-        told += [f"no full shift: {x}" for x in _short(view, cell, view.interval)]
-    for phase in points(view.interval, rng, 12):
-        outside = not any(low <= phase <= high for low, high in cells)
-        if outside and lands_in(view, phase, view.interval):
-            told.append(f"f({float(phase):.12g}) stays, in no cell")
+    for i, cell in enumerate(cells):
+        for j, other in enumerate(cells):
+            seen = maps_over(view, cell, other)
+            if seen != "unknown" and seen is not (j in view.onward[i]):
+                told.append(f"no full shift, no cycle: cell {i} is mapped over cell {j}: {seen}")
+    told += _graph_faults(view)
+    if len(view.region) == 1:
+        told += _region_faults(view, view.region[0], rng)
+    elif view.whole:
+        told.append("a whole of several intervals")
     return told
 
 
-def staying_orbit(view, rng):
-    """Each cell is mapped over the next one; fixed points and full branches there are no others."""
-    told, cells = [], view.cells
-    if any(b[0] <= a[1] for a, b in pairwise(sorted(cells))) or not cells:
-        told.append("the cells overlap")
-    for one, two in zip(cells, (*cells[1:], *cells[:1]), strict=True):
-        told += [f"no cycle: {x}" for x in _short(view, one, two)]
-    for part in view.region:
-        for low, high in _fixed_points(view, part):
-            if len(cells) > 1 or high < cells[0][0] or cells[0][1] < low:
-                told.append(f"another orbit that stays, at {float(low):.9g}")
+def _graph_faults(view):
+    """What is wrong with the arrows: growth, closed paths, the one orbit."""
+    told, count = [], len(view.cells)
+    matrix = np.array([[int(j in after) for j in range(count)] for after in view.onward])
+    radius = max(abs(np.linalg.eigvals(matrix)))
+    if not float(view.growth[0]) - 1e-9 <= radius <= float(view.growth[1]) + 1e-9:
+        told.append(f"the spectral radius is {radius}")
+    counts = [int(np.trace(np.linalg.matrix_power(matrix, n))) for n in range(1, 9)]
+    if list(view.fixed_points) != counts:
+        told.append(f"there are {counts} closed paths")
+    if not (np.linalg.matrix_power(np.eye(count) + matrix, 2 * count) > 0).all():
+        told.append("no path leads from some cell to some other")
+    places = [view.cells.index(cell) for cell in view.orbit if cell in view.cells]
+    if (len(places) == count) != (matrix.sum() == count):
+        told.append("the orbit is not all of the cells")
+    if any(not matrix[i, j] for i, j in zip(places, places[1:] + places[:1], strict=True)):
+        told.append("no cycle: the orbit does not follow the arrows")
+    return told
+
+
+def _region_faults(view, region, rng):
+    """What is wrong with an interval: fixed points, and what stays, out of the cells."""
+    told = []
+    for low, high in _fixed_points(view, region):
+        near = [i for i, (a, b) in enumerate(view.cells) if a <= high and low <= b]
+        if not any(i in view.onward[i] for i in near):
+            told.append(f"no cycle: another orbit that stays, at {float(low):.9g}")
+    if not view.whole:
+        return told
+    for cell in view.cells:
+        told += [f"no full shift: {x}" for x in _short(view, cell, region)]
+    for phase in points(region, rng, 12):
+        outside = not any(low <= phase <= high for low, high in view.cells)
+        if outside and lands_in(view, phase, region):
+            told.append(f"f({float(phase):.12g}) stays, in no cell")
     return told
 
 
@@ -369,8 +416,7 @@ JUDGES = {
     "Avoids": avoids,
     "Branch": branch,
     "EntropyBound": entropy_bound,
-    "FullShift": full_shift,
-    "StayingOrbit": staying_orbit,
+    "StayingSet": staying_set,
     "ImageArc": image_arc,
     "Horseshoe": horseshoe,
     "Itinerary": itinerary,

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from tests.oracles.motion import TURN, ball, inside
-from tests.oracles.plastic import between, full_shift, itinerary, lifted
+from tests.oracles.plastic import between, itinerary, lifted, staying_set
 
 _DEGREE = 22
 
@@ -242,10 +242,12 @@ def repeller(view, rng):
 
 def thin_shift(view, rng):
     """The full shift is one; the repellers have its branches; lengths shrink by the growth."""
-    told = full_shift(view.shift, rng) + repeller(view.repeller, rng) + repeller(view.escape, rng)
+    told = staying_set(view.shift, rng) + [
+        x for y in (view.repeller, view.escape) for x in repeller(y, rng)
+    ]
     count = len(view.shift.cells)
     for each in (view.repeller, view.escape):
-        if each.hull != view.shift.interval or each.words != tuple(map(str, range(count))):
+        if (each.hull,) != view.shift.region or each.words != tuple(map(str, range(count))):
             told.append("a repeller is not that of the full shift")
     if view.escape.exponent != 1:
         told.append("the growth is not that of lengths")

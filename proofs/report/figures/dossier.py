@@ -15,10 +15,10 @@ from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_bo
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.beyond.attractors import StableOrbit
-from proofs.trusted.paper.beyond.chaos import MarkovSet
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -27,7 +27,7 @@ _SAMPLES = 1200
 _BELOW = (-0.12, 0.0)  # where sets of phases are marked
 
 
-def crossings(found: MarkovSet) -> list[tuple[Phases, Phases]]:
+def crossings(found: StayingSet) -> list[tuple[Phases, Phases]]:
     """Return a box for each arrow: f crosses it from its lower to its upper edge, or down."""
     return [(found.cells[i], found.cells[j]) for i, after in enumerate(found.onward) for j in after]
 
@@ -40,7 +40,7 @@ def steps(cells: tuple[Range, ...]) -> list[tuple[Range, Range]]:
 def plot(proved: Context) -> Drawing:
     """Draw f, and the sets of all conclusions."""
     of = proved.of
-    kinds = (MarkovSet, EntropyBound, StableOrbit, StickingMotion, NeverImpacts)
+    kinds = (StayingSet, EntropyBound, StableOrbit, StickingMotion, NeverImpacts)
     if not any(all_of(proved, kind) for kind in kinds):
         raise Undecided("the certificate proves nothing about sets of phases")
     drawing, axes = sheet(5.2)
@@ -50,7 +50,7 @@ def plot(proved: Context) -> Drawing:
     for none in all_of(proved, NeverImpacts):
         label = "no impact ever, proved"
         proved_boxes(axes, [(none.phases, (0, math.tau))], RED, label, lw=0.8)
-    for shift in all_of(proved, MarkovSet):
+    for shift in all_of(proved, StayingSet):
         proved_boxes(axes, crossings(shift), "#C6E5F7", "crossed by f, proved", lw=0.3)
     for graph_found in all_of(proved, EntropyBound):
         branches = [(branch.phases, _BELOW) for branch in graph_found.branches]

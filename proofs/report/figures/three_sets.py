@@ -12,7 +12,7 @@ from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLACK, BLUE, GREY, dots, proved_polygons, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range, within
-from proofs.trusted.paper.s34_circle.other_sets import FullShift
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.slopes import SlopeRange
 
 if TYPE_CHECKING:
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 def plot(proved: Context) -> Drawing:
     """Draw f over the cells of the largest full shift, and the intervals of all of them."""
-    shifts = sorted(all_of(proved, FullShift), key=lambda each: len(each.cells))
+    shifts = [each for each in all_of(proved, StayingSet) if each.whole]
+    shifts.sort(key=lambda each: len(each.cells))
     if not shifts:
         raise Undecided("no full shift is proved")
     largest = shifts[-1]
@@ -47,7 +48,7 @@ def plot(proved: Context) -> Drawing:
     return drawing
 
 
-def _inside(slopes: SlopeRange, shift: FullShift) -> list[SlopeRange]:
+def _inside(slopes: SlopeRange, shift: StayingSet) -> list[SlopeRange]:
     """Return what is known of f' on those cells that lie in a step's phases."""
     cells = [cell for cell in shift.cells if within(cell, slopes.domain)]
     return [part for cell in cells if (part := slopes.over(cell)) is not None]

@@ -112,8 +112,9 @@ def horseshoe(left: SlopeRange, right: SlopeRange, gap: Avoids, slopes: Range) -
     for part in (left, right):
         if not within(part.bounds(part.sign), slopes):
             raise Unproved(f"{part.brief}, not within {show_range(slopes)}")
-        if not image_arc(part).covers(found.interval):
-            raise Unproved(f"{image_arc(part).brief}: I is not covered")
+        arc = image_arc(part)
+        if not (arc.is_interval and arc.covers(found.interval)):
+            raise Unproved(f"{arc.brief}: I is not covered")
     if not escapes(gap, found.gap, found.interval):
         raise Unproved("the gap is not proved to leave I")
     if not left.at == right.at == gap.at:

@@ -14,7 +14,7 @@ from mpmath import mpf
 
 from intervals import Undecided
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.paper.beyond.chaos import MarkovSet
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import premises
 from tests.oracles.curves import amplitude, grazing
@@ -298,7 +298,7 @@ def test_three_sets_and_restitution(drawings):
     polygons = found["graph of f, proved"]
     low = min(x for polygon in polygons for x, _ in polygon)
     high = max(x for polygon in polygons for x, _ in polygon)
-    region = numbers(step("chaos", "full-shift-2")["region"])
+    region = numbers(step("chaos", "staying-set-3")["region"])
     assert [low, high] == region[0]
     for polygon in polygons:
         xs = [x for x, _ in polygon]
@@ -340,7 +340,7 @@ def test_the_dossier_s_boxes_are_crossed_by_f_from_edge_to_edge(tmp_path):
     assert explore.main([*options, "--quiet", "--out", str(tmp_path)]) == 0
     assert (tmp_path / "figures" / "dossier.svg").read_text().count("<path") > 5
     proved = premises((tmp_path / "explore.json").read_text())
-    (shift,) = all_of(proved, MarkovSet)
+    (shift,) = all_of(proved, StayingSet)
     boxes = dossier.crossings(shift)
     assert len(boxes) == 4
     for domain, target in boxes:

@@ -1,4 +1,4 @@
-"""Attractors at any parameters: rest, motions that stick, stable orbits that do not. X1, X3, X4."""
+"""At any parameters: rest, chaos, motions that stick, stable orbits that do not. X1 to X4."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s31_horseshoe import read_part
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_range, inside
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -121,6 +123,21 @@ def _rests(of: Parameters, found: Found) -> Decision:
     return decided(Verdict.REFUTED, Leaves(of.place))
 
 
+# -- X2: chaos -------------------------------------------------------------------------------------
+
+
+def _chaotic(of: Parameters, found: Found) -> Decision:
+    for shift in found.all(StayingSet):
+        if not shift.orbit:
+            known = {"growth": shift.growth, "entropy": shift.entropy}
+            return decided(Verdict.VERIFIED, shift, known=known)
+    for graph in found.all(EntropyBound):
+        if graph.growth > 1:
+            return decided(Verdict.VERIFIED, graph)
+    none = first_proved(of.place, AtRest)
+    return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)
+
+
 # -- X3: motions that stick ------------------------------------------------------------------------
 
 
@@ -212,6 +229,14 @@ def _stable(of: Parameters, found: Found) -> Decision:
 _AT = "At (eta, nu) = ({eta}, {nu}), for plastic impacts: "
 ROWS = (
     Row("X1", "beyond", "", _AT + "the mass comes to rest on the table for ever.", _rests),
+    Row(
+        "X2",
+        "beyond",
+        "",
+        _AT + "f has a compact invariant set on which it is continuous and its topological entropy "
+        "is positive.",
+        _chaotic,
+    ),
     Row(
         "X3",
         "beyond",

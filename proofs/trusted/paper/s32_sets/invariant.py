@@ -18,7 +18,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
-from proofs.trusted.paper.s32_sets.subshift import Subshift
+from proofs.trusted.paper.s32_sets.subshift import Subshift, log_of
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -175,14 +175,11 @@ class InvariantSet(InHorseshoe):
         if not self.shift.chaotic:
             return text
         counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
-        least, most = self.shift.growth
-        exact = f"log {show(least)}"
-        entropy = exact if least == most else f"the log of a number in {between((least, most), 12)}"
         return (
             f"{text} This subshift is irreducible: Lambda is a Cantor set, with periodic orbits of "
             "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; f^n "
             f"has {counts} fixed points in Lambda for n = 1, ..., 8; the topological entropy of f "
-            f"on Lambda is {entropy}."
+            f"on Lambda is {log_of(self.shift.growth)}."
         )
 
     @property

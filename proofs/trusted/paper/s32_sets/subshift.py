@@ -10,7 +10,7 @@ from itertools import product
 from typing import TypeVar
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, between, show
 
 S = TypeVar("S", bound=Hashable)
 _ROUNDS = 200
@@ -47,6 +47,12 @@ def spectral_radius(arrows: Mapping[S, Sequence[S]]) -> Range:
         image = {x: sum(vector[then] for then in after) for x, after in arrows.items()}
     quotients = [Fraction(image[x], vector[x]) for x in vector]
     return min(quotients), max(quotients)
+
+
+def log_of(growth: Range) -> str:
+    """Write the entropy of a graph, by bounds on its spectral radius."""
+    low, high = growth
+    return f"log {show(low)}" if low == high else f"the log of a number in {between(growth, 12)}"
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from proofs.trusted.numbers import (
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
 from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
@@ -125,7 +125,7 @@ def _transient(of: Parameters, found: Found) -> Decision:
     known, never = found.first(Absorption), found.all(NeverImpacts)[:1]
     if known is None:
         return undecided(_NOT_FOLLOWED)
-    for shift in found.all(FullShift):
+    for shift in (each for each in found.all(StayingSet) if each.whole):
         sets = hull([of.interval, PRINTED])
         if within(shift.interval, LONG) and within(sets, shift.interval):
             near = long_transients(shift, known)

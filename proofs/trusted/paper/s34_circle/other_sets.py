@@ -1,92 +1,41 @@
-"""Section 3.4: is there another invariant set in [1.32, 1.48]? Claims G5, and G11, our own."""
+"""Which orbits stay in a region: the rule `staying-set`. Claims G5 and G11, our own.
+
+Section 3.4: is there another invariant set in [1.32, 1.48]?
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Phases, Range, between, covered, show_range, within
+from proofs.trusted.numbers import (
+    Phases,
+    Range,
+    between,
+    covered,
+    floor_text,
+    hull,
+    show_range,
+    within,
+)
 from proofs.trusted.paper.s31_horseshoe import read_part
+from proofs.trusted.paper.s32_sets.subshift import irreducible, log_of, spectral_radius
 from proofs.trusted.parameters import PAPER, Parameters, Place
-from proofs.trusted.slopes import Avoids, SlopeRange, image_arc
+from proofs.trusted.slopes import Avoids, ImageArc, SlopeRange, image_arc, signed
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 PRINTED = Phases(Fraction("1.32"), Fraction("1.48"))
-
-
-def _listed(ranges: Iterable[Range]) -> str:
-    return ", ".join(map(show_range, ranges))
-
-
-# -- orbits that stay ------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class StayingSet:
-    """Theorem. Let cells lie in a region and meet at ends at most, with |f'| > 1 on each, its image
-    an interval of phases. Let cells and gaps cover the region, and let f map each gap outside a set
-    that contains the region. Then every orbit that stays in the region runs through the cells.
-
-    Region (intervals that are apart) and cells are in order of phase, whatever the order given.
-    """
-
-    region: tuple[Phases, ...]
-    cells: tuple[SlopeRange, ...]
-    gaps: tuple[Avoids, ...]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "region", tuple(sorted(self.region)))
-        object.__setattr__(self, "cells", tuple(sorted(self.cells, key=lambda x: x.domain)))
-        if not apart(self.region) or not self.cells:
-            raise Unproved("no cells, or the intervals of a region are not apart")
-        if any(one.domain[1] > two.domain[0] for one, two in pairwise(self.cells)):
-            raise Unproved("cells overlap")
-        for cell in self.cells:
-            if not (cell.expands and image_arc(cell).is_interval):
-                raise Unproved("on a cell f does not expand, or its image passes phase 0")
-            if not any(within(cell.domain, part) for part in self.region):
-                raise Unproved("a cell leaves the region")
-        if not all(within(part, gap.target) for part in self.region for gap in self.gaps):
-            raise Unproved("a gap is not proved to avoid the region")
-        if {each.place for each in (*self.cells, *self.gaps)} != {self.at}:
-            raise Unproved("the hypotheses are about different oscillators")
-        known = sorted([*(cell.domain for cell in self.cells), *(gap.phases for gap in self.gaps)])
-        if not all(covered(part, known) for part in self.region):
-            raise Unproved("cells and gaps do not cover the region")
-
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.cells[0].at
-
-    @classmethod
-    def read(cls, context: Context, reader: Reader) -> StayingSet:
-        """Read {region: [[low, high], ...], cells: [{slopes, domain}], gaps: [avoids steps]}.
-
-        slopes: a slope-range step; domain: two of its points.
-        """
-        region, cells, gaps = reader.fields("region", "cells", "gaps")
-        return cls(
-            tuple(Phases(*part.range()) for part in region.items(1, 20)),
-            tuple(read_part(context, cell) for cell in cells.items(1, 500)),
-            tuple(context.step(gap, Avoids) for gap in gaps.items(0, 50)),
-        )
-
-
-def apart(intervals: Iterable[Phases]) -> bool:
-    """Whether intervals are disjoint, and in order of phase."""
-    return all(one[1] < two[0] for one, two in pairwise(intervals))
-
-
-# -- infinitely many -------------------------------------------------------------------------------
-
+_PERIODS = 8
+_LOG_BITS = 128
+_MOST_CELLS = 100  # that orbits stay in
 _CONNECTIONS = (
     " The phases with sequences over 0, 1 and those over 1, 2 are two invariant Cantor sets, each "
     "a full shift on two symbols, with the fixed point p = 111... in common; they are the phases "
@@ -99,130 +48,237 @@ _CONNECTIONS = (
 )
 
 
-@dataclass(frozen=True)
-class FullShift(Conclusion):
-    """The phases whose orbits stay in `interval` are a full shift on the cells, in order of phase.
-
-    f is one-to-one on each cell and maps it over the interval, into which no other phase goes.
-    slopes: bounds on f', which is above 1 on the cells.
-    """
-
-    at: Place
-    interval: Phases
-    cells: tuple[Phases, ...]
-    slopes: Range
-
-    def __post_init__(self) -> None:
-        if len(self.cells) < 2 or not apart(self.cells) or self.slopes[0] <= 1:
-            raise Unproved("a full shift needs two cells or more, apart, on which f' > 1")
-
-    @property
-    def sentence(self) -> str:
-        whole = show_range(self.interval)
-        named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
-        return (
-            f"f is C^1, f' in {between(self.slopes, 2)}, on each of the sets {named}, maps each of "
-            f"them one-to-one over {whole}, and no other phase of {whole} into it: the phases "
-            f"whose orbits stay in {whole} are a Cantor set on which f is conjugate to the full "
-            f"shift on {len(self.cells)} symbols, the n-th symbol of phi being the number of the "
-            f"set that f^n(phi) lies in.{_CONNECTIONS if len(self.cells) == 3 else ''}"
-        )
+def _listed(ranges: Iterable[Range]) -> str:
+    return ", ".join(map(show_range, ranges))
 
 
-def full_shift(staying: StayingSet) -> FullShift:
-    """Theorem. Let f increase on the cells of a staying set, which are two or more and disjoint,
-    and map each of them over the interval. Then what `FullShift.sentence` says.
-
-    Proof. 0. An image that is an interval of phases is shorter than the circle, so f, which
-    increases, is one-to-one on a cell. 1. The phases that follow a word of length n through the
-    cells are an interval, by the inverse branches, which are defined on all cells; it is at most
-    |cell| / mu^(n-1) long, mu = min f' > 1. So every sequence is followed by one phase, which
-    depends continuously on it; sequences are compact, so this is a homeomorphism, and it turns the
-    shift into f. 2. f increases, and the cells are in order of phase: the order of phases is the
-    lexicographic order of sequences. 3. So, on three symbols, f^n(phi) <= p for all n if and only
-    if no sequence moved on begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and
-    only if none is 0. Every sequence has its phase, and those of sequences that agree for long are
-    close.
-    """
-    interval, *more = staying.region
-    if more or not all(image_arc(cell).covers(interval) for cell in staying.cells):
-        raise Unproved("the image of a cell is not proved to cover the interval")
-    low = min(cell.minimum[0] for cell in staying.cells)
-    high = max(cell.maximum[1] for cell in staying.cells)
-    return FullShift(staying.at, interval, tuple(x.domain for x in staying.cells), (low, high))
-
-
-def prove_full_shift(context: Context, reader: Reader) -> FullShift:
-    """Rule `full-shift`: {region, cells, gaps}, see `StayingSet`. Concludes `full_shift`."""
-    return full_shift(StayingSet.read(context, reader))
-
-
-# -- finitely many ---------------------------------------------------------------------------------
+def apart(intervals: Iterable[Phases]) -> bool:
+    """Whether intervals are disjoint, and in order of phase."""
+    return all(one[1] < two[0] for one, two in pairwise(intervals))
 
 
 @dataclass(frozen=True)
-class StayingOrbit(Conclusion):
-    """All orbits that stay in a region are one periodic orbit, through disjoint cells in turn."""
+class StayingSet(Conclusion):
+    """The phases whose orbits stay in a region: in disjoint cells, f expanding on each, over some.
+
+    onward[i]: the cells that f maps cell i over; it misses the others. slopes: bounds on f' on each
+    cell. whole: whether the region is an interval that f maps each cell over, and no other phase
+    of the region into.
+    """
 
     at: Place
     region: tuple[Phases, ...]
     cells: tuple[Phases, ...]
+    slopes: tuple[Range, ...]
+    onward: tuple[tuple[int, ...], ...]
+    whole: bool = False
 
     def __post_init__(self) -> None:
-        if not self.cells or not apart(sorted(self.cells)):
-            raise Unproved("the cells of a periodic orbit are not disjoint")
+        """Raise Unproved unless all is in order and apart, f expands, the graph is irreducible."""
+        count = len(self.cells)
+        if not count or not apart(self.cells) or not apart(self.region):
+            raise Unproved("cells, and the intervals of a region, are expected apart and in order")
+        if len(self.slopes) != count or self.expansion <= 1:
+            raise Unproved("f does not expand")
+        known = all(set(after) <= set(range(count)) for after in self.onward)
+        if len(self.onward) != count or not known or not irreducible(dict(enumerate(self.onward))):
+            raise Unproved("no path leads from every cell to every one")
+        if self.whole and (len(self.region) > 1 or not self.full):
+            raise Unproved("not every cell is mapped over the region")
+
+    @property
+    def _sizes(self) -> list[Range]:
+        """Bounds on |f'|; from 0 on where f' may be 0."""
+        return [signed(x, 1 if x[0] > 0 else -1) for x in self.slopes]
+
+    @property
+    def expansion(self) -> Fraction:
+        """The least |f'|."""
+        return hull(self._sizes)[0]
+
+    @property
+    def interval(self) -> Phases:
+        """The region, where it is one interval."""
+        (interval,) = self.region
+        return interval
+
+    @property
+    def full(self) -> bool:
+        """Whether each of two cells or more is mapped over all."""
+        return all(len(after) == len(self.cells) > 1 for after in self.onward)
+
+    @property
+    def orbit(self) -> tuple[Phases, ...]:
+        """The cells in the order of the orbit, where all that stays is one; () where it is not."""
+        if any(len(after) > 1 for after in self.onward):
+            return ()
+        path = [0]
+        while (following := self.onward[path[-1]][0]) != 0:
+            path.append(following)
+        return tuple(self.cells[i] for i in path)
 
     @property
     def bracketed(self) -> bool:
-        """Whether the region is nothing but the cells: brackets of the points."""
-        return set(self.cells) == set(self.region)
+        """Whether the region is nothing but the cells."""
+        return self.cells == self.region
+
+    @cached_property
+    def growth(self) -> Range:
+        """Bounds on the number whose log is the entropy."""
+        return spectral_radius(dict(enumerate(self.onward)))
+
+    @property
+    def entropy(self) -> Range:
+        """Bounds on the entropy of f on the set."""
+        low, high = (log(end, _LOG_BITS).range for end in self.growth)
+        return low[0], high[1]
+
+    @cached_property
+    def fixed_points(self) -> list[int]:
+        """How many phases f^n fixes there, n = 1, 2, ...: the closed paths of n steps."""
+        places = range(len(self.cells))
+        sources = [[i for i in places if j in self.onward[i]] for j in places]
+        rows = [[int(i == j) for j in places] for i in places]
+        traces = []
+        for _ in range(_PERIODS):
+            rows = [[sum(row[k] for k in sources[j]) for j in places] for row in rows]
+            traces.append(sum(row[i] for i, row in enumerate(rows)))
+        return traces
 
     @property
     def sentence(self) -> str:
-        points = "" if self.bracketed else f", with one point in each of {_listed(self.cells)}"
-        return f"{self.brief}{points}."
+        if self.orbit:
+            points = "" if self.bracketed else f", with one point in each of {_listed(self.orbit)}"
+            return f"{self.brief}{points}."
+        named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
+        region, over = "these sets" if self.bracketed else _listed(self.region), ""
+        if self.whole:
+            over = f", maps each of them one-to-one over {region}, and no other phase there into it"
+        steps = f"full shift on {len(self.cells)} symbols"
+        if not self.full:
+            arrows = (f"{i} by {', '.join(map(str, x))}" for i, x in enumerate(self.onward))
+            steps = (
+                "subshift of the sequences in which each symbol is followed so: "
+                f"{', '.join(arrows)}"
+            )
+        return (
+            f"f is continuously differentiable and monotone on each of the sets {named}, with "
+            f"{self._slope} in {between(hull(self._sizes), 3)}{over}. The phases whose orbits stay "
+            f"in {region} are a Cantor set, on which f is topologically conjugate to the one-sided "
+            f"{steps}, the n-th symbol being the number of the set that f^n(phi) lies in. f^n has "
+            f"{', '.join(map(str, self.fixed_points))} fixed points there for n = 1, ..., "
+            f"{_PERIODS}; there are periodic orbits of arbitrarily high periods, uncountably many "
+            "nonperiodic ones and a dense one; the entropy of f there is "
+            f"{log_of(self.growth)}.{_CONNECTIONS if self._is_chain else ''}"
+        )
+
+    @property
+    def _slope(self) -> str:
+        return "f'" if self._rises else "|f'|"
+
+    @property
+    def _rises(self) -> bool:
+        return min(low for low, _ in self.slopes) > 0
+
+    @property
+    def _is_chain(self) -> bool:
+        """Whether it holds two full shifts that are connected."""
+        return self.whole and self._rises and len(self.cells) == 3
 
     @property
     def brief(self) -> str:
-        period = len(self.cells)
-        orbit = "fixed point" if period == 1 else f"periodic orbit of period {period}"
-        return f"the orbits that stay in {_listed(self.region)} are one unstable {orbit}"
+        if period := len(self.orbit):
+            orbit = "fixed point" if period == 1 else f"periodic orbit of period {period}"
+            return f"the orbits that stay in {_listed(self.region)} are one unstable {orbit}"
+        kind, least = "full shift" if self.full else "subshift", floor_text(self.expansion, 3)
+        return f"a {kind} on {len(self.cells)} symbols, {self._slope} >= {least}"
 
 
-def staying_orbit(staying: StayingSet) -> StayingOrbit:
-    """Theorem. Join a cell to those that its image may meet. If from each cell at most one infinite
-    path starts, all these are one closed path, through disjoint cells, and f of each of these
-    covers the next one, then `StayingOrbit`.
+def staying_set(
+    region: Sequence[Phases], cells: Sequence[SlopeRange], gaps: Sequence[Avoids]
+) -> StayingSet:
+    """Theorem. Let cells lie in a region, intervals that are apart, and meet at ends at most, |f'|
+    > 1 on each, with an image shorter than the circle. Let cells and gaps cover the region, and let
+    f map each gap outside a set that contains the region. Join a cell to those that its image may
+    meet, and leave out those from which no infinite path starts. Let the others be apart, each
+    image contain those that it is joined to, and a path lead from each to each. Then what the
+    sentence says, of a region and cells in order of phase, whatever the order given.
 
-    Proof. 1. Two phases on the same path move apart, by min |f'| > 1 at least each time, as long
-    as both stay: they are the same, so at most one phase of each cell stays. 2. The inverse
-    branches along the path contract its first cell into itself: it holds a periodic point.
+    Proof. 0. An orbit that stays runs through the cells, along the arrows, so in those that are not
+    left out. f is monotone on C_i and its image is shorter than the circle: f is one-to-one there,
+    and the phases of C_i that are sent into an interval inside the image are an interval.
+    1. So for a path i_0, ..., i_n the phases phi with f^k(phi) in C_(i_k), k <= n, are a closed
+    interval, that f maps onto that of i_1, ..., i_n, and at most max |C| / mu^n long, mu = min |f'|
+    > 1; for what is no path there are none. 2. Nested, these shrink to one phase for each infinite
+    path: itineraries are a bijection to the paths. The cells are apart and f is continuous on them,
+    so it is continuous; paths are compact: it is a homeomorphism, and turns f into the shift. One
+    path alone is a periodic orbit, repelling as |f'| > 1. 3. The shift on the paths of other such
+    graphs is as said, see `Subshift.chaotic`; its entropy is the log of the spectral radius (Lind
+    and Marcus 1995, theorem 4.3.1), and closed paths are its periodic points. 4. Where f increases
+    and images contain all of an interval, the order of phases is the lexicographic order of
+    sequences. So, on three symbols, f^n(phi) <= p for all n if and only if no sequence moved on
+    begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and only if none is 0. Every
+    sequence has its phase, and those of sequences that agree for long are close.
     """
-    cells, arcs = staying.cells, [image_arc(cell) for cell in staying.cells]
+    region, cells = sorted(region), sorted(cells, key=lambda x: x.domain)
+    if any(one.domain[1] > two.domain[0] for one, two in pairwise(cells)):
+        raise Unproved("cells overlap")
+    for cell in cells:
+        if not cell.expands or not any(within(cell.domain, part) for part in region):
+            raise Unproved("on a cell f does not expand, or it leaves the region")
+    if not all(within(part, gap.target) for part in region for gap in gaps):
+        raise Unproved("a gap is not proved to avoid the region")
+    known = sorted([*(cell.domain for cell in cells), *(gap.phases for gap in gaps)])
+    if not all(covered(part, known) for part in region):
+        raise Unproved("cells and gaps do not cover the region")
+    places = {each.at for each in cells} | {each.at for each in gaps}
+    if len(places) != 1:
+        raise Unproved("the hypotheses are about different oscillators, or about none")
+    arcs = [image_arc(cell) for cell in cells]
+    alive = _going_on(cells, arcs)
+    onward = [_over(arcs[i], [cells[j].domain for j in alive]) for i in alive]
+    whole = len(region) == 1 < len(cells) and all(arc.covers(region[0]) for arc in arcs)
+    slopes = tuple(cells[i].bounds() for i in alive)
+    kept = tuple(cells[i].domain for i in alive)
+    return StayingSet(places.pop(), tuple(region), kept, slopes, tuple(onward), whole)
+
+
+def _going_on(cells: Sequence[SlopeRange], arcs: Sequence[ImageArc]) -> list[int]:
+    """Return the places of the cells from which infinite paths start."""
     METER.get().spend(len(cells) ** 2)
     onward = [[j for j, y in enumerate(cells) if not arc.misses(y.domain)] for arc in arcs]
     alive = set(range(len(cells)))
     while dying := {i for i in alive if alive.isdisjoint(onward[i])}:
         METER.get().spend(sum(len(onward[i]) for i in alive))
         alive -= dying
-    path: list[int] = []
-    following = min(alive, default=-1)
-    while following not in path and alive:
-        path.append(following)
-        following, *others = (j for j in onward[path[-1]] if j in alive)
-        if others or not arcs[path[-1]].covers(cells[following].domain):
-            raise Unproved("orbits that stay are not proved to follow one path")
-    if not path or following != path[0] or len(path) < len(alive):
-        raise Unproved("orbits that stay are not proved to follow one closed path")
-    return StayingOrbit(staying.at, staying.region, tuple(cells[i].domain for i in path))
+    if len(alive) > _MOST_CELLS:
+        raise Unproved(f"orbits may stay in more than {_MOST_CELLS} cells")
+    METER.get().spend(len(alive) ** 3)
+    return sorted(alive)
 
 
-def prove_staying_orbit(context: Context, reader: Reader) -> StayingOrbit:
-    """Rule `staying-orbit`: {region, cells, gaps}, see `StayingSet`. Concludes `staying_orbit`."""
-    return staying_orbit(StayingSet.read(context, reader))
+def _over(arc: ImageArc, cells: Sequence[Phases]) -> tuple[int, ...]:
+    """Return the places of the cells that an image contains; it must miss the others."""
+    if not all(arc.covers(cell) or arc.misses(cell) for cell in cells):
+        raise Unproved("an image is proved neither to contain a cell nor to miss it")
+    return tuple(j for j, cell in enumerate(cells) if arc.covers(cell))
 
 
-# -- the row ---------------------------------------------------------------------------------------
+def prove_staying_set(context: Context, reader: Reader) -> StayingSet:
+    """Rule `staying-set`: {region: [[low, high], ...], cells: [{slopes, domain}], gaps}.
+
+    slopes: a slope-range step; domain: two of its points; gaps: names of avoids steps. Conclusion:
+    `staying_set`.
+    """
+    region, cells, gaps = reader.fields("region", "cells", "gaps")
+    return staying_set(
+        [Phases(*part.range()) for part in region.items(1, 500)],
+        [read_part(context, cell) for cell in cells.items(1, 500)],
+        [context.step(gap, Avoids) for gap in gaps.items(0, 50)],
+    )
+
+
+# -- the rows --------------------------------------------------------------------------------------
 
 
 def _another_set(one_orbit: Verdict) -> Decide:
@@ -233,20 +289,22 @@ def _another_set(one_orbit: Verdict) -> Decide:
     """
 
     def decide(of: Parameters, found: Found) -> Decision:
-        shifts, orbits = found.all(FullShift), found.all(StayingOrbit)
-        for shift in shifts:
-            if shift.interval == PRINTED:
-                return decided(Verdict.VERIFIED, shift)
-        staying = [orbit for orbit in orbits if orbit.region == (PRINTED,)]
-        if not (staying and any(cell[0] > of.interval[1] for cell in staying[0].cells)):
+        sets = found.all(StayingSet)
+        inside = [each for each in sets if each.region == (PRINTED,)]
+        for each in inside:
+            if each.full:
+                return decided(Verdict.VERIFIED, each, corrected=[each])
+        beyond = [x for x in inside if any(cell[0] > of.interval[1] for cell in x.orbit)]
+        if not beyond:
             return undecided(f"no proof which orbits stay in {show_range(PRINTED)}")
-        beside = [each for each in orbits if each.bracketed]
+        beside = [each for each in sets if each.bracketed and each.orbit]
         known: dict[str, Range] = {}
         for period in sorted({len(each.cells) for each in beside}):
             points = {x for each in beside if len(each.cells) == period for x in each.cells}
             known |= {f"period_{period}_point_{i}": x for i, x in enumerate(sorted(points), 1)}
-        corrected = (staying[0], *shifts, *beside)
-        return decided(one_orbit, staying[0], corrected=corrected, known=known)
+        shifts = [each for each in sets if not each.orbit]
+        corrected = (beyond[0], *shifts, *beside)
+        return decided(one_orbit, beyond[0], corrected=corrected, known=known)
 
     return decide
 

@@ -11,7 +11,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, decimals, show_range, within
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, FullShift
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -35,13 +35,15 @@ class ThinShift(Conclusion):
     low^n h / max h and high^n h / min h.
     """
 
-    shift: FullShift
+    shift: StayingSet
     repeller: Repeller
     escape: Repeller
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the hypotheses are proved, of one oscillator."""
         cells = self.shift.cells
+        if not self.shift.whole:
+            raise Unproved("no full shift on an interval")
         for each in (self.repeller, self.escape):
             if each.at != self.at or each.hull != self.shift.interval:
                 raise Unproved("the full shift and the repellers are about different sets")
@@ -98,7 +100,8 @@ def _thin(of: Parameters, found: Found) -> Decision:
     """G19: both full shifts, with the dimension and the rate of escape of each."""
     known: dict[int, ThinShift] = {}
     repellers = sorted(found.all(Repeller), key=lambda x: x.dimension[1] - x.dimension[0])
-    for shift, one, other in product(found.all(FullShift), repellers, repellers):
+    shifts = [each for each in found.all(StayingSet) if each.whole]
+    for shift, one, other in product(shifts, repellers, repellers):
         with suppress(Unproved):
             if within(PRINTED, shift.interval):
                 known.setdefault(len(shift.cells), ThinShift(shift, one, other))

@@ -9,7 +9,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phases, floor_text, show, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.other_sets import FullShift
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.parameters import Place
 
 
@@ -20,14 +20,16 @@ class LongTransients(Conclusion):
     inside: phases in the shift's interval that all come to the sticking arc, within `steps`.
     """
 
-    shift: FullShift
+    shift: StayingSet
     arc: Separation
     inside: Phases
     steps: int
 
     def __post_init__(self) -> None:
-        if self.shift.at != self.arc.at or not within(self.inside, self.shift.interval):
-            raise Unproved("phases and shift are about different oscillators, or intervals")
+        if not self.shift.whole or not within(self.inside, self.shift.interval):
+            raise Unproved("no full shift on an interval, or phases outside of it")
+        if self.shift.at != self.arc.at:
+            raise Unproved("phases and shift are about different oscillators")
         if self.shift.interval[1] >= self.arc.start[0]:
             raise Unproved("the interval of the shift is not proved to be before the sticking arc")
 
@@ -38,7 +40,7 @@ class LongTransients(Conclusion):
 
     @property
     def sentence(self) -> str:
-        interval, slope = self.shift.interval, floor_text(self.shift.slopes[0], 2)
+        interval, slope = self.shift.interval, floor_text(self.shift.expansion, 2)
         length = show(interval[1] - interval[0])
         return (
             f"let K be the set of phases whose orbits stay in {show_range(interval)}: every "
@@ -54,15 +56,15 @@ class LongTransients(Conclusion):
         return f"transients of every length near each phase whose orbit stays in {interval}"
 
 
-def long_transients(shift: FullShift, known: Absorption) -> LongTransients:
+def long_transients(shift: StayingSet, known: Absorption) -> LongTransients:
     """Theorem. If phases in the interval of a full shift come to the arc, and the interval does not
     meet the arc, then `LongTransients`.
 
     Proof. 1. The orbit of a point of an invariant set in the interval stays there. 2. The phases
     that follow the first n symbols of x are an interval J around x, at most |cell| / mu^(n-1) long,
-    mu = min f' > 1, and f^n maps J over the interval of the shift, as f maps each cell over it. So
-    an interval in J is mapped onto `inside` by f^n; its first n images lie in the interval of the
-    shift, where the mass does not stick. All that is there afterwards is absorbed within `steps`.
+    mu = min |f'| > 1, and f^n maps J over the interval of the shift, as f maps each cell over it.
+    So an interval in J is mapped onto `inside` by f^n; its first n images lie in the interval of
+    the shift, where the mass does not stick. All that is there then is absorbed within `steps`.
     """
     low, high = shift.interval
     parts = [((max(low, a), min(high, b)), n) for (a, b), n in known.within if a < high and low < b]

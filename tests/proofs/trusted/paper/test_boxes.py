@@ -189,8 +189,8 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "full-shift", "horseshoe", "itinerary", "lands", "point",
-    "separation", "slope-range", "staying-orbit",
+    "avoids", "first-impact", "horseshoe", "itinerary", "lands", "point",
+    "separation", "slope-range", "staying-set",
 }  # fmt: skip
 ONE_OSCILLATOR = {
     "bounces-end", "branch", "dimension", "grazing", "never-impacts", "superstable-motion",

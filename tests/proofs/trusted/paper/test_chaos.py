@@ -26,13 +26,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
-from proofs.trusted.paper.s34_circle.other_sets import (
-    PRINTED,
-    FullShift,
-    StayingSet,
-    full_shift,
-    staying_orbit,
-)
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.slopes import Avoids, SlopeRange
 from proofs.trusted.verdicts import Verdict
@@ -175,18 +169,18 @@ STAYING_LIES = {
 @pytest.mark.slow
 @pytest.mark.parametrize("lie", STAYING_LIES)
 def test_a_forged_staying_orbit_is_refused(staying, stays, lie):
-    refused(stays, staying.steps, first(staying.steps, "staying-orbit"), STAYING_LIES[lie])
+    refused(stays, staying.steps, first(staying.steps, "staying-set"), STAYING_LIES[lie])
 
 
 @pytest.mark.slow
 def test_the_order_of_the_file_says_nothing(staying, stays):
     """Two cells of the shift on three symbols swapped: the same theorem, in order of phases."""
     for name, step in staying.steps.items():
-        if step["rule"] in ("full-shift", "staying-orbit") and len(step["witness"]["cells"]) > 1:
+        if step["rule"] == "staying-set" and len(step["witness"]["cells"]) > 1:
             witness = copy.deepcopy(step["witness"])
             swapped(witness)
             assert apply(step["rule"], witness, known=stays) == stays[name]
-    shift = next(x for x in stays.values() if isinstance(x, FullShift) and len(x.cells) == 3)
+    shift = next(x for x in stays.values() if isinstance(x, StayingSet) and len(x.cells) == 3)
     assert list(shift.cells) == sorted(shift.cells)
     assert "0 = [1.1, 1.18], 1 = [1.27, 1.35], 2 = [1.38, 1.49]" in shift.sentence
 
@@ -208,51 +202,67 @@ def cell(low, high, bottom, top, slope=5):
 
 
 def made(*cells, region=(PRINTED,)):
-    """A staying set; the rest of the region is a gap."""
+    """What stays in a region; all of it is a gap, too."""
     gaps = [Avoids(AT, Phases(part[0], part[1]), Phases(F(0), F(6))) for part in region]
-    return StayingSet(tuple(region), cells, tuple(gaps))
+    return staying_set(region, cells, gaps)
 
 
 A, B = ("1.32", "1.34"), ("1.45", "1.48")
+A_AND, B_AND = Phases(F("1.32"), F("1.35")), Phases(F("1.4"), F("1.48"))
 FULL = (cell(*A, "1.3", "1.5"), cell(*B, "1.3", "1.5"))
 SWAP = (cell(*A, "1.4", "1.5"), cell(*B, "1.3", "1.35"))
 GOLDEN = (cell(*A, "1.4", "1.5"), cell(*B, "1.3", "1.5"))
 
 
 def test_a_full_shift_needs_cells_apart_that_increase_over_the_interval():
-    shift = full_shift(made(*FULL))
-    assert shift == full_shift(made(*FULL[::-1]))
+    shift = made(*FULL)
+    assert shift == made(*FULL[::-1]) and shift.full and shift.whole and not shift.orbit
     assert [list(map(str, map(float, x))) for x in shift.cells] == [list(A), list(B)]
     touching = (cell("1.32", "1.4", "1.3", "1.5"), cell("1.4", "1.48", "1.3", "1.5"))
-    falling = (cell(*A, "1.3", "1.5", slope=-5), FULL[1])
-    two = (Phases(F("1.32"), F("1.35")), Phases(F("1.4"), F("1.48")))
-    for other in (made(*GOLDEN), made(*touching), made(*falling), made(FULL[0])):
-        with pytest.raises(Unproved):
-            full_shift(other)
     with pytest.raises(Unproved):
-        full_shift(made(*FULL, region=two))
+        made(*touching)
+    two = A_AND, B_AND
+    assert made(*FULL, region=two).full and not made(*FULL, region=two).whole
+    short = (cell(*A, "1.32", "1.48"), cell(*B, "1.32", "1.4801"))
+    assert made(*short, region=(Phases(F("1.31"), F("1.48")),)).whole is False
+    assert not made(*GOLDEN).full and made(FULL[0]).orbit == (FULL[0].domain,)
+    falling = made(cell(*A, "1.3", "1.5", slope=-5), FULL[1])
+    assert falling.whole and "|f'|" in falling.sentence and "one-to-one over" in falling.sentence
+    assert "|f'|" not in shift.sentence
+
+
+def test_a_cell_from_which_orbits_leave_is_none_of_the_sets():
+    dead = cell("1.36", "1.4", "2", "2.5")
+    shift = made(*FULL, dead)
+    assert shift.full and not shift.whole and len(shift.cells) == 2
+    assert "no other phase" not in shift.sentence
+    beyond = cell(*B, "6.2", "0.1", slope=-5)  # its image passes phase 0
+    assert made(cell(*A, "1.3", "1.5"), beyond).orbit == (FULL[0].domain,)
+    around = made(cell(*A, "1.2", "1.1"), cell(*B, "1.3", "1.5"))  # all but [1.1, 1.2]
+    assert around.full and around.whole
 
 
 def test_connections_are_for_three_symbols():
     middle = cell("1.38", "1.4", "1.3", "1.5")
-    shift = full_shift(made(FULL[1], middle, FULL[0]))
+    shift = made(FULL[1], middle, FULL[0])
     assert shift.cells == (FULL[0].domain, middle.domain, FULL[1].domain)
     assert "connected" in shift.sentence
-    assert "connected" not in full_shift(made(*FULL)).sentence
+    assert "connected" not in made(*FULL).sentence
+    falling = cell("1.38", "1.4", "1.3", "1.5", slope=-5)
+    assert "connected" not in made(FULL[1], falling, FULL[0]).sentence
 
 
 def test_one_orbit_needs_one_closed_path_that_is_covered():
-    swap = staying_orbit(made(*SWAP))
-    assert swap.cells == (SWAP[0].domain, SWAP[1].domain) and not swap.bracketed
-    assert staying_orbit(made(*SWAP[::-1])) == swap
-    alone = staying_orbit(made(cell(*A, "1.3", "1.35")))
+    swap = made(*SWAP)
+    assert swap.orbit == (SWAP[0].domain, SWAP[1].domain) and not swap.bracketed
+    assert made(*SWAP[::-1]) == swap
+    alone = made(cell(*A, "1.3", "1.35"))
     assert alone.sentence.count("fixed point") == 1
     dead = cell("1.36", "1.4", "2", "2.5")
-    assert len(staying_orbit(made(*SWAP, dead)).cells) == 2
+    assert len(made(*SWAP, dead).cells) == 2
+    assert not made(*FULL).orbit and not made(*GOLDEN).orbit
     shared = (cell("1.32", "1.4", "1.4", "1.5"), cell("1.4", "1.48", "1.3", "1.39"))
     for cells in (
-        FULL,
-        GOLDEN,
         (cell(*A, "1.46", "1.5"), SWAP[1]),  # B is met, not covered
         (SWAP[0], cell(*B, "1.5", "1.6")),  # nothing stays
         (cell(*A, "1.3", "1.35"), cell(*B, "1.44", "1.5")),  # two orbits
@@ -260,7 +270,7 @@ def test_one_orbit_needs_one_closed_path_that_is_covered():
         shared,
     ):
         with pytest.raises(Unproved):
-            staying_orbit(made(*cells))
+            made(*cells)
 
 
 def test_an_orbit_of_period_three_goes_on_in_its_own_order():
@@ -269,10 +279,9 @@ def test_an_orbit_of_period_three_goes_on_in_its_own_order():
         cell("1.38", "1.39", "1.32", "1.35"),
         cell("1.45", "1.455", "1.37", "1.4"),
     ]
-    orbit = staying_orbit(made(*cells))
-    assert orbit.cells == tuple(cells[i].domain for i in (0, 2, 1))
+    assert made(*cells).orbit == tuple(cells[i].domain for i in (0, 2, 1))
     brackets = [x.domain for x in cells]
-    inside = staying_orbit(StayingSet(tuple(brackets), tuple(cells), ()))
+    inside = staying_set(brackets, cells, ())
     assert inside.bracketed and "with one point" not in inside.sentence
 
 
@@ -283,12 +292,11 @@ def test_an_orbit_of_period_three_goes_on_in_its_own_order():
         ([cell(*A, "1.3", "1.5", slope=F("0.5"))], "not expand"),
         ([cell(*A, "1.3", "1.5", slope=-1)], "expand"),
         ([cell(*A, "1.3", "1.5", slope=400)], "longer than the circle"),
-        ([cell(*A, "6.2", "0.1")], "passes phase 0"),
-        ([cell(*A, "0.1", "6.2", slope=-5), cell(*B, "6.2", "0.1", slope=-5)], "passes phase 0"),
+        ([cell(*A, "6.2", "0.1")], "apart and in order"),  # nothing stays
         ([cell("1.2", "1.34", "1.3", "1.5")], "leaves the region"),
         ([cell(*A, "1.3", "1.5"), cell("1.33", "1.48", "1.3", "1.5")], "overlap"),
         ([cell(*A, "1.3", "1.5")] * 2, "overlap"),
-        ([], "no cells"),
+        ([], "apart and in order"),
     ],
 )
 def test_what_is_no_staying_set(cells, reason):
@@ -305,12 +313,12 @@ def test_cells_and_gaps_must_cover_the_region():
     left, right = (F("1.32"), F("1.4")), (F("1.4"), F("1.48"))
     for ends, gap in ((left, right), (right, left)):
         one = (cell(*ends, "1.3", "1.5"),)
-        assert StayingSet((PRINTED,), one, (Avoids(AT, Phases(*gap), PRINTED),)).cells
+        assert staying_set((PRINTED,), one, (Avoids(AT, Phases(*gap), PRINTED),)).cells
         short = Phases(gap[0] + F(1, 1000), gap[1] - F(1, 1000))
         less = Avoids(AT, Phases(*gap), Phases(F("1.33"), F("1.48")))
         for gaps in ((), (Avoids(AT, short, PRINTED),), (less,)):
             with pytest.raises(Unproved, match=r"cover|avoid"):
-                StayingSet((PRINTED,), one, gaps)
+                staying_set((PRINTED,), one, gaps)
 
 
 def test_hypotheses_about_different_oscillators_are_refused():
@@ -320,12 +328,15 @@ def test_hypotheses_about_different_oscillators_are_refused():
 
 
 def test_a_full_shift_is_in_order_of_phase_or_nothing():
-    shift = full_shift(made(*FULL))
+    shift = made(*FULL)
     for cells in (shift.cells[::-1], shift.cells[:1], (shift.cells[0],) * 2):
         with pytest.raises(Unproved):
             replace(shift, cells=cells)
     with pytest.raises(Unproved):
-        replace(shift, slopes=(F(1), F(2)))
+        replace(shift, slopes=((F(1), F(2)),) * 2)
+    for whole in (made(*SWAP), made(*GOLDEN), made(*FULL, region=(A_AND, B_AND))):
+        with pytest.raises(Unproved, match="over the region"):
+            replace(whole, whole=True)
 
 
 @pytest.mark.parametrize(("claim", "one_orbit"), [("G5", "VERIFIED"), ("G11", "REFUTED")])
@@ -335,13 +346,16 @@ def test_another_set_is_decided_by_what_stays_in_the_printed_interval(claim, one
     def verdict(*found):
         return find(claim).decide(PAPER, found).verdict
 
-    full, swap = full_shift(made(*FULL)), staying_orbit(made(*SWAP))
+    full, swap = made(*FULL), made(*SWAP)
     assert verdict(full) is Verdict.VERIFIED
     assert verdict(swap) is Verdict(one_orbit)
-    assert verdict(replace(swap, cells=(Phases(F("1.3"), F("1.31")),))) is Verdict.UNDECIDED
+    assert (
+        verdict(replace(swap, cells=(Phases(F("1.2"), F("1.21")), Phases(F("1.3"), F("1.31")))))
+        is Verdict.UNDECIDED
+    )
     assert verdict() is Verdict.UNDECIDED
     wider = Phases(F("1.31"), F("1.49"))
-    assert verdict(replace(full, interval=wider)) is Verdict.UNDECIDED
+    assert verdict(replace(full, region=(wider,))) is Verdict.UNDECIDED
     assert verdict(replace(swap, region=(wider,))) is Verdict.UNDECIDED
     elsewhere = replace(PAPER, eta=F("0.2122"))
     assert verdict(replace(swap, at=elsewhere.place)) is Verdict.UNDECIDED
@@ -615,7 +629,7 @@ ENTRY_LIES = [
     ("G11", "verdict", "VERIFIED"),
     ("G5", "corrected", "f is tame."),
     ("G11", "witness", None),
-    ("G5", "proof", ["staying-orbit-2"]),
+    ("G5", "proof", ["staying-set-2"]),
     ("G5", "statement", "[1.32, 1.48] holds nothing."),
     ("G9", "verdict", "REFUTED"),
     ("G9", "proof", []),

@@ -32,7 +32,7 @@ from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
 from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import FullShift, StayingSet, staying_orbit
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet, staying_set
 from proofs.trusted.paper.s34_circle.transients import long_transients
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
@@ -550,12 +550,12 @@ def test_an_image_that_straddles_a_turn_is_none(eta, nu, phases):
     pieces = [{"flight": "wide", "time": whole}]
     witness = {"points": [point(x, *b) for x, b in zip(ends, brackets, strict=True)]}
     found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
-    with pytest.raises(Unproved, match="closed path"):
-        staying_orbit(StayingSet((Phases(*ends),), (found,), ()))
+    with pytest.raises(Unproved, match="in order"):
+        staying_set([Phases(*ends)], [found], [])
     witness["points"][1] = point(ends[1], early, hits[1] + thin)
     found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
     with pytest.raises(Unproved, match="straddles 2 pi"):
-        staying_orbit(StayingSet((Phases(*ends),), (found,), ()))
+        staying_set([Phases(*ends)], [found], [])
 
 
 def _every(low, high, unit=Fraction(1, 100)):
@@ -675,7 +675,8 @@ def shift(low="1.1", high="1.49"):
     low, high = Fraction(low), Fraction(high)
     step = (high - low) / 5
     cells = tuple(Phases(low + 2 * i * step, low + (2 * i + 1) * step) for i in range(3))
-    return FullShift(PAPER.place, Phases(low, high), cells, (Fraction(5), Fraction(7)))
+    slopes, onward = ((Fraction(5), Fraction(7)),) * 3, ((0, 1, 2),) * 3
+    return StayingSet(PAPER.place, (Phases(low, high),), cells, slopes, onward, whole=True)
 
 
 @pytest.mark.parametrize(

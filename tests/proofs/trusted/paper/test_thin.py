@@ -16,7 +16,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, within
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.s34_circle.other_sets import FullShift
+from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.paper.s34_circle.thin import ThinShift
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
@@ -77,7 +77,7 @@ def test_one_sentence_says_all_of_it():
         assert part in sentence
 
 
-@pytest.mark.parametrize("kind", [FullShift, Repeller])
+@pytest.mark.parametrize("kind", [StayingSet, Repeller])
 def test_nothing_is_decided_without(kind):
     found = [each for each in conclusions() if not isinstance(each, kind)]
     assert decide(found).verdict is Verdict.UNDECIDED
@@ -116,7 +116,7 @@ FALSE = {
             )
         },
     ),
-    "another interval": ("shift", {"interval": WIDE}),
+    "another interval": ("shift", {"region": (WIDE,)}),
 }
 
 
