@@ -10,6 +10,18 @@ if TYPE_CHECKING:
     from proofs.trusted.parameters import Place
 
 
+class About:
+    """As `at` in a conclusion: the oscillators are those of the part of that name."""
+
+    def __init__(self, part: str) -> None:
+        self.part = part
+
+    def __get__(self, conclusion: Conclusion, _: type) -> Place:
+        """Return them."""
+        place: Place = getattr(conclusion, self.part).at
+        return place
+
+
 class Conclusion:
     """What a rule or a theorem yields: one immutable value that carries all that it is about.
 

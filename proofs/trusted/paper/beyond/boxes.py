@@ -11,7 +11,7 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import FirstImpact, excess
 from proofs.trusted.kernel.arithmetic import Unproved, log
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.numbers import Phases, Range, between, floor_text, show_range
@@ -162,10 +162,7 @@ class AllStick(Conclusion):
         if not self.arc.returns or self.arc.turns != 1 or 7 * self.at.eta[1] > _HALF_TURN:
             raise Unproved("the flight from the separation is not proved to end soon on the arc")
 
-    @property
-    def at(self) -> Place:
-        """The oscillators."""
-        return self.arc.at
+    at = About("arc")
 
     @property
     def sentence(self) -> str:

@@ -9,7 +9,7 @@ from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import (
     TURN,
@@ -21,7 +21,6 @@ from proofs.trusted.numbers import (
 )
 from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.paper.s34_circle.landing import Lands, Separation
-from proofs.trusted.parameters import Place
 from proofs.trusted.slopes import SlopeRange, image_range, inside
 
 _MOST_IMPACTS = 200
@@ -56,10 +55,7 @@ class StickingMotion(Conclusion):
         if not self.cells and not inside(self.arc.arrival, sticking):
             raise Unproved("the flight after the separation does not end where the mass sticks")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.arc.at
+    at = About("arc")
 
     @property
     def sentence(self) -> str:
@@ -105,10 +101,7 @@ class ReturningMotion(Conclusion):
         if back[1] - back[0] >= TURN or not 0 <= self.contraction < 1:
             raise Unproved("f is not proved to contract around the loop")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.arc.at
+    at = About("arc")
 
     @property
     def sentence(self) -> str:

@@ -6,12 +6,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Phases, ceil_text, decimals, floor_text, hull, show_range, within
 from proofs.trusted.paper.s32_sets.invariant import InvariantSet, staying
 from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 FULL = ("0", "1")
@@ -47,10 +47,7 @@ class StayingDimension(Conclusion):
         if _FACTORS.get(self.repeller.words) != self.staying.shift.factors:
             raise Unproved("the set that stays in I is not proved to have these words")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.repeller.at
+    at = About("repeller")
 
     @property
     def interval(self) -> Phases:

@@ -13,30 +13,18 @@ from functools import cached_property
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.subshift import Subshift, log_of
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST = 10
 _SPOTS = ("below I0", "in I0", "between I0 and I1", "in I1", "above I1")
-
-
-@dataclass(frozen=True)
-class InHorseshoe(Conclusion):
-    """What is about the sets I0 and I1 of a horseshoe."""
-
-    base: Horseshoe
-
-    @property
-    def at(self) -> Place:
-        """The oscillators of the horseshoe."""
-        return self.base.at
 
 
 def _spot(base: Horseshoe, x: Range) -> int:
@@ -49,13 +37,16 @@ def _spot(base: Horseshoe, x: Range) -> int:
 
 
 @dataclass(frozen=True)
-class Itinerary(InHorseshoe):
+class Itinerary(Conclusion):
     """A phase follows a word in I0 and I1 of a horseshoe and then leaves both.
 
     orbit: the phase, and enclosures of its images up to the one that is in neither.
     """
 
+    base: Horseshoe
     orbit: tuple[Range, ...]
+
+    at = About("base")
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the orbit is in the sets, but for its last point."""
@@ -126,7 +117,7 @@ def itinerary(context: Context, reader: Reader) -> Itinerary:
 
 
 @dataclass(frozen=True)
-class InvariantSet(InHorseshoe):
+class InvariantSet(Conclusion):
     """The phases of an interval J whose orbits stay in J, by orbits of its ends in a horseshoe.
 
     Theorem. Let f be a horseshoe on I0 and I1 within I, and J within I. Let L be its invariant set,
@@ -144,8 +135,11 @@ class InvariantSet(InHorseshoe):
     iterate is below the one end or above the other} is as stated; a restriction of the conjugacy.
     """
 
+    base: Horseshoe
     interval: Phases
     orbits: tuple[Itinerary, ...]
+
+    at = About("base")
 
     def __post_init__(self) -> None:
         """Raise Unproved unless J is in I, and the orbits are those of its other ends, in order."""

@@ -12,7 +12,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import gap, inverse_bend, inverse_slope
 from proofs.trusted.flights import lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
@@ -30,7 +30,6 @@ from proofs.trusted.numbers import (
 from proofs.trusted.paper.s34_circle.cells import Absorbed, Cell, Inverse, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, NeverImpacts, Separation
-from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
@@ -58,10 +57,7 @@ class Sink(Conclusion):
         if (first, last) != tuple(self.never.phases) or not low < first or not last < high:
             raise Unproved("the ends of an interval of phases that never impact are not bracketed")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.never.at
+    at = About("never")
 
     @property
     def share(self) -> Fraction:
@@ -109,10 +105,7 @@ class Absorption(Conclusion):
         if min(self.rest) < 0 or empty or ends != sorted(ends):
             raise Unproved("no bound, or intervals that are not in order")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.arc.at
+    at = About("arc")
 
     @property
     def share(self) -> Fraction:

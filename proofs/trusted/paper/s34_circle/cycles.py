@@ -9,7 +9,7 @@ from functools import cache
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, within
@@ -17,7 +17,7 @@ from proofs.trusted.paper.s34_circle.entropy import read_image, read_images, rea
 from proofs.trusted.paper.s34_circle.expansion import Expansion
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Known
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST = 6  # period
@@ -38,10 +38,7 @@ class Cycles(Conclusion):
     left: tuple[Word, ...]
     longest: int
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.expansion.at
+    at = About("expansion")
 
     @property
     def counts(self) -> list[tuple[int, int]]:
@@ -235,10 +232,7 @@ class Coding(Conclusion):
         if self.expansion.pieces != self.entropy.pieces:
             raise Unproved("expansion and entropy are about different pieces")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.expansion.at
+    at = About("expansion")
 
     @property
     def sentence(self) -> str:

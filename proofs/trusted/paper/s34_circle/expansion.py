@@ -11,14 +11,13 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, floor_text, hull, increasing, show
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
-from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `expansion`
@@ -39,10 +38,7 @@ class Expansion(Conclusion):
         if self.rate <= 1:
             raise Unproved("f does not expand")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.pieces.at
+    at = About("pieces")
 
     @property
     def least(self) -> Fraction:

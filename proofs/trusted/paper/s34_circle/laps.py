@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, log
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, between, show, within
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound, read_images
 from proofs.trusted.paper.s34_circle.pieces import Known, Pieces
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LOG_BITS = 160
@@ -41,10 +41,7 @@ class EntropyRange(Conclusion):
         if not set(self.lower.branches) <= {each.branch for each in self.pieces.monotone}:
             raise Unproved("the lower bound is about other branches")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.pieces.at
+    at = About("pieces")
 
     @property
     def entropy(self) -> Range:

@@ -11,13 +11,12 @@ from itertools import pairwise
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import lifted
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, show_range
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
-from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 Known = Callable[[Fraction], Range | None]  # enclosures of f at phases on branches
@@ -101,10 +100,7 @@ class Pieces(Conclusion):
                     if isinstance(part, Branch) and part.turn != turn:
                         raise Unproved("images beside a graze are counted from different turns")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.arc.at
+    at = About("arc")
 
     @property
     def region(self) -> Phases:

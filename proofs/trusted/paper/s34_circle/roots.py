@@ -7,11 +7,11 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Range, between, within
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
-from proofs.trusted.parameters import PAPER, Parameters, Place
+from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _NARROW, _NEAR = Fraction(1, 10**9), Fraction(1, 200)
@@ -42,10 +42,7 @@ class Between(Conclusion):
             if one.other is None or one.beyond != two.turn:
                 raise Unproved("between two grazes images are not less the same turns")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.pieces.at
+    at = About("pieces")
 
     @property
     def images(self) -> list[tuple[Range, Range]]:

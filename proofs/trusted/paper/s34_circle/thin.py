@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from itertools import product
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Range, decimals, show_range, within
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _SYMBOLS = (2, 3)
@@ -56,10 +56,7 @@ class ThinShift(Conclusion):
         if self.repeller.dimension[1] >= 1 or self.escape.growth[1] >= 1:
             raise Unproved("the set is not proved thin")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.shift.at
+    at = About("shift")
 
     @property
     def rate(self) -> Range:

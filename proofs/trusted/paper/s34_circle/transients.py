@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Phases, floor_text, show, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.other_sets import StayingSet
-from proofs.trusted.parameters import Place
 
 
 @dataclass(frozen=True)
@@ -33,10 +32,7 @@ class LongTransients(Conclusion):
         if self.shift.interval[1] >= self.arc.start[0]:
             raise Unproved("the interval of the shift is not proved to be before the sticking arc")
 
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.shift.at
+    at = About("shift")
 
     @property
     def sentence(self) -> str:
