@@ -28,7 +28,7 @@ from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
 from proofs.trusted.paper.s4_single.below import BelowWindows
-from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Orbit, Solution, records
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Solution, records
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 from proofs.trusted.parameters import PAPER, Parameters, Place
 
@@ -52,8 +52,13 @@ class Single:
         self.found[name] = conclusion
         return name
 
-    def solution(self, system: System, of: SingleImpact, early: bool) -> str:
-        """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for."""
+    def solution(
+        self, system: System, of: SingleImpact, early: bool = False, first: bool = False
+    ) -> str:
+        """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for.
+
+        first: or with its first impact, n periods later, at the parameters of the certificate.
+        """
         phase = bracket(system, of.n, of.phase, self.prover.bits)
         flight = Flight(system, phase, self.prover.bits + 60)
         time = _inside(flight, of.n) if early else None
@@ -64,23 +69,14 @@ class Single:
         bounds = (factor.inf, factor.sup), (push.inf, push.sup)
         return self._add(
             "single-solution",
-            Solution(at, of.n, phase, *bounds, time),
+            Solution(at, of.n, phase, *bounds, time, first),
             eta=str(system.eta),
             nu=str(system.nu),
             n=str(of.n),
             phase=texts(phase),
             early=None if time is None else str(time),
+            flight=self.prover.add_impact(locate(system, phase)) if first else None,
         )
-
-    def orbit(self, of: SingleImpact) -> str:
-        """Record an orbit at the parameters of the certificate."""
-        solution = self.solution(self.prover.system, of, early=False)
-        conclusion = self.found[solution]
-        if not isinstance(conclusion, Solution):
-            raise TypeError("a solution was recorded")
-        flight = self.prover.add_impact(locate(self.prover.system, conclusion.phase))
-        orbit = Orbit(conclusion.at, conclusion)
-        return self._add("single-orbit", orbit, solution=solution, flight=flight)
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
         """Record all windows in eta >= low at which stable orbits exist, for nu in (0, 1)."""
@@ -187,10 +183,10 @@ def _stability(steps: Single) -> list[str]:
     paper = System(PAPER.eta, PAPER.nu)
     names = [
         steps.solution(paper, _first(paper, _MOST, "an earlier impact"), early=True),
-        steps.solution(paper, _first(paper, _MOST, "the mass sticks after the impact"), False),
+        steps.solution(paper, _first(paper, _MOST, "the mass sticks after the impact")),
     ]
     orbits = [one for one in examples(steps.prover.system, _ORBITS) if one.admissible]
-    return names + [steps.orbit(one) for one in orbits]
+    return names + [steps.solution(paper, one, first=True) for one in orbits]
 
 
 def _figure_a(steps: Single) -> list[str]:
@@ -199,7 +195,7 @@ def _figure_a(steps: Single) -> list[str]:
     return [
         steps.eta_windows(nu, claims.FIGURE_ETAS[0]),
         steps.below_windows(-nu, claims.FIGURE_ETAS[0]),
-        steps.solution(below, _first(below, 1, "the mass sticks after the impact"), False),
+        steps.solution(below, _first(below, 1, "the mass sticks after the impact")),
         steps.solution(above, _first(above, 1, "an earlier impact"), early=True),
     ]
 

@@ -60,7 +60,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "superstable-motion": "paper.s34_circle.persistence.superstable_motion",
         "bounces-end": "paper.s34_circle.border.bounces_end",
         "single-solution": "paper.s4_single.orbits.single_solution",
-        "single-orbit": "paper.s4_single.orbits.single_orbit",
         "single-below-windows": "paper.s4_single.below.below_windows",
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import flint
 
-from tests.oracles.motion import TURN, Gap, Impact, _Balls, ball, flight, inside, inside_mod, two_pi
+from tests.oracles.motion import TURN, Gap, Impact, _Balls, ball, flight, inside, two_pi
 
 
 def solutions(eta, nu, n):
@@ -57,26 +57,14 @@ def solution(view, rng):
         told = [] if inside(slope, view.multiplier) else [f"the slope is {slope.str(12)}"]
         if not inside(push, view.acceleration):
             told.append(f"the launch acceleration is {push.str(12)}")
+        if view.first and is_orbit(view.eta, view.nu, view.n, here[0]) is False:
+            told.append("another impact is the first")
         if view.early is not None:
             time = ball(view.early)
             below = Gap(_Balls, view.eta, view.nu, here[0]).at(time)[0] < 0
             if not (0 < time < view.n * two_pi() and below):
                 told.append(f"the gap is not negative at {float(view.early):.6g}")
         return told
-
-
-def orbit(view, rng):
-    """The first impact after the solution's launch is 2 pi n later."""
-    view = view.solution
-    both = solutions(view.eta, view.nu, view.n) or ()
-    here = [x for x in both if inside_mod(x, view.phase)]
-    if len(here) != 1:
-        return [f"{len(here)} solutions of (16) in the bracket"]
-    return (
-        []
-        if is_orbit(view.eta, view.nu, view.n, here[0]) is not False
-        else ["another impact is the first"]
-    )
 
 
 def is_orbit(eta, nu, n, phi):
@@ -214,7 +202,6 @@ def contracting_but_none(eta, nu, periods):
 
 JUDGES = {
     "Solution": solution,
-    "Orbit": orbit,
     "EtaWindows": eta_windows,
     "BelowWindows": below_windows,
     "NuWindows": nu_windows,

@@ -329,8 +329,9 @@ FALSE = {
         offs("acceleration"),
         offs("phase"),
         put("early", F(1, 10**6)),
+        put("n", lambda old: old + 1),
+        put("first", lambda old: True),
     ],
-    "Orbit": [_of("solution", put("n", lambda old: old + 1)), _of("solution", offs("phase"))],
     "EtaWindows": [
         put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
         put("ends", lambda old: old[:2]),

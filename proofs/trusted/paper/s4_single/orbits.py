@@ -46,7 +46,7 @@ eta; and if A(eta^2) >= nu^2 at some eta in (0, 1) and n, likewise at greater et
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -124,7 +124,8 @@ class Solution(Conclusion):
     """(16) has exactly one solution phi in `phase` for these eta, nu, n, n eta being no integer.
 
     multiplier encloses the slope (18) there, acceleration the relative one at launch, < 0 where
-    the mass sticks. If `early` is not None, it is a time in (0, 2 pi n) at which gap < 0.
+    the mass sticks. If `early` is not None, it is a time in (0, 2 pi n) at which gap < 0. first:
+    whether the first impact after a launch there is at 2 pi n, and transversal.
     """
 
     at: Place
@@ -132,7 +133,8 @@ class Solution(Conclusion):
     phase: Range
     multiplier: Range
     acceleration: Range
-    early: Fraction | None
+    early: Fraction | None = None
+    first: bool = False
 
     def __post_init__(self) -> None:
         if not 1 <= self.n <= _MOST_PERIODS or self.n * self.at.eta[0] % 1 == 0:
@@ -153,6 +155,12 @@ class Solution(Conclusion):
 
     @property
     def sentence(self) -> str:
+        if self.first:
+            return (
+                f"a phase in {between(self.phase, 20)} is a fixed point of f, with slope in "
+                f"{between(self.multiplier, 12)}: the mass leaves the table at once, and its first "
+                f"impact, a transversal one, is 2 pi n later, n = {self.n}."
+            )
         why = ", so that the mass sticks" if self.sticks else ""
         if self.early is not None and self.hits:
             why = f", but the mass would be inside the table at time {show(self.early)} < 2 pi n"
@@ -163,31 +171,19 @@ class Solution(Conclusion):
         )
 
 
-@dataclass(frozen=True)
-class Orbit(Conclusion):
-    """After a launch at the solution's phase the first impact is at 2 pi n, and transversal."""
-
-    at: Place
-    solution: Solution
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"a phase in {between(self.solution.phase, 20)} is a fixed point of f, with slope in "
-            f"{between(self.solution.multiplier, 12)}: the mass leaves the table at once, and its "
-            f"first impact, a transversal one, is 2 pi n later, n = {self.solution.n}."
-        )
-
-
 def single_solution(context: Context, reader: Reader) -> Solution:
-    """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null}.
+    """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null, flight: or null}.
 
     Hypotheses: n eta is no integer; K changes its sign between lo and hi, dK/dphi has one sign
-    there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket.
-    Conclusion: K and (16) have exactly one zero in between; its flight has an earlier impact, if
-    `early` is given. The multiplier is from the slope formula.
+    there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket; the
+    earlier step `flight` proves a transversal first impact for all of them, and 2 pi n is inside
+    its window. Conclusion: K and (16) have exactly one zero in between; its flight has an earlier
+    impact, if `early` is given; 2 pi n is its first impact, if `flight` is given, since gap = 0
+    there and has one zero in the window. The multiplier is from the slope formula.
     """
-    eta_of, nu_of, n_of, phase_of, early_of = reader.fields("eta", "nu", "n", "phase", "early")
+    eta_of, nu_of, n_of, phase_of, early_of, flight_of = reader.fields(
+        "eta", "nu", "n", "phase", "early", "flight"
+    )
     eta, nu, periods, phase = eta_of.number(), nu_of.number(), n_of.number(), phase_of.range()
     n, at = int(periods), Place.plastic(eta, nu)
     if n != periods:
@@ -212,23 +208,17 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     if early is not None and motion.gap(start, (early, early)).hi >= 0:
         raise Unproved("the gap is not proved negative at the earlier time")
     factor, acceleration = slope(start, clock(own_eta, whole)), launch_acceleration(start)
-    return Solution(at, n, phase, factor.range, acceleration.range, early)
+    found = Solution(at, n, phase, factor.range, acceleration.range, early)
+    if flight_of.is_null():
+        return found
+    _require_first(context.step(flight_of, FirstImpact), whole.range, found)
+    return replace(found, first=True)
 
 
-def single_orbit(context: Context, reader: Reader) -> Orbit:
-    """Rule `single-orbit`: {solution, flight}.
-
-    Hypotheses: the earlier step `flight` proves a transversal first impact, at these eta and nu,
-    for all launches from the solution's bracket, and 2 pi n is inside its window. Conclusion:
-    2 pi n is the first impact of the solution, since gap = 0 there and has one zero in the window.
-    """
-    solution_of, flight_of = reader.fields("solution", "flight")
-    solution = context.step(solution_of, Solution)
-    flight = context.step(flight_of, FirstImpact)
+def _require_first(flight: FirstImpact, whole: Range, solution: Solution) -> None:
+    """Require that the first impact of all launches from a bracket is transversal, near 2 pi n."""
     if solution.at != flight.at or not within(solution.phase, flight.motion.phases):
-        raise flight_of.fail("is about other parameters or phases")
-    whole = (pi(COVER_BITS) * (2 * solution.n)).range
+        raise Unproved("a flight is about other parameters or phases")
     begin, end = flight.windows[0]
     if not (flight.transversal and begin < whole[0] and whole[1] < end):
         raise Unproved("the first impact is not proved to be after n periods")
-    return Orbit(solution.at, solution)

@@ -21,7 +21,7 @@ from proofs.trusted.paper.formulas import (
     theorem,
 )
 from proofs.trusted.paper.s4_single.below import BelowWindows
-from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Verdict, decided, undecided
@@ -165,7 +165,7 @@ def _stability(_: Parameters, found: Found) -> Decision:
     """P4: two solutions with |slope| < 1 that are no orbits; orbits that are."""
     hits = _counterexample(found, lambda x: x.hits)
     stuck = _counterexample(found, lambda x: x.sticks)
-    nearby = [*_proved(found, solved, orbits), *found.all(Orbit)]
+    nearby = [*_proved(found, solved, orbits), *(x for x in found.all(Solution) if x.first)]
     bounds = {"slope_no_orbit": hits.multiplier, "slope_sticking": stuck.multiplier}
     return decided(Verdict.CONDITIONAL, hits, stuck, corrected=nearby, known=bounds)
 

@@ -21,7 +21,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.s4_single import single
 from proofs.trusted.paper.s4_single.below import BelowWindows
-from proofs.trusted.paper.s4_single.orbits import Orbit, Solution
+from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
@@ -112,7 +112,8 @@ def test_the_checker_derives_what_the_prover_did(evidence):
 
 
 def test_solutions_are_not_talked_into(document):
-    for witness in steps_of(document, "single-solution"):
+    for given in steps_of(document, "single-solution"):
+        witness = {**given, "flight": None}
         found = derived("single-solution", witness)
         assert isinstance(found, Solution) and found.contracts == (abs(found.multiplier[0]) < 1)
         low, high = map(Fraction, witness["phase"])
@@ -138,7 +139,8 @@ def test_solutions_are_not_talked_into(document):
 
 def test_a_bracket_of_three_solutions_is_refused():
     """And one at resonance, where K changes its sign once while all phases solve (16)."""
-    one = {"eta": "237/1000", "nu": "3/10", "n": "1", "phase": ["14/25", "57/100"], "early": None}
+    one = {"eta": "237/1000", "nu": "3/10", "n": "1", "phase": ["14/25", "57/100"]}
+    one |= {"early": None, "flight": None}
     assert derived("single-solution", one).contracts
     refused("single-solution", {**one, "phase": ["-29/5", "57/100"]})
     resonant = {"eta": "1", "phase": ["3/2", "8/5"]}
@@ -149,20 +151,21 @@ def test_orbits_are_not_talked_into(document):
     known, flights = {}, {}
     for name, step in document["steps"].items():
         known[name] = derived(step["rule"], step["witness"], known)
-        if step["rule"] == "single-orbit":
+        if step["witness"].get("flight"):
             flights[name] = step["witness"]
     assert len(flights) == 2  # n = 4 and n = 9
     (first, one), (_, other) = flights.items()
-    assert isinstance(known[first], Orbit)
-    assert abs(known[first].solution.phase[0] - Fraction("1.1047758291275508478")) < 1e-18
+    assert known[first].first and "is a fixed point of f" in known[first].sentence
+    assert not derived("single-solution", {**one, "flight": None}).first
+    assert abs(known[first].phase[0] - Fraction("1.1047758291275508478")) < 1e-18
     for witness in (
         {**one, "flight": other["flight"]},
-        {**one, "solution": other["solution"]},
-        {**one, "solution": one["flight"]},
-        {**one, "flight": one["solution"]},
+        {**one, "phase": other["phase"]},
+        {**one, "n": other["n"]},
+        {**one, "flight": first},
         {**one, "flight": "nothing"},
     ):
-        refused("single-orbit", witness, known)
+        refused("single-solution", witness, known)
     flight = known[one["flight"]]
     begin, end = flight.windows[0]
     for changed in (
@@ -174,7 +177,7 @@ def test_orbits_are_not_talked_into(document):
         replace(flight, motion=replace(flight.motion, phases=(Fraction(1), Fraction("1.1")))),
         replace(flight, motion=replace(flight.motion, phases=(Fraction("1.2"), Fraction(2)))),
     ):
-        refused("single-orbit", one, {**known, one["flight"]: changed})
+        refused("single-solution", one, {**known, one["flight"]: changed})
 
 
 def test_windows_in_eta_are_not_talked_into(document):
@@ -334,7 +337,7 @@ def test_a_claim_without_one_of_its_conclusions_is_undecided(claim, evidence):
     proof = [conclusion for _, conclusion in evidence.proofs[claim]]
     assert verdict(claim, proof) is not Verdict.UNDECIDED
     for index, conclusion in enumerate(proof):
-        if not isinstance(conclusion, Orbit):
+        if not (isinstance(conclusion, Solution) and conclusion.first):
             assert verdict(claim, proof[:index] + proof[index + 1 :]) is Verdict.UNDECIDED
 
 
