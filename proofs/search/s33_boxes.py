@@ -20,7 +20,6 @@ from proofs.search.s33_rectangles import (
 from proofs.search.s33_steps import ReboundProver
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Place
 
 _ATTEMPTS = 24  # at parts of a box
@@ -92,7 +91,7 @@ def _point(box: Place, direction: tuple[int, ...], share: Fraction = Fraction(1)
         value = (side[0] + side[1]) / 2 + sign * share * (side[1] - side[0]) / 2
         return value, value
 
-    return Place(*map(moved, sides(box), direction))
+    return Place(*map(moved, box.sides, direction))
 
 
 def _points(box: Place) -> list[Place]:
@@ -125,7 +124,7 @@ def _failure(prover: ReboundProver, box: Place, sets: Sets) -> list[str]:
 def _instead(prover: ReboundProver, box: Place) -> list[str]:
     """Prove the horseshoe on the nearest rectangles for the box, else for half of it, and so on."""
     for halvings in range(_SHRUNK + 1):
-        smaller = Place(*(_scaled(side, Fraction(1, 2**halvings)) for side in sides(box)))
+        smaller = Place(*(_scaled(side, Fraction(1, 2**halvings)) for side in box.sides))
         nearest = nearest_rectangles(prover.of, image_phases(smaller, prover.velocities))
         for sets in islice(nearest, _NEAREST):
             with suppress(Unproved):

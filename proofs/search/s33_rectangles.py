@@ -13,7 +13,6 @@ from proofs.motion.system import System
 from proofs.search.repair import moved_ends, places
 from proofs.trusted.equations import arrival, clock, closing, launch_with_restitution
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Parameters, Place
 
 Sets = tuple[Range, Range]
@@ -42,7 +41,7 @@ def image_phases(at: Place, velocities: Range) -> Images:
 
     For all oscillators of a box and all velocities, as its corners and the ends of these have it.
     """
-    corners = list(product(*(sorted({float(end) for end in side}) for side in sides(at))))
+    corners = list(product(*(sorted({float(end) for end in side}) for side in at.sides)))
 
     @cache
     def images(phase: Fraction) -> tuple[float, float] | None:
@@ -82,7 +81,7 @@ def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
 
 def stays(at: Place, velocities: Range, sets: Sets) -> bool:
     """Whether image velocities seem to stay in the rectangles, for the middle of a box."""
-    middle = [float(low + high) / 2 for low, high in sides(at)]
+    middle = [float(low + high) / 2 for low, high in at.sides]
     low, high = map(float, velocities)
     images = [
         state_after(middle[0], middle[1], middle[2], (float(phi), gamma))

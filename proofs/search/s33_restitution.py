@@ -31,7 +31,6 @@ from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Parameters, Place
 
 _ATTEMPTS = 12  # with widened rectangles
@@ -56,7 +55,7 @@ def prove(
     named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
     if "N4" in claims:
         tell("the box of parameters")
-        named["N4"], notes["N4"] = on_box(prover, Place(*of.box))
+        named["N4"], notes["N4"] = on_box(prover, of.box)
     if "N5" in claims:
         tell("larger epsilon")
         named["N5"], notes["N5"] = along_epsilon(prover)
@@ -128,7 +127,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
     with which it succeeds.
     """
     of = prover.of
-    eta, nu, epsilon = (low for low, _ in sides(exact))
+    eta, nu, epsilon = (low for low, _ in exact.sides)
     half, unit = _half_unit(epsilon), _half_unit(nu) / 50
     etas = eta - _half_unit(eta), eta + _half_unit(eta)
     epsilons = max(Fraction(0), epsilon - 2 * half), epsilon + half
@@ -147,7 +146,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
             wide, most = (prover.get(names[k], RectangleHorseshoe).at for k in (0, -1))
             names += prover.beyond(exact, sets, "nu", wide.nu[1], 2 * unit)
             names += prover.beyond(exact, sets, "nu", wide.nu[0], -2 * unit)
-            names += prover.beyond(exact, sets, "epsilon", sides(most)[2][1], half)
+            names += prover.beyond(exact, sets, "epsilon", most.sides[2][1], half)
             return names
     return []
 

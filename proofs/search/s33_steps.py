@@ -27,7 +27,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.cones import PLAIN
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.rules import find_rule
 
@@ -93,7 +93,7 @@ class ReboundProver:
         return name, self.get(name, Rebound)
 
     def _rebound(self, at: Place, phases: Range, velocities: Range, numbers: Numbers) -> str:
-        etas, nus, epsilons = sides(at)
+        etas, nus, epsilons = at.sides
         eta, nu = ((low + high) / 2 for low, high in (etas, nus))
         flight = Rebounds(
             System(eta, nu),
@@ -261,7 +261,7 @@ class ReboundProver:
         short: only of those whose images seem to be between the outer edges.
         """
         names = []
-        eta, nu, epsilon = (float(low) for low, _ in sides(at))
+        eta, nu, epsilon = (float(low) for low, _ in at.sides)
         edges = [(end, least) for ends in sets for end, least in zip(ends, (max, min), strict=True)]
         for end, least in edges:
             images = {

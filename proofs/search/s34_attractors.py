@@ -13,7 +13,6 @@ from proofs.search.s33_cycles import State, follow, prove_cycle, root_from, roun
 from proofs.search.s33_steps import ReboundProver
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop
-from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.parameters import Place
 
 _UNIT = Fraction(1, 10**6)  # epsilons are multiples
@@ -23,7 +22,7 @@ _MOST = 100  # tries each way
 
 def branch(prover: ReboundProver, known: StableCycle, tries: int = _MOST) -> Proof:
     """Prove a stable orbit for epsilon around one at which it is known, as far as it goes."""
-    start = sides(known.at)[2][0]
+    start = known.at.sides[2][0]
     at = replace(known.at, epsilon=(start, start))
     state = min(
         ((_mean(phases), _mean(velocities)) for phases, velocities in known.boxes),

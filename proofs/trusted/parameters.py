@@ -22,7 +22,7 @@ class Place:
 
     def __post_init__(self) -> None:
         """Raise Unproved where this is no oscillator, or the sign of p is not one."""
-        low, high = self.epsilon or (Fraction(0), Fraction(0))
+        low, high = self.sides[2]
         if not 0 < self.eta[0] <= self.eta[1] or not 0 <= low <= high < 1:
             raise Unproved("eta > 0 and 0 <= epsilon < 1 are required")
         if not (self.nu[0] <= self.nu[1] < 0 or 0 < self.nu[0] <= self.nu[1]):
@@ -39,6 +39,11 @@ class Place:
         return cls((eta, eta), (nu, nu), (epsilon, epsilon))
 
     @property
+    def sides(self) -> tuple[Range, Range, Range]:
+        """The ranges of eta, nu and epsilon."""
+        return self.eta, self.nu, self.epsilon or (Fraction(0), Fraction(0))
+
+    @property
     def point(self) -> tuple[Fraction, Fraction]:
         """The one eta and the one nu, or Unproved: what a rule needs that knows no boxes."""
         (eta, last), (nu, most) = self.eta, self.nu
@@ -46,27 +51,23 @@ class Place:
             raise Unproved("one eta and one nu are expected")
         return eta, nu
 
+    def inside(self, other: Place) -> bool:
+        """Whether these oscillators are among those of another box."""
+        return all(map(within, self.sides, other.sides))
+
     def holds(self, of: Parameters) -> bool:
-        """Whether these oscillators are, or are among, those that a statement is about."""
+        """Whether the oscillator of a statement is among these."""
         if self.epsilon is None:
-            return within((of.eta, of.eta), self.eta) and within((of.nu, of.nu), self.nu)
-        return of.box is not None and all(
-            within((value, value), range_)
-            for value, range_ in zip(
-                (of.eta, of.nu, of.epsilon or Fraction(0)),
-                (self.eta, self.nu, self.epsilon),
-                strict=True,
-            )
-        )
+            return of.place.inside(self)
+        return of.epsilon is not None and Place.restituting(of.eta, of.nu, of.epsilon).inside(self)
 
     def __str__(self) -> str:
         """Write "(eta, nu) = (0.2121, -0.2)", or each parameter by itself."""
         if self.epsilon is None and self.eta[0] == self.eta[1] and self.nu[0] == self.nu[1]:
             return f"(eta, nu) = ({show(self.eta[0])}, {show(self.nu[0])})"
-        named = {"eta": self.eta, "nu": self.nu, "epsilon": self.epsilon or (Fraction(0),) * 2}
         return ", ".join(
             f"{name} = {show(low)}" if low == high else f"{name} in {show_range((low, high))}"
-            for name, (low, high) in named.items()
+            for name, (low, high) in zip(("eta", "nu", "epsilon"), self.sides, strict=True)
         )
 
 
@@ -133,12 +134,12 @@ class Parameters:
             raise ValueError(f"reach: epsilon + {show(epsilon)} must be below 1")
 
     @property
-    def box(self) -> tuple[Range, Range, Range] | None:
+    def box(self) -> Place | None:
         """The ranges of eta, nu and epsilon >= 0 within reach; None without epsilon."""
         if self.epsilon is None:
             return None
         eta, nu, epsilon = self.reach or (Fraction(0),) * 3
-        return (
+        return Place(
             (self.eta - eta, self.eta + eta),
             (self.nu - nu, self.nu + nu),
             (max(Fraction(0), self.epsilon - epsilon), self.epsilon + epsilon),
@@ -186,7 +187,7 @@ class Parameters:
             s0=f", s_0 = {self.printed_s0}...., rounded" if self.printed_s0 else "",
             epsilon="no epsilon" if self.epsilon is None else show(self.epsilon),
             gamma="no velocities" if self.velocities is None else show_range(self.velocities),
-            box="no epsilon" if self.box is None else parameters_text(self.box),
+            box="no epsilon" if self.box is None else str(self.box),
         )
 
 
@@ -211,12 +212,3 @@ PAPER = Parameters(
     velocities=(Fraction("-0.45"), Fraction(0)),
     reach=(Fraction("0.00005"), Fraction("0.00005"), Fraction("0.005")),
 )
-
-
-def parameters_text(box: tuple[Range, Range, Range]) -> str:
-    """Write eta, nu and epsilon, exact or in ranges."""
-    parts = zip(("eta", "nu", "epsilon"), box, strict=True)
-    return ", ".join(
-        f"{name} = {show(low)}" if low == high else f"{name} in {show_range((low, high))}"
-        for name, (low, high) in parts
-    )

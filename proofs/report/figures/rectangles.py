@@ -12,7 +12,7 @@ from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import GoldenMean
 from proofs.trusted.parameters import Place
@@ -99,7 +99,7 @@ def _boundary(at: Place, phases: Range, velocities: Range) -> list[tuple[float, 
         for a, b, c, d in edges
         for k in range(_EDGE + 1)
     ]
-    eta, nu, epsilon = (float(low) for low, _ in sides(at))
+    eta, nu, epsilon = (float(low) for low, _ in at.sides)
     after = (state_after(eta, nu, epsilon, state) for state in states)
     return [image for image in after if image is not None]
 

@@ -185,6 +185,14 @@ def decide(map_: Map, box: Box, holds: Callable[[list[Enclosure]], bool]) -> Non
         raise Unproved(f"not proved on {shown(box)}")
 
 
+def sign_on(map_: Map, box: Box) -> int:
+    """Return the strict sign of a function on a box, or raise Unproved."""
+    for (value,) in attempts(map_, box):
+        if value.lo > 0 or value.hi < 0:
+            return 1 if value.lo > 0 else -1
+    raise Unproved(f"the sign is not decided on {shown(box)}")
+
+
 def leaves(tree: Reader, box: Box) -> Iterator[Box]:
     """Iterate over the leaves of a subdivision tree, which cover the box.
 

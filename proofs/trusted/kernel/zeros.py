@@ -14,12 +14,12 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     Box,
     add,
-    attempts,
     box_text,
     centre_of,
     enclosed,
     point_box,
     read_box,
+    sign_on,
     tried,
 )
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
@@ -88,14 +88,6 @@ class Piece(NamedTuple):
         return tuple(hull(sides) for sides in zip(*ends, strict=True))
 
 
-def _sign_at(function: Formulas, point: Fraction) -> int:
-    """Return the strict sign of a function at a point, or raise Unproved."""
-    for (value,) in attempts(function, point_box((point,))):
-        if value.lo > 0 or value.hi < 0:
-            return 1 if value.lo > 0 else -1
-    raise Unproved("the sign at an end is not decided")
-
-
 def zero(context: Context, reader: Reader) -> Zero:
     """Rule `zero`: {function F of one variable x, value, bracket}.
 
@@ -115,7 +107,8 @@ def zero(context: Context, reader: Reader) -> Zero:
         raise value_of.fail("the step is about another function")
     if not within(bracket, interval):
         raise bracket_of.fail("the bracket leaves the interval of the step")
-    if _sign_at(formulas, bracket[0]) == _sign_at(formulas, bracket[1]):
+    first, last = (sign_on(formulas, point_box((end,))) for end in bracket)
+    if first == last:
         raise Unproved(f"the same sign at both ends of {show_range(bracket)}")
     only = step.function == slope and not step.bounds[0] <= 0 <= step.bounds[1]
     return Zero(text, variable, interval, bracket, only)

@@ -96,7 +96,7 @@ def chattering_motion(
     if not impacts or len({each.at for each in impacts}) > 1:
         raise Unproved("impacts of one oscillator are expected")
     at, last = impacts[0].at, impacts[-1]
-    low, epsilon = at.epsilon or (Fraction(0),) * 2
+    low, epsilon = at.sides[2]
     if (at.eta, at.nu) != (arc.at.eta, arc.at.nu) or not 0 < low == epsilon:
         raise Unproved("the steps are about different oscillators, or impacts are plastic")
     if not _starts(arc, impacts[0]):

@@ -10,7 +10,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import Box, attempts, centre_of, read_box
+from proofs.trusted.kernel.enclose import Box, centre_of, read_box, sign_on
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.zeros import Piece, read_matrix, require_zero
 from proofs.trusted.numbers import Range, between, floor_text, show_range, within
@@ -128,8 +128,4 @@ def _rises(curve: GrazingCurve, other: str, around: Box) -> bool:
 
 
 def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
-    formula = level(curve, other, piece)
-    for (value,) in attempts(formula, (piece.box[ETA], piece.box[P])):
-        if value.lo > 0 or value.hi < 0:
-            return 1 if value.lo > 0 else -1
-    raise Unproved("whether grazing is beyond the other curve")
+    return sign_on(level(curve, other, piece), (piece.box[ETA], piece.box[P]))

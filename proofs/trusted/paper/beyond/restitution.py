@@ -11,7 +11,6 @@ from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
 from proofs.trusted.paper.beyond.chatter import ChatteringMotion
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import restitution
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.paper.s34_circle.touching import touching_family
@@ -47,7 +46,7 @@ class ComesToRest(Conclusion):
         push, change = eta * eta, nu * abs(1 - eta * eta)
         least = push - change
         growth = min(push + change, least + change / eta)  # K b
-        if least <= 0 or restitution(self.at)[1] ** 2 * growth >= least:
+        if least <= 0 or self.at.sides[2][1] ** 2 * growth >= least:
             raise Unproved("the speeds of the rebounds are not proved to shrink")
 
     @property

@@ -190,7 +190,7 @@ class Part:
 
 def ratios(at: Place) -> Range:
     """Return the range of q."""
-    low, high = at.epsilon or (Fraction(0),) * 2
+    low, high = at.sides[2]
     return ratio(high), ratio(low)
 
 
@@ -246,7 +246,7 @@ class StableSingles(Conclusion):
 
     @property
     def sentence(self) -> str:
-        low, leaves = (self.at.epsilon or (Fraction(0),))[0], ""
+        low, leaves = self.at.sides[2][0], ""
         if low == 0:
             plastic = "if impacts are plastic" if self.at.epsilon else "impacts being plastic"
             leaves = f", after which, {plastic}, it leaves at once (launch acceleration > 0)"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
@@ -10,7 +10,7 @@ from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
-from proofs.trusted.flights import FirstImpact, Motion, transversal_step, whole_turns
+from proofs.trusted.flights import FirstImpact, Motion, excess, transversal_step, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.complexes import BITS, Arc, Complex, Ellipse
 from proofs.trusted.kernel.context import Context
@@ -67,33 +67,20 @@ class Letter:
         """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain, at the
         lower one first if F increases.
 
-        So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b]. At the
-        first end y that is so if b - 2 pi - y + 2 pi turns is a time before the impact, which is
-        in the window, where the gap is positive before it and negative after.
+        So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b].
         """
         (low, high), turn = whole, whole_turns(1, BITS)
-        bottom, top = self.domain[:: self.sign]
-        first, last = (0, -1)[:: self.sign]
-        time = self.time(bottom, (high - turn[1], high - turn[0]), BITS)
-        begin, end = self._ends(first)
-        above = time[1] < begin or (time[1] <= end and self._height(bottom, time).lo > 0)
-        time = self.time(top, (low + turn[0], low + turn[1]), BITS)
-        begin, end = self._ends(last)
-        below = time[0] > end or (time[0] >= begin and self._height(top, time).hi < 0)
-        if not (above and below):
+        steps, ends = self.steps[:: self.sign], self.domain[:: self.sign]
+        beyond = high - turn[1], high - turn[0]
+        above = excess(steps[0], ends[0], beyond, self.turns, BITS) > 0
+        beyond = low + turn[0], low + turn[1]
+        if not above or excess(steps[-1], ends[1], beyond, self.turns, BITS) >= 0:
             raise Unproved("f is not proved to pass the hull only once on a domain")
-
-    def _ends(self, piece: int) -> Range:
-        return self.steps[piece].windows[0]
 
     def time(self, phase: Fraction, image: Range, bits: int) -> Range:
         """Enclose x - phase + 2 pi turns for x in `image`."""
         low, high = whole_turns(self.turns, bits)
         return image[0] - phase + low, image[1] - phase + high
-
-    def _height(self, phase: Fraction, time: Range) -> Enclosure:
-        motion = replace(self.motion, phases=(phase, phase), bits=BITS)
-        return motion.gap(motion.start(), time)
 
     def starts_within(self, phases: Range, image: Range, bits: int) -> bool:
         """Whether x - y + 2 pi turns is in the window of all the steps that y may belong to."""

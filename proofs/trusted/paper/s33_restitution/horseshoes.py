@@ -15,7 +15,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.cones import Cone, Rates, rates
-from proofs.trusted.paper.s33_restitution.rebounds import sides, size
+from proofs.trusted.paper.s33_restitution.rebounds import size
 from proofs.trusted.paper.s33_restitution.rectangles import (
     ALL,
     Blocks,
@@ -87,12 +87,12 @@ class RectangleHorseshoe(Conclusion):
     rates: Rates
 
     def __post_init__(self) -> None:
-        if isinstance(self.strips, Blocks) and sides(self.at)[2][0] == 0:
+        if isinstance(self.strips, Blocks) and self.at.sides[2][0] == 0:
             raise Unproved("without restitution a state is its phase: two rectangles are needed")
 
     @property
     def sentence(self) -> str:
-        least, most = sides(self.at)[2]
+        least, most = self.at.sides[2]
         text = f"{self.strips.smooth}. {self.strips.CROSSED}; {self.brief}."
         if most > 0:
             text += f" {FULL_SHIFT.format(self.rates)}"
@@ -166,7 +166,7 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
         margin = crossing(maps, ((0, 1), (2, 3)) * 2)
     else:
         raise names.fail("two or four rectangles")
-    if sides(maps[0].at)[2][0] == 0:  # the sentence is about f' then, not about |f'|
+    if maps[0].at.sides[2][0] == 0:  # the sentence is about f' then, not about |f'|
         require_rising(maps)
     return RectangleHorseshoe(maps[0].at, sets, margin, rates(parts_of(maps), cone))
 
@@ -200,7 +200,7 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
 
 
 def _listed(shoe: RectangleHorseshoe) -> str:
-    epsilon, slope = show_range(sides(shoe.at)[2]), show(shoe.rates.cone.slope)
+    epsilon, slope = show_range(shoe.at.sides[2]), show(shoe.rates.cone.slope)
     return f"epsilon in {epsilon}: {shoe.strips.named}, e = {slope}"
 
 
@@ -213,8 +213,8 @@ class HorseshoeFamily(Conclusion):
     def __post_init__(self) -> None:
         reached = Fraction(0)
         for shoe in self.shoes:
-            eta, nu, (low, high) = sides(shoe.at)
-            if (eta, nu) != sides(self.shoes[0].at)[:2] or eta[0] < eta[1] or nu[0] < nu[1]:
+            eta, nu, (low, high) = shoe.at.sides
+            if (eta, nu) != self.shoes[0].at.sides[:2] or eta[0] < eta[1] or nu[0] < nu[1]:
                 raise Unproved("the horseshoes are about more than one eta and nu")
             if low != reached or high <= low:
                 raise Unproved("the horseshoes leave a hole in epsilon")
@@ -226,7 +226,7 @@ class HorseshoeFamily(Conclusion):
     def at(self) -> Place:
         """The oscillators."""
         first, last = self.shoes[0].at, self.shoes[-1].at
-        return replace(first, epsilon=(sides(first)[2][0], sides(last)[2][1]))
+        return replace(first, epsilon=(first.sides[2][0], last.sides[2][1]))
 
     @property
     def sentence(self) -> str:
@@ -253,7 +253,7 @@ class HorseshoeFamily(Conclusion):
 
     @property
     def brief(self) -> str:
-        most = show(sides(self.at)[2][1])
+        most = show(self.at.sides[2][1])
         return (
             f"a full shift on two symbols for every epsilon from 0 to {most}; edges overshoot by "
             f"at least {floor_text(min(shoe.margin for shoe in self.shoes))}"
@@ -261,5 +261,5 @@ class HorseshoeFamily(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        most = sides(self.at)[2][1]
+        most = self.at.sides[2][1]
         return {"epsilon_max": (most, most)}

@@ -9,13 +9,13 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Phases, Range, between, floor_text, show, within
+from proofs.trusted.numbers import Phases, Range, between, floor_text, show
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
     hyperbolic,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
 from proofs.trusted.parameters import Parameters, Place
@@ -88,7 +88,7 @@ def stated(of: Parameters) -> tuple[Strips, Place]:
     """Return V1 and V2 as the statement has them, and its oscillators."""
     if of.velocities is None or of.box is None:
         raise Unproved("epsilon and velocities are needed: without restitution see H7 to H9")
-    return Strips(Phases(*of.left), Phases(*of.right), of.velocities), Place(*of.box)
+    return Strips(Phases(*of.left), Phases(*of.right), of.velocities), of.box
 
 
 def with_restitution(of: Parameters) -> Strips:
@@ -96,11 +96,6 @@ def with_restitution(of: Parameters) -> Strips:
     if of.epsilon == 0:
         raise Unproved("epsilon > 0 is needed: without restitution see H7 to H9")
     return stated(of)[0]
-
-
-def inside(one: Place, two: Place) -> bool:
-    """Whether the oscillators of one box are among those of another."""
-    return all(map(within, sides(one), sides(two)))
 
 
 def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decision:
@@ -111,10 +106,10 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     sets, box = stated(of)
     nearby = found.all(RectangleHorseshoe)
     for each in nearby:
-        if each.strips == sets and inside(box, each.at):
+        if each.strips == sets and box.inside(each.at):
             return decided(Verdict.VERIFIED, each, corrected=[each])
-    words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and inside(x.at, box)]
-    edges = edge_images(sets, [x for x in found.elsewhere(Rebound) if inside(x.at, box)])
+    words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and x.at.inside(box)]
+    edges = edge_images(sets, [x for x in found.elsewhere(Rebound) if x.at.inside(box)])
     short = [each for each in edges if each.short > 0]
     corrected = (*found.all(GoldenMean), *nearby)
     known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
@@ -156,9 +151,9 @@ def _family(of: Parameters, found: Found) -> Decision:
     if of.epsilon is None:
         return undecided("epsilon is needed: without restitution see H7 to H9")
     point = (of.eta, of.eta), (of.nu, of.nu)
-    here = [x for x in found.elsewhere(RectangleHorseshoe) if sides(x.at)[:2] == point]
-    proved = HorseshoeFamily(tuple(sorted(here, key=lambda each: sides(each.at)[2])))
-    most = sides(proved.at)[2][1]
+    here = [x for x in found.elsewhere(RectangleHorseshoe) if x.at.sides[:2] == point]
+    proved = HorseshoeFamily(tuple(sorted(here, key=lambda each: each.at.sides[2])))
+    most = proved.at.sides[2][1]
     if most <= of.epsilon:
         return replace(undecided(f"proved up to epsilon = {show(most)} only"), corrected=(proved,))
     return decided(Verdict.VERIFIED, proved, corrected=[proved], margin=most - of.epsilon)

@@ -46,16 +46,6 @@ def size(values: Range) -> Fraction:
     return max(abs(values[0]), abs(values[1]))
 
 
-def restitution(at: Place) -> Range:
-    """Return the range of epsilon."""
-    return at.epsilon or (Fraction(0), Fraction(0))
-
-
-def sides(at: Place) -> tuple[Range, Range, Range]:
-    """Return the ranges of eta, nu and epsilon."""
-    return at.eta, at.nu, restitution(at)
-
-
 @dataclass(frozen=True)
 class Rebound(Conclusion):
     """All states in phases x velocities are possible, and F is smooth in state and parameters.
@@ -137,7 +127,7 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     impact = impact_of.range()
     bits = max(bits_for(impact), bits_for_pieces(times))
     eta, nu, epsilon, phi, gamma = (
-        Enclosure.of(*values, bits) for values in (*sides(at), phases, velocities)
+        Enclosure.of(*values, bits) for values in (*at.sides, phases, velocities)
     )
     side = 1 if at.nu[0] > 0 else -1
     start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)

@@ -14,7 +14,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import floor_text, within
 from proofs.trusted.paper.s33_restitution.cones import Rates, rates
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap, sides
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.paper.s33_restitution.rectangles import (
     Strips,
     crossing,
@@ -136,7 +136,7 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     maps, part = read_maps(context, names), context.step(part_of, RectangleMap)
     words = [context.step(name, BarredWord) for name in words_of.items(most=64)]
     (first, second), found = maps, strips(maps)
-    if sides(first.at)[2][0] <= 0:
+    if first.at.sides[2][0] <= 0:
         raise Unproved("without restitution F is not one-to-one")
     if any((word.at, word.strips) != (first.at, found) for word in words):
         raise Unproved("words are about other rectangles or oscillators")

@@ -20,7 +20,6 @@ from proofs.trusted.numbers import (
     Range,
     between,
     ceil_text,
-    covered,
     floor_text,
     hull,
     increasing,
@@ -111,10 +110,6 @@ class Absorption(Conclusion):
     def share(self) -> Fraction:
         """The least share of the circle that reaches the arc."""
         return 1 - self.rest[-1] / TURN
-
-    def reaches(self, phases: Range) -> bool:
-        """Whether all of an interval of phases is proved to reach the arc."""
-        return covered(phases, (part for part, _ in self.within))
 
     @property
     def sentence(self) -> str:

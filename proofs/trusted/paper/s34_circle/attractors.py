@@ -14,7 +14,6 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, between, common, hull, show_range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
-from proofs.trusted.paper.s33_restitution.rebounds import sides
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -38,27 +37,27 @@ class TwoAttractors(Conclusion):
     cycles: tuple[StableCycle, ...]
 
     def __post_init__(self) -> None:
-        if not self.cycles or sides(self.cycles[0].at)[2][0] <= 0:
+        if not self.cycles or self.cycles[0].at.sides[2][0] <= 0:
             raise Unproved("no stable cycle for epsilon > 0")
         for each in self.cycles:
             if each.rounds > 1:
                 raise Unproved("an orbit that contracts a box after several rounds only")
-            if sides(each.at)[:2] != sides(self.motion.at)[:2]:
+            if each.at.sides[:2] != self.motion.at.sides[:2]:
                 raise Unproved("the motions are about different oscillators")
         for before, after in pairwise(self.cycles):
-            if sides(before.at)[2][1] != sides(after.at)[2][0]:
+            if before.at.sides[2][1] != after.at.sides[2][0]:
                 raise Unproved("the cycles leave a hole in epsilon, or overlap")
             if len(before.boxes) != len(after.boxes):
                 raise Unproved("the cycles have different periods")
             for one, two in zip(before.boxes[0], after.boxes[0], strict=True):
                 common(one, two)
-        if not within(sides(self.at)[2], sides(self.motion.at)[2]):
+        if not within(self.at.sides[2], self.motion.at.sides[2]):
             raise Unproved("the motion is not known to come to rest for all these epsilon")
 
     @property
     def at(self) -> Place:
         """The oscillators."""
-        first, last = (sides(self.cycles[k].at)[2] for k in (0, -1))
+        first, last = (self.cycles[k].at.sides[2] for k in (0, -1))
         return replace(self.cycles[0].at, epsilon=(first[0], last[1]))
 
     @property
@@ -83,26 +82,26 @@ class TwoAttractors(Conclusion):
     @property
     def brief(self) -> str:
         return (
-            f"for every epsilon in {show_range(sides(self.at)[2])} a stable "
+            f"for every epsilon in {show_range(self.at.sides[2])} a stable "
             f"{len(self.cycles[0].boxes)}-periodic orbit, beside the motion that comes to rest"
         )
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        low, high = sides(self.at)[2]
+        low, high = self.at.sides[2]
         return {"epsilon_min": (low, low), "epsilon_max": (high, high)}
 
 
 def _coexist(of: Parameters, found: Found) -> Decision:
     """G16: all stable cycles at this eta and nu, in the order of epsilon."""
     at = (of.eta, of.eta), (of.nu, of.nu)
-    motions = [x for x in found.elsewhere(SuperstableMotion) if sides(x.at)[:2] == at]
-    cycles = [x for x in found.elsewhere(StableCycle) if sides(x.at)[:2] == at]
+    motions = [x for x in found.elsewhere(SuperstableMotion) if x.at.sides[:2] == at]
+    cycles = [x for x in found.elsewhere(StableCycle) if x.at.sides[:2] == at]
     if not motions or not cycles:
         return undecided("no motion is known that comes to rest, or no stable cycle")
-    cycles.sort(key=lambda each: sides(each.at)[2])
+    cycles.sort(key=lambda each: each.at.sides[2])
     both = TwoAttractors(motions[0], tuple(cycles))
-    if not sides(both.at)[2][0] < sides(both.at)[2][1]:
+    if not both.at.sides[2][0] < both.at.sides[2][1]:
         return undecided("a stable cycle is known at one epsilon only")
     return decided(Verdict.VERIFIED, both, corrected=[both])
 

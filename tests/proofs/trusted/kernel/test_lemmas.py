@@ -199,7 +199,7 @@ def test_a_zero_needs_a_continuous_function():
 
 
 def test_an_end_that_is_a_zero_has_no_sign():
-    with pytest.raises(Rejected, match="sign at an end is not decided"):
+    with pytest.raises(Rejected, match="sign is not decided"):
         check(zero_file(value("x", ["0", "1"], x=["0", "1"]), ("0", "1"), "x"))
 
 

@@ -54,13 +54,13 @@ def reaching(of, *reach):
 
 
 def test_the_paper_s_box():
-    assert PAPER.box == (
+    assert PAPER.box.sides == (
         pair_of("0.21205", "0.21215"),
         pair_of("-0.20005", "-0.19995"),
         pair_of("0.005", "0.015"),
     )
     exact = replace(PAPER, reach=None)
-    assert exact.box == tuple(pair_of(x, x) for x in (PAPER.eta, PAPER.nu, PAPER.epsilon))
+    assert exact.box.sides == tuple(pair_of(x, x) for x in (PAPER.eta, PAPER.nu, PAPER.epsilon))
     assert replace(PAPER, epsilon=None).box is None
     assert replace(PAPER, epsilon=Fraction(0)).box[2] == pair_of(0, "0.005")
 
@@ -105,8 +105,8 @@ def test_parameters_are_read_as_written(of):
 
 # -- what the claims make of conclusions -----------------------------------------------------------
 
-BOX = Place(*PAPER.box)
-CORNER = Place(*((low, low) for low, _ in PAPER.box))
+BOX = PAPER.box
+CORNER = Place(*((low, low) for low, _ in BOX.sides))
 OUTSIDE = replace(CORNER, epsilon=pair_of("0.0049", "0.0049"))
 PARTLY = replace(CORNER, epsilon=pair_of("0.0049", "0.006"))
 OTHER_SETS = replace(PRINTED, right=type(PRINTED.right)(*pair_of("1.27", "1.33")))
@@ -247,7 +247,7 @@ def test_sentences_carry_place_sets_and_numbers():
 def least_overshoot(of, sets):
     """By how much the four edges go beyond at the corners of the box."""
     margins = []
-    for numbers in product(*(map(float, side) for side in of.box)):
+    for numbers in product(*(map(float, side) for side in of.box.sides)):
         for ends, gamma in product(sets, map(float, of.velocities)):
             margins.append(sets[0][0] - image(numbers, (ends[0], gamma))[0])
             margins.append(image(numbers, (ends[1], gamma))[0] - sets[1][1])
