@@ -9,7 +9,7 @@ from enum import Enum
 from fractions import Fraction
 from itertools import groupby
 from types import MappingProxyType
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -145,6 +145,7 @@ class Row:
     where: section, equation, figure. words: the paper's own, a few; "" for a row of the project's.
     reading: ours, complete; {eta}, {nu}, {i} and so on are the numbers of the statement.
     printed_at: the oscillator at which alone its printed numbers are asked about; None: all.
+    needs: what is to be proved about formulas, whatever the parameters.
     """
 
     id: str
@@ -153,6 +154,7 @@ class Row:
     reading: str
     decide_by: Decide
     printed_at: Place | None = None
+    needs: tuple[Any, ...] = ()
 
     @property
     def own(self) -> bool:

@@ -16,7 +16,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.paper import find
-from proofs.trusted.paper.formulas import Asked, DerivedRow
+from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import orbits
 from proofs.trusted.verdicts import Verdict
@@ -80,7 +80,7 @@ def witnesses(proved: Context) -> list[tuple[float, float]]:
     known, found = all_of(proved, Value), set()
     for claim in ("S14", "S16", "S17"):
         row = find(claim)
-        for need in row.needs if isinstance(row, DerivedRow) else ():
+        for need in () if row is None else row.needs:
             if isinstance(need, Asked) and any(need.met_by(value) for value in known):
                 point = dict(need.box)
                 if {"epsilon", "rho"} <= point.keys():

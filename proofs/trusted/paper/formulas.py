@@ -54,12 +54,6 @@ def at(function: str, sign: int = 0, /, **point: str) -> Asked:
     return Asked(function, _point(point), (sign,) if sign else (-1, 0, 1))
 
 
-def over(function: str, sign: int, variable: str, ends: tuple[str, str], /, **point: str) -> Asked:
-    """Ask for a sign while one variable goes over an interval, the others being fixed."""
-    side = (variable, (Fraction(ends[0]), Fraction(ends[1])))
-    return Asked(function, (side, *_point(point)), (sign,))
-
-
 def differ(printed: str, derived: str, /, **point: str) -> Asked:
     """Ask for a point at which two formulas have different values."""
     return Asked(f"({printed}) - ({derived})", _point(point), (-1, 1))
@@ -210,20 +204,13 @@ class Passage(NamedTuple):
     words: str
 
 
-@dataclass(frozen=True)
-class DerivedRow(Row):
-    """A claim that is decided once its theorems are proved, whatever the parameters."""
-
-    needs: tuple[Need, ...] = ()
-
-
 def derived_row(
     passage: Passage,
     reading: str,
     verdict: Verdict,
     *because: Derived,
     corrected: tuple[Derived, ...] = (),
-) -> DerivedRow:
+) -> Row:
     """Return the row of a claim that follows from formulas.
 
     because: the theorems that verify, refute or condition it. corrected: those that hold nearby.
@@ -238,4 +225,4 @@ def derived_row(
         return decided(verdict, *reasons, corrected=nearby)
 
     needs = dict.fromkeys(need for each in (*because, *corrected) for need in each.needs)
-    return DerivedRow(*passage, reading, decide, needs=tuple(needs))
+    return Row(*passage, reading, decide, needs=tuple(needs))

@@ -18,7 +18,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
 from proofs.trusted.paper.s31_horseshoe import Horseshoe
-from proofs.trusted.paper.s32_sets.subshift import Subshift, log_of
+from proofs.trusted.paper.s32_sets.subshift import Subshift, closed_paths, log_of
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -168,7 +168,7 @@ class InvariantSet(Conclusion):
             return f"{text} There are none: Lambda is empty."
         if not self.shift.chaotic:
             return text
-        counts = ", ".join(str(self.shift.fixed_points(n)) for n in range(1, 9))
+        counts = ", ".join(map(str, closed_paths(self.shift.arrows)))
         return (
             f"{text} This subshift is irreducible: Lambda is a Cantor set, with periodic orbits of "
             "arbitrarily high periods, uncountably many nonperiodic orbits and a dense one; f^n "

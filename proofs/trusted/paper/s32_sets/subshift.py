@@ -55,6 +55,21 @@ def log_of(growth: Range) -> str:
     return f"log {show(low)}" if low == high else f"the log of a number in {between(growth, 12)}"
 
 
+def closed_paths(arrows: Mapping[S, Sequence[S]], most: int = 8) -> list[int]:
+    """Return how many closed paths of 1, 2, ..., so many steps there are in a graph."""
+    counts = [0] * most
+    for start in arrows:
+        reached = {start: 1}
+        for n in range(most):
+            after: dict[S, int] = {}
+            for state, ways in reached.items():
+                for then in arrows[state]:
+                    after[then] = after.get(then, 0) + ways
+            reached = after
+            counts[n] += reached.get(start, 0)
+    return counts
+
+
 @dataclass(frozen=True)
 class Subshift:
     """The sequences x_0 x_1 ... over 0, 1 that have no factor among `forbidden`.
@@ -122,12 +137,6 @@ class Subshift:
         4. Some orbit is dense: that of a path that follows all finite paths one after another.
         """
         return irreducible(self.arrows) and any(len(x) > 1 for x in self.arrows.values())
-
-    def fixed_points(self, period: int) -> int:
-        """Return how many sequences the shift's iterate fixes: w w w ... for words w."""
-        periodic = [w * self.length for w in words(period)]
-        factors = [{x[k : k + self.length] for k in range(period)} for x in periodic]
-        return sum(not self.forbidden & each for each in factors)
 
     @cached_property
     def growth(self) -> Range:

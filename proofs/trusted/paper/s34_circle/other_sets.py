@@ -27,13 +27,17 @@ from proofs.trusted.numbers import (
     within,
 )
 from proofs.trusted.paper.s31_horseshoe import read_part
-from proofs.trusted.paper.s32_sets.subshift import irreducible, log_of, spectral_radius
+from proofs.trusted.paper.s32_sets.subshift import (
+    closed_paths,
+    irreducible,
+    log_of,
+    spectral_radius,
+)
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.slopes import Avoids, ImageArc, SlopeRange, image_arc, signed
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 PRINTED = Phases(Fraction("1.32"), Fraction("1.48"))
-_PERIODS = 8
 _LOG_BITS = 128
 _MOST_CELLS = 100  # that orbits stay in
 _CONNECTIONS = (
@@ -136,14 +140,7 @@ class StayingSet(Conclusion):
     @cached_property
     def fixed_points(self) -> list[int]:
         """How many phases f^n fixes there, n = 1, 2, ...: the closed paths of n steps."""
-        places = range(len(self.cells))
-        sources = [[i for i in places if j in self.onward[i]] for j in places]
-        rows = [[int(i == j) for j in places] for i in places]
-        traces = []
-        for _ in range(_PERIODS):
-            rows = [[sum(row[k] for k in sources[j]) for j in places] for row in rows]
-            traces.append(sum(row[i] for i, row in enumerate(rows)))
-        return traces
+        return closed_paths(dict(enumerate(self.onward)))
 
     @property
     def sentence(self) -> str:
@@ -167,7 +164,7 @@ class StayingSet(Conclusion):
             f"in {region} are a Cantor set, on which f is topologically conjugate to the one-sided "
             f"{steps}, the n-th symbol being the number of the set that f^n(phi) lies in. f^n has "
             f"{', '.join(map(str, self.fixed_points))} fixed points there for n = 1, ..., "
-            f"{_PERIODS}; there are periodic orbits of arbitrarily high periods, uncountably many "
+            "8; there are periodic orbits of arbitrarily high periods, uncountably many "
             "nonperiodic ones and a dense one; the entropy of f there is "
             f"{log_of(self.growth)}.{_CONNECTIONS if self._is_chain else ''}"
         )

@@ -13,7 +13,6 @@ from fractions import Fraction
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.formulas import (
     Derived,
-    DerivedRow,
     Equal,
     Passage,
     Theorem,
@@ -24,7 +23,7 @@ from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.verdicts import Decision, Found, Verdict, decided, undecided
+from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 FIGURE_NU, FIGURE_ETAS = Fraction("0.2"), (Fraction("0.01"), Fraction(14))
 FIGURE_ETA, FIGURE_NUS = Fraction("0.237"), (Fraction("-0.9"), Fraction("0.9"))
@@ -225,7 +224,7 @@ ROWS = (
         slope,
         corrected=(slope,),
     ),
-    DerivedRow(
+    Row(
         "P4",
         "4, after (17)",
         "stability of these fixed points can be determined",
@@ -233,7 +232,7 @@ ROWS = (
         _stability,
         needs=orbits.needs,
     ),
-    DerivedRow(
+    Row(
         "P5",
         "4, Figure 7a",
         "the various stable n-periodic fixed points",
@@ -242,7 +241,7 @@ ROWS = (
         _figure_a,
         needs=orbits.needs,
     ),
-    DerivedRow(
+    Row(
         "P6",
         "4, Figure 7b",
         "fixed points vary as we change",

@@ -62,7 +62,7 @@ def test_the_paper_s_box():
     exact = replace(PAPER, reach=None)
     assert exact.box.sides == tuple(pair_of(x, x) for x in (PAPER.eta, PAPER.nu, PAPER.epsilon))
     assert replace(PAPER, epsilon=None).box is None
-    assert replace(PAPER, epsilon=Fraction(0)).box[2] == pair_of(0, "0.005")
+    assert replace(PAPER, epsilon=Fraction(0)).box.sides[2] == pair_of(0, "0.005")
 
 
 LEAVING = [
