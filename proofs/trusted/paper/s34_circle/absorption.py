@@ -177,7 +177,7 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
     cells += [Cell((each.phases[0], each.phases[1])) for each in never]
     for entry in cells_of.items():
-        cells += _cells(context, entry, origin)
+        cells += branch_cells(context, entry, origin)
     cells = in_order([*cells, Cell((end, origin + whole_turns(1, BITS)[1]), ())])
     phases = [cell.phases for cell in cells]
     if phases[0][0] < origin or phases[-1][0] != end:
@@ -211,7 +211,7 @@ def _within(reader: Reader, cells: Sequence[Cell], found: Absorbed) -> tuple[Ran
     return (low, high), int(steps)
 
 
-def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
+def branch_cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
     branch, after = context.step(branch_of, Branch), after_of.number()
