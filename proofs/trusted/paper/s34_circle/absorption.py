@@ -250,7 +250,7 @@ def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enc
     eta, nu = motion.at.point
     size, bits = abs(nu), motion.bits
     most = BRACKET * (size + eta * size + eta * eta * (1 + size))
-    height, fall = motion.gap(start, (time, time)), gap(start, now, 1)
+    height, fall = gap(start, now), gap(start, now, 1)
     if height.lo <= 0 or height.range[1] + BRACKET * (fall.range[1] + most) >= 0:
         raise Unproved("a bracket does not have the signs +, - at its ends")
     fall, swing = fall + Enclosure.of(-most, most, bits), BRACKET * eta
@@ -265,6 +265,6 @@ def _reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Ran
         raise Unproved("a cell's image is longer than the circle")
     count = int((image[0][0] - origin) // turn[1]) - 1
     for turns in range(count, count + 4):
-        low, high = (lifted(end, -turns, BITS) for end in image)
-        if high[1] >= origin and low[0] <= origin + turn[1]:
-            yield low, high
+        first, last = whole_turns(-turns, BITS)
+        if image[1][1] + last >= origin and image[0][0] + first <= origin + turn[1]:
+            yield lifted(image[0], -turns, BITS), lifted(image[1], -turns, BITS)
