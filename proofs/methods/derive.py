@@ -1,4 +1,4 @@
-"""Formulas in sympy: equalities and power series found by computer algebra.
+"""Formulas in sympy, and back.
 
 A text is read as `formulas` says. What sympy finds is a candidate: the checker has a
 computation of its own. sympy is imported by what needs it.
@@ -57,30 +57,6 @@ def _whole_angles(expression: Any) -> Any:
     scale = lcm(*(int(sympy.denom(term.as_coeff_Mul()[0])) for term in terms))
     pairs = [(symbol, scale * symbol) for symbol in expression.free_symbols]
     return expression.subs(pairs, simultaneous=True) if scale > 1 else expression
-
-
-def equal(left: str, right: str) -> bool:
-    """Whether sympy finds two formulas equal."""
-    return vanishes(read(left) - read(right))
-
-
-def begins(function: str, variable: str, coefficients: tuple[str, ...]) -> bool:
-    """Whether sympy finds that a power series begins with these coefficients."""
-    import sympy
-
-    x = sympy.Symbol(variable)
-    rest = read(function) - sum(read(text) * x**n for n, text in enumerate(coefficients))
-    top, bottom = sympy.fraction(sympy.together(rest))
-    return _order(top, x) >= _order(bottom, x) + len(coefficients)
-
-
-def _order(function: Any, x: Any, most: int = 16) -> int:
-    """Return the least order of a derivative that is not 0 at x = 0."""
-    for order in range(most):
-        if not vanishes(function.subs(x, 0)):
-            return order
-        function = function.diff(x)
-    return most
 
 
 # -- back to formulas ------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -261,27 +261,41 @@ def name_of(phases: Range) -> str:
 def time_range(impact: FirstImpact, phases: Range) -> Range:
     """Enclose the impact times of all launches in `phases`, a part of a transversal impact's."""
     low, high = impact.window
-    # until what bisection may still gain is small beside the width of the phases
+    # until what may still be gained is small beside the width of the phases
     steps = ((high - low) / (phases[1] - phases[0])).__ceil__().bit_length() + 5
-    return bisected(impact.part(phases), impact.window, steps)
+    return narrowed(impact.part(phases), impact.window, steps)
 
 
-def bisected(flight: Flight, window: Range, steps: int) -> Range:
-    """Narrow the window of a transversal impact of all flights.
+def narrowed(flight: Flight, window: Range, steps: int) -> Range:
+    """Narrow the window of a transversal impact of all flights, to multiples of 2^-steps of it.
 
     The gap decreases through its one zero there: where it is > 0 for all flights no zero lies
-    before, where it is < 0 none lies after. Both ends move by so many bisections.
+    before, where it is < 0 none lies after.
     """
-    low, inner = window
-    high = inner
-    for _ in range(steps):
-        middle = (low + inner) / 2
-        low, inner = (middle, inner) if flight.gap(middle).certainly_positive() else (low, middle)
-    inner = low
-    for _ in range(steps):
-        middle = (inner + high) / 2
-        inner, high = (inner, middle) if flight.gap(middle).certainly_negative() else (middle, high)
-    return low, high
+    (low, high), count = window, 2**steps
+    unit = (high - low) / count
+    first = last_positive(lambda k: float(flight.gap(low + k * unit).inf), count)
+    last = last_positive(lambda k: float(-flight.gap(high - k * unit).sup), count)
+    return low + first * unit, high - last * unit
+
+
+def last_positive(function: Callable[[int], float], most: int) -> int:
+    """Return the last whole number below `most` at which a decreasing function is > 0; else 0.
+
+    By the regula falsi, the value at an end that stays being halved (Illinois).
+    """
+    left, right = 0, most
+    above, below, moved = function(left), function(right), 0
+    while right - left > 1 and above > 0:
+        share = above / (above - below) if below < 0 else 0.5
+        k = min(max(left + round((right - left) * share), left + 1), right - 1)
+        value = function(k)
+        if value > 0:
+            left, above, below = k, value, below / (1 + (moved > 0))
+        else:
+            right, below, above = k, value, above / (1 + (moved < 0))
+        moved = 1 if value > 0 else -1
+    return left
 
 
 def impact_time(impact: FirstImpact, phases: Range, bits: int) -> Range:

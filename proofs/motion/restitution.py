@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from intervals.errors import Undecided
 from proofs.motion.flight import Flight
-from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, bisected, first_impact, impact_time
+from proofs.motion.impact import HORIZON, FirstImpact, NoImpact, first_impact, impact_time, narrowed
 from proofs.trusted.equations import (
     Launch,
     arrival,
@@ -153,9 +153,9 @@ def time_bracket(flight: Rebounds, found: FirstImpact, bits: int = 64) -> Range:
     if flight.single:
         return impact_time(found, flight.phases, bits)
     low, high = found.window
-    # until what bisection may still gain is small beside the narrowest side of the box
-    halvings = 12 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
-    return bisected(flight, found.window, halvings)
+    # until what may still be gained is small beside the narrowest side of the box
+    halvings = 18 + min(300, ((high - low) / flight.narrowest).__ceil__().bit_length())
+    return narrowed(flight, found.window, halvings)
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
+import numpy as np
+
 from intervals import Undecided
-from proofs.motion.simulate import late_state
+from proofs.motion.simulate import TURNS, late_state, next_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver
+from proofs.trusted.equations import (
+    arrival,
+    clock,
+    launch_with_restitution,
+    return_map_derivative,
+)
 from proofs.trusted.numbers import TURN, Range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
@@ -24,6 +32,7 @@ _HALF = 1e-6  # half a side, in phase, of a box around a state
 _EDGE = 1e-3  # phases so close to 0 are left alone
 _LONGEST = 24  # period
 _MOST_ROUNDS = 8  # of an orbit, until F contracts a box
+_NEWTON = 3  # steps
 _GRID = 10**12  # states and half sides are multiples of 1 / _GRID
 State = tuple[Fraction, Fraction]
 Floats = tuple[float, float]
@@ -85,9 +94,31 @@ def prove_cycle(
     return prover.plain.add("stable-cycle", names), found
 
 
-def root_from(prover: ReboundProver, at: Place, state: State, period: int) -> float:
-    """Return about the spectral radius of |D|, as seen from this state of an orbit."""
-    return _sizes([step for _, step in follow(prover, at, [(x, x) for x in state], period)])[1]
+def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
+    """Return about the orbit's state near another, by Newton's method, and how F contracts there.
+
+    That is the spectral radius of |D|, D the derivative of F^n; in floating point.
+    """
+    eta, nu, epsilon = (low for low, _ in at.sides)
+    system, (phase, gamma) = System(eta, nu), map(float, state)
+    for _ in range(_NEWTON):
+        here, product = (phase, gamma), np.eye(2)
+        for _ in range(period):
+            start = launch_with_restitution(
+                system.side, float(eta), float(nu), here[0], epsilon=float(epsilon), gamma=here[1]
+            )
+            kick = system.side * (start.kick or 0.0)
+            found = next_impact(system, here[0], kick, math.tau * TURNS)
+            if found is None:
+                raise Undecided("the orbit is lost")
+            now = clock(start.eta, found[0])
+            product = np.array(return_map_derivative(start, now, float(epsilon))) @ product
+            here = (here[0] + found[0]) % math.tau, arrival(start, now)[1]
+        away = np.subtract(here, (phase, gamma))
+        step = np.linalg.solve(np.eye(2) - product, away)
+        phase, gamma = phase + float(step[0]), gamma + float(step[1])
+    root = float(max(abs(np.linalg.eigvals(abs(product)))))
+    return (rounded(phase), rounded(gamma)), root
 
 
 def _sizes(steps: Sequence[Rebound]) -> tuple[list[list[float]], float]:

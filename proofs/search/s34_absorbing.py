@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -19,16 +20,14 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
-from proofs.motion import landing
-from proofs.motion.landing import impact_before, prove_cells, prove_lands, short
+from proofs.motion.landing import middle, short, zero
 from proofs.motion.many import float_clock, float_launch
-from proofs.motion.phase import lifted, turn
 from proofs.motion.system import System
-from proofs.motion.windows import BITS, Candidates
+from proofs.motion.windows import Candidates
 from proofs.search.evidence import FAILED
 from proofs.search.s34_chaos import Branches
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
+from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.equations import (
     Clock,
     gap,
@@ -36,11 +35,21 @@ from proofs.trusted.equations import (
     inverse_slope,
     launch_acceleration,
 )
+from proofs.trusted.flights import Motion, lifted
+from proofs.trusted.kernel.arithmetic import pi
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
+from proofs.trusted.paper.s34_circle.absorption import (
+    BRACKET,
+    UNIT,
+    Absorption,
+    Sink,
+    branch_cells,
+)
 from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
-from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
+from proofs.trusted.windows import BITS
 
 _GRID = 2000
 _EDGES = (5e-10, 8e-10, 1e-8, 1e-6)  # how far from grazing phases cells end
@@ -50,6 +59,7 @@ _WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
 _NAMED = Fraction(1, 10**4)  # the shortest intervals whose numbers of impacts are told
 _SPARE = Fraction(1, 10**9)  # what bounds are rounded by
+_SLOW = 1e-2  # gap' below which floats do not tell an impact's time
 Turn = int | None
 
 
@@ -74,6 +84,7 @@ class Partition:
     pieces: int = 16
     cells: list[Cell] = field(default_factory=list)
     entries: dict[str, list[Any]] = field(default_factory=dict)
+    lands: tuple[Lands, ...] = ()
 
     @property
     def system(self) -> System:
@@ -134,13 +145,12 @@ class Partition:
         first, last = self.line
         between = short(Fraction(right - self.spare), 40), short(Fraction(left + self.spare), 40)
         cuts = [first + (between[0] - first) * i / self.pieces for i in range(self.pieces + 1)]
-        names = []
         for ends, count in ((cuts, turns), ([between[1], last], 0)):
-            found = prove_lands(self.system, arc, ends, count)
             witness = {"separation": name, "cuts": texts(ends), "turns": str(count)}
-            names.append(self.prover.add("lands", witness))
+            step, found = self.prover.derive("lands", witness)
+            self.entries.setdefault("lands", []).append(step)
             self.cells.append(Cell(found.phases, ()))
-        self.entries["lands"] = names
+            self.lands = *self.lands, found
         return between
 
     def _height(self, phase: float, image: float) -> float:
@@ -150,23 +160,27 @@ class Partition:
 
     def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
         """Prove the cells of one branch between cuts."""
-        rows = zip(
-            *(column.tolist() for column in (cuts.phases, cuts.images, cuts.turns)), strict=True
-        )
-        phases = [Fraction(round(x / float(UNIT))) * UNIT for x in cuts.phases.tolist()]
-        whole = turn(BITS).mid
-        try:
-            times = [
-                impact_before(self.system, phase, Fraction(y) - Fraction(x) + n * whole)
-                for phase, (x, y, n) in zip(phases, rows, strict=True)
-            ]
-            cutting = landing.Cutting(phases, times, after_reversal(self.system, branch))
-            self.cells += prove_cells(self.system, branch, cutting, self.line[0])
-        except FAILED:
-            return
+        phases, times = self._impacts(cuts)
         cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
-        witness = {"cuts": cuts_of, "times": times_of, "after": str(cutting.after)}
-        self.entries["cells"].append({"branch": name, **witness})
+        after = str(after_reversal(self.system, branch))
+        entry = {"branch": name, "cuts": cuts_of, "times": times_of, "after": after}
+        with suppress(*FAILED):
+            context = Context(self.prover.at, {}, self.prover.known)
+            self.cells += [*branch_cells(context, Reader(entry), self.line[0])]
+            self.entries["cells"].append(entry)
+
+    def _impacts(self, cuts: Cutting) -> tuple[list[Fraction], list[Fraction]]:
+        """Return the cuts in units, and times just before the impacts after launches there."""
+        rounded = np.round(cuts.phases / float(UNIT)) * float(UNIT)
+        images, falls = polished(self.system, rounded, cuts.images, cuts.turns)
+        whole, times = 2 * middle(pi(BITS)), []
+        phases = [Fraction(x) for x in rounded.tolist()]
+        for x, y, n, fall in zip(phases, images.tolist(), cuts.turns.tolist(), falls, strict=True):
+            time = Fraction(y) - x + n * whole
+            if abs(fall) < _SLOW:
+                time = zero(Motion(self.prover.at, (x, x), BITS), time, 0)
+            times.append(short(time, 48) - BRACKET / 2)
+        return phases, times
 
     def _conclude(self) -> tuple[str, Absorption]:
         """Follow all cells, and record what is found, a little rounded."""
@@ -210,8 +224,8 @@ def _rounded(value: Fraction) -> Fraction:
 def after_reversal(system: System, branch: Branch) -> Fraction:
     """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
     half = math.pi / float(system.eta)
-    zero = math.floor(float(min(branch.ends)) / half) * half
-    return max(branch.begin, short(Fraction(zero + 1e-3), 20))
+    last = math.floor(float(min(branch.ends)) / half) * half
+    return max(branch.begin, short(Fraction(last + 1e-3), 20))
 
 
 def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tuple[Range, int]]:
@@ -250,12 +264,6 @@ class _Pieces:
             parts.append(Piece(ends, (images[0], images[1])))
         return parts
 
-    def _now(self, phases: Floats, images: Floats, turns: Whole) -> Clock:
-        eta, time = self.system.eta, images - phases
-        share = (turns * eta.numerator % eta.denominator) / eta.denominator
-        mass = float(eta) * time + math.tau * share
-        return Clock(np.sin(mass), np.cos(mass), np.sin(time), np.cos(time))
-
     def _along(self, phases: Floats, now: Clock) -> Floats:
         """Return about minus the derivative of the gap in the phase at a fixed image."""
         start = float_launch(self.system, phases)
@@ -268,7 +276,7 @@ class _Pieces:
         sign = -1 if self.parts[index].images[0] < self.parts[index].images[1] else 1
         for count in range(40):
             middle = (low + high) / 2
-            now = self._now(middle, images, turns)
+            now = reduced_clock(self.system, middle, images, turns)
             height = gap(float_launch(self.system, middle), now)
             if count >= 34:  # close: by Newton's method
                 step = height / self._along(middle, now)
@@ -281,7 +289,7 @@ class _Pieces:
     def density(self, cuts: Cutting) -> Density:
         """Guess bounds of 1/|f'| on the cells between cuts, from the values at their ends."""
         start = float_launch(self.system, cuts.phases)
-        now = self._now(cuts.phases, cuts.images, cuts.turns)
+        now = reduced_clock(self.system, cuts.phases, cuts.images, cuts.turns)
         with np.errstate(all="ignore"):
             first = inverse_slope(start, now)
             bent = inverse_bend(start, now, first) * np.sign(first)
@@ -307,7 +315,8 @@ class _Pieces:
                     continue
                 lifted_one = x + self.branches.impact(x).time
                 turns = math.floor((lifted_one - self.origin) / math.tau)
-                image = self._polished(x, lifted_one - math.tau * turns, turns)
+                row = np.array(x), np.array(lifted_one - math.tau * turns), np.array(turns)
+                image = float(polished(self.system, *row)[0])
                 rows[x] = index, image, turns
                 onward.append(image)
             starts = onward
@@ -315,13 +324,23 @@ class _Pieces:
         columns = [np.array(column) for column in zip(*rows.values(), strict=True)]
         return Cutting(phases, columns[0], columns[1], columns[2])
 
-    def _polished(self, phase: float, image: float, turns: int) -> float:
-        """Return the image of a phase by Newton's method, near the given one."""
-        start = float_launch(self.system, np.array(phase))
-        for _ in range(3):
-            now = self._now(np.array(phase), np.array(image), np.array(turns))
-            image = float(image - gap(start, now) / gap(start, now, 1))
-        return image
+
+def reduced_clock(system: System, phases: Floats, images: Floats, turns: Whole) -> Clock:
+    """Return the time functions at images counted from so many turns, which are reduced exactly."""
+    eta, time = system.eta, images - phases
+    share = (turns * eta.numerator % eta.denominator) / eta.denominator
+    mass = float(eta) * time + math.tau * share
+    return Clock(np.sin(mass), np.cos(mass), np.sin(time), np.cos(time))
+
+
+def polished(system: System, phases: Floats, images: Floats, turns: Whole) -> tuple[Floats, Floats]:
+    """Return the images of phases by Newton's method, near the given ones, and gap' there."""
+    start = float_launch(system, phases)
+    for _ in range(3):
+        now = reduced_clock(system, phases, images, turns)
+        fall = gap(start, now, 1)
+        images = images - gap(start, now) / fall
+    return images, fall
 
 
 def _last(function: Callable[[float], float], low: float, high: float) -> float:

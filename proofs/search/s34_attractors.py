@@ -9,11 +9,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 from proofs.search.evidence import FAILED, Proof
-from proofs.search.s33_cycles import State, follow, prove_cycle, root_from, rounded
+from proofs.search.s33_cycles import State, prove_cycle, seen_from
 from proofs.search.s33_steps import ReboundProver
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop
-from proofs.trusted.parameters import Place
+from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 
 _UNIT = Fraction(1, 10**6)  # epsilons are multiples
 _FIRST, _LEAST = 250, 24  # units: the first step, and the last one
@@ -26,7 +25,7 @@ def branch(prover: ReboundProver, known: StableCycle, tries: int = _MOST) -> Pro
     at = replace(known.at, epsilon=(start, start))
     state = min(
         ((_mean(phases), _mean(velocities)) for phases, velocities in known.boxes),
-        key=lambda state: root_from(prover, at, state, len(known.boxes)),
+        key=lambda state: seen_from(at, state, len(known.boxes))[1],
     )
     return [
         cycle for way in (-1, 1) for cycle in _continued(prover, known, (start, state), way, tries)
@@ -49,7 +48,8 @@ def _continued(
         middle = (epsilon + onward) / 2
         try:
             with prover.attempt():
-                near = _orbit(prover, replace(known.at, epsilon=(middle, middle)), state, period)
+                at = replace(known.at, epsilon=(middle, middle))
+                near = seen_from(at, state, period)[0]
                 cycle = prove_cycle(prover, replace(known.at, epsilon=ends), near, period)
         except FAILED:
             size = size * 3 // 4
@@ -59,18 +59,6 @@ def _continued(
             proof.append(cycle)
             epsilon, state, size = onward, near, size * 9 // 8
     return proof
-
-
-def _orbit(prover: ReboundProver, at: Place, state: State, period: int) -> State:
-    """Return about the orbit's state near another, by one step of Newton's method."""
-    steps = [step for _, step in follow(prover, at, [(x, x) for x in state], period)]
-    (p, q), (r, s) = ([_mean(x.range) for x in row] for row in loop(steps))
-    a, b = _mean(steps[-1].phase) - state[0], _mean(steps[-1].velocity) - state[1]
-    across = (1 - p) * (1 - s) - q * r
-    return (
-        rounded(state[0] + ((1 - s) * a + q * b) / across),
-        rounded(state[1] + (r * a + (1 - p) * b) / across),
-    )
 
 
 def _mean(values: Range) -> Fraction:

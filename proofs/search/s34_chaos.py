@@ -6,24 +6,28 @@ bound on the topological entropy, from all branches of f near the phase pi/2.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.motion.windows import Candidate, Candidates, bracket, prove_branch
+from proofs.motion.windows import Candidate, Candidates
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
+from proofs.trusted.flights import lifted
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range, within
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound, entropy_bound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import Parameters
+from proofs.trusted.windows import BITS
 
 _DOMAIN = (1.0, 2.1)  # the phases around pi/2 whose orbits come back to them
 _GRID = 1200  # phases to start from in the search for branches
@@ -35,6 +39,7 @@ _SHARE = 0.06  # of a part of a branch in the one before, towards grazing
 _DEPTH = 3  # of the tower of states
 _PLACES = 8  # of the ends of states
 _SOON = Fraction(1, 10**7)  # how long after an impact the gap is looked at
+_NEAREST, _TRIES = Fraction(1, 2**32), 12  # of brackets of impacts: the narrowest, how many
 
 
 def prove(
@@ -141,12 +146,12 @@ class Branches:
             inside = low + edge, high - edge
             try:
                 cuts, turn, ends = self._parts(*inside)
-                branch = prove_branch(self.system, cuts, turn, ends)
-            except (Undecided, DomainError):
+                witness = {"cuts": texts(cuts), "turn": str(turn), "ends": texts(ends)}
+                name, branch = prover.derive("branch", witness)
+            except FAILED:
                 continue  # nearer to grazing than the arithmetic can tell
             self.branches.append(branch)
-            witness = {"cuts": texts(cuts), "turn": str(turn), "ends": texts(ends)}
-            self.names.append(prover.add("branch", witness))
+            self.names.append(name)
             return
 
     def _parts(self, low: float, high: float) -> tuple[list[Fraction], int, list[Fraction]]:
@@ -176,8 +181,18 @@ class Branches:
     def image(self, index: int, phase: Fraction) -> Range:
         """Prove and return the image of a phase in a branch."""
         if (index, phase) not in self._images:
-            about = self.impact(float(phase))
-            self.times[index, phase], self._images[index, phase] = bracket(
-                self.branches[index], self.system, phase, about.time
-            )
+            branch, about = self.branches[index], Fraction(self.impact(float(phase)).time)
+            for time in _openings(about, branch.window(phase)):
+                with suppress(Unproved):
+                    image = lifted(branch.image(phase, time), -branch.turn, BITS)
+                    self.times[index, phase], self._images[index, phase] = time, image
+                    return image
+            raise Undecided("no bracket of an impact time is proved")
         return self._images[index, phase]
+
+
+def _openings(about: Fraction, window: Range) -> Iterator[Range]:
+    """Yield wider and wider brackets of a time, within its window."""
+    for unit in (_NEAREST * 4**count for count in range(_TRIES)):
+        centre = round(about / unit) * unit
+        yield max(window[0], centre - unit), min(window[1], centre + unit)

@@ -17,7 +17,7 @@ from typing import TypeVar
 
 from intervals import Undecided
 from proofs.motion.impact import HORIZON
-from proofs.motion.landing import prove_never, prove_separation
+from proofs.motion.landing import prove_never, separation
 from proofs.motion.system import System
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
@@ -89,9 +89,7 @@ class _Run:
 
 def prove_arc(prover: Prover) -> tuple[str, Separation]:
     """Prove where the mass sticks and where it lands after it separates (rule separation)."""
-    found, times = prove_separation(prover.system, prover.bits + 30)
-    witness = {"phase": texts(found.phase), "times": texts(times), "time": texts(found.time)}
-    return prover.add("separation", witness), found
+    return prover.derive("separation", separation(prover.system, prover.bits + 30))
 
 
 def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
@@ -110,7 +108,4 @@ def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
             high = middle
     if low == 0:
         raise Undecided("no interval of phases without a next impact")
-    phases = around(low)
-    return prover.add("never-impacts", {"phases": texts(phases)}), prove_never(
-        prover.system, phases
-    )
+    return prover.derive("never-impacts", {"phases": texts(around(low))})

@@ -15,21 +15,22 @@ from itertools import pairwise
 
 from intervals import Undecided
 from proofs.methods.subshifts import least_ceiling, outer_tower
+from proofs.motion.landing import zero
 from proofs.motion.system import System
-from proofs.motion.windows import BITS, Candidates
+from proofs.motion.windows import Candidates
 from proofs.search.s34_absorbing import Partition, after_reversal
 from proofs.search.s34_chaos import Branches
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
 from proofs.trusted.paper.s34_circle.grazing import Grazing, graze
-from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
+from proofs.trusted.windows import BITS
 
 _GRID = 1200
 _OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
@@ -38,7 +39,6 @@ _PLACES = 8  # of the ends of states
 _LONGEST = Fraction(1, 100)  # time after a graze in which the gap is proved to rise
 _SPARE = Fraction(1, 10**8)  # of times
 _MOST_TURNS = 20_000
-NEWTON = 6  # steps
 FINE = 160  # bits of Newton's method
 _ROOT_PLACES = 16  # of narrow grazes
 _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
@@ -73,7 +73,7 @@ class Laps:
         grazes = [prove_grazing(prover, found, *pair) for pair in between]
         pieces = Pieces(
             arc[1],
-            (Lands(prover.at, landing.cells[0].phases), Lands(prover.at, landing.cells[1].phases)),
+            (landing.lands[0], landing.lands[1]),
             tuple(sorted([*after, silent, *(g for _, g in grazes)], key=lambda x: x.phases)),
         )
         witness = {
@@ -190,17 +190,3 @@ def rise(system: System, time: Fraction) -> Fraction:
 def flight(prover: Prover, phase: Fraction) -> Motion:
     """Return the flight from one phase, for Newton's method."""
     return Motion(prover.at, (phase, phase), FINE)
-
-
-def middle(x: Enclosure) -> Fraction:
-    """Return about the number that is enclosed."""
-    return Fraction(x.lo + x.hi, 2 << x.bits)
-
-
-def zero(motion: Motion, time: Fraction, order: int) -> Fraction:
-    """Return about where a derivative of the gap is 0, near a time, by Newton's method."""
-    gap_of = motion.gap_of
-    for _ in range(NEWTON):
-        value, rate = (middle(gap_of((time, time), k)) for k in (order, order + 1))
-        time = round((time - value / rate) * 2**FINE) / Fraction(2**FINE)
-    return time

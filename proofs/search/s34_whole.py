@@ -16,12 +16,12 @@ from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.motion.impact import HORIZON
-from proofs.motion.landing import short
+from proofs.motion.landing import NEWTON, middle, short, zero
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
 from proofs.search.evidence import FAILED, Evidence, Proof, search_each
 from proofs.search.s34_chaos import prove_covering
-from proofs.search.s34_laps import FINE, NEWTON, Images, Laps, flight, middle, record, rise, zero
+from proofs.search.s34_laps import FINE, Images, Laps, flight, record, rise
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration

@@ -47,13 +47,25 @@ def _cycle(wanted: Unknowns) -> dict[str, str]:
     """Solve for orbits of period 2 near the flip, order by order."""
     import sympy
 
-    h, sides = sympy.Symbol("h"), [derive.read(each) for each in doubling.SIDES]
+    sides = [_cubic(derive.read(each)) for each in doubling.SIDES]
     known: dict[Any, Any] = {}
     for order, names in enumerate(("b", "a l_1", "b_2 l_2", "a_2 l_3")):
-        rates = [side.diff(h, order).subs(h, 0).subs(known) for side in sides]
+        rates = [derive.simplest(side[order].subs(known)) for side in sides]
         solved = sympy.solve(rates, sympy.symbols(names), dict=True)[0]
         known = {x: value.subs(solved) for x, value in known.items()} | solved
     return {name: derive.write(derive.simplest(known[sympy.Symbol(name)])) for name in wanted.names}
+
+
+def _cubic(side: Any) -> list[Any]:
+    """Return the coefficients up to h^3 of a function of h, sines and cosines of multiples of h."""
+    import sympy
+
+    side = side.replace(sympy.sin, lambda x: x - x**3 / 6)
+    side = side.replace(sympy.cos, lambda x: 1 - x**2 / 2)
+    h = sympy.Symbol("h")
+    others = sympy.QQ.frac_field(*sorted(side.free_symbols - {h}, key=str))
+    found = sympy.ring(h, others)[0].from_expr(side)
+    return [others.to_sympy(found.coeff(found.ring.gens[0] ** n)) for n in range(4)]
 
 
 def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:

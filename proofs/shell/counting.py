@@ -230,15 +230,11 @@ _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
     "intervals.bilinear.bilinear": _boxes(GRID),
     "intervals.cover.cover": _one(PARTS),
     "proofs.motion.covering.halves": _one(BISECTIONS),
-    "proofs.motion.impact.bisected": (
-        lambda frame, window: {Kind(BISECTIONS): 2 * frame.f_locals["steps"]}
-    ),
     "proofs.methods.extremes.extremes": _pieces,
     "intervals.branch.split": lambda frame, found: {Kind(BISECTIONS): int(found[1].sum())},
-    "proofs.motion.landing.prove_cells": lambda frame, cells: {Kind(CELLS): len(cells)},
+    "proofs.methods.basin.Mesh.leaning": lambda frame, cuts: {Kind(CELLS): len(cuts.phases)},
     "intervals.array._make": _boxes(NUMBERS[0]),
-    "proofs.methods.derive.equal": _one(ALGEBRA),
-    "proofs.methods.derive.begins": _one(ALGEBRA),
+    "proofs.methods.derive.simplest": _one(ALGEBRA),
     "proofs.trusted.certificate.render": (
         lambda frame, text: {Kind(MADE): len(frame.f_locals["document"].get("steps", ()))}
     ),

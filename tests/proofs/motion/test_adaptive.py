@@ -1,6 +1,7 @@
 """Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
 
 import json
+import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -14,7 +15,17 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.covering import cover_by_impacts, precision_for, steps_for
 from proofs.motion.flight import Flight
 from proofs.motion.image import Image, image
-from proofs.motion.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
+from proofs.motion.impact import (
+    LEAST,
+    Sticks,
+    Unsettled,
+    first_impact,
+    impact_time,
+    last_positive,
+    locate,
+    march,
+    narrowed,
+)
 from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.motion.system import System
 from proofs.shell.counting import counted, evaluations
@@ -316,3 +327,29 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     assert known[:2] == start and known == sorted(set(known))
     assert known[-1] < horizon - 4
     assert all(flight.gap(time).certainly_positive() for time in known[1:])
+
+
+@pytest.mark.parametrize("shape", [lambda x: x, math.sinh, lambda x: math.atan(1e3 * x)])
+def test_the_last_positive_value_is_found_in_few_steps(shape):
+    for last in (0, 1, 700, 2**40 - 2):
+        asked = []
+
+        def value(k, last=last, asked=asked):
+            asked.append(k)
+            return shape((last + 0.5 - k) / 2**40)
+
+        assert last_positive(value, 2**40) == last
+        assert len(asked) < 60
+    assert last_positive(lambda k: -1.0 - k, 2**40) == 0
+
+
+def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
+    part = Fraction("1.11"), Fraction("1.12")
+    found = first_impact(Flight(PAPER, part))
+    low, high = narrowed(found.flight, found.window, 16)
+    ends = [locate(PAPER, (x, x)) for x in part]
+    times = [t for x, end in zip(part, ends, strict=True) for t in impact_time(end, (x, x), 40)]
+    assert found.window[0] < low < min(times) and max(times) < high < found.window[1]
+    last = (found.window[1] - found.window[0]) / 2**16
+    assert found.flight.gap(low).inf > 0 >= found.flight.gap(low + last).inf
+    assert found.flight.gap(high).sup < 0 <= found.flight.gap(high - last).sup

@@ -17,8 +17,6 @@ from proofs import impact, period_doubling, resonance, single_impact
 from proofs.methods.extremes import extremes
 from proofs.motion import single_orbits
 from proofs.motion.covering import cover_by_impacts
-from proofs.motion.flight import Flight
-from proofs.motion.impact import bisected, first_impact
 from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
 from proofs.shell import counting
@@ -224,12 +222,7 @@ def test_other_formulas_are_those_that_wrappers_count(watch, monkeypatch, capsys
     assert rows[FORMULAS][INTERVALS] == pairs[""] == 2
 
 
-def test_bisections_are_one_evaluation_each():
-    part = Fraction("1.11"), Fraction("1.12")
-    found = first_impact(Flight(SYSTEM, part))
-    with counted() as counts:
-        bisected(found.flight, found.window, 7)
-    assert counts[Kind(BISECTIONS)] == counts[Kind(GAP, INTERVALS)] == 14
+def test_each_bisection_makes_one_part_more():
     with counted() as counts:
         parts = cover_by_impacts(SYSTEM, (Fraction("0.5"), Fraction("1.15")))
     assert counts[Kind(BISECTIONS)] == len(parts) - 1 > 0

@@ -165,7 +165,7 @@ def absorption(context: Context, reader: Reader) -> Absorption:
     never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
     cells += [Cell((each.phases[0], each.phases[1])) for each in never]
     for entry in cells_of.items():
-        cells += _cells(context, entry, origin)
+        cells += branch_cells(context, entry, origin)
     cells = in_order([*cells, Cell((end, origin + whole_turns(1, BITS)[1]), ())])
     phases = [cell.phases for cell in cells]
     if phases[0][0] < origin or phases[-1][0] != end:
@@ -199,7 +199,7 @@ def _within(reader: Reader, cells: Sequence[Cell], found: Absorbed) -> tuple[Ran
     return (low, high), int(steps)
 
 
-def _cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
+def branch_cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:
     """Read and prove the cells of one branch."""
     branch_of, cuts_of, times_of, after_of = reader.fields("branch", "cuts", "times", "after")
     branch, after = context.step(branch_of, Branch), after_of.number()
@@ -238,7 +238,7 @@ def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enc
     eta, nu = motion.at.point
     size, bits = abs(nu), motion.bits
     most = BRACKET * (size + eta * size + eta * eta * (1 + size))
-    height, fall = motion.gap(start, (time, time)), gap(start, now, 1)
+    height, fall = gap(start, now), gap(start, now, 1)
     if height.lo <= 0 or height.range[1] + BRACKET * (fall.range[1] + most) >= 0:
         raise Unproved("a bracket does not have the signs +, - at its ends")
     fall, swing = fall + Enclosure.of(-most, most, bits), BRACKET * eta
@@ -253,6 +253,6 @@ def _reduced(image: tuple[Range, Range], origin: Fraction) -> Iterator[tuple[Ran
         raise Unproved("a cell's image is longer than the circle")
     count = int((image[0][0] - origin) // turn[1]) - 1
     for turns in range(count, count + 4):
-        low, high = (lifted(end, -turns, BITS) for end in image)
-        if high[1] >= origin and low[0] <= origin + turn[1]:
-            yield low, high
+        first, last = whole_turns(-turns, BITS)
+        if image[1][1] + last >= origin and image[0][0] + first <= origin + turn[1]:
+            yield lifted(image[0], -turns, BITS), lifted(image[1], -turns, BITS)

@@ -131,10 +131,10 @@ def branch(context: Context, reader: Reader) -> Branch:
     """
     cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
     cuts, turn = cuts_of.numbers(2, 200), read_turn(turn_of)
-    of, phases = context.of, Phases(cuts[0], cuts[-1])
-    if not -1 < of.nu < 0:
+    at, phases = context.place, Phases(cuts[0], cuts[-1])
+    if not -1 < at.point[1] < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(of.place, phases, BITS)
+    whole = Motion(at, phases, BITS)
     meetings, launched = Meetings.of(whole), leaves(whole)
     for low, high in meetings.before(turn):
         if high > launched:
@@ -142,7 +142,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     begin = meetings.window(turn)[0]
     if begin <= launched:
         raise Unproved("the last window starts at launch")
-    found = Branch(of.place, cuts, turn, begin, ends_of.numbers())
+    found = Branch(at, cuts, turn, begin, ends_of.numbers())
     for piece, end in zip(pairwise(cuts), found.ends, strict=True):
         if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
             raise Unproved("the gap is not proved to fall to the impact")

@@ -249,15 +249,15 @@ def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     phases = Phases(*phases_of.range())
     if not 0 < phases[0] < phases[1] < _THREE:
         raise phases_of.fail("phases between 0 and 3 are expected")
-    eta, nu = context.of.eta, context.of.nu
+    eta, nu = context.place.point
     if not -1 < nu < 0:
         raise Unproved("closest approaches are known for -1 < nu < 0")
-    start = Motion(context.of.place, phases, BITS).start()
+    start = Motion(context.place, phases, BITS).start()
     away = Enclosure.of(*phases, BITS) - pi(BITS) / 2
     bounds = closest_approach(eta, rational(nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):
         raise Unproved("an impact is not excluded")
-    return NeverImpacts(context.of.place, phases)
+    return NeverImpacts(context.place, phases)
 
 
 def closest_approach(

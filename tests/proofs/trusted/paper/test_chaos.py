@@ -12,10 +12,9 @@ from fractions import Fraction as F
 import pytest
 from mpmath import mpf
 
-from intervals import Undecided
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.motion.windows import Candidates, prove_branch
+from proofs.motion.windows import Candidates
 from proofs.search.evidence import Evidence
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
@@ -422,8 +421,6 @@ def test_an_impact_overlooked_is_refused():
     cuts = ["15999/10000", "16001/10000"]
     with pytest.raises(Unproved, match="an earlier impact is not excluded"):
         apply("branch", {"cuts": cuts, "turn": "877", "ends": [end]})
-    with pytest.raises(Undecided, match="an earlier impact is not excluded"):
-        prove_branch(SYSTEM, list(map(F, cuts)), 877, [F(end)])
 
 
 BRANCH_LIES = {

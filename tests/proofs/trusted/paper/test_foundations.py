@@ -12,7 +12,6 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.methods import derive
 from proofs.search.s2_foundations import prove
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader, render
@@ -25,6 +24,7 @@ from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
+from tests.oracles import algebra
 from tests.proofs.trusted.paper import reference
 
 CLAIMS = GROUPS["foundations"]
@@ -125,7 +125,7 @@ def test_a_misprint_is_not_proved(document, claim, right, wrong):
         for each in witnesses
         if right in each["left"] + each["right"]
     ]
-    false = [each for each in changed if not derive.equal(each["left"], each["right"])]
+    false = [each for each in changed if not algebra.equal(each["left"], each["right"])]
     assert false
     for each in false:
         with pytest.raises(ArithmeticError):
