@@ -6,6 +6,7 @@ imports take place inside `launch`, where an interrupt is an interrupt already.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -32,7 +33,9 @@ class Stopped(KeyboardInterrupt):
 def launch(module: str) -> NoReturn:
     """End the process with the status that a command returns, given by its module or package."""
     prog = f"python -m {module.removesuffix('.__main__')}"
-    sys.exit(guarded(prog, lambda: run_command(module)))
+    status = guarded(prog, lambda: run_command(module))
+    gc.freeze()  # what is there ends with the process: no search for cycles first
+    sys.exit(status)
 
 
 def run_command(module: str, arguments: list[str] | None = None) -> int:
