@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 USAGE_ERROR, PIPE_CLOSED = 2, 128 + 13
 _SIGNALS: dict[int, str] = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
 _HAS_ALARM = hasattr(signal, "setitimer")  # not on Windows
+_SELDOM = 50_000  # new objects: few of those here are in cycles
 _MAIN = os.getpid()  # a forked process has this module, and another number
 
 
@@ -33,6 +34,7 @@ class Stopped(KeyboardInterrupt):
 def launch(module: str) -> NoReturn:
     """End the process with the status that a command returns, given by its module or package."""
     prog = f"python -m {module.removesuffix('.__main__')}"
+    gc.set_threshold(_SELDOM)
     status = guarded(prog, lambda: run_command(module))
     gc.freeze()  # what is there ends with the process: no search for cycles first
     sys.exit(status)
