@@ -102,12 +102,10 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
     side, eta, lift, rate, kick = start
     mass_cos, mass_sin = _turned(now.mass_cos, now.mass_sin, order)
     table_cos, table_sin = _turned(now.table_cos, now.table_sin, order)
-    if order == 0:
-        mass_sin = mass_sin / eta
-    else:
-        mass_cos = eta * mass_cos
-    for _ in range(order - 1):
-        mass_cos, mass_sin = eta * mass_cos, eta * mass_sin
+    if order > 0:
+        scale = eta**order if order > 1 else eta
+        mass_cos, mass_sin = scale * mass_cos, scale * mass_sin
+    mass_sin = mass_sin / eta
     total = lift * (mass_cos - table_cos) + rate * (mass_sin - table_sin) + mass_cos
     if order == 0:
         total = total - 1
