@@ -22,17 +22,18 @@ from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
+from typing import TYPE_CHECKING
 
 from intervals import Undecided
 from proofs.motion.system import System
-from proofs.report.markup import markdown_table
-from proofs.search.beyond import EFFORT, Budget
-from proofs.search.portrait import HEAD, Stretch, fates, rebounding_fates, rows, stretches
-from proofs.search.s34_chaos import FASTEST
+from proofs.search.budget import EFFORT, FASTEST, Budget
 from proofs.shell.cli import number, whole
 from proofs.shell.runner import More, run
 from proofs.trusted.numbers import TURN, show
 from proofs.trusted.parameters import Parameters
+
+if TYPE_CHECKING:
+    from proofs.search.portrait import Stretch
 
 _MOST_EFFORT = 5
 _NARROW = 0.005  # of stretches that are counted only
@@ -80,6 +81,8 @@ def dossier(of: Parameters, options: Namespace) -> str:
 
 def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
     """Say what motions with restitution come to."""
+    from proofs.search.portrait import rebounding_fates
+
     ends = rebounding_fates(
         System(of.eta, of.nu), float(of.epsilon or 0), budget.starts, budget.impacts
     )
@@ -89,6 +92,9 @@ def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
 
 def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
     """Cut the circle into stretches, and say where orbits of the plastic map go."""
+    from proofs.report.markup import markdown_table
+    from proofs.search.portrait import HEAD, fates, rows, stretches
+
     system = System(of.eta, of.nu)
     seen = stretches(system, budget.grid, budget.farthest, budget.check)
     shown = rows(seen, _NARROW)

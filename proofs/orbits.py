@@ -22,42 +22,25 @@ import csv
 import io
 import sys
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from itertools import islice
 from time import perf_counter
+from typing import TYPE_CHECKING
 
-from intervals import Interval, IntervalError, Undecided
-from proofs.methods.orbits import PeriodicPoint, periodic_points
-from proofs.methods.words import Words
-from proofs.motion.horseshoe_map import ImpactMap
-from proofs.motion.impact import HORIZON
-from proofs.motion.phase import turn
-from proofs.motion.slope_cover import slope_cover
-from proofs.motion.system import System
-from proofs.search.s31_horseshoe import prove
-from proofs.search.shifts import pairs, pieces
-from proofs.search.steps import Prover
+from intervals import IntervalError, Undecided
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number, whole
 from proofs.shell.files import write_target
-from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, show, show_range
-from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
-from proofs.trusted.paper.s34_circle.other_sets import staying_set
+from proofs.trusted.numbers import show, show_range
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.slopes import image_arc
-from proofs.trusted.verdicts import Verdict
+
+if TYPE_CHECKING:
+    from proofs.methods.orbits import PeriodicPoint
+    from proofs.motion.horseshoe_map import ImpactMap
 
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
-_TRIES = 12  # of sets that are found
-_BOXES = 16  # of each branch, for the proof that f is C^1 there
 _LONGEST_PERIOD = 16
 _LONGEST_ORBITS = 20
-_AT_ONCE = 4000  # orbits
 _LONGEST_WORD = 256
 _SHOWN = 16  # rows on the screen
 _EXPANSION = 10  # the longest period for the escape rate: more than 20 digits of it
@@ -81,71 +64,6 @@ examples:
 """
 
 
-def horseshoe(of: Parameters) -> ImpactMap:
-    """Prove that I0 and I1 make a full horseshoe, by the claims H1 and H5; Undecided if not.
-
-    The proof of H5 has f(left end) and f(right end), mod 2 pi, in [0, 2 pi) on both sides of I,
-    and f increasing by less than 2 pi between them; so the turns that f(phi) = phi + t leaves
-    out are the same on all of I_j, those that take phi + t at the left end to its f.
-    """
-    proofs = prove(of, ("H1", "H5")).proofs
-    known = {claim: [found for _, found in proof] for claim, proof in proofs.items()}
-    decisions = {row.id: row.decide(of, known[row.id]) for row in ROWS if row.id in known}
-    for claim, decision in decisions.items():
-        if decision.verdict is not Verdict.VERIFIED:
-            beside = next((x for x in known[claim] if isinstance(x, Horseshoe)), None)
-            raise Undecided(_refusal(decision.why, beside))
-    expanding, covering = decisions["H1"], decisions["H5"]
-    least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
-    if not least > 1:
-        raise Undecided("f' > 1 is not proved")
-    images = [covering.quantities[f"image_low_I{j}"] for j in (0, 1)]
-    return _impact_map(of, least, images)
-
-
-def own_horseshoe(of: Parameters) -> ImpactMap:
-    """Prove a full shift on two sets that are found, f increasing or decreasing on each.
-
-    Its theorem, `staying_set`, has f monotone and C^1 on both, |f'| > 1. Here both images must be
-    intervals of phases as well, that contain both sets: then they contain I, and the turns that are
-    left out are the same on all of a set, as in `horseshoe`.
-    """
-    system = System(of.eta, of.nu)
-    for left, right in islice(pairs(pieces(system)), _TRIES):
-        with suppress(Undecided, Unproved):
-            prover = Prover(system, _FAST_DIGITS, HORIZON)
-            parts = [prover.slopes(list(domain))[1] for domain in (left, right)]
-            shift = staying_set([part.domain for part in parts], parts, [])
-            if shift.full and all(image_arc(part).is_interval for part in parts):
-                sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
-                images = [part.images[0] for part in parts]
-                return _impact_map(sets, shift.expansion, images)
-    raise Undecided(f"no two sets are found at {of.place} with both images across both")
-
-
-def _impact_map(of: Parameters, least: Fraction, images: Sequence[Range]) -> ImpactMap:
-    """Return the map, images being those of the left ends of I0 and I1; |f'| >= least there."""
-    system = System(of.eta, of.nu)
-    covers = slope_cover(system, of.left, _BOXES), slope_cover(system, of.right, _BOXES)
-    turns = []
-    for cover, domain, ends in zip(covers, (of.left, of.right), images, strict=True):
-        image = Interval(*ends)
-        whole = (cover.times[0].item() + domain[0] - image) / turn(53)
-        count = round(whole.mid)
-        if not (whole.contains(count) and whole.wid < 1):
-            raise ArithmeticError("an impact is at another phase than it was proved to be")
-        turns.append(count)
-    return ImpactMap(of, least, covers, (turns[0], turns[1]))
-
-
-def _refusal(why: str, corrected: Horseshoe | None) -> str:
-    """Say why there is no proof, and on which sets there is one."""
-    if corrected is None:
-        return f"no horseshoe is proved: {why}"
-    sets = f"I0 = {show_range(corrected.left)}, I1 = {show_range(corrected.right)}"
-    return f"no horseshoe is proved: {why}; it is one on {sets}"
-
-
 def main(arguments: list[str] | None = None) -> int:
     """Enclose the periodic points asked for; return the exit status."""
     parser = _parser()
@@ -163,6 +81,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     """Print or write the periodic points; return the exit status."""
+    from proofs.search.periodic import horseshoe, own_horseshoe
+
     places = None if options.fast else options.digits
     began = perf_counter()
     try:
@@ -187,46 +107,28 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
 
 def _found(of: ImpactMap, options: Namespace, places: int | None) -> list[PeriodicPoint]:
     """Return the points of the words asked for, or one of each orbit."""
-    if not options.cycles:
-        word, period = options.word, options.period
-        words = Words.rotations(word) if word else Words.of_length(period)
-        return periodic_points(of, words, places, options.tell)
-    return _cycles(of, options.cycles, options, places)
+    from proofs.search.periodic import of_orbits, of_words
 
-
-def _cycles(
-    of: ImpactMap, period: int, options: Namespace, places: int | None
-) -> list[PeriodicPoint]:
-    """Return a point of each orbit of a least period."""
-    rows: list[PeriodicPoint] = []
-    for words in Words.of_orbits(period, _AT_ONCE):
-        tell = partial(_after, len(rows), options.tell)
-        points = periodic_points(of, words, places, tell)
-        rows += [points[cycle[0]] for cycle in words.cycles]
-    return rows
+    if options.cycles:
+        return of_orbits(of, options.cycles, places, options.tell)
+    return of_words(of, options.word or options.period, places, options.tell)
 
 
 def _escape(of: ImpactMap, options: Namespace, places: int | None, shown: int) -> Answer:
     """Return the escape rate by the operator, if it is proved, and by the cycles."""
-    from proofs.methods.traces import escape_rate
+    from proofs.search.periodic import escape_by_cycles
     from proofs.search.s32_dimension import escape
 
     options.tell("the escape rate")
-    most, precision = min(options.cycles, _EXPANSION), 60 + shown * 10 // 3
-    found = [_cycles(of, n, options, places) for n in range(1, most + 1)]
-    multipliers = [[Interval(*x.multiplier, precision=precision) for x in row] for row in found]
-    proved, rate = escape(of.of, shown, options.tell), escape_rate(multipliers)
+    most = min(options.cycles, _EXPANSION)
+    rate = escape_by_cycles(of, most, places, 60 + shown * 10 // 3, options.tell)
+    proved = escape(of.of, shown, options.tell)
     return {
         "rate": proved and bounds(proved.rate, shown),
         "statement": proved and proved.sentence,
-        "by_cycles": bounds((rate.inf, rate.sup), shown),
+        "by_cycles": bounds(rate, shown),
         "periods": most,
     }
-
-
-def _after(orbits: int, tell: Callable[[str], None], stage: str) -> None:
-    """Tell a stage, and how many orbits are done."""
-    tell(f"{orbits} orbits; {stage}")
 
 
 def _parser() -> Parser:

@@ -273,11 +273,12 @@ def orbits(digits: int | None, words: float) -> float:
 @cache
 def _horseshoe() -> Any:
     from proofs import orbits
+    from proofs.search.periodic import horseshoe
     from proofs.trusted.parameters import PAPER
 
     whole, least = (orbits.LEFT[0], orbits.RIGHT[1]), (Fraction(1), Fraction(1))
     sets = replace(PAPER, left=orbits.LEFT, right=orbits.RIGHT, interval=whole)
-    return orbits.horseshoe(replace(sets, slopes=least, ratios=None, printed_s0=None))
+    return horseshoe(replace(sets, slopes=least, ratios=None, printed_s0=None))
 
 
 def checked(certificate: Path) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import pairwise
@@ -19,8 +18,7 @@ if TYPE_CHECKING:
 Range = tuple[Fraction, Fraction]
 
 
-@dataclass(frozen=True)
-class Extremes:
+class Extremes(NamedTuple):
     """g at points low = x_0 < ... < x_n = high, and enclosures of g over the n pieces between."""
 
     points: tuple[Fraction, ...]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from intervals.cover import PartsExhausted, cover
 from intervals.errors import Undecided
@@ -18,10 +18,14 @@ from proofs.motion.impact import (
     Unsettled,
     first_impact,
     locate,
+    march,
     name_of,
+    up_to,
 )
 from proofs.motion.system import System
 from proofs.trusted.numbers import Range
+
+_AGAIN = 16  # of the finest steps to a window: they may be longer for some of the launches
 
 
 def cover_by_impacts(
@@ -44,13 +48,16 @@ def cover_by_impacts(
     )
 
 
-@dataclass(frozen=True)
-class _Part:
-    """Launch phases, how often they were cut, and the precision at which they are asked."""
+class _Part(NamedTuple):
+    """Launch phases, how often they were cut, and the precision at which they are asked.
+
+    known: times as `march` takes them, or none: what is excluded for all is so for some.
+    """
 
     phases: Range
     cuts: int = 0
     precision: int = LEAST
+    known: tuple[Fraction, ...] = ()
 
 
 def cover_by(
@@ -71,20 +78,27 @@ def cover_by(
     to the horizon is cut four times before that is taken for an answer.
     """
 
+    excluded: dict[Range, list[Fraction]] = {}
+
     def decide(part: _Part) -> FirstImpact | None:
         low = part.phases[0]
         most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
         try:
             flight = Flight(system, part.phases, part.precision, numbers=numbers)
-            found = first_impact(flight, horizon, steps_for(part.phases))
+            finest = steps_for(part.phases)
+            if len(part.known) > 1:
+                found = march(flight, part.known, horizon, finest)
+            else:
+                found = first_impact(flight, horizon, finest)
             if accept(found):
                 return found
+            excluded[part.phases] = found.known
         except Sticks:
             raise
         except NoImpact as error:
             most, failure = 4, error
         except Unsettled as error:
-            most, failure = (1 if error.hopeless else 4), error
+            most, failure, excluded[part.phases] = (1 if error.hopeless else 4), error, error.known
         except Undecided as error:
             failure = error
         if part.cuts >= most:
@@ -95,8 +109,11 @@ def cover_by(
         if part.cuts % 4 == 2 and numbers is interval:
             needed = precision_for(system, part.phases, horizon)
             if needed > part.precision:
-                return [replace(part, precision=needed)]
-        return [replace(part, phases=x, cuts=part.cuts + 1) for x in halves(part.phases)]
+                return [part._replace(precision=needed)]
+        known = tuple(excluded.pop(part.phases, part.known))
+        if known:
+            known = tuple(up_to(known[-1] - _AGAIN * steps_for(part.phases), known))
+        return [_Part(x, part.cuts + 1, part.precision, known) for x in halves(part.phases)]
 
     try:
         return [found for _, found in cover([_Part(phases)], decide, split, limit=limit)]

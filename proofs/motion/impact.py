@@ -159,35 +159,38 @@ def march(
     behind raises Unsettled; nothing that comes after could make the impact transversal.
     """
     times = list(known)
-    open_pieces: list[Range] = []
+    windows: list[Range] = []
     value = flight.gap(times[-1])
     step, allowed, certain = times[-1] - times[-2], min(finest, times[-1] / 8), False
     while not certain:
         now = times[-1]
         least = min(finest, now / 8)
-        if len(open_pieces) > (0 if now >= horizon else 4 * _TOUCHES):
-            raise Unsettled(open_pieces, times, flight)
+        if len(windows) > (0 if now >= horizon else 4 * _TOUCHES):
+            raise Unsettled(windows, times, flight)
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")
         ahead = now + step
         next_value = flight.gap(ahead)
         if positive_between(flight, now, value, ahead, next_value):
-            if single and open_pieces:
-                raise Unsettled(open_pieces, times, flight)
+            if single and windows:
+                raise Unsettled(windows, times, flight)
             step, allowed = 2 * step, least
         elif step > allowed:
             step = max(step / 2, allowed)
             continue
         else:
             certain = next_value.certainly_negative()
-            joined = open_pieces and open_pieces[-1][1] == now
-            begin = open_pieces.pop()[0] if joined else now
-            open_pieces.append((begin, ahead))
+            if windows and windows[-1][1] == now:
+                begin, _ = windows.pop()
+                times.pop()
+            else:
+                begin = now
+            windows.append((begin, ahead))
             step = allowed = min(2 * allowed, max(16 * least, (ahead - begin) / 8))
         times.append(ahead)
         value = next_value
-    transversal = len(open_pieces) == 1 and flight.velocity(*open_pieces[0]).certainly_negative()
-    return FirstImpact(flight, tuple(times), tuple(open_pieces), transversal)
+    transversal = len(windows) == 1 and flight.velocity(*windows[0]).certainly_negative()
+    return FirstImpact(flight, tuple(times), tuple(windows), transversal)
 
 
 def first_step(flight: Flight) -> Fraction:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import PAPER, Parameters
@@ -55,8 +54,7 @@ _SCOPE = {
 }  # where not all is about the parameters of a run
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
     """One decided claim, as the screen and the page show it; words: the paper's own, a few."""
 
     id: str

@@ -7,24 +7,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from time import monotonic
 from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.search.budget import EFFORT, FASTEST, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.loops import loops
 from proofs.search.s34_absorbing import Partition
-from proofs.search.s34_chaos import FASTEST, prove_entropy
+from proofs.search.s34_chaos import prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.s34_staying import record
-from proofs.search.shifts import full_shifts, pieces, reach
+from proofs.search.shifts import full_shifts, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -42,36 +42,7 @@ _LEAST = 1e-3  # the least |f'| that radii follow
 _THINNEST = 1e-12
 _PLACES = 14
 _GAIN, _SPARE, _PIECES, _LONGEST_FLIGHT = 2e-3, 1e-2, 150, 200  # see `Partition`
-EFFORT = 3
 Part = tuple[str, SlopeRange]
-
-
-class Budget:
-    """How much is looked at: the same on every machine, unless it is stopped after some seconds.
-
-    effort: from 1 to 5; each doubles the phases on the circle (`grid`), orbits (`starts`), their
-    impacts, the longest flight among them (`farthest`) and the sets that are tried.
-    """
-
-    def __init__(
-        self, eta: Fraction, effort: int = EFFORT, seconds: float | Fraction = math.inf
-    ) -> None:
-        share, self._seconds = 2.0 ** (effort - EFFORT), float(seconds)
-        self.grid, self.starts, self.impacts = int(3000 * share), int(48 * share), int(400 * share)
-        self.tries, self.farthest = int(8 * share), 2 * share * reach(eta)
-        self._until = monotonic() + self._seconds
-
-    def check(self) -> None:
-        """Raise Undecided once the time is over."""
-        if monotonic() > self._until:
-            raise Undecided(f"stopped after {self._seconds:g} seconds, as asked")
-
-    @contextmanager
-    def attempt(self, undone: Callable[[], AbstractContextManager[None]]) -> Iterator[None]:
-        """One search within the budget: nothing is left of it if it fails."""
-        with undone():
-            self.check()
-            yield
 
 
 @dataclass(frozen=True)

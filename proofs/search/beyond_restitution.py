@@ -14,7 +14,8 @@ from intervals import Undecided
 from proofs.motion.chatter import Pushing
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
-from proofs.search.beyond import EFFORT, Budget, too_fast
+from proofs.search.beyond import too_fast
+from proofs.search.budget import EFFORT, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.s33_cycles import around_image, follow, stable_cycles, state_before
 from proofs.search.s33_own import rectangles

@@ -15,8 +15,9 @@ from itertools import combinations, pairwise
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
+from proofs.search.budget import reach
 from proofs.search.portrait import Check
-from proofs.search.shifts import Piece, reach, rounded_out
+from proofs.search.shifts import Piece, rounded_out
 from proofs.trusted.numbers import Range
 
 _STARTS, _SETTLED = 12, 30  # orbits, and their impacts until J is laid around them

@@ -18,7 +18,7 @@ from proofs.trusted.parameters import Parameters, Place
 Sets = tuple[Range, Range]
 Images = Callable[[Fraction], tuple[float, float] | None]
 _MOST_UNITS = 2
-_HALVINGS = 30
+_HALVINGS = 12  # of a candidate for an end
 
 
 def state_after(

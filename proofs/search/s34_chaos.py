@@ -17,6 +17,7 @@ from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates
+from proofs.search.budget import FASTEST
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
@@ -31,7 +32,6 @@ from proofs.trusted.windows import BITS
 
 _DOMAIN = (1.0, 2.1)  # the phases around pi/2 whose orbits come back to them
 _GRID = 1200  # phases to start from in the search for branches
-FASTEST = 100  # the greatest eta for which flights are followed: their work grows with it
 _NARROWEST = 1e-5  # branches that are narrower are left out
 _MOST_TURNS = 1500
 _MARGINS = (1e-7, 1e-6, 1e-5)  # how far from grazing, relative to the length of a branch

@@ -15,14 +15,13 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.system import System
+from proofs.search.budget import reach
 from proofs.search.portrait import Check, Seen, stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters
 
 _GRID = 1500  # phases that are looked at
-_FARTHEST = 200.0  # the longest flight among them, if eta <= _SLOW
-_SLOW = 3
 _STEEP = 1.02  # the least |f'| of a piece
 _SPARES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0002, 0.00002)  # from the most
 _MOST_SYMBOLS = 8
@@ -64,11 +63,6 @@ class Piece:
                 share = (image - images[k - 1]) / (images[k] - images[k - 1])
                 return phases[k - 1] + share * (phases[k] - phases[k - 1])
         return None
-
-
-def reach(eta: Fraction) -> float:
-    """Return how long flights are followed: shorter where the mass swings fast, for the work."""
-    return _FARTHEST * min(1.0, float(_SLOW / eta))
 
 
 def pieces(

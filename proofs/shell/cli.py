@@ -27,7 +27,6 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
-from textwrap import shorten
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -134,6 +133,7 @@ def progress(after: float = 1.0) -> Iterator[Callable[[str], None]]:
     if outer is not None or not sys.stderr.isatty():
         yield outer or (lambda stage: None)
         return
+    from textwrap import shorten
     from threading import Event, Lock, Thread
 
     began, stage, drawn, over, drawing = monotonic(), "at work", "", Event(), Lock()

@@ -6,6 +6,7 @@ imports take place inside `launch`, where an interrupt is an interrupt already.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 USAGE_ERROR, PIPE_CLOSED = 2, 128 + 13
 _SIGNALS: dict[int, str] = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
 _HAS_ALARM = hasattr(signal, "setitimer")  # not on Windows
+_SELDOM = 50_000  # new objects: few of those here are in cycles
 _MAIN = os.getpid()  # a forked process has this module, and another number
 
 
@@ -32,7 +34,10 @@ class Stopped(KeyboardInterrupt):
 def launch(module: str) -> NoReturn:
     """End the process with the status that a command returns, given by its module or package."""
     prog = f"python -m {module.removesuffix('.__main__')}"
-    sys.exit(guarded(prog, lambda: run_command(module)))
+    gc.set_threshold(_SELDOM)
+    status = guarded(prog, lambda: run_command(module))
+    gc.freeze()  # what is there ends with the process: no search for cycles first
+    sys.exit(status)
 
 
 def run_command(module: str, arguments: list[str] | None = None) -> int:

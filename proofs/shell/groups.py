@@ -6,11 +6,10 @@ A group has a prover in `proofs.search` and a command `proofs.<group>`, see `pro
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from intervals import decimal_bounds
 from proofs.report.page import Line, page
@@ -49,8 +48,7 @@ FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
 _SPARE = Fraction(1, 10**12)
 
 
-@dataclass(frozen=True)
-class Made:
+class Made(NamedTuple):
     """What a run made: lines for the screen, certificate, page; what floating point saw beside."""
 
     lines: list[Line]

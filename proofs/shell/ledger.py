@@ -12,13 +12,11 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from proofs.report import build as report
 from proofs.report import current
 from proofs.shell import manifest, runner
 from proofs.shell.cli import Parser, counting, heard, progress
-from proofs.shell.counting import Counts, show
 from proofs.shell.entry import workers
 from proofs.shell.files import refusing, write_files, write_target, writing
 from proofs.shell.groups import FILES, Made, produce, row_of, wanted
@@ -28,6 +26,9 @@ from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
+
+if TYPE_CHECKING:
+    from proofs.shell.counting import Counts
 
 CLAIMS = tuple(
     sorted(
@@ -187,8 +188,11 @@ def main(arguments: list[str] | None = None) -> int:
         for how in ["proved and checked" if one.is_new else f"in {one.found}, checked again"]
     ]
     status = _told(parser, options, text, pages, shown)
-    for one in settled if options.stats else ():
-        show(one.counts, one.job.claims, quiet=not heard(options))
+    if options.stats:
+        from proofs.shell.counting import show
+
+        for one in settled:
+            show(one.counts, one.job.claims, quiet=not heard(options))
     return status
 
 
@@ -230,10 +234,17 @@ def _told(
             say(line)
         verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)
         say(f"{verdicts} in {perf_counter() - options.began:.1f} s")
-        whole = "index.html" if "index.html" in pages else "ledger.md"
-        hint = "" if whole == "index.html" else f"; for a page with formulas: {report.INSTALL}"
-        say(f"all of it: {options.out}/{whole}{hint}")
+        say(f"all of it: {options.out}/{_first(pages)}")
     return int(_open(rows))
+
+
+def _first(pages: set[str]) -> str:
+    """Return the page to read, and how there is a better one."""
+    if "index.html" in pages:
+        return "index.html"
+    from proofs.report.build import INSTALL
+
+    return f"ledger.md; for a page with formulas: {INSTALL}"
 
 
 def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
@@ -242,9 +253,11 @@ def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
     there = None if fresh else current.pages(folder, made_from)
     if there is not None:
         return there
+    from proofs.report.build import built, missing
+
     known = {one.job.name: one.report.context for one in settled}
     with progress() as tell:
-        made = report.built(folder, tell, bool(report.missing()), known=known)
+        made = built(folder, tell, bool(missing()), known=known)
     write_files(folder, made)
     current.record(folder, made_from, made)
     return set(made)

@@ -9,7 +9,6 @@ import json
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
@@ -147,7 +146,7 @@ def _run(
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **chosen)
         if more.seen is not None:
             tell("the circle in floating point")
-            made = replace(made, seen=more.seen(of, options))
+            made = made._replace(seen=more.seen(of, options))
     seconds = perf_counter() - began
     drawn = dict(_drawn(parser, file, made)) if options.figure else {}
     with refusing(parser, options.out):

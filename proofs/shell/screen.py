@@ -11,7 +11,6 @@ import sys
 from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from textwrap import wrap
 from typing import IO, Any, NamedTuple, NoReturn
 
 from proofs import __version__
@@ -88,6 +87,8 @@ def fitted(text: str, stream: IO[str], hanging: int = 2) -> str:
     """
     if not stream.isatty():
         return text
+    from textwrap import wrap
+
     width, lines = columns(), []
     for line in _unfolded(text.split("\n"), width):
         indent = " " * (len(line) - len(line.lstrip()) + hanging)

@@ -100,19 +100,25 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
     (d/dt)^k cos(wt) = w^k cos(wt + k pi/2). Flight means gap > 0, an impact gap = 0.
     """
     side, eta, lift, rate, kick = start
-    big_s, big_c, s, c = now
-    turn = order % 4
-    scale = eta**order if order > 1 else (1, eta)[order]
-    mass_cos = scale * (big_c, -big_s, -big_c, big_s)[turn]
-    mass_sin = scale * (big_s, big_c, -big_s, -big_c)[turn] / eta
-    table_cos = (c, -s, -c, s)[turn]
-    table_sin = (s, c, -s, -c)[turn]
+    mass_cos, mass_sin = _turned(now.mass_cos, now.mass_sin, order)
+    table_cos, table_sin = _turned(now.table_cos, now.table_sin, order)
+    if order > 0:
+        scale = eta**order if order > 1 else eta
+        mass_cos, mass_sin = scale * mass_cos, scale * mass_sin
+    mass_sin = mass_sin / eta
     total = lift * (mass_cos - table_cos) + rate * (mass_sin - table_sin) + mass_cos
     if order == 0:
         total = total - 1
     if kick is not None:
         total = total + kick * mass_sin
     return total if side > 0 else -total
+
+
+def _turned(cos: Number, sin: Number, quarters: int) -> tuple[Number, Number]:
+    """Return the cosine and the sine after quarter turns."""
+    for _ in range(quarters % 4):
+        cos, sin = -sin, cos
+    return cos, sin
 
 
 def launch_acceleration(start: Launch) -> Number:

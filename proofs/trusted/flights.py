@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
@@ -36,6 +36,8 @@ def stays_up(gap_of: Gap, time: Range, least: Fraction) -> bool:
 
     It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval.
     """
+    if least <= 0:
+        return False
     bend = max(_ZERO, gap_of(time, 2).range[1])
     return least > bend * (time[1] - time[0]) ** 2 / 8
 
@@ -114,7 +116,7 @@ class Motion:
         """The sign of nu."""
         return 1 if self.at.nu[0] > 0 else -1
 
-    @property
+    @cached_property
     def eta(self) -> Enclosure:
         """An enclosure of eta."""
         return Enclosure.of(*self.at.eta, self.bits)

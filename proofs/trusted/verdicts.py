@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from itertools import groupby
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -59,8 +59,7 @@ def _begun(sentence: str) -> str:
     return sentence[:1].upper() + sentence[1:] if len(word) > 1 and word.isalpha() else sentence
 
 
-@dataclass(frozen=True)
-class Decision:
+class Decision(NamedTuple):
     """What conclusions make of a claim.
 
     because: those that verify, refute or condition it. corrected: the strongest true statements
@@ -73,7 +72,7 @@ class Decision:
     corrected: tuple[Conclusion, ...] = ()
     margin: Fraction | None = None
     missing: str = ""
-    quantities: Mapping[str, Range] = field(default_factory=dict)
+    quantities: Mapping[str, Range] = MappingProxyType({})
 
     @property
     def why(self) -> str:
@@ -178,6 +177,6 @@ class Row:
         if self.is_asked(of):
             return decision
         missing = f"the printed numbers are about {self.printed_at}: not asked here"
-        return replace(
-            decision, verdict=Verdict.UNDECIDED, because=(), margin=None, missing=missing
+        return decision._replace(
+            verdict=Verdict.UNDECIDED, because=(), margin=None, missing=missing
         )

@@ -12,7 +12,7 @@ printed as a sentence.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from proofs.trusted.certificate import (
     FIELDS,
@@ -39,8 +39,7 @@ class Rejected(ValueError):
     """The certificate is well-formed and does not prove what it says."""
 
 
-@dataclass(frozen=True)
-class Checked:
+class Checked(NamedTuple):
     """One claim that the checker derived by itself."""
 
     id: str
@@ -50,8 +49,7 @@ class Checked:
     corrected: str | None
 
 
-@dataclass(frozen=True)
-class Report:
+class Report(NamedTuple):
     """All that a file proves: claims of the catalogue about parameters; else conclusions.
 
     context: the conclusion of every step.

@@ -229,8 +229,13 @@ def log(value: Fraction, bits: int) -> Enclosure:
         scaled, n = scaled / 2, n + 1
     while 3 * scaled < 2:
         scaled, n = scaled * 2, n - 1
-    log2 = _log1(rational(Fraction(1, 7), bits)) - _log1(rational(Fraction(-1, 5), bits))
-    return _log1(rational((scaled - 1) / (scaled + 1), bits)) + log2 * n
+    return _log1(rational((scaled - 1) / (scaled + 1), bits)) + _log2(bits) * n
+
+
+@lru_cache(maxsize=256)
+def _log2(bits: int) -> Enclosure:
+    """Enclose log 2 = log(4/3) - log(2/3)."""
+    return _log1(rational(Fraction(1, 7), bits)) - _log1(rational(Fraction(-1, 5), bits))
 
 
 def log_of(x: Enclosure) -> Enclosure:

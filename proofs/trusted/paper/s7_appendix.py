@@ -98,7 +98,7 @@ def _decide_marching(of: Parameters, found: Found) -> Decision:
     decision = _MARCHING.decide_by(of, found)
     if decision.verdict is not Verdict.REFUTED:
         return decision
-    return replace(decision, corrected=(*decision.corrected, *found.elsewhere(NeverImpacts)))
+    return decision._replace(corrected=(*decision.corrected, *found.elsewhere(NeverImpacts)))
 
 
 # -- A2: measures ----------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from intervals import Interval, IntervalArray, Undecided
 from proofs import orbits
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words, lyndon
+from proofs.search import periodic
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import periodic_dimension, reference
 
@@ -36,7 +37,7 @@ EXACT = replace(
 
 @cache
 def horseshoe():
-    return orbits.horseshoe(EXACT)
+    return periodic.horseshoe(EXACT)
 
 
 @cache
@@ -203,7 +204,7 @@ def test_the_words_that_come_before_their_rotations():
 
 
 def test_orbits_one_by_one_are_those_of_all_words(capsys, monkeypatch):
-    monkeypatch.setattr(orbits, "_AT_ONCE", 4)
+    monkeypatch.setattr(periodic, "_AT_ONCE", 4)
     rows = answer(capsys, "--cycles", "7", "--fast")["orbits"]
     every = {row.word: row for row in points(7, None)}
     assert [row["word"] for row in rows] == list(lyndon(7)) and len(rows) == 18
@@ -299,7 +300,7 @@ def test_without_a_horseshoe_nothing_is_claimed(arguments, reason, how, capsys):
 
 def test_other_parameters():
     """At eta = 0.212 the same sets make a horseshoe; its fixed points solve (10)."""
-    other = orbits.horseshoe(replace(EXACT, eta=Fraction("0.212")))
+    other = periodic.horseshoe(replace(EXACT, eta=Fraction("0.212")))
     for row in periodic_points(other, Words.of_length(1), 25):
         mean = as_mpf(sum(row.point) / 2)
         assert (

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import bits_for
-from proofs.trusted.kernel.arithmetic import Unproved, exp, log, rational
+from proofs.trusted.kernel.arithmetic import Unproved, exp, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
@@ -45,8 +45,8 @@ def moran_root(context: Context, reader: Reader) -> MoranRoot:
     if not (0 < first < 1 and 0 < second < 1 and root[0] > 0):
         raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
     bits = bits_for(root)
-    powers = (rational(s, bits) for s in root)
-    low, high = (exp(s * log(first, bits)) + exp(s * log(second, bits)) - 1 for s in powers)
+    one, other = log(first, bits), log(second, bits)
+    low, high = (exp(one * s) + exp(other * s) - 1 for s in root)
     if low.lo <= 0 or high.hi >= 0:
         raise Unproved("the bracket of the root does not have the signs +, -")
     return MoranRoot((first, second), root)

@@ -155,7 +155,7 @@ def _family(of: Parameters, found: Found) -> Decision:
     proved = HorseshoeFamily(tuple(sorted(here, key=lambda each: each.at.sides[2])))
     most = proved.at.sides[2][1]
     if most <= of.epsilon:
-        return replace(undecided(f"proved up to epsilon = {show(most)} only"), corrected=(proved,))
+        return undecided(f"proved up to epsilon = {show(most)} only")._replace(corrected=(proved,))
     return decided(Verdict.VERIFIED, proved, corrected=[proved], margin=most - of.epsilon)
 
 
