@@ -8,11 +8,9 @@ method, its linear equations by iterative refinement of what floating point give
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from intervals import Undecided
@@ -23,16 +21,13 @@ from proofs.trusted.kernel.transfer import Branches, Collocation, Series, Trial
 if TYPE_CHECKING:
     import numpy as np
 
-_fast: Callable[[Any], Any] = int  # integers that multiply fast
-with suppress(ImportError):
-    _fast = import_module("flint").fmpz
-
 _MOST_NODES = 2000
 _FIRST = 40  # bits that floating point is trusted with
 _STEPS = 60  # of Newton's method, or of secants
 _CLOSE = 1e-13
+_LITTLE = 1.05  # so many times the nodes cost little
 _SPARE = 24  # bits that are computed beyond those that count
-_MARGIN = 32  # bits of a step of the ladder that rounding may spoil
+_MARGIN = 24  # bits of a step of the ladder that rounding may spoil
 
 
 def candidate(
@@ -44,16 +39,21 @@ def candidate(
 ) -> tuple[Trial, Collocation]:
     """Return guesses of s and h, L_s h = h; for a given s, of mean and h, L_s h = mean h."""
     guard = 3 + math.ceil(2 * math.log10(digits + 10))
-    found = _Eigenfunction.rough(branches, ellipse, s)
     goal = max(BITS, math.ceil((digits + guard) * math.log2(10)))
     ladder = [goal]
     while ladder[0] > 2 * (_FIRST + _MARGIN):
         ladder.insert(0, ladder[0] // 2 + _MARGIN)
-    for bits in ladder:
-        terms = math.ceil(bits / math.log2(ellipse.rho)) + 2
-        if terms > _MOST_NODES:
-            raise Undecided(f"{digits} digits need {terms} nodes")
-        found.refine(_Table.of(branches, ellipse, terms, bits + 16))
+    rate = math.log2(ellipse.rho)
+    least = [math.ceil(bits / rate) + 2 for bits in (_FIRST, *ladder)]
+    count = least[-1]
+    if len(ladder) > 1 and count < 2 * least[-2] < _LITTLE * count:
+        count = 2 * least[-2]  # so that every other node is enough before
+    if count > _MOST_NODES:
+        raise Undecided(f"{digits} digits need {count} nodes")
+    table = _Table.of(branches, ellipse, count, goal + 16)
+    found = _Eigenfunction.rough(table.part(least[0], BITS), s)
+    for bits, terms in zip(ladder, least[1:], strict=True):
+        found.refine(table.part(terms, bits + 16))
     unit = 10 ** (digits + guard)
     h = tuple(Fraction(round(Fraction(c, 1 << found.bits) * unit), unit) for c in found.terms)
     s, mean = (
@@ -83,6 +83,16 @@ class _Table:
             rates.append([_mid(log_of(rate if rate.lo > 0 else -rate)) for _, rate in row])
         return cls(bits, [_mid(u) for u in nodes], images, rates)
 
+    def part(self, least: int, bits: int) -> _Table:
+        """Return so many nodes, or a few more, at equally many angles; with fewer bits."""
+        step, down = max(1, len(self.nodes) // least), self.bits - bits
+
+        def few(values: list[int]) -> list[int]:
+            return [value >> down for value in values[step // 2 :: step]]
+
+        images, rates = ([few(row) for row in rows] for rows in (self.images, self.rates))
+        return _Table(bits, few(self.nodes), images, rates)
+
     def float(self, values: Sequence[int]) -> np.ndarray[Any, Any]:
         """Return the numbers in floating point."""
         import numpy as np
@@ -108,13 +118,12 @@ class _Eigenfunction:
     given: Fraction | None
 
     @classmethod
-    def rough(cls, branches: Branches, ellipse: Ellipse, given: Fraction | None) -> _Eigenfunction:
+    def rough(cls, table: _Table, given: Fraction | None) -> _Eigenfunction:
         """Return the leading eigenfunction in floating point, s by secants."""
         import numpy as np
         from numpy.polynomial.chebyshev import chebvander
 
-        count = math.ceil(_FIRST / math.log2(ellipse.rho)) + 3
-        table = _Table.of(branches, ellipse, count, 64)
+        count = len(table.nodes)
         inverse = np.linalg.inv(chebvander(table.float(table.nodes), count - 1))
         basis = [chebvander(table.float(v), count - 1) for v in table.images]
         rates = [table.float(rate)[:, None] for rate in table.rates]
@@ -253,6 +262,5 @@ class _Tangent:
 
 def _weighted(terms: list[int], bits: int, weights: list[int], points: list[int]) -> list[int]:
     """Return the products of weights with h at points, h = sum of terms[k] T_k."""
-    h = Series([_fast(c) for c in terms], bits)
-    pairs = zip(weights, points, strict=True)
-    return [int(weight * h.near(_fast(2 * point)) >> bits) for weight, point in pairs]
+    h = Series(terms, bits)
+    return [w * h.near(2 * x) >> bits for w, x in zip(weights, points, strict=True)]

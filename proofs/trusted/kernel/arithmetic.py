@@ -80,14 +80,14 @@ class Enclosure:
                 raise ValueError(_MIXED)
             METER.get().spend(1 + (bits >> 7))
             a, b, c, d = self.lo, self.hi, value.lo, value.hi
-            if bits >= _MANY:  # b = a + w, d = c + v: the same products, most of them by few digits
-                by_w, by_v = c * (b - a), a * (d - c)
-                least = a * c
-                far = least + by_w + by_v + (b - a) * (d - c)
-                products = least, least + by_v, least + by_w, far
-            else:
+            if bits < _MANY:
                 products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
-            return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
+                return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
+            first, by_b, by_d = a * c, (b - a) * c, a * (d - c)  # often only one has many digits
+            changes = 0, by_b, by_d, by_b + by_d + (b - a) * (d - c)
+            return Enclosure(
+                (first + min(changes)) >> bits, -(-(first + max(changes)) >> bits), bits
+            )
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
             return Enclosure(min(ends), max(ends), bits)
@@ -240,9 +240,9 @@ def _exponential(z: int, step: int, work: int) -> int:
     step: 1 or 2. In blocks of m terms (Smith 1989), with f_n = (step n)! / (step n - step)! and
     z^n short for z^(n mod m): R_n = (z^n + R_(n+1)) / f_n, R_(n+1) times z^m where n + 1 is a
     multiple of m; the sum is R_0, f_0 = 1. The powers are off by less than 2 units, as
-    e_n <= e_(n-1) / 4 + 1; so R_n is by less than 2 + (e + 5) for those after it, divided by f_n, and
-    1: less than 9 for n > 1, 17 for n = 1. What is left out is below one unit, as the last term is,
-    which has `small` zeros, and each next one is below a quarter.
+    e_n <= e_(n-1) / 4 + 1. If R_(n+1) is off by e, R_n is by at most (2 + (e + 5)) / f_n + 1: that
+    is 9 for n > 1, 17 for n = 1, 24 for n = 0. What is left out is below one unit: the last term
+    is, as it has `small` zeros, and each next one is below a quarter of the one before.
     """
     small, zeros, factors = 0, work - abs(z).bit_length(), [1]
     while z and small <= work:
@@ -315,7 +315,7 @@ def exp(x: Enclosure) -> Enclosure:
 
 
 def _exp(x: int, bits: int) -> _Ends:
-    """Return bounds of exp(x / 2^bits), |x| < 2^(bits + 6): the series for x / 2^k, squared k times.
+    """Return bounds of exp(x / 2^bits), |x| < 2^(bits + 6), by x / 2^k, squared k times.
 
     The series is off by 34 units: 32 by itself, and as the argument is rounded. With k + 14 guard
     bits, and those of the result above the point (3/2 log2(e^x) is enough): errors about double.

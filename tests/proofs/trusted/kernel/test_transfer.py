@@ -144,7 +144,7 @@ def test_series_of_chebyshev_s_polynomials(bits):
                     terms_of = zip(h.coefficients, range(terms), strict=True)
                     value = sum(c * chebyt(k, mpf(x) / (1 << bits)) for c, k in terms_of)
                     assert found.lo <= value <= found.hi
-                assert found.hi - found.lo < 3 * terms + 4 + 3 * width * terms**3
+                assert found.hi - found.lo < 4 * terms + 4 + 3 * width * terms**3
         size = sum(abs(mpf(c)) * 3**k for k, c in enumerate(h.coefficients)) / (1 << bits)
         assert size <= mpq(h.size(Fraction(3))) < size * (1 + TINY) + TINY
     for outside in ((1 << bits) - 1, -(1 << bits) - 1):
