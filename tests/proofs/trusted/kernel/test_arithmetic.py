@@ -129,6 +129,17 @@ def test_arithmetic_contains_every_result(name, one, two, bits):
     assert low <= operate(x, y) <= high
 
 
+long_ends = st.tuples(st.integers(-(2**700), 2**700), st.integers(0, 2**40) | st.just(2**699))
+
+
+@quick
+@given(long_ends, long_ends, st.sampled_from([64, 640]))
+def test_products_are_the_tightest_whatever_the_widths(one, two, bits):
+    (a, b), (c, d) = ((low, low + width) for low, width in (one, two))
+    found, products = Enclosure(a, b, bits) * Enclosure(c, d, bits), (a * c, a * d, b * c, b * d)
+    assert (found.lo, found.hi) == (min(products) >> bits, -(-max(products) >> bits))
+
+
 @pytest.mark.parametrize("name", OPERATIONS)
 @quick
 @given(numbers, numbers, bits_of)
@@ -286,6 +297,14 @@ def test_log(x, bits):
 def test_exp(low, width, share, bits):
     x = inside(share, low, Fraction(width))
     assert contains(arithmetic.exp(box(low, Fraction(width), bits)), lambda: arb(x).exp())
+
+
+@quick
+@given(st.fractions(-60, 60, max_denominator=10**9) | tiny, bits_of)
+def test_exp_of_a_point_errs_by_a_few_units(x, bits):
+    point = rational(x, bits)
+    found = arithmetic.exp(point)
+    assert found.hi - found.lo <= 3 + (2 + point.hi - point.lo) * (found.hi + 1 >> bits)
 
 
 @pytest.mark.parametrize("x", [64, -64, 10**9])
