@@ -21,11 +21,14 @@ from proofs.trusted.kernel.transfer import Branches, Collocation, Series, Trial
 if TYPE_CHECKING:
     import numpy as np
 
+    _Matrix = np.ndarray[Any, Any]
+
 _MOST_NODES = 2000
 _FIRST = 40  # bits that floating point is trusted with
 _STEPS = 60  # of Newton's method, or of secants
 _CLOSE = 1e-13
 _LITTLE = 1.05  # so many times the nodes cost little
+_BITS_AT_ONCE = 400  # of what a system of linear equations is solved to
 _SPARE = 24  # bits that are computed beyond those that count
 _MARGIN = 24  # bits of a step of the ladder that rounding may spoil
 
@@ -93,7 +96,7 @@ class _Table:
         images, rates = ([few(row) for row in rows] for rows in (self.images, self.rates))
         return _Table(bits, few(self.nodes), images, rates)
 
-    def float(self, values: Sequence[int]) -> np.ndarray[Any, Any]:
+    def float(self, values: Sequence[int]) -> _Matrix:
         """Return the numbers in floating point."""
         import numpy as np
 
@@ -161,7 +164,8 @@ class _Eigenfunction:
             size = max(map(abs, tangent.defect))
             if 2 * size > before:  # no better than the last one
                 return
-            first, *change = tangent.solve(inverse, size * size >> table.bits)
+            goal = size * size >> table.bits
+            first, *change = tangent.solve(inverse, tangent.defect, goal)
             self.terms[1:] = [c - x for c, x in zip(self.terms[1:], change, strict=True)]
             if self.given is None:
                 self.s -= first
@@ -182,7 +186,7 @@ class _Eigenfunction:
         else:
             self.s = round(self.given * (1 << self.bits))
 
-    def _derivative(self, table: _Table) -> np.ndarray[Any, Any]:
+    def _derivative(self, table: _Table) -> _Matrix:
         """Return that of the defects by s or mean, and by the coefficients but the first."""
         import numpy as np
         from numpy.polynomial.chebyshev import chebvander
@@ -229,20 +233,17 @@ class _Tangent:
                     by[j] = (value << bits) // at.mean
         return cls(bits, parts, defect, by)
 
-    def solve(self, inverse: np.ndarray[Any, Any], goal: int) -> list[int]:
+    def solve(self, inverse: _Matrix, left: list[int], goal: int) -> list[int]:
         """Return the change of s or mean, and of the coefficients but the first.
 
-        The linear equations are solved in floating point for what is left, again and again.
+        The linear equations are solved for what is left, again and again: their first digits in
+        floating point, more of them by this, to few bits, so that few steps need all bits.
         """
-        import numpy as np
-
         drop = max(0, goal.bit_length() - _SPARE)
-        left, total, before = self.defect, [0] * len(self.defect), 1 << (2 * self.bits)
+        total, before = [0] * len(left), 1 << (2 * self.bits)
         while goal < (size := max(map(abs, left))) <= before // 2:
-            shift = size.bit_length() - 60
-            scaled = [value >> shift if shift > 0 else value << -shift for value in left]
-            change = [int(x) for x in inverse @ np.array(scaled, dtype=float)]
-            change = [x << shift if shift > 0 else x >> -shift for x in change]
+            few = size >> _BITS_AT_ONCE
+            change = self.solve(inverse, left, few) if few > goal else _rough(inverse, left, size)
             total = [x + y for x, y in zip(total, change, strict=True)]
             moved = self._along(change, drop)
             left, before = [x - y for x, y in zip(left, moved, strict=True)], size
@@ -258,6 +259,16 @@ class _Tangent:
             for j, value in enumerate(_weighted(terms, bits, *few)):
                 total[j] += value
         return [value << drop for value in total]
+
+
+def _rough(inverse: _Matrix, values: list[int], size: int) -> list[int]:
+    """Return the product with a matrix in floating point."""
+    import numpy as np
+
+    shift = size.bit_length() - 60
+    scaled = [value >> shift if shift > 0 else value << -shift for value in values]
+    change = (int(x) for x in inverse @ np.array(scaled, dtype=float))
+    return [x << shift if shift > 0 else x >> -shift for x in change]
 
 
 def _weighted(terms: list[int], bits: int, weights: list[int], points: list[int]) -> list[int]:

@@ -188,7 +188,8 @@ def test_sines_of_many_bits_and_of_narrow_enclosures(bits):
     chance = random.Random(bits)
     for _ in range(20):
         x = chance.choice((chance.getrandbits(bits + 6), -chance.getrandbits(bits // 2 + 9)))
-        x = chance.choice((x, int(mp.pi / 2 * chance.randint(-9, 9) * 2**bits)))
+        near_zero = chance.randint(-1, 1) * chance.getrandbits(3 * bits // 4)
+        x = chance.choice((x, near_zero, int(mp.pi / 2 * chance.randint(-9, 9) * 2**bits)))
         for width in (0, 3, arithmetic._NARROW):
             sin, cos = Enclosure(x, x + width, bits).sincos()
             for angle in (x, x + width):
