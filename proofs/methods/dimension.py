@@ -38,10 +38,10 @@ Formula = Callable[[Any], Sequence[Any]]
 Images = Sequence[tuple[complex, complex]]
 Samples = Callable[[Sequence[complex]], Sequence[Images]]
 
-_POINTS = 64  # of the boundary of an ellipse
-_WIDEST, _NARROWEST, _NEAR = 50.0, 1.05, 1.03  # of the rho that are tried, and how near
-_SHARES = (0.65, 0.65, 0.5)  # of what seems possible, so that few arcs prove it
-_LEAST_ARCS, _MOST_ARCS = 16, 256
+POINTS, _WAY = 48, 16  # of the boundary of an ellipse, and on the way there
+_WIDEST, _NARROWEST, _NEAR = 50.0, 1.05, 1.05  # of the rho that are tried, and how near
+_SHARES, _MANY = (0.9, 0.65, 0.5), 60  # of what seems possible: the first one for many digits
+_LEAST_ARCS, _MOST_ARCS = 24, 192
 
 
 @dataclass(frozen=True)
@@ -66,16 +66,19 @@ class Formulas:
 
 @dataclass
 class Remembered:
-    """Branches whose values at real numbers are kept: candidate and proof ask for the same ones."""
+    """Branches whose values are kept: candidate and proof ask for the same ones."""
 
     branches: Branches
     _known: dict[tuple[int, int, int], Sequence[tuple[Enclosure, Enclosure]]] = field(
         default_factory=dict
     )
+    _arcs: dict[Arc, Sequence[tuple[Complex, Complex]]] = field(default_factory=dict)
 
     def over(self, arc: Arc) -> Sequence[tuple[Complex, Complex]]:
         """Enclose g_i and g_i' on an arc."""
-        return self.branches.over(arc)
+        if arc not in self._arcs:
+            self._arcs[arc] = self.branches.over(arc)
+        return self._arcs[arc]
 
     def at(self, x: Enclosure) -> Sequence[tuple[Enclosure, Enclosure]]:
         """Enclose g_i and g_i' at a real number."""
@@ -110,18 +113,17 @@ def dimension(
 
     tell("an ellipse that the branches map into itself")
     last = "no ellipse is mapped into itself"
-    for rho in ellipses(samples, hull):
+    for rho in ellipses(samples, hull, digits):
         ellipse = Ellipse(hull, rho)
-        branches = Formulas(formula, ellipse)
+        known = Remembered(Formulas(formula, ellipse))
         try:
-            arcs = enough_arcs(partial(_maps_into_itself, branches))
+            arcs = enough_arcs(partial(_maps_into_itself, known, ellipse))
             break
         except Unproved as error:
             last = str(error)
     else:
         raise Undecided(last)
     tell("a test function for the dimension")
-    known = Remembered(branches)
     trial, by = candidate(known, ellipse, arcs, digits)
     tell("the operator's inequality, on all of the interval")
     try:
@@ -140,24 +142,27 @@ def dimension(
 def boundary(hull: Range, rho: float) -> list[complex]:
     """Return points of the upper half of an ellipse's boundary, after a way there from its middle.
 
-    The last _POINTS of them are at the angles pi j / (_POINTS - 1).
+    The last POINTS of them are at the angles pi j / (POINTS - 1).
     """
     middle, half = float(sum(hull)) / 2, float(hull[1] - hull[0]) / 2
     u = [
         (w + 1 / w) / 2
-        for w in (cmath.rect(rho, math.pi * j / (_POINTS - 1)) for j in range(_POINTS))
+        for w in (cmath.rect(rho, math.pi * j / (POINTS - 1)) for j in range(POINTS))
     ]
-    way = [u[0] * j / _POINTS for j in range(_POINTS)]
+    way = [u[0] * j / _WAY for j in range(_WAY)]
     return [middle + half * each for each in (*way, *u)]
 
 
-def ellipses(samples: Samples, hull: Range) -> Iterator[Fraction]:
-    """Yield values of rho for which the branches seem to map the ellipse into itself."""
+def ellipses(samples: Samples, hull: Range, digits: int) -> Iterator[Fraction]:
+    """Yield values of rho for which the branches seem to map the ellipse into itself.
+
+    The smaller they are, the fewer arcs prove it; the larger, the fewer nodes each digit needs.
+    """
     low, high = _NARROWEST, _WIDEST
     while high > _NEAR * low:
         middle = math.sqrt(low * high)
         low, high = (middle, high) if _seems_inside(samples, hull, middle) else (low, middle)
-    for share in _SHARES:
+    for share in _SHARES[digits < _MANY :]:
         yield Fraction(1 + share * (low - 1)).limit_denominator(100)
 
 
@@ -166,7 +171,7 @@ def _seems_inside(samples: Samples, hull: Range, rho: float) -> bool:
     middle, half = float(sum(hull)) / 2, float(hull[1] - hull[0]) / 2
     axes = (rho + 1 / rho) / 2 * half, (rho - 1 / rho) / 2 * half
     try:
-        rows = [row[_POINTS:] for row in samples(boundary(hull, rho))]
+        rows = [row[-POINTS:] for row in samples(boundary(hull, rho))]
     except (ArithmeticError, Undecided, ValueError):
         return False
     for row in rows:
@@ -177,8 +182,8 @@ def _seems_inside(samples: Samples, hull: Range, rho: float) -> bool:
     return True
 
 
-def _maps_into_itself(branches: Formulas, arcs: int) -> int:
-    on_boundary(branches, branches.ellipse.arcs(arcs))
+def _maps_into_itself(branches: Branches, ellipse: Ellipse, arcs: int) -> int:
+    on_boundary(branches, ellipse.arcs(arcs))
     return arcs
 
 
@@ -191,4 +196,4 @@ def enough_arcs(prove: Callable[[int], T]) -> T:
         except Unproved:
             if arcs >= _MOST_ARCS:
                 raise
-            arcs *= 2
+            arcs = arcs * 4 // 3

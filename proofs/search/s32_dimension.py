@@ -12,7 +12,7 @@ from functools import partial
 from math import lcm
 
 from intervals import Undecided
-from proofs.methods.dimension import Images, Remembered, boundary, ellipses, enough_arcs
+from proofs.methods.dimension import POINTS, Images, Remembered, boundary, ellipses, enough_arcs
 from proofs.methods.eigenfunction import candidate
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.impact import HORIZON
@@ -40,7 +40,8 @@ from proofs.trusted.verdicts import Found
 
 _ZERO, _ROOM = Fraction(0), Fraction(3, 2)  # between a branch and its path
 _MARGIN = Fraction(1, 2000)  # of a domain around what is needed
-_MOST_TERMS, _TAIL = 40, 1e-3  # of a path
+_MOST_TERMS, _TAIL = 30, 1e-3  # of a path
+_SOME = 4  # every such arc tells how far the branches may be from their paths
 
 
 @dataclass
@@ -86,9 +87,8 @@ class _Run:
         """
         flights, letters = zip(*map(self.letter, domains), strict=True)
         self.tell("the inverse branches of f on an ellipse")
-        inverses, arcs = self._inverses(hull, letters, words)
+        inverses, known, arcs = self._inverses(hull, letters, words)
         self.tell("a test function for the dimension")
-        known = Remembered(inverses)
         trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
         self.tell("the operator's inequality, on all of the interval")
         found = repeller(inverses, growth(known, trial, by), by.bits)
@@ -127,7 +127,7 @@ class _Run:
 
     def _inverses(
         self, hull: Phases, letters: tuple[Letter, ...], words: tuple[str, ...]
-    ) -> tuple[Inverses, int]:
+    ) -> tuple[Inverses, Remembered, int]:
         """Find an ellipse and paths on which the inverse branches are proved, and how many arcs."""
         ends = sorted({word[k:] for word in words for k in range(len(word))}, key=by_length)
         branches = [InverseBranch(self.prover.system, letter.domain) for letter in letters]
@@ -140,7 +140,11 @@ class _Run:
                 known[word] = [(y, d * e) for (y, d), (_, e) in zip(found, before, strict=True)]
             return known
 
-        for rho in ellipses(lambda path: [along(path)[word] for word in words], hull):
+        def of_words(path: Sequence[complex]) -> list[Images]:
+            known = along(path)
+            return [known[word] for word in words]
+
+        for rho in ellipses(of_words, hull, self.digits):
             known = along(boundary(hull, float(rho)))
             paths = {word: _path(known[word], float(rho)) for word in ends}
             found = Inverses(letters, words, Ellipse(hull, rho), paths, dict.fromkeys(ends, _ZERO))
@@ -149,15 +153,16 @@ class _Run:
         raise Undecided("no ellipse is found that the inverse branches map into itself")
 
 
-def _with_radii(branches: Inverses, arcs: int) -> tuple[Inverses, int]:
+def _with_radii(branches: Inverses, arcs: int) -> tuple[Inverses, Remembered, int]:
     """Find how far from their paths the branches may be, if so many arcs prove it."""
-    found = branches
-    for room in (_ZERO, _ROOM):
-        radii = {word: round(room * each, 12) for word, each in found.found.items()}
-        found = replace(branches, radii=radii or branches.radii, found={})
-        on_boundary(found, found.ellipse.arcs(arcs))
+    rough, parts = replace(branches, found={}), branches.ellipse.arcs(arcs)
+    on_boundary(rough, parts[::_SOME])
+    radii = {word: round(_ROOM * each, 12) for word, each in rough.found.items()}
+    found = replace(branches, radii=radii, found={})
+    known = Remembered(found)
+    on_boundary(known, parts)
     found.require_near()
-    return found, arcs
+    return found, known, arcs
 
 
 def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
@@ -165,7 +170,7 @@ def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
 
     On the ellipse T_k = (w^k + w^-k) / 2: they are those of its Fourier series.
     """
-    values = [y for y, _ in images][len(images) // 2 :]
+    values = [y for y, _ in images[-POINTS:]]
     steps, found = len(values) - 1, list[float]()
     weights = [0.5, *[1.0] * (steps - 1), 0.5]
     for k in range(_MOST_TERMS):

@@ -80,8 +80,14 @@ class Enclosure:
                 raise ValueError(_MIXED)
             METER.get().spend(1 + (bits >> 7))
             a, b, c, d = self.lo, self.hi, value.lo, value.hi
-            products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
-            return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
+            if bits < _MANY:
+                products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
+                return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
+            first, by_b, by_d = a * c, (b - a) * c, a * (d - c)  # often only one has many digits
+            changes = 0, by_b, by_d, by_b + by_d + (b - a) * (d - c)
+            return Enclosure(
+                (first + min(changes)) >> bits, -(-(first + max(changes)) >> bits), bits
+            )
         if isinstance(value, int):
             ends = (self.lo * value, self.hi * value)
             return Enclosure(min(ends), max(ends), bits)
@@ -92,13 +98,18 @@ class Enclosure:
     def __truediv__(self, value: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(value, Dual):
             return NotImplemented
-        other = self._like(value)
+        if isinstance(value, int) and value > 0:
+            METER.get().spend(1 + (self.bits >> 9))
+            return Enclosure(self.lo // value, -(-self.hi // value), self.bits)
+        top, other = self, self._like(value)
         if other.lo <= 0 <= other.hi:
             raise Unproved("division by an enclosure of 0")
-        METER.get().spend(3 + (self.bits >> 6) + ((self.bits >> 8) ** 2 >> 1))
-        a, b, c, d = self.lo << self.bits, self.hi << self.bits, other.lo, other.hi
-        low = min(a // c, a // d, b // c, b // d)
-        return Enclosure(low, max(-(-a // c), -(-a // d), -(-b // c), -(-b // d)), self.bits)
+        METER.get().spend(2 + (self.bits >> 7) + ((self.bits >> 8) ** 2 >> 3))
+        if other.hi < 0:
+            top, other = -top, -other
+        low = (top.lo << self.bits) // (other.hi if top.lo >= 0 else other.lo)
+        high = (-top.hi << self.bits) // (other.lo if top.hi >= 0 else other.hi)
+        return Enclosure(low, -high, self.bits)
 
     def __rtruediv__(self, value: Fraction | int) -> Enclosure:
         return self._like(value) / self
@@ -126,8 +137,13 @@ class Enclosure:
         """Return (sin X, cos X): the hull of the values at the ends and the extrema between.
 
         The multiples m pi/2 in X satisfy floor(lo) < m <= floor(hi) in quarter turns; where an
-        end is too close to one to tell, the extremum is put in, which is outward.
+        end is too close to one to tell, the extremum is put in, which is outward. Where x^4 < 2^3
+        units, sin x is within one of x - x^3 / 6, and cos x of 1 - x^2 / 2.
         """
+        if max(abs(self.lo), abs(self.hi)) >> (self.bits - (self.bits >> 2)) == 0:
+            square = self * self
+            odd, even = self - self * square / 6, 1 - square / 2
+            return _wider(odd), _wider(even)
         sin, cos, first, _ = _sincos(self.lo, self.bits)
         width, one = self.hi - self.lo, 1 << self.bits
         if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
@@ -139,6 +155,12 @@ class Enclosure:
                 ends[1 - (turn & 1)][1 - (turn >> 1 & 1)] = -one if turn & 2 else one
         (a, b), (c, d) = ends
         return Enclosure(a, b, self.bits), Enclosure(c, d, self.bits)
+
+
+def _wider(x: Enclosure) -> Enclosure:
+    """Return an enclosure with one unit more on both sides, in [-1, 1]."""
+    one = 1 << x.bits
+    return Enclosure(max(x.lo - 1, -one), min(x.hi + 1, one), x.bits)
 
 
 def rational(value: Fraction, bits: int) -> Enclosure:
@@ -176,9 +198,9 @@ def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
 
     The work counts whether or not the values are known: flights meet at the same times.
     """
-    halvings = isqrt(bits) >> 1 if bits >= _MANY else 0
+    halvings = max(2, isqrt(bits) >> 2)
     work = bits + 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
-    METER.get().spend(8 + (3 * (work >> 6) ** 2 >> (2 + 2 * (halvings > 0))))  # work / 4 steps
+    METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
     return _sincos_at(x, bits, halvings, work)
 
 
@@ -186,38 +208,56 @@ def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
 def _sincos_at(x: int, bits: int, halvings: int, work: int) -> tuple[_Ends, _Ends, int, int]:
     """Return what `_sincos` does.
 
-    Proof. With g = 12 + (bit length of x above the point) guard bits, x is exact, k the nearest
-    multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. exp(ir) is summed as
-    t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
-    most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
-    2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
-    With many bits r is halved h times before, rounded by a unit, and (sin, cos) taken to
-    (2 sin cos, 1 - 2 sin^2) as often: errors of at most e units become at most 4 e + 2.
+    Proof. With g = 12 + 2 h + (bit length of x above the point) guard bits, h the halvings, x is
+    exact and r = x - k pi/2 within [r_lo, r_hi], 0.39 < r < 1.98. The series of cos(r_lo / 2^h) is
+    off by 34 units of 2^-work: 32 by itself, one each for the square and for the argument. For
+    u = 1 - cos, which doubling takes to 2 u (2 - u), errors of at most e units become at most
+    4 e + 2; for sin = sqrt(u (2 - u)), with |cot| < 2.43, at most 3 e + 2. r_hi - r_lo adds its own
+    width (|sin'|, |cos'| <= 1).
     """
-    guard, one = work - bits, 1 << bits
-    half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
+    guard, one = work - bits, 1 << work
+    pi_lo, pi_hi = pi(work).lo, pi(work).hi
     x <<= guard
-    k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
-    doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
+    k = 2 * (x - (one << 1) // 5) // pi_lo  # floor((x - 2/5) / (pi/2)), about
+    doubled = sorted((2 * x - k * pi_lo, 2 * x - k * pi_hi))
     r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
-    sums, term, n, part = [0, 1 << work], 1 << work, 0, r >> halvings
-    while term not in (0, -1):
-        n += 1
-        term = (term * part >> work) // n
-        if n & 2:
-            sums[1 - (n & 1)] -= term
-        else:
-            sums[1 - (n & 1)] += term
-    error = 3 * n + 2 + (halvings > 0)
+    rise, error = one - _exponential(-((r >> halvings) ** 2 >> work), 2, work), 34
     for _ in range(halvings):
-        sums = [2 * sums[0] * sums[1] >> work, (1 << work) - (2 * sums[0] ** 2 >> work)]
-        error = 4 * error + 2
-    error += r_hi - r
+        rise, error = rise * (2 * one - rise) >> (work - 1), 4 * error + 2
+    error = 3 * error + 2 + r_hi - r
+    unit = 1 << bits
     (a, b), (c, d) = (
-        (max((v - error) >> guard, -one), min(-((-v - error) >> guard), one)) for v in sums
+        (max((v - error) >> guard, -unit), min(-((-v - error) >> guard), unit))
+        for v in (isqrt(rise * (2 * one - rise)), one - rise)
     )
     turned = (((a, b), (c, d)), ((c, d), (-b, -a)), ((-b, -a), (-d, -c)), ((-d, -c), (a, b)))
-    return *turned[k & 3], k - (r <= 0), k - (r_hi < 0)
+    return *turned[k & 3], k + (doubled[0] >= pi_hi), k + (doubled[1] >= pi_lo)
+
+
+def _exponential(z: int, step: int, work: int) -> int:
+    """Return about the sum of z^n / (step n)!, |z| <= 1/4, in units of 2^-work, of which off by 32.
+
+    step: 1 or 2. In blocks of m terms (Smith 1989), with f_n = (step n)! / (step n - step)! and
+    z^n short for z^(n mod m): R_n = (z^n + R_(n+1)) / f_n, R_(n+1) times z^m where n + 1 is a
+    multiple of m; the sum is R_0, f_0 = 1. The powers are off by less than 2 units, as
+    e_n <= e_(n-1) / 4 + 1. If R_(n+1) is off by e, R_n is by at most (2 + (e + 5)) / f_n + 1: that
+    is 9 for n > 1, 17 for n = 1, 24 for n = 0. What is left out is below one unit: the last term
+    is, as it has `small` zeros, and each next one is below a quarter of the one before.
+    """
+    small, zeros, factors = 0, work - abs(z).bit_length(), [1]
+    while z and small <= work:
+        n = len(factors)
+        factors.append(n if step == 1 else (2 * n - 1) * 2 * n)
+        small += zeros + factors[n].bit_length() - 1
+    m, powers = 1 + isqrt(len(factors)), [1 << work]
+    for _ in range(m):
+        powers.append(powers[-1] * z >> work)
+    total = 0
+    for n in range(len(factors) - 1, -1, -1):
+        if (n + 1) % m == 0:
+            total = total * powers[m] >> work
+        total = (powers[n % m] + total) // factors[n]
+    return total
 
 
 def log(value: Fraction, bits: int) -> Enclosure:
@@ -240,13 +280,18 @@ def _log2(bits: int) -> Enclosure:
 
 def log_of(x: Enclosure) -> Enclosure:
     """Enclose log X = y + log(X exp(-y)), X in (2^-90, 2^90), y about the logarithm of a middle."""
-    if not (1 << x.bits) >> 90 < x.lo <= x.hi < 1 << (x.bits + 90):
+    bits, middle = x.bits, (x.lo + x.hi) >> 1
+    if not (1 << bits) >> 90 < x.lo <= x.hi < 1 << (bits + 90):
         raise Unproved("the logarithm of an enclosure that leaves (2^-90, 2^90)")
-    about = Fraction(math.log((x.lo + x.hi) / (2 << x.bits)))
-    y = rational(about, x.bits)
+    if bits < _MANY:
+        y = rational(Fraction(math.log(middle / (1 << bits))), bits)
+    else:
+        up = bits >> 1
+        y = log_of(Enclosure(middle >> up, middle >> up, bits - up))
+        y = Enclosure(y.lo << up, y.lo << up, bits)
     ratio = x * exp(-y)
     z = (ratio - 1) / (ratio + 1)
-    if 5 * max(-z.lo, z.hi) > 1 << x.bits:
+    if 5 * max(-z.lo, z.hi) > 1 << bits:
         raise Unproved("a wide enclosure has no logarithm")
     return y + _log1(z)
 
@@ -262,21 +307,32 @@ def _log1(z: Enclosure) -> Enclosure:
 
 
 def exp(x: Enclosure) -> Enclosure:
-    """Enclose exp X for |X| < 64: Taylor at X / 2^k with |X / 2^k| < 1/16, squared k times."""
+    """Enclose exp X for |X| < 64; exp(x + w) <= exp(x) (1 + w + w^2) for 0 <= w <= 1."""
     if max(abs(x.lo), abs(x.hi)) >> x.bits >= 64:
         raise Unproved("exponent out of range")
-    k = 10
-    small = Enclosure(x.lo >> k, -(-x.hi >> k), x.bits)
-    term = total = Enclosure(1 << x.bits, 1 << x.bits, x.bits)
-    n = 0
-    while max(abs(term.lo), abs(term.hi)) > 1:
-        n += 1
-        term = term * small / n
-        total = total + term
-    total = Enclosure(total.lo - 1, total.hi + 1, x.bits)  # tail < last term / 15
+    low, high = _exp(x.lo, x.bits)
+    width = x.hi - x.lo
+    if width >> (x.bits >> 1) == 0:  # w^2 is at most a unit
+        high -= -high * (width + 1) >> x.bits if width else 0
+    else:
+        high = _exp(x.hi, x.bits)[1]
+    return Enclosure(low, high, x.bits)
+
+
+def _exp(x: int, bits: int) -> _Ends:
+    """Return bounds of exp(x / 2^bits), |x| < 2^(bits + 6), by x / 2^k, squared k times.
+
+    The series is off by 34 units: 32 by itself, and as the argument is rounded. With k + 14 guard
+    bits, and those of the result above the point (3/2 log2(e^x) is enough): errors about double.
+    """
+    k = max(0, abs(x).bit_length() - bits) + 2 + isqrt(bits) // 3
+    guard = k + 14 + max(0, 3 * (x >> bits) // 2)
+    work = bits + guard
+    METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
+    value, error = _exponential(x << guard >> k, 1, work), 34
     for _ in range(k):
-        total = total * total
-    return total
+        value, error = value * value >> work, ((2 * value + error) * error >> work) + 2
+    return (value - error) >> guard, -((-value - error) >> guard)
 
 
 class Dual:

@@ -46,7 +46,11 @@ class Complex:
         return -self + value
 
     def __mul__(self, value: Complex | Fraction | int) -> Complex:
-        other = self._like(value)
+        if not isinstance(value, Complex):
+            return Complex(self.re * value, self.im * value)
+        other = value
+        if other.is_real:
+            return Complex(self.re * other.re, self.im * other.re)
         return Complex(
             self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re
         )
@@ -55,6 +59,8 @@ class Complex:
 
     def __truediv__(self, value: Complex | Fraction | int) -> Complex:
         other = self._like(value)
+        if other.is_real:
+            return Complex(self.re / other.re, self.im / other.re)
         square = _square(other.re) + _square(other.im)
         over = self * Complex(other.re, -other.im)
         return Complex(over.re / square, over.im / square)
@@ -70,8 +76,8 @@ class Complex:
     def sincos(self) -> tuple[Complex, Complex]:
         """Return (sin, cos): sin(x + iy) = sin x cosh y + i cos x sinh y, and so on."""
         (sin, cos), up = self.re.sincos(), exp(self.im)
-        down = 1 / Complex(up, Enclosure(0, 0, up.bits))
-        cosh, sinh = (up + down.re) / 2, (up - down.re) / 2
+        down = 1 / up
+        cosh, sinh = (up + down) / 2, (up - down) / 2
         return Complex(sin * cosh, cos * sinh), Complex(cos * cosh, -(sin * sinh))
 
     def widened(self, radius: Fraction) -> Complex:
@@ -80,14 +86,21 @@ class Complex:
         return Complex(self.re + square, self.im + square)
 
     @property
+    def is_real(self) -> bool:
+        """Whether the imaginary part is 0."""
+        return self.im.lo == self.im.hi == 0
+
+    @property
     def size(self) -> Fraction:
         """An upper bound of |z|."""
-        return sum((max(abs(low), abs(high)) for low, high in self.ranges), Fraction(0))
+        x, y = (max(-part.lo, part.hi) for part in (self.re, self.im))
+        return Fraction(x + y, 1 << self.re.bits)
 
     @property
     def spread(self) -> Fraction:
         """An upper bound of the distance of two of these numbers."""
-        return sum((high - low for low, high in self.ranges), Fraction(0))
+        x, y = (part.hi - part.lo for part in (self.re, self.im))
+        return Fraction(x + y, 1 << self.re.bits)
 
     @property
     def ranges(self) -> tuple[Range, Range]:

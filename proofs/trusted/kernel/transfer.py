@@ -14,6 +14,8 @@ from proofs.trusted.kernel.complexes import Arc, Complex, Ellipse
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, within
 
+_BLOCK = 16  # coefficients that are summed with equally many bits
+
 
 class Branches(Protocol):
     """Functions g_1, ..., g_N, real on the reals, continuous on an ellipse, analytic inside."""
@@ -68,24 +70,11 @@ class Growth:
         return max(Fraction(0), self.s + low.range[0]), self.s + high.range[1]
 
 
-def clenshaw(coefficients: Sequence[int], t: int, bits: int) -> int:
-    """Return about the sum of c_k T_k(u), |u| <= 1, numbers in units of 2^-bits, t = 2 u.
-
-    b_k = c_k + 2 u b_(k+1) - b_(k+2), each rounded by less than one unit: the result is exactly
-    that of c_k with these errors, so it is off by less than so many units as there are c_k.
-    """
-    METER.get().spend((1 + (bits >> 7)) * len(coefficients) >> 1)
-    now = before = 0
-    for c in reversed(coefficients[1:]):
-        now, before = c + (t * now >> bits) - before, now
-    return coefficients[0] + (t * now >> (bits + 1)) - before
-
-
 @dataclass(frozen=True)
 class Series:
     """The sum of c_k T_k(u) for integers c_k in units of 2^-bits."""
 
-    coefficients: list[int]
+    coefficients: Sequence[int]
     bits: int
 
     @classmethod
@@ -102,13 +91,49 @@ class Series:
         """A bound of the second derivative by the angle."""
         return Fraction(self._steepest, 1 << self.bits)
 
+    @cached_property
+    def _blocks(self) -> list[tuple[Sequence[int], int]]:
+        """The coefficients but the first from the last on, with the bits of t that they need not.
+
+        The sums b_k below are at most those of (j - k + 1) (|c_j| + 2) over j >= k.
+        """
+        blocks, rise, reach = list[tuple[Sequence[int], int]](), 0, 0
+        for stop in range(len(self.coefficients), 1, -_BLOCK):
+            block = self.coefficients[max(1, stop - _BLOCK) : stop][::-1]
+            for c in block:
+                rise += abs(c) + 2
+                reach += rise
+            blocks.append((block, max(0, self.bits - int(reach).bit_length())))
+        return blocks
+
+    @cached_property
+    def _work(self) -> int:
+        sizes = ((len(block), self.bits - cut >> 7) for block, cut in self._blocks)
+        return sum(count * (1 + (size * size >> 5)) for count, size in sizes)
+
+    def near(self, t: int) -> int:
+        """Return about the value at u, |u| <= 1, for t = 2 u in units of 2^-bits (Clenshaw).
+
+        b_k = c_k + 2 u b_(k+1) - b_(k+2), each rounded by less than one unit, and 2u by less than
+        one unit in the product: the result is exactly that of c_k with these errors, so it is off
+        by less than two units for each c_k.
+        """
+        METER.get().spend(self._work)
+        now = before = 0
+        for block, cut in self._blocks:
+            few, up = t >> cut, self.bits - cut
+            for c in block:
+                now, before = c + (few * now >> up) - before, now
+        return self.coefficients[0] + (t * now >> (self.bits + 1)) - before
+
     def __call__(self, u: Enclosure) -> Enclosure:
         """Enclose the values at numbers of [-1, 1], where |T_k'| <= k^2."""
         one = 1 << self.bits
         if not -one <= u.lo <= u.hi <= one or u.bits != self.bits:
             raise Unproved("a number that leaves the hull")
-        value = clenshaw(self.coefficients, u.lo + u.hi, self.bits)
-        error = len(self.coefficients) + (self._steepest * (u.hi - u.lo) >> (self.bits + 1)) + 1
+        value = self.near(u.lo + u.hi)
+        turned = self._steepest * (u.hi - u.lo) >> (self.bits + 1)
+        error = 2 * len(self.coefficients) + turned + 1
         return Enclosure(value - error, value + error, self.bits)
 
     def size(self, rho: Fraction) -> Fraction:

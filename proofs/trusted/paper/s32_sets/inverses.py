@@ -112,21 +112,39 @@ class Letter:
 
         Interval Newton, with more and more bits: G(y) = gap(y, x - y + 2 pi turns) = 0, so y is in
         m - G(m) / G'(Y), m a number in Y. By `slope` -G' is sin(eta t) / eta times the launch
-        acceleration.
+        acceleration. What depends on Y follows from what is known at m.
         """
         good = y.bits - (y.hi - y.lo).bit_length()
         while True:
             before, bits = good, min(max(BITS, -(-good >> 5) << 6), x.bits)  # few kinds: see `pi`
-            few = min(bits, BITS + (-(-good >> 6) << 6))
-            start, now = self.at(rounded(y, few), rounded(x, few))
-            rate = now.mass_sin / start.eta * launch_acceleration(start)
             y = rounded(y, bits)
             middle = Enclosure((y.lo + y.hi) >> 1, (y.lo + y.hi) >> 1, bits)
-            y = y.meet(middle + gap(*self.at(middle, rounded(x, bits))) / rounded(rate, bits))
+            state = self.at(middle, rounded(x, bits))
+            few = min(bits, BITS + (-(-good >> 6) << 6))
+            start, now = _later(*state, rounded(y - middle, few))
+            rate = now.mass_sin / start.eta * launch_acceleration(start)
+            y = y.meet(middle + gap(*state) / rounded(rate, bits))
             good = bits - (y.hi - y.lo).bit_length()
             if good <= before or good >= x.bits - 10:
-                y = rounded(y, x.bits)
-                return y, slope(*self.at(y, x))
+                later = rounded(y - middle, x.bits)
+                return rounded(y, x.bits), slope(*_later(*state, later))
+
+
+def _later(start: Launch, now: Clock, d: Enclosure) -> tuple[Launch, Clock]:
+    """Return the state after a launch later by d, and the clock at the same time, in d's bits.
+
+    By the addition theorems: the phase of the launch grows by d, the time of flight shrinks by d.
+    """
+    eta, lift, rate = (rounded(each, d.bits) for each in (start.eta, start.lift, start.rate))
+    (slow_sin, slow_cos), (sin, cos) = (eta * d).sincos(), d.sincos()
+    mass_sin, mass_cos, table_sin, table_cos = (rounded(each, d.bits) for each in now)
+    clock_then = Clock(
+        mass_sin * slow_cos - mass_cos * slow_sin,
+        mass_cos * slow_cos + mass_sin * slow_sin,
+        table_sin * cos - table_cos * sin,
+        table_cos * cos + table_sin * sin,
+    )
+    return Launch(start.side, eta, lift * cos + rate * sin, rate * cos - lift * sin), clock_then
 
 
 def rounded(x: Enclosure, bits: int) -> Enclosure:

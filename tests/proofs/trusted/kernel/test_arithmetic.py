@@ -1,5 +1,6 @@
 """The checker's numbers against Arb at far higher precision, and against `intervals`."""
 
+import math
 from fractions import Fraction
 
 import flint
@@ -127,6 +128,17 @@ def test_arithmetic_contains_every_result(name, one, two, bits):
         return
     low, high = operate(first, second).range
     assert low <= operate(x, y) <= high
+
+
+long_ends = st.tuples(st.integers(-(2**700), 2**700), st.integers(0, 2**40) | st.just(2**699))
+
+
+@quick
+@given(long_ends, long_ends, st.sampled_from([64, 640]))
+def test_products_are_the_tightest_whatever_the_widths(one, two, bits):
+    (a, b), (c, d) = ((low, low + width) for low, width in (one, two))
+    found, products = Enclosure(a, b, bits) * Enclosure(c, d, bits), (a * c, a * d, b * c, b * d)
+    assert (found.lo, found.hi) == (min(products) >> bits, -(-max(products) >> bits))
 
 
 @pytest.mark.parametrize("name", OPERATIONS)
@@ -288,10 +300,45 @@ def test_exp(low, width, share, bits):
     assert contains(arithmetic.exp(box(low, Fraction(width), bits)), lambda: arb(x).exp())
 
 
+@quick
+@given(st.fractions(-60, 60, max_denominator=10**9) | tiny, bits_of)
+def test_exp_of_a_point_errs_by_a_few_units(x, bits):
+    point = rational(x, bits)
+    found = arithmetic.exp(point)
+    assert found.hi - found.lo <= 3 + (2 + point.hi - point.lo) * (found.hi + 1 >> bits)
+
+
 @pytest.mark.parametrize("x", [64, -64, 10**9])
 def test_exp_out_of_range_proves_nothing(x):
     with pytest.raises(Unproved):
         arithmetic.exp(rational(Fraction(x), 64))
+
+
+@quick
+@given(st.integers(1, 2**70), st.booleans(), st.sampled_from([1, 2]), bits_of)
+def test_the_series_of_exp_and_cos_err_by_32_units(size, is_negative, step, bits):
+    z = min(size << bits >> 72, 1 << bits >> 2) * (-1 if is_negative or step == 2 else 1)
+    found, exact = arithmetic._exponential(z, step, bits), Fraction(z, 2**bits)
+    low, high = exactly(lambda: arb(exact).exp() if step == 1 else arb(-exact).sqrt().cos())
+    assert low * 2**bits - 32 <= found <= high * 2**bits + 32
+
+
+@pytest.mark.parametrize("off", [-31, 31])
+def test_what_the_series_err_by_is_allowed_for(off, monkeypatch):
+    """With few bits, some of very many values lie next to a multiple of a unit."""
+    right = arithmetic._exponential
+    monkeypatch.setattr(arithmetic, "_exponential", lambda *given: right(*given) + off)
+    arithmetic._sincos_at.cache_clear()
+    for x in range(-4 << 8, 5 << 8):
+        point, angle = Enclosure(x, x, 8), x / 2**8
+        sin, cos = point.sincos()
+        for found, true in (
+            (sin, math.sin(angle)),
+            (cos, math.cos(angle)),
+            (arithmetic.exp(point), math.exp(angle)),
+        ):
+            assert found.lo <= true * 2**8 + 1e-9 and true * 2**8 - 1e-9 <= found.hi
+    arithmetic._sincos_at.cache_clear()
 
 
 # -- dual numbers ----------------------------------------------------------------------------------
