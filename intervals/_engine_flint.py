@@ -134,7 +134,10 @@ def _range(
         _inside -= 1
         if not _inside:
             _context._prec = _outside
-    return _make(low, high, p)
+    result = _new(Interval)
+    result._balls = low, high
+    result.precision = p
+    return result
 
 
 # -- arithmetic ------------------------------------------------------------------------------------
@@ -176,7 +179,8 @@ def _add(self: Any, value: Any) -> Any:
     """Return the sum, at once where it has no more bits: no call is between, see above."""
     if type(value) is not Interval:
         return _by_sums(self, value)
-    p = max(self.precision, value.precision)
+    p, q = self.precision, value.precision
+    p = p if p >= q else q
     a, b = self._balls
     c, d = value._balls
     saved = _context._prec
