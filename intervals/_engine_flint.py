@@ -6,22 +6,23 @@ is monotone; so for rounding up. An exact ball is y itself.
 
 What this does not settle, and what raises, is left to the method that is replaced here. Beside
 libmp's ends an Interval has the slot `_balls`, its ends as exact balls; each is filled from the
-other where it is asked for first. FLINT's precision is one for the whole process, so it is set and
-restored under a lock; `_prec`, the number behind `ctx.prec`, costs no conversion to digits.
+other where it is asked for first. FLINT's precision is one for the whole process, and restored;
+`_prec`, the number behind `ctx.prec`, costs no conversion to digits. CPython switches threads at
+calls only, and after them: what is set is heeded by the call or the operators that follow.
 """
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from math import floor, pi
-from threading import RLock
+from math import pi
 from typing import Any, TypeAlias
 
 from flint import arb, ctx
 from mpmath.libmp import from_man_exp
 
-from intervals.functions import DECREASING
+from intervals.functions import DECREASING, DOMAINS
+from intervals.interval import Interval
 
 Ball: TypeAlias = Any  # flint.arb, which has no types
 Arguments: TypeAlias = tuple[Ball, ...]
@@ -32,9 +33,17 @@ BY_MPMATH: dict[str, Method] = {}  # what is replaced: filled in by who loads th
 
 _GUARD = 30  # bits beyond the precision: one result in 10^8 is not settled
 _MOST = 64  # the largest power by multiplication
+_TURNS = 1 / pi
 _ZERO, _TWO, _TEN = arb(0), arb(2), arb(10)
-_FAR = arb(1 << 20)  # what grows may overflow beyond
-_GROWING = frozenset({"exp", "exp2", "exp10", "expm1", "sinh", "cosh"})
+_FAR = (arb(-(1 << 20)), arb(1 << 20))  # what grows may overflow beyond
+_LIMITS = {  # where the values are finite
+    **dict.fromkeys(("exp", "exp2", "exp10", "expm1", "sinh", "cosh"), _FAR),
+    **{
+        name: (arb(domain.low), arb("inf" if domain.high is None else domain.high))
+        for name, domain in DOMAINS.items()
+        if not domain.closed
+    },
+}
 _NAMES = ("exp", "expm1", "log", "log1p", "atan", "asin", "acos", "sinh", "cosh", "tanh", "asinh")
 _FUNCTIONS: dict[str, Callable[[Ball], Ball]] = {
     **{name: getattr(arb, name) for name in (*_NAMES, "acosh", "atanh", "sqrt")},
@@ -44,7 +53,7 @@ _FUNCTIONS: dict[str, Callable[[Ball], Ball]] = {
     "log2": lambda x: x.log_base(2),
     "log10": lambda x: x.log_base(10),
 }
-_LOCK = RLock()
+_inside = _outside = 0  # how many computations run, and the precision around them
 _context: Any = ctx
 _new: Callable[[type], Any] = object.__new__
 if not hasattr(ctx, "_prec"):
@@ -75,16 +84,16 @@ def _raw(end: Ball) -> Any:
     return from_man_exp(int(man), int(exp))
 
 
-def _make(like: Any, ends: Ends, precision: int) -> Any:
-    result = _new(type(like))
-    result._balls = ends
+def _make(low: Ball, high: Ball, precision: int) -> Any:
+    result = _new(Interval)
+    result._balls = low, high
     result.precision = precision
     return result
 
 
 def _bounds(self: Any, other: Any) -> tuple[Any, Any, Any, Any]:
     """Return the ends of both as exact balls, which compare as numbers do."""
-    if type(other) is type(self):
+    if type(other) is Interval:
         return *self._balls, *other._balls
     if type(other) is int:
         number = arb(other)
@@ -93,67 +102,61 @@ def _bounds(self: Any, other: Any) -> tuple[Any, Any, Any, Any]:
     return ends
 
 
-def _range(function: Callable[..., Ball], least: Arguments, most: Arguments, p: int) -> Ends | None:
-    """Return a function's values at two places, rounded down and up to p bits: see the theorem."""
-    with _LOCK:
-        saved = _context._prec
-        try:
-            _context._prec = p + _GUARD
-            x = function(*least)
-            y = x if least == most else function(*most)
-            if x.is_exact() and y.is_exact() and x.bits() <= p and y.bits() <= p:
-                low, high = x, y
-            else:
-                upper, lower = x.upper(), y.lower()
-                _context._prec = p
-                low, high = x.lower(), y.upper()
-                if not (low == upper.lower() and high == lower.upper()):
-                    return None
-            return (low, high) if low.is_finite() and high.is_finite() else None
-        finally:
-            _context._prec = saved
+def _range(
+    p: int, bits: int, function: Callable[..., Ball], least: Arguments, most: Arguments
+) -> Any:
+    """Return [function(least), function(most)] rounded outward from `bits` to p bits, or None.
 
-
-# -- arithmetic ------------------------------------------------------------------------------------
-
-
-def _add(self: Any, value: Any) -> Any:
-    """Return the sum; `_prec` is set without a lock, as CPython switches threads at calls only."""
-    p = self.precision
-    if type(value) is type(self):
-        c, d = value._balls
-        p = p if p >= value.precision else value.precision
-    elif type(value) is int:
-        c = d = arb(value)
-    else:
-        return BY_MPMATH["__add__"](self, value)
-    a, b = self._balls
-    saved = _context._prec
+    Other threads may change the precision at any call here, so it is set before each that must
+    round to p bits; the others enclose at any. The last to leave restores what the first found.
+    """
+    global _inside, _outside  # noqa: PLW0603 - as python-flint's precision is
+    if not _inside:
+        _outside = _context._prec
+    _inside += 1
     try:
+        _context._prec = bits
+        x = function(*least)
+        y = x if least is most else function(*most)
+        exact = x == x and y == y  # noqa: PLR0124 - certainly: no ball of several numbers does
+        upper, lower = (x, y) if exact else (x.upper(), y.lower())
         _context._prec = p
-        low = a + c
-        high = b + d
+        low = x.lower()
+        _context._prec = p
+        high = y.upper()
+        if not exact:
+            _context._prec = p
+            settled = upper.lower() == low
+            _context._prec = p
+            if not (settled and lower.upper() == high):
+                return None
     finally:
-        _context._prec = saved
-    if not (low.is_exact() and high.is_exact()):
-        ends = _range(operator.add, (a, c), (b, d), p)
-        return _make(self, ends, p) if ends else BY_MPMATH["__add__"](self, value)
-    result = _new(type(self))
+        _inside -= 1
+        if not _inside:
+            _context._prec = _outside
+    result = _new(Interval)
     result._balls = low, high
     result.precision = p
     return result
+
+
+# -- arithmetic ------------------------------------------------------------------------------------
 
 
 def _arithmetic(
     name: str,
     operation: Callable[[Ball, Ball], Ball],
     corners: Callable[[Ball, Ball, Ball, Ball], tuple[Ends, Ends] | None],
+    factor: int = 2,
 ) -> Method:
-    """Return the method for an operation, given where its range over two intervals has its ends."""
+    """Return the method for an operation, given where its range over two intervals has its ends.
+
+    Its values are exact, mostly, at `factor` times the precision, if this is 2.
+    """
 
     def method(self: Any, value: Any) -> Any:
         p = self.precision
-        if type(value) is type(self):
+        if type(value) is Interval:
             c, d = value._balls
             p = p if p >= value.precision else value.precision
         elif type(value) is int:
@@ -162,11 +165,35 @@ def _arithmetic(
             return BY_MPMATH[name](self, value)
         a, b = self._balls
         places = corners(a, b, c, d)
-        ends = places and _range(operation, places[0], places[1], p)
-        return _make(self, ends, p) if ends else BY_MPMATH[name](self, value)
+        result = places and _range(p, factor * p + _GUARD, operation, *places)
+        return BY_MPMATH[name](self, value) if result is None else result
 
     method.__name__ = method.__qualname__ = name
     return method
+
+
+_by_sums = _arithmetic("__add__", operator.add, lambda a, b, c, d: ((a, c), (b, d)))
+
+
+def _add(self: Any, value: Any) -> Any:
+    """Return the sum, at once where it has no more bits: no call is between, see above."""
+    if type(value) is not Interval:
+        return _by_sums(self, value)
+    p, q = self.precision, value.precision
+    p = p if p >= q else q
+    a, b = self._balls
+    c, d = value._balls
+    saved = _context._prec
+    _context._prec = p
+    low = a + c
+    high = b + d
+    _context._prec = saved
+    if low == low and high == high:  # noqa: PLR0124 - see `_range`
+        result = _new(Interval)
+        result._balls = low, high
+        result.precision = p
+        return result
+    return _by_sums(self, value)
 
 
 def _of_product(a: Ball, b: Ball, c: Ball, d: Ball) -> tuple[Ends, Ends] | None:
@@ -177,7 +204,15 @@ def _of_product(a: Ball, b: Ball, c: Ball, d: Ball) -> tuple[Ends, Ends] | None:
         return (a, d), (b, d if b >= _ZERO else c)
     if b <= _ZERO:
         return (b if d <= _ZERO else a, d), (a, c)
-    return ((b, c), (a, c)) if d <= _ZERO else None
+    if d <= _ZERO:
+        return (b, c), (a, c)
+    least, most = _lesser(a * d, (a, d), b * c, (b, c)), _lesser(-b * d, (b, d), -a * c, (a, c))
+    return (least, most) if least and most else None
+
+
+def _lesser(x: Ball, of_x: Ends, y: Ball, of_y: Ends) -> Ends | None:
+    """Return where the lesser of two values is found, None where balls do not tell."""
+    return of_x if x <= y else of_y if y <= x else None
 
 
 def _of_quotient(a: Ball, b: Ball, c: Ball, d: Ball) -> tuple[Ends, Ends] | None:
@@ -191,7 +226,7 @@ def _of_quotient(a: Ball, b: Ball, c: Ball, d: Ball) -> tuple[Ends, Ends] | None
 
 def _negative(self: Any) -> Any:
     low, high = self._balls
-    return _make(self, (high.neg(True), low.neg(True)), self.precision)
+    return _make(high.neg(True), low.neg(True), self.precision)
 
 
 def _absolute(self: Any) -> Any:
@@ -201,7 +236,7 @@ def _absolute(self: Any) -> Any:
     if high <= _ZERO:
         return -self
     top = low.neg(True)
-    return _make(self, (_ZERO, top if top > high else high), self.precision)
+    return _make(_ZERO, top if top > high else high, self.precision)
 
 
 def _square(self: Any) -> Any:
@@ -210,11 +245,12 @@ def _square(self: Any) -> Any:
 
 
 def _power(self: Any, n: Any) -> Any:
-    ends = None
+    result = None
     if type(n) is int and 0 < n <= _MOST:
         low, high = (self if n % 2 else abs(self))._balls
-        ends = _range(operator.pow, (low, n), (high, n), self.precision)
-    return _make(self, ends, self.precision) if ends else BY_MPMATH["__pow__"](self, n)
+        p = self.precision
+        result = _range(p, p + _GUARD, operator.pow, (low, n), (high, n))
+    return BY_MPMATH["__pow__"](self, n) if result is None else result
 
 
 # -- elementary functions --------------------------------------------------------------------------
@@ -222,15 +258,15 @@ def _power(self: Any, n: Any) -> Any:
 
 def _elementary(name: str) -> Method:
     """Return the method for a function that is monotone on its domain; outside it is NaN."""
-    function, grows, falls = _FUNCTIONS[name], name in _GROWING, name in DECREASING
+    function, falls, limits = _FUNCTIONS[name], name in DECREASING, _LIMITS.get(name)
 
     def method(self: Any) -> Any:
         low, high = self._balls
-        p, ends = self.precision, None
-        if not grows or (low > -_FAR and high < _FAR):
-            low, high = (high, low) if falls else (low, high)
-            ends = _range(function, (low,), (high,), p)
-        return _make(self, ends, p) if ends else BY_MPMATH["_monotone"](self, name)
+        result, p = None, self.precision
+        if not limits or (limits[0] < low and high < limits[1]):
+            least, most = ((high,), (low,)) if falls else ((low,), (high,))
+            result = _range(p, p + _GUARD, function, least, most)
+        return BY_MPMATH["_monotone"](self, name) if result is None else result
 
     method.__name__ = method.__qualname__ = name
     return method
@@ -244,25 +280,28 @@ def _monotone(self: Any, name: str) -> Any:
     return method(self) if method else BY_MPMATH["_monotone"](self, name)
 
 
-def _circular(self: Any, part: int) -> Any:
-    """Return sin X for part 0, cos X for part 1.
+def _circular(part: int) -> Method:
+    """Return the method for sin for part 0, for cos for part 1.
 
     sin(x + part pi/2) is monotone where floor(x/pi + (part + 1)/2) = n, up if n is even. Floats,
     which err by 1e-9, tell n where they are farther from its ends.
     """
-    low, high = self._balls
-    p, ends, shift = self.precision, None, (part + 1) / 2
-    first, last = float(low) / pi + shift, float(high) / pi + shift
-    if first > -1e6 and last < 1e6:
-        n = floor(first)
-        if first - n > 1e-6 and last - n < 1 - 1e-6:
+    function, shift = (arb.cos if part else arb.sin), (part + 1) / 2
+
+    def method(self: Any) -> Any:
+        low, high = self._balls
+        result, p = None, self.precision
+        first = float(low) * _TURNS + shift
+        n = first // 1.0
+        if first - n > 1e-6 and float(high) * _TURNS + shift - n < 1 - 1e-6 and -1e6 < n < 1e6:
             least, most = ((high,), (low,)) if n % 2 else ((low,), (high,))
-            ends = _range(arb.cos if part else arb.sin, least, most, p)
-    return _make(self, ends, p) if ends else BY_MPMATH["sincos"](self)[part]
+            result = _range(p, p + _GUARD, function, least, most)
+        return BY_MPMATH["sincos"](self)[part] if result is None else result
+
+    return method
 
 
-def _sincos(self: Any) -> Any:
-    return _circular(self, 0), _circular(self, 1)
+_sin, _cos = map(_circular, (0, 1))
 
 
 BY_FLINT: dict[str, Method] = {
@@ -276,11 +315,11 @@ BY_FLINT: dict[str, Method] = {
     "__sub__": _arithmetic("__sub__", operator.sub, lambda a, b, c, d: ((a, d), (b, c))),
     "__mul__": _arithmetic("__mul__", operator.mul, _of_product),
     "__rmul__": _arithmetic("__rmul__", operator.mul, _of_product),
-    "__truediv__": _arithmetic("__truediv__", operator.truediv, _of_quotient),
+    "__truediv__": _arithmetic("__truediv__", operator.truediv, _of_quotient, 1),
     "sqr": _square,
-    "sin": lambda self: _circular(self, 0),
-    "cos": lambda self: _circular(self, 1),
-    "sincos": _sincos,
+    "sin": _sin,
+    "cos": _cos,
+    "sincos": lambda self: (_sin(self), _cos(self)),
     "_monotone": _monotone,
     "_bounds": _bounds,
 }

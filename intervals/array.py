@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
@@ -17,7 +18,7 @@ from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
 from intervals.reductions import matrix_product, product_rows, sum_rows
 from intervals.relations import Relations, overlap_state
-from intervals.rounding import Rows, bounded, outward_sum, require_subnormals
+from intervals.rounding import Rows, all_of, bounded, outward_sum, require_subnormals
 from intervals.rows import (
     STEPS,
     aligned,
@@ -322,7 +323,7 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
-        number = whole(other)  # numpy's own abs would wrap
+        number = None if isinstance(other, IntervalArray) else whole(other)  # numpy's abs wraps
         if number is not None and abs(number) & (abs(number) - 1) == 0:
             if number == 1:
                 return self
@@ -382,18 +383,16 @@ class IntervalArray(Relations[Mask], Elementary):
     def _monotone(self, name: str) -> IntervalArray:
         if name in DOMAINS and not self._inside(DOMAINS[name]):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
-        with _quiet():
-            if name in _IEEE:
-                return _make(in_blocks(_IEEE[name], self._rows))
+        if name not in _IEEE:
             return _make(binary64.monotone(name, self._rows))
+        with _quiet():
+            return _make(in_blocks(_IEEE[name], self._rows))
 
     def _inside(self, domain: Domain) -> bool:
-        low, high = -self._rows[0], self._rows[1]
-        if domain.closed:
-            above = domain.low is None or (low >= domain.low).all()
-            return bool(above and (domain.high is None or (high <= domain.high).all()))
-        above = domain.low is None or (low > domain.low).all()
-        return bool(above and (domain.high is None or (high < domain.high).all()))
+        ends = (None if domain.low is None else -domain.low, domain.high)
+        within = operator.le if domain.closed else operator.lt
+        rows = zip(self._rows, ends, strict=True)
+        return all(end is None or all_of(within(row, end)) for row, end in rows)
 
     def sincos(self) -> tuple[IntervalArray, IntervalArray]:
         """Return (sin X, cos X), within [-1, 1], from one reduction."""
@@ -411,26 +410,22 @@ class IntervalArray(Relations[Mask], Elementary):
 
     def tan(self) -> IntervalArray:
         """Return the tangent; DomainError where a pole is, or may be, inside."""
-        with _quiet():
-            return _make(binary64.tan(self._rows))
+        return _make(binary64.tan(self._rows))
 
     def atan2(self, x: Operand) -> IntervalArray:
         """Return the angle in (-pi, pi] of the points (x, y), y in this interval."""
-        with _quiet():
-            return _make(binary64.atan2(*self._pair(x)))
+        return _make(binary64.atan2(*self._pair(x)))
 
     def hypot(self, other: Operand) -> IntervalArray:
         """Return sqrt(x^2 + y^2)."""
-        with _quiet():
-            return _make(binary64.hypot(*self._pair(other)))
+        return _make(binary64.hypot(*self._pair(other)))
 
     def pow(self, exponent: Operand) -> IntervalArray:
         """Return x^y for real y; the domain is x > 0, and x = 0 with y > 0."""
         base, power_of = self._pair(exponent)
         if not ((base[0] < 0.0) | ((base[0] <= 0.0) & (power_of[0] < 0.0))).all():
             raise DomainError("pow leaves x > 0, or x = 0 with y > 0")
-        with _quiet():
-            return _make(binary64.power(base, power_of))
+        return _make(binary64.power(base, power_of))
 
     def minimum(self, other: Operand) -> IntervalArray:
         """Return the range of min(x, y)."""

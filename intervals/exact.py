@@ -22,17 +22,17 @@ def fraction(value: Exact) -> Fraction:
         return _read(value)
     if isinstance(value, float):
         raise TypeError(f"{value!r} is a float, not a decimal: pass a string, or use from_float")
-    if not isinstance(value, Rational) or _is_time(value):
+    if not isinstance(value, Rational) or is_time(value):
         raise TypeError(f"{value!r} is not an int, a Fraction or a string")
     return Fraction(int(value.numerator), int(value.denominator))  # numpy's integers would wrap
 
 
 def whole(value: object) -> int | None:
     """Return the int that an int of Python's or numpy's is; None for anything else."""
-    return int(value) if isinstance(value, Integral) and not _is_time(value) else None
+    return int(value) if isinstance(value, Integral) and not is_time(value) else None
 
 
-def _is_time(value: object) -> bool:
+def is_time(value: object) -> bool:
     """Return whether it is one of numpy's spans of time, integers by their type, NaT among them."""
     return getattr(getattr(value, "dtype", None), "kind", "") == "m"
 

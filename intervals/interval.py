@@ -514,6 +514,11 @@ class Interval(Relations[bool], Elementary):
     def __bool__(self) -> bool:
         raise TypeError("the truth of an interval is not defined: compare it with something")
 
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        from intervals.numpy_protocol import object_ufunc
+
+        return object_ufunc(Interval, ufunc, method, inputs, options)
+
     # -- text ----------------------------------------------------------------------------------
 
     def __repr__(self) -> str:

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from intervals.exact import whole
+from intervals.exact import is_time, whole
 from intervals.rows import integer_rows
 
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
@@ -87,6 +87,17 @@ def jet_ufunc(jet: Any, ufunc: Any, method: str, inputs: tuple[Any, ...], option
     if ufunc in _ARITHMETIC:
         return _ARITHMETIC[ufunc](first, *others)
     return getattr(first, _METHODS[ufunc])(*others)
+
+
+def object_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any) -> Any:
+    """Do what numpy does with objects of a kind; spans of time, ints to it, raise TypeError."""
+    if any(map(is_time, inputs)):
+        raise TypeError("spans of time are no numbers")
+    known = kind, np.ndarray, np.generic
+    if any(hasattr(x, "__array_ufunc__") and not isinstance(x, known) for x in inputs):
+        return NotImplemented  # an IntervalArray or a jet, which is asked next
+    objects = (np.array(x, dtype=object) if isinstance(x, kind) else x for x in inputs)
+    return getattr(ufunc, method)(*objects, **options)
 
 
 def _exact(kind: Kind, x: Any) -> Any:

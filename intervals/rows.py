@@ -17,9 +17,19 @@ from numpy.typing import NDArray
 
 from intervals.errors import DomainError
 from intervals.exact import fraction, whole
-from intervals.rounding import Rows, float_down, float_up, outward, outward_sum
+from intervals.rounding import (
+    Rows,
+    all_of,
+    constant,
+    float_down,
+    float_up,
+    joined,
+    outward,
+    outward_sum,
+)
 
 _BLOCK = 16384  # elements at a time
+_ZERO = constant(0.0)
 
 
 def aligned(a: Rows, b: Rows) -> tuple[Rows, Rows]:
@@ -37,7 +47,7 @@ def is_thin(rows: Rows) -> bool:
     """Return whether every interval is a point; most arrays of others show it at once."""
     if rows.size and -rows.item(0) != rows.item(rows.size // 2):
         return False
-    return bool((-rows[0] == rows[1]).all())
+    return all_of(-rows[0] == rows[1])
 
 
 def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
@@ -45,6 +55,8 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
 
     The temporaries of a block stay in the cache, and small beside a large result.
     """
+    if prod([x.size for x in operands]) <= 2 * _BLOCK:
+        return operation(*operands)
     shape = np.broadcast(*operands).shape
     size = prod(shape)
     if size <= 2 * _BLOCK:
@@ -73,10 +85,10 @@ def product(a: Rows, b: Rows) -> Rows:
     if is_thin(a):
         a, b = b, a
     if not is_thin(b):
-        return outward(_hull_of_four(a * b, a * b[::-1]))
+        return outward(_hull_of_four(a[0] * b[0], a[1] * b[1], a[0] * b[1], a[1] * b[0]))
     if is_thin(a):
         point = a[1] * b[1]
-        return outward(np.stack((-point, point)))
+        return outward(joined(-point, point))
     scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
     return outward(np.maximum(scaled, -scaled[::-1]))
 
@@ -87,27 +99,27 @@ def quotient(a: Rows, b: Rows) -> Rows:
     Monotone in x and in y, x / y lies between the least and the largest of the four quotients
     of endpoints; the signs are those of the products.
     """
-    if not ((b[0] < 0.0) | (b[1] < 0.0)).all():
+    if not all_of(np.minimum(b[0], b[1]) < _ZERO):
         raise DomainError("division by an interval that contains 0")
     a, b = aligned(a, b)
-    return outward(_hull_of_four(a / b, a / b[::-1]))
+    return outward(_hull_of_four(a[0] / b[0], a[1] / b[1], a[0] / b[1], a[1] / b[0]))
 
 
-def _hull_of_four(same: Rows, cross: Rows) -> Rows:
-    """Return (-least, largest) of same[0], same[1], -cross[0], -cross[1]; `same` is used up."""
-    rows = np.empty_like(same)
-    np.maximum(cross[0], cross[1], out=rows[0, ...])
-    np.maximum(same[0], same[1], out=rows[1, ...])
-    np.minimum(same[0], same[1], out=same[0, ...])
-    np.minimum(cross[0], cross[1], out=same[1, ...])
-    np.negative(same, out=same)
-    return np.maximum(rows, same, out=rows)
+def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
+    """Return (-least, largest) of p, q, -r, -s."""
+    rows, others = np.empty((2, *p.shape)), np.empty((2, *p.shape))
+    np.minimum(p, q, out=rows[0, ...])
+    np.minimum(r, s, out=rows[1, ...])
+    np.negative(rows, out=rows)
+    np.maximum(r, s, out=others[0, ...])
+    np.maximum(p, q, out=others[1, ...])
+    return np.maximum(rows, others, out=rows)
 
 
 def magnitude(rows: Rows) -> Rows:
     """Return the rows of |X|: (-mig, mag), mag = max(-l, u), mig = max(0, l, -u)."""
     low, high = rows
-    return np.stack((np.minimum(0.0, np.minimum(low, high)), np.maximum(low, high)))
+    return joined(np.minimum(_ZERO, np.minimum(low, high)), np.maximum(low, high))
 
 
 def power(rows: Rows, n: int) -> Rows:
@@ -135,7 +147,7 @@ def square_root(rows: Rows) -> Rows:
 
 def nonnegative(rows: Rows) -> Rows:
     """Cut off what the outward step added below 0, in place: for values known to be >= 0."""
-    np.minimum(rows[0], 0.0, out=rows[0, ...])
+    np.minimum(rows[0], _ZERO, out=rows[0, ...])
     return rows
 
 
@@ -144,7 +156,7 @@ def nonnegative(rows: Rows) -> Rows:
 
 def _step(function: Callable[[NDArray[np.float64]], Any]) -> Callable[[Rows], Rows]:
     """Return the step function of rows, from that of numbers."""
-    return lambda rows: np.stack((-function(-rows[0]), function(rows[1])))
+    return lambda rows: joined(-function(-rows[0]), function(rows[1]))
 
 
 def _rounded(x: NDArray[np.float64], away: bool) -> NDArray[np.float64]:
@@ -286,7 +298,7 @@ def float_rows(lower: Any, upper: Any) -> Rows:
     low = high = _binary64(lower)
     if upper is not lower:
         low, high = np.broadcast_arrays(low, _binary64(upper))
-    rows = np.stack((-low, high))
+    rows = joined(-low, high)
     if not (np.isfinite(rows).all() and (low <= high).all()):
         raise ValueError("bounds must be finite, with lower <= upper")
     return rows

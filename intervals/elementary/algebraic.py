@@ -1,9 +1,11 @@
 """sqrt, cbrt, n-th roots and hypot of dyadic numbers, tightest: see `tightest`.
 
-They are algebraic, so that exact values occur; libmp's square root and floors tell them.
+They are algebraic, so that exact values occur; floors tell them.
 """
 
-from mpmath.libmp import from_man_exp, mpf_add, mpf_mul, mpf_neg, mpf_pos, mpf_sqrt
+from math import isqrt
+
+from mpmath.libmp import from_man_exp, mpf_add, mpf_mul, mpf_neg, mpf_pos
 
 from intervals.elementary.ziv import (
     DOWN,
@@ -14,12 +16,13 @@ from intervals.elementary.ziv import (
     magnitude,
     negated,
     spacing,
+    tighten,
 )
 
 
 def sqrt(x: Raw, precision: int) -> Bounds:
     """Return the bounds of sqrt x, for x >= 0."""
-    return mpf_sqrt(x, precision, DOWN), mpf_sqrt(x, precision, UP)
+    return root(x, 2, precision)
 
 
 def cbrt(x: Raw, precision: int) -> Bounds:
@@ -30,10 +33,9 @@ def cbrt(x: Raw, precision: int) -> Bounds:
 def root(x: Raw, n: int, precision: int) -> Bounds:
     """Return the bounds of the n-th root, n >= 1, of x >= 0, and of x < 0 for odd n.
 
-    For x > 0, x = (N + f) 2^(n e) with an integer N of more than n * precision bits, 0 <= f < 1.
-    The root lies in [r, r + 1) 2^e for r = floor(N^(1/n)), and is r 2^e if and only if f = 0 and
-    r^n = N. r has more than `precision` bits, so r and r + 1 are rounded as the numbers between
-    them are, or are such numbers: x^(1/n) / 2^e is rounded as 2 r or 2 r + 1, half as large.
+    For x > 0, x = N 2^(n e) with an integer N of more than n * precision bits. The root lies in
+    [r, r + 1) 2^e for r = floor(N^(1/n)), and is r 2^e if and only if r^n = N. Else nothing of
+    `precision` bits is between r and r + 1, since r has more, and `settled` answers at once.
     """
     if not x[1]:
         return x, x
@@ -42,9 +44,11 @@ def root(x: Raw, n: int, precision: int) -> Bounds:
     shift = max(0, n * (precision + 1) - x[3])
     shift += (x[2] - shift) % n
     man = x[1] << shift
-    r = integer_root(man, n)
-    twice = from_man_exp(2 * r + (r**n != man), (x[2] - shift) // n - 1)
-    return mpf_pos(twice, precision, DOWN), mpf_pos(twice, precision, UP)
+    r, exp = integer_root(man, n), (x[2] - shift) // n
+    if r**n == man:
+        exact = from_man_exp(r, exp)
+        return mpf_pos(exact, precision, DOWN), mpf_pos(exact, precision, UP)
+    return tighten(lambda _: (r, r + 1, -exp), precision)
 
 
 def integer_root(m: int, n: int) -> int:
@@ -54,6 +58,8 @@ def integer_root(m: int, n: int) -> int:
     the floor (its value is at least the mean of r, ..., r, m / r^(n-1)). It is started from the
     root of the leading half of m, one more and as many places; m < 2^(2 n) from 4.
     """
+    if n == 2:
+        return isqrt(m)
     places = m.bit_length() // (2 * n)
     r = (integer_root(m >> n * places, n) + 1) << places if places else 4
     while True:

@@ -74,28 +74,26 @@ def exp_series(r: int, bits: int) -> tuple[int, int]:
     return s + (r * t >> bits), 2 * k
 
 
-def sincos_series(r: int, bits: int) -> tuple[int, int, int]:
-    """Return (S, U, E): sin and 1 - cos of r / 2^bits, both within E units.
+def versine_series(r: int, bits: int) -> tuple[int, int]:
+    """Return (U, E): |(1 - cos(r / 2^bits)) 2^bits - U| <= E.
 
-    S = r - r t, with r^2 = q: t = q/3! - q^2/5! + ..., U = q/2! - q^2/4! + ... The errors are those
-    of `exp_series`: below 2 units a term, (k - 2) / 2 terms in each sum, one unit for the product
-    with r and less than one for the tails: below k + 2 in all.
+    With r^2 = q the terms are q^j / (2 j)!: U = a - q b, a the sum of those of odd j, q b of those
+    of even j. q and q^2 err by less than 1.1 units, the first term by 1.5. From a term with an
+    error of e units division by 12 or more, and the product with q^2 < 2^-28, make ones of at most
+    e / 12 + 1.1 < 1.5. So n terms of a, and of b, err by at most 1.5 n; q b by 1.1 + n / 2^13; the
+    tails, behind a term that vanishes, by 1.6 each: below 2 n + 5, and k = 4 n + 3.
     """
     square = r * r >> bits
-    t, u, term, k = 0, 0, square, 2
+    fourth = square * square >> bits
+    a = b = 0
+    term, k = square >> 1, 3
     while term:
-        term //= k
-        u += term
-        term //= k + 1
-        t += term
-        term = term * square >> bits
-        term //= k + 2
-        u -= term
-        term //= k + 3
-        t -= term
-        term = term * square >> bits
+        a += term
+        term //= k * (k + 1)
+        b += term
+        term = (term * fourth >> bits) // ((k + 2) * (k + 3))
         k += 4
-    return r - (r * t >> bits), u, k + 2
+    return a - (square * b >> bits), k + 4
 
 
 @lru_cache(maxsize=4096)

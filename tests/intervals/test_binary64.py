@@ -24,18 +24,19 @@ NEAREST = float.fromhex("0x1.6c6cbc45dc8dep+5")  # next to 29 pi/2
 
 
 def test_parts_of_half_pi():
-    p1, p2, p3 = map(Fraction, (trigonometric._P1, trigonometric._P2, trigonometric._P3))
+    parts = (trigonometric._P1, trigonometric._P2, trigonometric._P3)
+    p1, p2, p3 = (Fraction(part.item()) for part in parts)
     assert (p1 * 2**42).denominator == (p2 * 2**84).denominator == 1
     assert abs(p2) < Fraction(1, 2**43)
     assert abs(p3) < Fraction(1, 2**85)
     assert abs(HALF_PI - p1 - p2 - p3) < Fraction(1, 2**141)
-    assert abs(Fraction(trigonometric._TWO_OVER_PI) * HALF_PI - 1) < U
+    assert abs(Fraction(trigonometric._TWO_OVER_PI.item()) * HALF_PI - 1) < U
     assert np.array([polynomial.SHIFT]).view(np.int64)[0] == polynomial.SHIFT_BITS
 
 
 def test_coefficients_are_taylors_correctly_rounded():
     for table, last in ((trigonometric._SIN, 3), (trigonometric._COS, 4)):
-        for k, coefficient in zip(range(last, 18, 2), reversed(table), strict=False):
+        for k, coefficient in zip(range(last, 18, 2), map(float, reversed(table)), strict=False):
             exact = Fraction((-1) ** (k // 2), factorial(k))
             assert abs(Fraction(coefficient) - exact) <= Fraction(math.ulp(coefficient)) / 2
     assert (len(trigonometric._SIN), len(trigonometric._COS)) == (8, 7)
@@ -70,7 +71,7 @@ def test_error_budget():
     def polynomial(table):
         """The error of Horner's form, from the coefficients, the products and the sums."""
         error, size = Fraction(0), Fraction(0)
-        for index, coefficient in enumerate(table):
+        for index, coefficient in enumerate(map(float, table)):
             product = z * size
             error = z * error + (half_spacing(product) if index else 0) + half_spacing(coefficient)
             size = product + abs(Fraction(coefficient))

@@ -205,10 +205,10 @@ TIMES = [np.timedelta64(3, "ns"), np.timedelta64("NaT", "ns"), np.timedelta64(2,
 
 @pytest.mark.parametrize("time", [*TIMES, *(np.array([t, t, t]) for t in TIMES)])
 def test_spans_of_time_are_no_integers_though_numpy_counts_them_so(time):
-    jet = Jet(X, X * 0 + 1)
+    kinds = X, Jet(X, X * 0 + 1), Interval(1, 2)
     operations = [
-        *(lambda op=op, y=y: op(y, time) for op in OPERATORS for y in (X, jet)),
-        *(lambda op=op, y=y: op(time, y) for op in OPERATORS for y in (X, jet)),
+        *(lambda op=op, y=y: op(y, time) for op in OPERATORS for y in kinds),
+        *(lambda op=op, y=y: op(time, y) for op in OPERATORS for y in kinds),
         *(lambda: X.contains(time), lambda: X.certainly_less(time), lambda: X.maximum(time)),
         *(lambda: np.where(True, X, time), lambda: IntervalArray(time), lambda: X.atan2(time)),
         *(lambda: np.maximum(X, time), lambda: np.concatenate([X[0], time])),
@@ -218,6 +218,14 @@ def test_spans_of_time_are_no_integers_though_numpy_counts_them_so(time):
     for operation in operations:
         with pytest.raises((TypeError, ValueError)):
             operation()
+
+
+def test_an_interval_is_an_object_to_numpy():
+    two = Interval(2, 3)
+    assert (two * np.int8(3)).equal(two * 3) and (np.int8(3) - two).equal(3 - two)
+    assert all(x.equal(y) for x, y in zip(np.array([1, 2]) * two, (two, 2 * two), strict=True))
+    assert np.sqrt(two).equal(two.sqrt()) and same(np.add(two, X), X + two)
+    assert [x.equal(4 * two) for x in np.multiply([4], two)] == [True]
 
 
 OPERATORS = (operator.add, operator.sub, operator.mul, operator.truediv, operator.pow)

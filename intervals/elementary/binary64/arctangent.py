@@ -25,7 +25,7 @@ from fractions import Fraction
 import numpy as np
 
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, split, two_product, two_sum
-from intervals.elementary.binary64.polynomial import horner
+from intervals.elementary.binary64.polynomial import horner, polynomial
 from intervals.rounding import Rows
 
 _ARCTANGENTS = (  # of j/16 in two parts, j = 2, ..., 16
@@ -45,7 +45,7 @@ _ARCTANGENTS = (  # of j/16 in two parts, j = 2, ..., 16
     ("0x1.819d0b7158a4dp-1", "-0x1.bf76229d3b917p-56"),
     ("0x1.921fb54442d18p-1", "0x1.1a62633145c07p-55"),
 )
-_SERIES = tuple((-1) ** (k // 2 + 1) / k for k in range(15, 2, -2))
+_SERIES = polynomial((-1) ** (k // 2 + 1) / k for k in range(15, 2, -2))
 
 
 def _bases() -> tuple[Rows, Rows]:

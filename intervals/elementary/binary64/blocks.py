@@ -6,12 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.elementary.binary64.fallback import Ends
-from intervals.rounding import Rows, bounded, require_nearest
+from intervals.rounding import Rows, all_of, bounded, constant, require_nearest
 
 CHUNK = 16384  # elements at a time: the temporaries stay in the cache
-SMALL, LARGE = 2.0**-400, 2.0**400
-
-LOWER_UPPER = np.array([[-1.0], [1.0]])  # times rows: the lower and the upper ends, and back
+SMALL, LARGE = constant(2.0**-400), constant(2.0**400)
 
 Mask = NDArray[np.bool_]
 
@@ -21,28 +19,51 @@ def in_blocks(
 ) -> Rows:
     """Return the rows of a function of the intervals in `operands`, which broadcast.
 
-    kernel: rows to the rows of the result and a mask that says where these are proved.
+    kernel: rows to the rows of the result, and a mask, or one for each end, of what is proved.
     exactly: the ends (lower, upper) of each operand to those of the result, for the others.
     A bound that is not finite is not proved. OverflowError if a bound is beyond binary64.
     """
     require_nearest()
-    aligned = np.broadcast_arrays(*operands)
+    aligned = operands if len(operands) == 1 else np.broadcast_arrays(*operands)
     flat = [rows.reshape(2, -1) for rows in aligned]
-    result = np.empty_like(flat[0])
-    with np.errstate(all="ignore"):
-        for start in range(0, result.shape[1], CHUNK):
-            block = [rows[:, start : start + CHUNK] for rows in flat]
-            bounds, proved = kernel(*block)
-            proved &= np.isfinite(bounds).all(axis=0)
-            for index in np.flatnonzero(~proved):
-                ends = [(-float(rows[0, index]), float(rows[1, index])) for rows in block]
+
+    def block(*parts: Rows) -> Rows:
+        bounds, proved = kernel(*parts)
+        finite = np.isfinite(bounds)
+        if not (all_of(proved) and all_of(finite)):
+            for index in np.flatnonzero(~(proved & finite).all(axis=0)):
+                ends = [(-float(rows[0, index]), float(rows[1, index])) for rows in parts]
                 lower, upper = exactly(*ends)
                 bounds[:, index] = -lower, upper
-            result[:, start : start + CHUNK] = bounds
+        return bounds
+
+    with np.errstate(all="ignore"):
+        result = in_chunks(block, *flat)
     return bounded(result).reshape(aligned[0].shape)
 
 
-def moderate(x: Rows, small: float = SMALL, large: float = LARGE) -> Mask:
+def in_chunks(function: Callable[..., Rows], *operands: Rows) -> Rows:
+    """Return the function of arrays (..., n), done in chunks along their last axis."""
+    count = operands[0].shape[-1]
+    if count <= CHUNK:
+        return function(*operands)
+    starts = range(0, count, CHUNK)
+    parts = [function(*(x[..., i : i + CHUNK] for x in operands)) for i in starts]
+    return np.concatenate(parts, axis=-1)
+
+
+def moderate(x: Rows, small: Rows = SMALL, large: Rows = LARGE) -> Mask:
     """Return where x = 0 or small <= |x| <= large."""
     size = np.abs(x)
-    return np.asarray(((size >= small) | (size == 0.0)) & (size <= large))
+    within: Mask = size >= small
+    if not all_of(within):
+        within |= size == 0.0
+    within &= size <= large
+    return within
+
+
+def lower_upper(rows: Rows) -> Rows:
+    """Return the lower and the upper ends, from rows, or rows from these."""
+    ends = rows.copy()
+    np.negative(ends[0], out=ends[0])
+    return ends

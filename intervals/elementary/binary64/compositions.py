@@ -14,10 +14,10 @@ from intervals.elementary.binary64.arctangent import angle
 from intervals.elementary.binary64.exponential import exp, expm1
 from intervals.elementary.binary64.logarithm import log1p
 from intervals.elementary.binary64.pair import Pair, two_product, two_sum
-from intervals.rounding import Rows
+from intervals.rounding import Rows, constant
 
-ONE = Pair(np.float64(1.0))
-_TWO = Pair(np.float64(2.0))
+ONE = Pair(constant(1.0))
+_TWO = Pair(constant(2.0))
 _SATURATED = 300.0  # tanh 300 > 1 - 2^-800
 
 

@@ -30,23 +30,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, two_sum
-from intervals.elementary.binary64.polynomial import horner, nearest_integers
-from intervals.rounding import Rows
+from intervals.elementary.binary64.polynomial import horner, nearest_integers, polynomial
+from intervals.rounding import Rows, constant
 
-_LOG2_E = float.fromhex("0x1.71547652b82fep+0")
-_LOG2_10 = float.fromhex("0x1.a934f0979a371p+1")
-LOG_2 = float.fromhex("0x1.62e42fefa3800p-1"), float.fromhex("0x1.ef35793c76730p-45")
-LOG10_2 = float.fromhex("0x1.34413509f7800p-2"), float.fromhex("0x1.fef311f12b358p-46")
-LN_2 = Pair(
-    np.float64(float.fromhex("0x1.62e42fefa39efp-1")), float.fromhex("0x1.abc9e3b39803fp-56")
-)
-LN_10 = Pair(
-    np.float64(float.fromhex("0x1.26bb1bbb55516p+1")), float.fromhex("-0x1.f48ad494ea3e9p-53")
-)
+
+def _number(text: str) -> Rows:
+    return constant(float.fromhex(text))
+
+
+_LOG2_E, _LOG2_10 = _number("0x1.71547652b82fep+0"), _number("0x1.a934f0979a371p+1")
+LOG_2 = _number("0x1.62e42fefa3800p-1"), _number("0x1.ef35793c76730p-45")
+LOG10_2 = _number("0x1.34413509f7800p-2"), _number("0x1.fef311f12b358p-46")
+LN_2 = Pair(_number("0x1.62e42fefa39efp-1"), _number("0x1.abc9e3b39803fp-56"))
+LN_10 = Pair(_number("0x1.26bb1bbb55516p+1"), _number("-0x1.f48ad494ea3e9p-53"))
+_ZERO, _HALF, _ONE = map(constant, (0.0, 0.5, 1.0))
+_BIAS, _TO_EXPONENT = np.array(1023), np.array(52)
 
 Integers = NDArray[np.int64]
 
-_TAYLOR = tuple(1.0 / factorial(k) for k in range(13, 2, -1))
+_TAYLOR = polynomial(1.0 / factorial(k) for k in range(13, 2, -1))
 
 
 def exp(x: Pair) -> Pair:
@@ -69,7 +71,7 @@ def exp2(x: Pair) -> Pair:
 
 def exp10(x: Pair) -> Pair:
     """Return 10^x for -285 <= x <= 308 and x.lo = 0: as exp."""
-    high, low, n = _halves(x.hi, 0.0, _LOG2_10, LOG10_2)
+    high, low, n = _halves(x.hi, _ZERO, _LOG2_10, LOG10_2)
     r = Pair(high, low) * LN_10
     return _exponential(r.hi, r.lo, n)
 
@@ -85,28 +87,28 @@ def expm1(x: Pair) -> Pair:
     2 < n <= 53 at most 0.32 / (0.707 - 1/8), n < 0 at most 0.2 / 0.29. Beyond |n| = 53 rounding
     2^n - 1 adds at most 0.5: with the others 0.75 beside 0.707, or 0.82 beside 1.
     """
-    s, t, n = _halves(x.hi, 0.0, _LOG2_E, LOG_2)
+    s, t, n = _halves(x.hi, _ZERO, _LOG2_E, LOG_2)
     power = power_of_two(n)
-    high, low = two_sum(power - 1.0, power * s)
+    high, low = two_sum(power - _ONE, power * s)
     high, low = fast_two_sum(high, low + power * _core(s, t))
     return Pair(high, low, 1.2)
 
 
 def _exponential(s: Rows, t: Rows, n: Integers) -> Pair:
     """Return 2^n exp(s + t)."""
-    high, low = fast_two_sum(1.0, s)
+    high, low = fast_two_sum(_ONE, s)
     low += _core(s, t)
     return Pair(*fast_two_sum(high, low), 0.36).scaled(power_of_two(n))
 
 
 def _halves(
-    x: Rows, low: Rows | float, inverse: float, parts: tuple[float, float]
+    x: Rows, low: Rows, inverse: Rows, parts: tuple[Rows, Rows]
 ) -> tuple[Rows, Rows, Integers]:
     """Return s, t, n with x + low = n c + s + t, c the sum of `parts`, 1 / c about `inverse`."""
     n, integers = nearest_integers(x * inverse)
     a = x - n * parts[0]
-    n *= -parts[1]
-    n += low
+    n *= parts[1]
+    n = low - n
     return *fast_two_sum(a, n), integers
 
 
@@ -115,12 +117,13 @@ def _core(s: Rows, t: Rows) -> Rows:
     z = s * s
     w = horner(s, _TAYLOR)
     w *= z * s
-    w += t * (1.0 + s)
-    z *= 0.5
+    w += t * (_ONE + s)
+    z *= _HALF
     w += z
     return w
 
 
 def power_of_two(n: Integers) -> Rows:
     """Return 2^n for -1022 <= n <= 1023, from its bits."""
-    return ((n + 1023) << 52).view(np.float64)
+    bits: Integers = (n + _BIAS) << _TO_EXPONENT
+    return bits.view(np.float64)

@@ -26,13 +26,14 @@ import numpy as np
 
 from intervals.elementary.binary64.exponential import LN_2, LN_10, LOG10_2, LOG_2, Integers
 from intervals.elementary.binary64.pair import EPSILON, Pair, fast_two_sum, two_sum
-from intervals.elementary.binary64.polynomial import horner
-from intervals.rounding import Rows
+from intervals.elementary.binary64.polynomial import horner, polynomial
+from intervals.rounding import Rows, constant
 
-_LEAST_MANTISSA = 0x3FE6A09E667F3BCD  # the bits of sqrt(1/2), rounded up
-_SERIES = tuple(2.0 / (2 * j + 1) for j in range(10, 0, -1))
-_ONE = Pair(np.float64(1.0))
-_PER_LN_2, _PER_LN_10 = _ONE / LN_2, _ONE / LN_10
+_LEAST_MANTISSA = np.array(0x3FE6A09E667F3BCD)  # the bits of sqrt(1/2), rounded up
+_SERIES = polynomial(2.0 / (2 * j + 1) for j in range(10, 0, -1))
+_HALF, _ONE, _TWO = map(constant, (0.5, 1.0, 2.0))
+_TO_EXPONENT = np.array(52)
+_PER_LN_2, _PER_LN_10 = Pair(_ONE) / LN_2, Pair(_ONE) / LN_10
 
 
 def log(x: Pair) -> Pair:
@@ -44,7 +45,7 @@ def log(x: Pair) -> Pair:
 def log2(x: Pair) -> Pair:
     """Return log2 x for normal x > 0, x.lo = 0: k + log(m) / log 2."""
     k, m = mantissa(x.hi)
-    return _with_exponent(k, _log_of_mantissa(m) * _PER_LN_2, (1.0, 0.0))
+    return _with_exponent(k, _log_of_mantissa(m) * _PER_LN_2, (_ONE, constant(0.0)))
 
 
 def log10(x: Pair) -> Pair:
@@ -62,10 +63,10 @@ def log1p(x: Pair) -> Pair:
     of 0.068 u where |log m| >= 0.3465, less nearer to 0: 0.31 / 0.3465 < 0.95 in all. The relative
     error of x > 0 enters unenlarged, since x / (1 + x) <= log(1 + x).
     """
-    v, e = two_sum(1.0, x.hi)
+    v, e = two_sum(_ONE, x.hi)
     k, m = mantissa(v)
     near = k == 0
-    f = np.where(near, x.hi, m - 1.0)
+    f = np.where(near, x.hi, m - _ONE)
     w = _series(f) - np.where(near, x.lo, e + x.lo) / v
     return _with_exponent(k, Pair(*fast_two_sum(f, -w), 0.95 + x.k), LOG_2)
 
@@ -73,30 +74,30 @@ def log1p(x: Pair) -> Pair:
 def mantissa(x: Rows) -> tuple[Integers, Rows]:
     """Return k and m with x = m 2^k exactly, sqrt(1/2) <= m < sqrt 2 up to an ulp, x normal."""
     bits = x.view(np.int64)
-    k = (bits - _LEAST_MANTISSA) >> 52
-    return k, (bits - (k << 52)).view(np.float64)
+    k = (bits - _LEAST_MANTISSA) >> _TO_EXPONENT
+    return k, (bits - (k << _TO_EXPONENT)).view(np.float64)
 
 
 def _log_of_mantissa(m: Rows) -> Pair:
-    f = m - 1.0
+    f = m - _ONE
     return Pair(*fast_two_sum(f, -_series(f)), 0.7)
 
 
 def _series(f: Rows) -> Rows:
     """Return f - log(1 + f), see the theorem."""
-    s = f / (2.0 + f)
+    s = f / (_TWO + f)
     z = s * s
     rest = horner(z, _SERIES)
     rest *= z
     half = f * f
-    half *= 0.5
+    half *= _HALF
     rest += half
     rest *= s
     half -= rest
     return half
 
 
-def _with_exponent(k: Integers, log: Pair, parts: tuple[float, float]) -> Pair:
+def _with_exponent(k: Integers, log: Pair, parts: tuple[Rows, Rows]) -> Pair:
     """Return log + k c, where c is the sum of `parts`, see the theorem."""
     exponent = k.astype(np.float64)
     high, low = fast_two_sum(exponent * parts[0], log.hi)

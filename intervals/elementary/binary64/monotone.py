@@ -2,23 +2,24 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from intervals.elementary.binary64 import compositions, exponential, fallback, logarithm
 from intervals.elementary.binary64.blocks import (
-    LARGE,
-    LOWER_UPPER,
-    SMALL,
     Mask,
     in_blocks,
+    lower_upper,
     moderate,
 )
 from intervals.elementary.binary64.fallback import Ends
 from intervals.elementary.binary64.pair import Pair
-from intervals.rounding import MAX, Rows
+from intervals.rounding import MAX, Rows, constant
 from intervals.rows import is_thin
 
+_LARGE = 2.0**400
+_ZERO = constant(0.0)
 _HALF_PI, _PI = 1.5707963267948968, 3.1415926535897936  # the next numbers above
 
 
@@ -36,32 +37,40 @@ class Monotone:
     high: float
     least: float = -MAX
     greatest: float = MAX
-    small: float = SMALL
+    small: float = 2.0**-400
     decreasing: bool = False
 
     def enclose(self, rows: Rows) -> tuple[Rows, Mask]:
         """Return rows of f(X), and where they are proved."""
         if is_thin(rows):
             x = rows[1]
-            proved, values = self._proved(x), self.point(x)
-            bounds = values.rows()
+            bounds = self.point(x).rows()
         else:
-            x = rows * LOWER_UPPER
-            proved, values = np.all(self._proved(x), axis=0), self.point(x)
-            if self.decreasing:
-                values = Pair(values.hi[::-1], values.lo[::-1], values.k)
-            bounds = values.scaled(LOWER_UPPER).upper()
-        np.minimum(bounds[0], -self.least, out=bounds[0])
-        np.minimum(bounds[1], self.greatest, out=bounds[1])
-        return bounds, proved
+            x = lower_upper(rows)
+            bounds = self.point(x).rows(*(1, 0) if self.decreasing else (0, 1))
+        for row, most in self._cuts:
+            np.minimum(bounds[row], most, out=bounds[row])
+        return bounds, self._proved(x)
+
+    @cached_property
+    def _cuts(self) -> list[tuple[int, Rows]]:
+        """The rows that have a bound of their own, and this."""
+        bounds = enumerate((-self.least, self.greatest))
+        return [(row, constant(most)) for row, most in bounds if most < MAX]
+
+    @cached_property
+    def _proved_from(self) -> tuple[Rows, ...]:
+        return tuple(map(constant, (self.low, self.high, self.small, MAX)))
 
     def _proved(self, x: Rows) -> Mask:
-        within = np.asarray((x >= self.low) & (x <= self.high))
-        return within & moderate(x, self.small, MAX) if self.small else within
+        low, high, small, large = self._proved_from
+        within: Mask = x >= low
+        within &= x <= high
+        return within & moderate(x, small, large) if self.small else within
 
 
 def _of_pair(function: Callable[[Pair], Pair]) -> Callable[[Rows], Pair]:
-    return lambda x: function(Pair(x))
+    return lambda x: function(Pair(x, _ZERO))
 
 
 FUNCTIONS = {
@@ -72,16 +81,16 @@ FUNCTIONS = {
     "log": Monotone(_of_pair(logarithm.log), 0.71, 2.0**-1022, MAX),
     "log2": Monotone(_of_pair(logarithm.log2), 0.71, 2.0**-1022, MAX),
     "log10": Monotone(_of_pair(logarithm.log10), 0.71, 2.0**-1022, MAX),
-    "log1p": Monotone(_of_pair(logarithm.log1p), 0.96, -1.0, LARGE),
-    "cbrt": Monotone(compositions.cbrt, 0.01, -LARGE, LARGE),
+    "log1p": Monotone(_of_pair(logarithm.log1p), 0.96, -1.0, _LARGE),
+    "cbrt": Monotone(compositions.cbrt, 0.01, -_LARGE, _LARGE),
     "asin": Monotone(compositions.asin, 0.07, -1.0, 1.0, -_HALF_PI, _HALF_PI),
     "acos": Monotone(compositions.acos, 0.07, -1.0, 1.0, 0.0, _PI, decreasing=True),
-    "atan": Monotone(compositions.atan, 0.07, -LARGE, LARGE, -_HALF_PI, _HALF_PI),
+    "atan": Monotone(compositions.atan, 0.07, -_LARGE, _LARGE, -_HALF_PI, _HALF_PI),
     "sinh": Monotone(compositions.sinh, 2.41, -700.0, 700.0),
     "cosh": Monotone(compositions.cosh, 0.37, 0.0, 600.0, least=1.0, small=0.0),
     "tanh": Monotone(compositions.tanh, 2.41, -MAX, MAX, -1.0, 1.0),
-    "asinh": Monotone(compositions.asinh, 0.96, -LARGE, LARGE),
-    "acosh": Monotone(compositions.acosh, 0.96, 1.0, LARGE, least=0.0),
+    "asinh": Monotone(compositions.asinh, 0.96, -_LARGE, _LARGE),
+    "acosh": Monotone(compositions.acosh, 0.96, 1.0, _LARGE, least=0.0),
     "atanh": Monotone(compositions.atanh, 0.96, -1.0, 1.0),
 }
 

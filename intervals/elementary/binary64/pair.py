@@ -23,11 +23,11 @@ from typing import Any
 
 import numpy as np
 
-from intervals.rounding import Rows
+from intervals.rounding import Rows, constant, joined
 
 EPSILON = 2.0**-20
-_TINY = 2.0**-1000
-_HEAD = -(1 << 27)  # clears the last 27 bits of the mantissa
+_TINY = constant(2.0**-1000)
+_HEAD = np.array(-(1 << 27))  # clears the last 27 bits of the mantissa
 
 Parts = tuple[Any, Any]
 
@@ -68,7 +68,7 @@ def _product(a: Any, parts_of_a: Parts, b: Any, parts_of_b: Parts) -> Parts:
     return p, ((ah * bh - p) + (ah * bl + al * bh)) + al * bl
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Pair:
     """Reals Y with |hi + lo - Y| <= k u |Y|; lo may be the number 0 where hi alone is meant."""
 
@@ -135,10 +135,11 @@ class Pair:
         """Return numbers >= 0 with the signs of x."""
         return Pair(np.copysign(self.hi, x), np.where(x < 0.0, -self.lo, self.lo), self.k)
 
-    def rows(self) -> Rows:
-        """Return rows (-lower, upper) of points."""
+    def rows(self, lower: Any = ..., upper: Any = ...) -> Rows:
+        """Return rows (-lower, upper) of the numbers, or from one index to another."""
         step = self._step()
-        return np.stack(((step - self.lo) - self.hi, (self.lo + step) + self.hi))
+        below, above = (step - self.lo) - self.hi, (self.lo + step) + self.hi
+        return joined(below[lower], above[upper])
 
     def upper(self) -> Rows:
         """Return upper bounds."""

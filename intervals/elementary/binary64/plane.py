@@ -4,7 +4,7 @@ import numpy as np
 
 from intervals.elementary.binary64 import fallback
 from intervals.elementary.binary64.arctangent import angle
-from intervals.elementary.binary64.blocks import LOWER_UPPER, Mask, in_blocks, moderate
+from intervals.elementary.binary64.blocks import Mask, in_blocks, moderate
 from intervals.elementary.binary64.fallback import Ends
 from intervals.elementary.binary64.pair import Pair
 from intervals.errors import DomainError
@@ -24,11 +24,11 @@ def hypot(x: Rows, y: Rows) -> Rows:
 
 
 def _hypot(x: Rows, y: Rows) -> tuple[Rows, Mask]:
-    proved = np.all(moderate(x) & moderate(y), axis=0)
+    proved = moderate(x) & moderate(y)
     thin = is_thin(x) and is_thin(y)
     a, b = (Pair(x[1]), Pair(y[1])) if thin else (Pair(x), Pair(y))
     root = (a * a + b * b).sqrt()
-    rows = root.rows() if thin else root.scaled(LOWER_UPPER).upper()
+    rows = root.rows() if thin else root.rows(0, 1)
     np.minimum(rows[0], 0.0, out=rows[0])
     return rows, proved
 
@@ -72,4 +72,4 @@ def _atan2(y: Rows, x: Rows) -> tuple[Rows, Mask]:
     rows = np.minimum(theta.rows() if thin else theta.upper(), PI_UP)
     rows[:, crosses] = PI_UP
     proved = moderate(xs) & moderate(ys)
-    return rows, np.asarray(crosses | (proved if thin else np.all(proved, axis=0)))
+    return rows, crosses | proved

@@ -1,15 +1,22 @@
 """Horner's rule, and rounding to integers, on arrays."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals.rounding import Rows
+from intervals.rounding import Rows, constant
 
-SHIFT = 1.5 * 2.0**52
-SHIFT_BITS = 0x4338000000000000  # the bits of SHIFT
+SHIFT = constant(1.5 * 2.0**52)
+SHIFT_BITS = SHIFT.view(np.int64)
 
 
-def horner(z: Rows, coefficients: tuple[float, ...]) -> Rows:
+def polynomial(coefficients: Iterable[float]) -> tuple[Rows, ...]:
+    """Return the coefficients, highest first, as `horner` takes them."""
+    return tuple(map(constant, coefficients))
+
+
+def horner(z: Rows, coefficients: tuple[Rows, ...]) -> Rows:
     """Return the polynomial in z, highest coefficient first: a rounding for each * and +."""
     total = z * coefficients[0]
     for coefficient in coefficients[1:-1]:

@@ -19,18 +19,18 @@ from functools import lru_cache
 import numpy as np
 
 from intervals.elementary.binary64 import fallback
-from intervals.elementary.binary64.blocks import LOWER_UPPER, Mask, in_blocks, moderate
+from intervals.elementary.binary64.blocks import Mask, in_blocks, lower_upper, moderate
 from intervals.elementary.binary64.exponential import LOG_2, exp
 from intervals.elementary.binary64.fallback import Ends
 from intervals.elementary.binary64.logarithm import mantissa
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, split, two_product, two_sum
-from intervals.elementary.binary64.polynomial import horner
+from intervals.elementary.binary64.polynomial import horner, polynomial
 from intervals.rounding import Rows
 from intervals.rows import aligned, is_thin, nonnegative
 
 _LEAST_NORMAL = 2.0**-1022
 _FIRST, _LAST = 90, 182
-_SERIES = tuple((-1) ** (k + 1) / k for k in range(10, 2, -1))
+_SERIES = polynomial((-1) ** (k + 1) / k for k in range(10, 2, -1))
 
 
 def power(x: Rows, y: Rows) -> Rows:
@@ -59,7 +59,7 @@ def _power(x: Rows, y: Rows) -> tuple[Rows, Mask]:
 
 def _ends(rows: Rows) -> Rows:
     """Return the lower and upper ends, or the points once: shape (2 or 1, n)."""
-    return rows[1:] if is_thin(rows) else rows * LOWER_UPPER
+    return rows[1:] if is_thin(rows) else lower_upper(rows)
 
 
 def _log(x: Rows) -> Pair:

@@ -6,7 +6,9 @@ from intervals.elementary.binary64 import fallback
 from intervals.elementary.binary64.blocks import Mask, in_blocks, moderate
 from intervals.elementary.binary64.trigonometric import LIMIT, point_sincos, quarters
 from intervals.errors import DomainError
-from intervals.rounding import Rows
+from intervals.rounding import Rows, constant
+
+_NEAR = constant(LIMIT)
 
 
 def tan(rows: Rows) -> Rows:
@@ -19,7 +21,7 @@ def _tan(rows: Rows) -> tuple[Rows, Mask]:
 
     No binary64 number is a pole, and `quarters` says exactly between which multiples of pi/2 it is.
     """
-    proved = np.all(moderate(rows, large=LIMIT), axis=0)
+    proved = np.all(moderate(rows, large=_NEAR), axis=0)
     sin, cos, quadrant, rest = point_sincos(rows)
     first, last = quarters(quadrant, rest)
     if (proved & ((first + 1) >> 1 != (last + 1) >> 1)).any():  # j pi/2 is inside for an odd j

@@ -58,23 +58,35 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals.elementary.binary64.blocks import CHUNK
+from intervals.elementary.binary64.blocks import in_chunks
 from intervals.elementary.binary64.pair import Pair, fast_two_sum
-from intervals.elementary.binary64.polynomial import horner, nearest_integers
-from intervals.rounding import ETA, Rows, float_down, float_up, require_nearest
+from intervals.elementary.binary64.polynomial import horner, nearest_integers, polynomial
+from intervals.rounding import (
+    ETA,
+    Rows,
+    all_of,
+    constant,
+    float_down,
+    float_up,
+    require_nearest,
+)
 from intervals.rows import is_thin
 
 LIMIT = 1024.0
 
-_TWO_OVER_PI = float.fromhex("0x1.45f306dc9c883p-1")
-_P1 = float.fromhex("0x1.921fb54442c00p+0")
-_P2 = float.fromhex("0x1.18469898cc000p-44")
-_P3 = float.fromhex("0x1.45c06e0e68948p-86")
+_TWO_OVER_PI = constant(float.fromhex("0x1.45f306dc9c883p-1"))
+_P1 = constant(float.fromhex("0x1.921fb54442c00p+0"))
+_P2 = constant(float.fromhex("0x1.18469898cc000p-44"))
+_P3 = constant(float.fromhex("0x1.45c06e0e68948p-86"))
+_ZERO, _HALF, _ONE, _ETA, _NEAR = map(constant, (0.0, 0.5, 1.0, ETA, LIMIT))
+_PEAKS, _TWO = [np.array(n) for n in range(4)], np.array(2)
+_BIT_0, _BIT_1, _TO_SIGN = (np.array(n, np.uint64) for n in (1, 2, 62))
 
-_SIN = tuple((-1) ** (k // 2) / factorial(k) for k in range(17, 2, -2))
-_COS = tuple((-1) ** (k // 2) / factorial(k) for k in range(16, 3, -2))
+_SIN = polynomial((-1) ** (k // 2) / factorial(k) for k in range(17, 2, -2))
+_COS = polynomial((-1) ** (k // 2) / factorial(k) for k in range(16, 3, -2))
 
 _ERROR = 1.0  # in units of u: the theorem
+_STEP = constant((_ERROR + 1.0 + 2.0**-8) * 2.0**-53)
 
 Quadrants = NDArray[np.int64]
 
@@ -87,13 +99,15 @@ def sincos(rows: Rows) -> tuple[Rows, Rows]:
     """
     require_nearest()
     flat = rows.reshape(2, -1)
-    sin, cos = np.empty_like(flat), np.empty_like(flat)
-    far = ~(np.max(np.abs(flat), axis=0) <= LIMIT)
-    near = np.where(far, 0.0, flat) if far.any() else flat
-    for start in range(0, flat.shape[1], CHUNK):
-        part = slice(start, start + CHUNK)
-        sin[:, part], cos[:, part] = _chunk(near[:, part])
-    for index in np.flatnonzero(far):
+    near = np.abs(flat) <= _NEAR
+    far = () if all_of(near) else np.flatnonzero(~near.all(axis=0))
+    if len(far):
+        within = flat.copy()
+        within[:, far] = 0.0
+    else:
+        within = flat
+    sin, cos = in_chunks(_chunk, within)
+    for index in far:
         sin[:, index], cos[:, index] = _multiprecision(*flat[:, index].tolist())
     return sin.reshape(rows.shape), cos.reshape(rows.shape)
 
@@ -106,21 +120,27 @@ def _multiprecision(minus_lower: float, upper: float) -> tuple[tuple[float, floa
     return tuple((-float_down(y.inf), float_up(y.sup)) for y in (x.sin(), x.cos()))
 
 
-def _chunk(rows: Rows) -> tuple[Rows, Rows]:
-    """Do `sincos` for one chunk within the limit."""
+def _chunk(rows: Rows) -> Rows:
+    """Do `sincos` for one chunk within the limit: rows of sin X and of cos X."""
+    both = np.empty((2, *rows.shape))
+    sin, cos = both
     if is_thin(rows):
         s, c, _, _ = point_sincos(rows[1])
-        return np.stack(_bounds(s)), np.stack(_bounds(c))
+        sin[0], sin[1] = _bounds(s)
+        cos[0], cos[1] = _bounds(c)
+        return both
     s, c, n, r = point_sincos(rows)
     # s holds sin(-lower) = -sin(lower) beside sin(upper), and c cos(lower) beside cos(upper)
     lower, upper = _bounds(s)
-    sin = np.maximum(upper, lower[::-1])
-    cos = np.stack([np.maximum(*bounds) for bounds in _bounds(c)])
+    np.maximum(upper, lower[::-1], out=sin)
+    for row, bounds in zip(cos, _bounds(c), strict=True):
+        np.maximum(bounds[0], bounds[1], out=row)
     # lower is in [first, first + 1) pi/2, upper in [last, last + 1) pi/2
     first, last = quarters(n, r)
-    for bounds, peak in ((sin[1], 1), (sin[0], 3), (cos[1], 0), (cos[0], 2)):
-        np.copyto(bounds, 1.0, where=_passes(first, last, peak))
-    return sin, cos
+    if not all_of(first == last):
+        for bounds, peak in zip((cos[1], sin[1], cos[0], sin[0]), _PEAKS, strict=True):
+            np.copyto(bounds, _ONE, where=_passes(first, last, peak))
+    return both
 
 
 def quarters(quadrant: Quadrants, rest: Rows) -> tuple[Quadrants, Quadrants]:
@@ -128,46 +148,46 @@ def quarters(quadrant: Quadrants, rest: Rows) -> tuple[Quadrants, Quadrants]:
 
     But where lower is 0 the first is -1 or 0.
     """
-    return -quadrant[0] - (rest[0] > 0.0), quadrant[1] - (rest[1] < 0.0)
+    return -quadrant[0] - (rest[0] > _ZERO), quadrant[1] - (rest[1] < _ZERO)
 
 
-def _passes(first: Quadrants, last: Quadrants, peak: int) -> NDArray[np.bool_]:
+def _passes(first: Quadrants, last: Quadrants, peak: Quadrants) -> NDArray[np.bool_]:
     """Return where first < j <= last for some j = peak mod 4, that is, j pi/2 is in (lower, upper].
 
     An extremum at lower itself needs no mention: the value at that endpoint encloses it.
     """
-    passed: NDArray[np.bool_] = (first - peak) >> 2 != (last - peak) >> 2
+    passed: NDArray[np.bool_] = (first - peak) >> _TWO != (last - peak) >> _TWO
     return passed
 
 
 def _bounds(y: Pair) -> tuple[Rows, Rows]:
     """Return upper bounds of -y and of y, at most 1: the outward step above."""
     step = np.abs(y.hi)
-    step *= (y.k + 1.0 + 2.0**-8) * 2.0**-53
-    step += ETA
+    step *= _STEP
+    step += _ETA
     lower = step - y.lo
     lower -= y.hi
     step += y.lo
     step += y.hi
-    return np.minimum(lower, 1.0, out=lower), np.minimum(step, 1.0, out=step)
+    return np.minimum(lower, _ONE, out=lower), np.minimum(step, _ONE, out=step)
 
 
 def point_sincos(x: Rows) -> tuple[Pair, Pair, Quadrants, Rows]:
     """Return sin x, cos x (see the theorem), the quadrant n and s, where x = n pi/2 + s + t."""
     n, quadrant = nearest_integers(x * _TWO_OVER_PI)
-    s, t = fast_two_sum(x - n * _P1, n * -_P2)
+    s, t = fast_two_sum(x - n * _P1, -(n * _P2))
     n *= _P3
     t -= n
     z = s * s
     cos = horner(z, _COS)
     cos *= z * z
     cos -= s * t
-    half = z * 0.5
+    half = z * _HALF
     np.subtract(cos, half, out=cos)
     sin = horner(z, _SIN)
     z *= s
     sin *= z
-    cosine, cos = fast_two_sum(1.0, cos)
+    cosine, cos = fast_two_sum(_ONE, cos)
     t *= cosine
     sin += t
     sine, sin = fast_two_sum(s, sin)
@@ -183,8 +203,8 @@ def _turn(sin: tuple[Rows, Rows], cos: tuple[Rows, Rows], quadrant: Quadrants) -
     cos.
     """
     n = quadrant.view(np.uint64)
-    odd = -(n & 1)
-    sign_of_sin, sign_of_cos = (n & 2) << 62, ((n + 1) & 2) << 62
+    odd = -(n & _BIT_0)
+    sign_of_sin, sign_of_cos = (n & _BIT_1) << _TO_SIGN, ((n + _BIT_0) & _BIT_1) << _TO_SIGN
     for part_of_sin, part_of_cos in zip(sin, cos, strict=True):
         s, c = part_of_sin.view(np.uint64), part_of_cos.view(np.uint64)
         exchange = s ^ c
