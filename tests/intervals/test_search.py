@@ -233,6 +233,7 @@ def test_all_zeros_of_a_polynomial(problem):
 few = st.lists(rationals, min_size=1, max_size=2)
 
 
+@pytest.mark.slow
 @for_all(few, few, st.sampled_from([0, 1, -2]), tries=10)
 def test_all_zeros_of_a_system(first, second, shear):
     def f(x, y):
@@ -318,6 +319,7 @@ def ranges(draw):
     return coefficients, low, high
 
 
+@pytest.mark.slow
 @for_all(ranges(), tries=25, at_length=250)
 def test_ranges_and_signs_of_polynomials(problem):
     coefficients, low, high = problem

@@ -222,6 +222,7 @@ def cos(x): return Interval(x.x.cos())
 """
 
 
+@pytest.mark.slow
 def test_codac_does_the_same_work_in_a_process_of_its_own(tmp_path, monkeypatch):
     (tmp_path / "codac.py").write_text(FAKE)
     (tmp_path / "codac-9.8.7.dist-info").mkdir()

@@ -57,6 +57,7 @@ def same(expression, text):
 # -- published -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "names", "lines", "wanted"),
     [
@@ -232,6 +233,7 @@ def test_the_checker_refuses_other_coefficients(name, text):
         check(render(document))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", range(20))
 def test_the_checker_refuses_any_other_coefficient_of_a_circle(place):
     document = proof("neimark_sacker", ("x", "y", "r"), *DELAYED).document()
@@ -280,6 +282,7 @@ def test_names_that_are_taken():
         NormalForm(Map.read("h1 = r*h*(1 - h)"), "flip")
 
 
+@pytest.mark.slow
 def test_the_coordinates_are_none_of_the_variables():
     """The delayed logistic map in variables u and v."""
     found = in_closed_form("neimark_sacker", ("u", "v", "r"), "u1 = r*u*(1 - v)", "v1 = u")

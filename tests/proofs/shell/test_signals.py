@@ -161,6 +161,7 @@ def without_reader(name, arguments):
     return process.returncode, err.decode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_closed_pipe_is_quiet(name, tmp_path):
     assert without_reader(name, ["--help"]) == (141, "")
@@ -191,6 +192,7 @@ def on_full_disk(name, arguments):
     return process.returncode, err.decode()
 
 
+@pytest.mark.slow
 @needs_full
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_full_disk_is_a_line(name, tmp_path):

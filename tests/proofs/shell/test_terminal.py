@@ -32,6 +32,7 @@ def words(lines):
     return " ".join(lines).split()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_help_fits(name, tmp_path):
     width = WIDTHS[COMMANDS.index(name) % 2]
@@ -39,6 +40,7 @@ def test_help_fits(name, tmp_path):
     assert status == 0 and fits(lines, width), [line for line in lines if len(line) > width]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", WIDTHS)
 def test_the_main_job_fits_and_says_the_same_as_in_a_pipe(width, tmp_path):
     arguments = arguments_of("horseshoe", tmp_path)

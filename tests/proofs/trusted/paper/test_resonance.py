@@ -50,6 +50,7 @@ def equal(left, right):
     return rule_equal(Context(PAPER), Reader({"left": left, "right": right}))
 
 
+@pytest.mark.slow
 def test_every_claim_and_its_verdict(believing):
     document = certificate()
     assert (*(f"R{n}" for n in range(1, 14)), "E1") == CLAIMS
@@ -75,6 +76,7 @@ def solved(wanted):
     return Expressions(tuple(_explicit(wanted).items()), wanted.lemmas)
 
 
+@pytest.mark.slow
 def test_every_lemma_is_needed():
     for row in ROWS:
         whole = [need for need in row.needs if isinstance(need, Equal)]
@@ -162,6 +164,7 @@ def test_misprints_are_no_lemmas():
     assert all(equal(each.left, "0") == each for each in eq.ENTRIES)
 
 
+@pytest.mark.slow
 def test_only_the_true_jacobian_at_rest_is_taken():
     """Another matrix there solves nothing, whatever its form."""
     document = certificate("R3")

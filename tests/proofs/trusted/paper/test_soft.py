@@ -65,6 +65,7 @@ def test_sympy_proves_every_lemma():
         assert len(evidence.proofs[row.id]) == len(row.needs), row.id
 
 
+@pytest.mark.slow
 def test_one_claim_at_a_time(believing):
     document = certificate("S21")
     assert [entry["id"] for entry in document["claims"]] == ["S21"]
