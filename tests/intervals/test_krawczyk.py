@@ -217,7 +217,7 @@ methods, precisions = st.sampled_from([krawczyk, newton_system]), st.sampled_fro
 
 
 @pytest.mark.slow
-@for_all(problems(4), methods, precisions, tries=30, at_length=150)
+@for_all(problems(4), methods, precisions, tries=30, at_length=75)
 def test_what_is_claimed_is_true(problem, method, precision):
     """Of each box at some precision, and of all of them in arrays."""
     f, roots, boxes = problem

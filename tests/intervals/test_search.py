@@ -215,7 +215,7 @@ def polynomials(draw):
     return roots, draw(st.booleans()), Interval(low, high)
 
 
-@for_all(polynomials(), tries=30, at_length=250)
+@for_all(polynomials(), tries=30, at_length=100)
 def test_all_zeros_of_a_polynomial(problem):
     roots, lifted, box = problem
     results = zeros(
@@ -320,7 +320,7 @@ def ranges(draw):
 
 
 @pytest.mark.slow
-@for_all(ranges(), tries=25, at_length=250)
+@for_all(ranges(), tries=25, at_length=100)
 def test_ranges_and_signs_of_polynomials(problem):
     coefficients, low, high = problem
     box, tiny, fine = Interval(low, high), Fraction(1, 2**24), Fraction(1, 2**60)

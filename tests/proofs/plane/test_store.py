@@ -134,8 +134,8 @@ def whole(found):
 
 
 @pytest.mark.slow
-def test_a_head_that_is_killed_five_times(tmp_path):
-    assert whole(survives(tmp_path, 5, 1))
+def test_a_head_that_is_killed_three_times(tmp_path):
+    assert whole(survives(tmp_path, 3, 1))
 
 
 @pytest.mark.long
