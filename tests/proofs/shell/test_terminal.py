@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from contextlib import suppress
 from io import StringIO
 from time import sleep
 
@@ -10,6 +11,7 @@ import pytest
 
 from proofs import check, horseshoe
 from proofs.shell.cli import progress
+from proofs.shell.entry import run_command
 from proofs.shell.screen import Decided, fitted, gist, show_verdicts
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.shell.processes import (
@@ -34,10 +36,14 @@ def words(lines):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_fits(name, tmp_path):
-    width = WIDTHS[COMMANDS.index(name) % 2]
-    status, lines, _ = on_terminal(name, ["--help"], width)
-    assert status == 0 and fits(lines, width), [line for line in lines if len(line) > width]
+def test_help_fits(name, monkeypatch):
+    screen, width = Terminal(), WIDTHS[COMMANDS.index(name) % 2]
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(sys, "stdout", screen)
+    with suppress(SystemExit):
+        assert run_command(f"proofs.{name}", ["--help"]) == 0
+    lines = screen.getvalue().splitlines()
+    assert len(lines) > 5 and fits(lines, width), [line for line in lines if len(line) > width]
 
 
 @pytest.mark.slow
