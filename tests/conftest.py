@@ -31,11 +31,21 @@ def pytest_configure(config):
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
-    """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'."""
+def pytest_collection_modifyitems(config, items):
+    """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'.
+
+    Of the cases of one test, the quick part takes the first and the last.
+    """
+    cases = {}
     for item in items:
         if item.get_closest_marker("long"):
             item.add_marker(pytest.mark.slow)
+        if not item.get_closest_marker("slow"):
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    if EFFORT.quick:
+        left = {case for every in cases.values() for case in every[1:-1]}
+        config.hook.pytest_deselected(items=left)
+        items[:] = [item for item in items if item not in left]
 
 
 def pytest_collection_finish():

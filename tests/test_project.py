@@ -60,13 +60,24 @@ def test_the_tools_forget_nothing_in_the_tree():
             assert "/tmp/" not in path.read_text() and "/home/" not in path.read_text(), path
 
 
+def collected(marks, name=""):
+    """The names of the cases of a file that such a run takes."""
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-n", "0", "-m", marks]
+    path = "tests/proofs/trusted/paper/test_circle.py"
+    done = subprocess.run(
+        [*command, f"{path}::{name}".removesuffix("::")],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+    return [line.partition("::")[2] for line in done.stdout.splitlines() if "::" in line]
+
+
 @pytest.mark.slow
-def test_what_is_long_is_no_part_of_the_quick_run():
+def test_what_is_long_is_no_part_of_the_quick_run_and_cases_between_are_none():
     """`-m 'not slow'` takes the place of the usual `-m 'not long'`."""
-    ask = ["tests/proofs/trusted/paper/test_circle.py", "--collect-only", "-q", "-n", "0", "-m"]
-    found = {}
-    for marks in ("long", "long and not slow"):
-        command = [sys.executable, "-m", "pytest", *ask, marks]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
-        found[marks] = done.returncode  # 5: nothing is collected
-    assert found == {"long": 0, "long and not slow": 5}
+    assert collected("long") and not collected("long and not slow")
+    name = "test_two_basins_of_a_quadratic_map"
+    assert collected("not slow", name) == [f"{name}[0]", f"{name}[2]"]
+    assert collected("not long", name) == [f"{name}[{seed}]" for seed in range(3)]

@@ -5,6 +5,7 @@ from fractions import Fraction
 from math import factorial
 
 import numpy as np
+import pytest
 
 from intervals.array import IntervalArray
 from intervals.elementary.binary64 import CHUNK, ERRORS, LIMIT, polynomial, trigonometric
@@ -142,6 +143,7 @@ def test_bounds_at_points_are_within_the_stated_ulps():
     assert (cos.inf < 1)[x != 0].all()
 
 
+@pytest.mark.slow
 def test_intervals_are_enclosed():
     x = intervals(2, 20000)
     assert_contains(x, *x.sincos())
@@ -171,6 +173,7 @@ def sup_is_one(low, high, quarter):
     return (4 * k + quarter) * HALF_PI <= Fraction(high)
 
 
+@pytest.mark.slow
 def test_wide_results_are_tight():
     """The bounds are those at the ends, or +-1: never much more."""
     x = intervals(4, 5000)

@@ -180,6 +180,7 @@ def broyden(n):
     return f
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("f", "n", "reach", "count"),
     [

@@ -110,7 +110,7 @@ def check_sincos(man, exp, bits):
         assert n_low == n_high
 
 
-@for_all(arguments(), widths, at_length=1000)
+@for_all(arguments(), widths, at_length=400)
 @example((1, 0), 1)
 @example((0, 0), 53)
 @example((-1, -3000), 53)
@@ -193,7 +193,7 @@ def check_exp(man, exp, bits, base=None):
     assert within(y, error, bits, function, dyadic(man, exp))
 
 
-@for_all(arguments(largest=40), widths, st.sampled_from([None, None, *BASES]), at_length=1000)
+@for_all(arguments(largest=40), widths, st.sampled_from([None, None, *BASES]), at_length=400)
 @example((0, 0), 1, None)
 @example((-1, 0), 1, None)
 @example((-1, -3000), 53, None)
@@ -214,7 +214,7 @@ def check_log(man, exp, bits):
     assert within(y, error, bits, flint.arb.log, dyadic(man, exp))
 
 
-@for_all(arguments(largest=10**6), widths, at_length=1000)
+@for_all(arguments(largest=10**6), widths, at_length=400)
 @example((1, 0), 1)
 @example((1, -3000), 53)
 @example((1, 10**5), 1)
@@ -263,7 +263,7 @@ def check_angle(y, x, bits):
     assert within(angle, error, bits, flint.arb.atan2, y, x)
 
 
-@for_all(arguments(largest=900), arguments(largest=900), widths, tries=100, at_length=600)
+@for_all(arguments(largest=900), arguments(largest=900), widths, tries=100, at_length=250)
 @example((1, 0), (0, 0), 1)
 @example((0, 0), (1, 0), 1)
 @example((1, 0), (1, 0), 53)

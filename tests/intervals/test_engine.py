@@ -82,6 +82,7 @@ def interval(random):
     return Interval(min(a, b), max(a, b), precision=random.choice((2, 3, 24, 53, 113, 333, 1000)))
 
 
+@pytest.mark.slow
 def test_the_results_are_the_same_to_the_bit(agree):
     random = Random(1)
     for _ in range(examples(1500)):

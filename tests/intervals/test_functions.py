@@ -137,6 +137,7 @@ def angle(q, p):
     return oracle.evaluate(flint.arb.atan2, 300, q, p)
 
 
+@pytest.mark.slow
 @for_all(st.data(), tries=120)
 def test_hypot_and_powers_contain_the_values_inside(data):
     x, y = box_of(data, -9, 9), box_of(data, -9, 9)
@@ -150,6 +151,7 @@ def test_hypot_and_powers_contain_the_values_inside(data):
         assert contains(three ** Interval(*y), *power)
 
 
+@pytest.mark.slow
 @for_all(st.data(), tries=150)
 def test_atan2_contains_the_angles_inside(data):
     y, x = (box_of(data, -4, 4) for _ in range(2))

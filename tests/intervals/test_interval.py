@@ -139,7 +139,7 @@ def test_contains_takes_exact_numbers_as_texts():
 
 
 @pytest.mark.parametrize("symbol", sorted(BINARY))
-@for_all(st.data(), precisions, precisions, at_length=700)
+@for_all(st.data(), precisions, precisions, at_length=300)
 def test_arithmetic_is_the_tightest_enclosure_of_the_range(symbol, data, p, q):
     first, second = data.draw(boxes(p)), data.draw(boxes(q))
     assume(symbol != "/" or not second[0] <= 0 <= second[1])
@@ -263,7 +263,7 @@ def check_range(name, ends, precision):
     assert bounds(result) == range_of(name, *ends, precision)
 
 
-@for_all(st.data(), precisions, st.sampled_from(FUNCTIONS), tries=100, at_length=1200)
+@for_all(st.data(), precisions, st.sampled_from(FUNCTIONS), tries=100, at_length=500)
 def test_functions_are_the_tightest_enclosure_of_the_range(data, p, name):
     check_range(name, data.draw(boxes_for(name, p)), p)
 

@@ -216,7 +216,8 @@ def problems(draw, count):
 methods, precisions = st.sampled_from([krawczyk, newton_system]), st.sampled_from([10, 24, 53, 150])
 
 
-@for_all(problems(4), methods, precisions, tries=30, at_length=150)
+@pytest.mark.slow
+@for_all(problems(4), methods, precisions, tries=30, at_length=75)
 def test_what_is_claimed_is_true(problem, method, precision):
     """Of each box at some precision, and of all of them in arrays."""
     f, roots, boxes = problem

@@ -48,6 +48,7 @@ def contains(result, exact):
 # -- linear systems --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_solutions_contain_every_exact_one():
     rng, count, solved = random.Random("solve"), examples(240, 900), 0
     for _ in range(count):
@@ -183,6 +184,7 @@ def integers(rows):
     return [[Fraction(x) for x in row] for row in rows]
 
 
+@pytest.mark.slow
 def test_eigenvalues_contain_every_exact_one():
     rng = random.Random("eigenvalues")
     for _ in range(examples(75, 325)):

@@ -193,6 +193,7 @@ def overlaps(outer, inner):
     return True
 
 
+@pytest.mark.slow
 @x86_linux
 def test_undisturbed_results_are_results(undisturbed):
     assert not [name for name, value in undisturbed.items() if isinstance(value, str)]
@@ -205,6 +206,7 @@ def slow(*names):
     return [pytest.param(name, marks=pytest.mark.slow) for name in names]
 
 
+@pytest.mark.slow
 @x86_linux
 @pytest.mark.parametrize("mode", ["upward", *slow("downward", "toward zero")])
 def test_rounding_modes(mode, undisturbed):
@@ -217,6 +219,7 @@ def test_rounding_modes(mode, undisturbed):
             assert value == NOT_NEAREST, name
 
 
+@pytest.mark.slow
 @x86_linux
 @pytest.mark.parametrize("state", ["flush to zero", *slow("denormals are zero", "both flushes")])
 def test_flushing_is_refused(state, undisturbed):

@@ -215,7 +215,7 @@ def polynomials(draw):
     return roots, draw(st.booleans()), Interval(low, high)
 
 
-@for_all(polynomials(), tries=30, at_length=250)
+@for_all(polynomials(), tries=30, at_length=100)
 def test_all_zeros_of_a_polynomial(problem):
     roots, lifted, box = problem
     results = zeros(
@@ -233,6 +233,7 @@ def test_all_zeros_of_a_polynomial(problem):
 few = st.lists(rationals, min_size=1, max_size=2)
 
 
+@pytest.mark.slow
 @for_all(few, few, st.sampled_from([0, 1, -2]), tries=10)
 def test_all_zeros_of_a_system(first, second, shear):
     def f(x, y):
@@ -318,7 +319,8 @@ def ranges(draw):
     return coefficients, low, high
 
 
-@for_all(ranges(), tries=25, at_length=250)
+@pytest.mark.slow
+@for_all(ranges(), tries=25, at_length=100)
 def test_ranges_and_signs_of_polynomials(problem):
     coefficients, low, high = problem
     box, tiny, fine = Interval(low, high), Fraction(1, 2**24), Fraction(1, 2**60)

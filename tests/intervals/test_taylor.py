@@ -130,7 +130,7 @@ def families(draw):
     return [(c, c + Fraction(w, 16)) for c, w in drawn], low, low + width
 
 
-@for_all(families(), st.integers(0, 99), tries=40, at_length=250)
+@for_all(families(), st.integers(0, 99), tries=40, at_length=100)
 def test_ranges_of_families_of_polynomials(family, seed):
     ends, low, high = family
     rng = random.Random(seed)

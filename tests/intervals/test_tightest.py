@@ -37,7 +37,7 @@ EVERY = FUNCTIONS | {  # of one number
     "cos": lambda x, precision: tightest.sincos(x, precision)[1],
 }
 
-POINTS = int(os.environ.get("RANDOM_POINTS", "5000"))  # of each function: 100000 now and then
+POINTS = int(os.environ.get("RANDOM_POINTS", "1500"))  # of each function: 100000 now and then
 
 
 def raw(x):

@@ -1,4 +1,4 @@
-"""The holes that a hostile audit found (issue 13), to be put back one by one.
+"""The holes that a hostile audit found, to be put back one by one.
 
 Each is a document made from what the project's own provers find, by an edit of the witnesses, and
 the lines of the checker that close it, with what they were like when it was open.

@@ -11,9 +11,9 @@ pytestmark = pytest.mark.slow
 
 
 def test_what_is_accepted_of_edited_documents_is_true():
-    found = run(200, seed=3)
-    assert found.accepted == 200
-    assert found.refused > 100
+    found = run(100, seed=3)
+    assert found.accepted == 100
+    assert found.refused > 50
     assert len(found.conclusions) > 30
     assert not found.complaints, report(found)
 
@@ -40,4 +40,4 @@ def test_holes_are_found_by_edits_alone(claim, lines, odd):
     with ExitStack() as stack:
         for each in lines:
             stack.enter_context(reopened(each))
-        assert run(80, odd=odd, only=(claim,)).complaints
+        assert run(80, odd=odd, only=(claim,), enough=1).complaints

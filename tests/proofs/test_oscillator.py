@@ -90,6 +90,7 @@ def test_a_horseshoe_comes_with_a_certificate(theorem, verdicts):
         check(forged)
 
 
+@pytest.mark.slow
 def test_what_is_not_proved_is_undecided():
     with pytest.raises(Undecided, match="I is not covered"):
         PLASTIC.horseshoe(["1.11", "1.15"], RIGHT)

@@ -41,6 +41,7 @@ def named(paths):
     return pytest.mark.parametrize("path", cases, ids=lambda path: path.name)
 
 
+@pytest.mark.slow
 @named([*COMMITTED, *OTHERS])
 def test_every_case_contains_the_expected_result_or_raises(path):
     failed = [
@@ -64,6 +65,7 @@ def everything():
     return [x for path in COMMITTED for x in outcomes(path)]
 
 
+@pytest.mark.slow
 def test_enough_is_run_in_each_category():
     """What the files hold: fewer would mean that the reader or the runner drops cases."""
     done = Counter((x.category, x.kind) for x in everything() if x.kind in RUN)
@@ -76,6 +78,7 @@ def test_enough_is_run_in_each_category():
     assert done["constructor", CONTAINED] + done["constructor", RAISED] >= 69
 
 
+@pytest.mark.slow
 def test_reasons_not_to_run_are_counted():
     """Counted in the texts themselves: a line with [nai], [empty] or an infinity is no case."""
     source = "\n".join(path.read_text(encoding="utf-8") for path in COMMITTED)
@@ -127,6 +130,7 @@ def spoiled(statement):
             yield statement._replace(tightest=(wide,))
 
 
+@pytest.mark.slow
 def test_a_result_that_is_an_ulp_too_narrow_fails():
     ranges = [
         x.statement

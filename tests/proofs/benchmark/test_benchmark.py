@@ -86,6 +86,7 @@ def test_a_missing_interpreter_is_refused_and_help_has_examples(tmp_path, capsys
     assert stopped.value.code == 0 and "examples:" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_page_says_what_was_measured_and_shows_it(monkeypatch, tmp_path, capsys):
     pytest.importorskip("matplotlib")
     rows = [MISSED, REACHED, Row("rate", "absent", ">= 10"), Row("other", "1", samples={"s": 2})]
@@ -119,6 +120,7 @@ def test_without_matplotlib_the_page_has_no_pictures(monkeypatch, tmp_path, caps
     assert not list(tmp_path.glob("*.svg"))
 
 
+@pytest.mark.slow
 def test_a_report_is_never_half_new_and_the_page_comes_last(monkeypatch, tmp_path, capsys):
     (tmp_path / "benchmark.md").write_text("the page before")
     measured(monkeypatch, Section("First", "About.", [REACHED], [diagram()]))

@@ -35,6 +35,7 @@ def test_there_are_a_hundred_of_different_names():
     assert len(SYSTEMS) == len(list(systems())) >= 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_systems_that_are_decided(name):
     row = command.solved(SYSTEMS[name])

@@ -43,6 +43,7 @@ def test_the_statement_to_trust_is_short_and_nothing_is_assumed_in_the_theory():
         assert not re.search(assumed, path.read_text()), path
 
 
+@pytest.mark.slow
 def test_the_paper_s_numbers_stand_in_the_statements():
     said = statements(paper_case())
     assert said["corrected_theorem"].endswith(
@@ -65,6 +66,7 @@ def test_every_theorem_stands_in_the_list_whose_axioms_are_printed():
     assert listed.split(", ") == stated == [theorem.name for theorem in made.theorems]
 
 
+@pytest.mark.slow
 def test_a_branch_that_decreases_is_stated_as_such(tmp_path):
     asked = plan(certificate(tmp_path, *DECREASING))
     assert asked.headline.signs == (-1, -1) and not asked.headline.is_corrected
@@ -81,6 +83,7 @@ def test_where_nothing_is_refuted_the_given_sets_have_the_theorem(tmp_path):
     assert {"horseshoe_theorem", "H2_verified", "H5_verified"} <= set(said)
 
 
+@pytest.mark.slow
 def test_slopes_through_phase_0_need_no_lap(tmp_path):
     asked = plan(certificate(tmp_path, *THROUGH_PHASE_0))
     assert asked.headline is None
@@ -90,6 +93,7 @@ def test_slopes_through_phase_0_need_no_lap(tmp_path):
     }
 
 
+@pytest.mark.slow
 def test_thin_margins_take_more_pieces_not_more_digits_of_the_bound(tmp_path):
     made = case(plan(certificate(tmp_path, *THIN)), "x", floats=True)
     thick = case(plan(certificate(tmp_path, *THIN[:3])), "x", floats=True)
@@ -133,7 +137,7 @@ def near_the_paper(folder, number, seed):
 
 @pytest.mark.slow
 def test_cuts_are_found_near_the_paper_s_parameters(tmp_path):
-    for asked in near_the_paper(tmp_path, 2, seed=5):
+    for asked in near_the_paper(tmp_path, 1, seed=5):
         try:
             made = case(asked, "x", floats=False)
         except NoHint as failure:
@@ -143,9 +147,8 @@ def test_cuts_are_found_near_the_paper_s_parameters(tmp_path):
 
 @needs_coqc
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [6, 7])
-def test_coqc_accepts_two_of_them(tmp_path, proved, seed):
-    (asked,) = near_the_paper(tmp_path, 1, seed)
+def test_coqc_accepts_one_of_them(tmp_path, proved):
+    (asked,) = near_the_paper(tmp_path, 1, seed=7)
     accepts(proved, tmp_path, case(asked, "x", floats=True).text)
 
 

@@ -55,6 +55,7 @@ def test_the_paper_s_theorems_with_coq_s_integers(capsys, tmp_path):
     assert int(answer["megabytes"]) < 1500
 
 
+@pytest.mark.slow
 @needs_coqc
 def test_an_axiom_of_one_s_own_is_told_with_status_3(capsys, tmp_path, monkeypatch):
     cheat = "Axiom easy : False.\nTheorem corrected_theorem : 1 = 2.\nProof. destruct easy. Qed.\n"
@@ -65,6 +66,7 @@ def test_an_axiom_of_one_s_own_is_told_with_status_3(capsys, tmp_path, monkeypat
     assert "axioms not expected: easy" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @needs_coqc
 def test_what_coqc_refuses_is_a_bug_with_status_3(capsys, tmp_path, monkeypatch):
     text = "Theorem corrected_theorem : 1 = 2.\nProof. reflexivity. Qed.\n"
@@ -75,6 +77,7 @@ def test_what_coqc_refuses_is_a_bug_with_status_3(capsys, tmp_path, monkeypatch)
     assert "coqc REFUSES" in error and "corrected_theorem" in error and error.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_without_coqc_the_files_are_written_and_a_line_says_how_to_get_it(
     capsys, tmp_path, monkeypatch
 ):
@@ -100,6 +103,7 @@ def test_a_wrong_certificate_is_one_line_and_nothing_is_written(capsys, tmp_path
     assert not out.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["chaos.json", "nothing.json", "MANIFEST.json"])
 def test_what_is_no_certificate_of_a_horseshoe(capsys, tmp_path, name):
     out = tmp_path / "out"
@@ -108,6 +112,7 @@ def test_what_is_no_certificate_of_a_horseshoe(capsys, tmp_path, name):
     assert left.value.code == 2 and capsys.readouterr().err.count("\n") == 1 and not out.exists()
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_written(capsys, tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(SystemExit) as left:

@@ -10,7 +10,9 @@ ball (phi + v, alpha v - gamma cos(phi + v)) has its saddle-nodes at gamma = 2 n
 its flips at gamma = 2 sqrt(n^2 pi^2 (1 - alpha)^2 + (1 + alpha)^2).
 """
 
+import json
 from fractions import Fraction
+from functools import cache
 from itertools import product
 
 import pytest
@@ -57,6 +59,7 @@ def same(expression, text):
 # -- published -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "names", "lines", "wanted"),
     [
@@ -212,11 +215,16 @@ def test_coefficients_by_the_projection_method(case):
 # -- what is refused -------------------------------------------------------------------------------
 
 
+@cache
 def proof(kind, names, *lines):
     file = Lemmas()
     prove_jacobian(file, Map.read(*lines))
     closed(file, NormalForm(Map.read(*lines), kind), names)
-    return file
+    return render(file.document())
+
+
+def document_of(*asked):
+    return json.loads(proof(*asked))
 
 
 @pytest.mark.parametrize(
@@ -224,7 +232,7 @@ def proof(kind, names, *lines):
     [("b2", "-2"), ("r", "2"), ("x", "1/3"), ("b3", "1"), ("critical", "8"), ("speed", "1")],
 )
 def test_the_checker_refuses_other_coefficients(name, text):
-    document = proof("flip", ("x", "r"), *LOGISTIC).document()
+    document = document_of("flip", ("x", "r"), *LOGISTIC)
     step = document["steps"]["solution-2"]["witness"]
     assert step["expressions"][name] != text
     step["expressions"][name] = text
@@ -232,9 +240,10 @@ def test_the_checker_refuses_other_coefficients(name, text):
         check(render(document))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", range(20))
 def test_the_checker_refuses_any_other_coefficient_of_a_circle(place):
-    document = proof("neimark_sacker", ("x", "y", "r"), *DELAYED).document()
+    document = document_of("neimark_sacker", ("x", "y", "r"), *DELAYED)
     expressions = document["steps"]["solution-1"]["witness"]["expressions"]
     expressions[list(expressions)[place]] = "7/5"
     with pytest.raises(Rejected):
@@ -242,7 +251,7 @@ def test_the_checker_refuses_any_other_coefficient_of_a_circle(place):
 
 
 def test_the_checker_refuses_another_jacobian():
-    document = proof("flip", ("x", "r"), *LOGISTIC).document()
+    document = document_of("flip", ("x", "r"), *LOGISTIC)
     text = document["steps"]["equal-1"]["witness"]["left"]
     document["steps"]["equal-1"]["witness"]["left"] = text.replace("(2*x - 1)", "(2*x - 2)")
     with pytest.raises(Rejected):
@@ -280,6 +289,7 @@ def test_names_that_are_taken():
         NormalForm(Map.read("h1 = r*h*(1 - h)"), "flip")
 
 
+@pytest.mark.slow
 def test_the_coordinates_are_none_of_the_variables():
     """The delayed logistic map in variables u and v."""
     found = in_closed_form("neimark_sacker", ("u", "v", "r"), "u1 = r*u*(1 - v)", "v1 = u")

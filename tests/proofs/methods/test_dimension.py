@@ -104,6 +104,7 @@ def test_the_growth_of_lengths():
     assert trial.s == 1 and low < by.mean < high
 
 
+@pytest.mark.slow
 def test_a_wrong_exponent_is_seen():
     """L_s h / h moves by at least exp(-shift log|g'|) when s is shifted; the dimension stays in."""
     branches, trial, by = of_e2()

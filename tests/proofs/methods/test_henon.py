@@ -145,6 +145,7 @@ def newton(point, orbit):
     return point
 
 
+@pytest.mark.slow
 def test_all_cycles_up_to_period_six():
     check_cycles(range(1, 7))
 

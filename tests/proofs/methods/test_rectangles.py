@@ -28,6 +28,7 @@ def horseshoe():
     return f, orbits
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("past", "future"), [(1, 1), (1, 2)])
 def test_the_full_shift(past, future):
     """One set for each word, two arrows from each; the entropy is log 2, and no more is proved."""
@@ -42,6 +43,7 @@ def test_the_full_shift(past, future):
     assert log(2) - 1e-9 < low < high < log(2) + 1e-9
 
 
+@pytest.mark.slow
 def test_each_point_is_in_the_set_of_its_word():
     f, orbits = horseshoe()
     sets = rectangles(f, orbits, angle=0.2, past=1, future=2)
@@ -51,6 +53,7 @@ def test_each_point_is_in_the_set_of_its_word():
     assert (inside.sum(axis=1) == 1).all() and inside.any(axis=0).all()
 
 
+@pytest.mark.slow
 def test_relations_that_are_not_proved_are_left_out():
     """An arrow the wrong way: without it there is the horseshoe as before."""
     f, orbits = horseshoe()

@@ -79,6 +79,7 @@ def short_flight(system, phase, about):
 ONSET, SEPARATION = ends(PAPER)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "share"),
     [
@@ -129,6 +130,7 @@ def test_width_is_not_answered_with_precision():
         cover_by_impacts(PAPER, (Fraction("1.199"), Fraction("1.2")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [3, 25, 40])
 def test_both_sides_of_the_separation_phase(exponent):
     distance = Fraction(1, 10**exponent)
@@ -183,6 +185,7 @@ def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, caps
 # -- boxes ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_boxes_that_binary64_does_not_decide_are_asked_alone():
     # towards the onset the gap drowns in rounding: the last boxes need more
     phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)

@@ -204,6 +204,7 @@ def test_heights_are_those_of_every_phase_of_a_box():
 # -- refusals ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_grazing_phase_is_refused():
     with pytest.raises(Undecided):
         slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 64)

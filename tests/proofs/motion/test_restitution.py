@@ -112,6 +112,7 @@ def test_without_restitution_it_is_the_plastic_map():
     assert found.derivative[0][1] == (0, 0) == found.derivative[1][1]
 
 
+@pytest.mark.slow
 def test_box_contains_the_images_of_its_states_and_oscillators():
     phases = (Fraction("1.12"), Fraction("1.14"))
     reach = Fraction(1, 20000)

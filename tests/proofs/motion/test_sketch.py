@@ -25,6 +25,7 @@ def alike(seen, proved):
     return all(math.isclose(x, y, rel_tol=1e-9, abs_tol=1e-9) for x, y in pairs)
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(ends, ends)
 def test_operations_are_about_those_of_intervals(first, second):

@@ -132,6 +132,7 @@ def test_fixed_points_and_their_bifurcations(springs):
     assert springs.at(saddle.rho.mid * 99 / 100) == ()
 
 
+@pytest.mark.slow
 def test_orbits_of_period_2(springs):
     for shift in ("1/16", "1/2", "-1/2"):
         motion = springs.double(springs.exact(Fraction(shift)))
@@ -147,6 +148,7 @@ def test_the_orbit_of_period_2_at_rho(springs):
     assert double_at(springs, Fraction(round(springs.flip.rho.mid * 990), 1000)) is None
 
 
+@pytest.mark.slow
 def test_what_attracts(springs):
     """Orbits that begin near an attracting one come nearer, near another one they leave."""
     rho = Fraction(round(springs.flip.rho.mid * 1005), 1000)
@@ -170,6 +172,7 @@ def test_what_attracts(springs):
             assert all(inside(x, y, 1e-12) for x, y in zip(values, found, strict=True))
 
 
+@pytest.mark.slow
 def test_the_orbit_of_period_2_is_followed_to_its_end():
     """For plastic impacts, m = 1, it sticks before it loses its stability."""
     springs = Springs(1, Fraction(0), Fraction(0), Fraction(0), 80)

@@ -84,6 +84,7 @@ def test_attractors(place, kind, impacts):
     assert len(getattr(found, "cells", ())) == impacts
 
 
+@pytest.mark.slow
 def test_what_is_rehearsed_is_what_is_proved():
     """At boxes over the region: a proof of `sticks` where the rehearsal ends well, none else."""
     told = set()

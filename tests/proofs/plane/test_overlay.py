@@ -17,6 +17,7 @@ REGION = Region((F("0.15"), F("0.35")), (F("-0.4"), F("-0.1")), "attractor")
 MEETS = Region((F("1.42"), F("1.43")), (F("-0.6"), F("-0.58")), "attractor")
 
 
+@pytest.mark.slow
 def test_folds_flips_and_sticking_are_where_row_c1_says_typed_here_again():
     found = overlay(REGION)
     assert {line.name for line in found.lines} == {"folds", "flips", "where it begins to stick"}
@@ -35,6 +36,7 @@ def test_folds_flips_and_sticking_are_where_row_c1_says_typed_here_again():
             assert nu**2 == pytest.approx(square, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_what_is_not_proved_is_not_drawn(monkeypatch):
     def fails(self, n, run):
         raise Undecided("no proof")

@@ -102,6 +102,7 @@ def test_alike_sentences_are_one_pattern_and_equal_ones_are_there_once():
     assert len(held["said"]) == len(set(held["said"])) < len(there)
 
 
+@pytest.mark.slow
 def test_many_cells_are_a_small_page():
     there = list(islice(cells(PLAIN, 8, random.Random(7), share=0.98), 5_000))
     assert len(there) == 5_000

@@ -30,6 +30,7 @@ def formulas(draw, depth=4):
     return draw(st.sampled_from(forms))
 
 
+@pytest.mark.slow
 @given(formulas())
 def test_the_value_is_that_of_the_text(text):
     try:
@@ -74,6 +75,7 @@ def test_conclusions_say_all_that_they_hold():
     assert lines(Equal("a", "b")) == ["a", "= b"]
 
 
+@pytest.mark.slow
 @given(formulas())
 def test_mathml_is_well_formed_and_names_every_symbol(text):
     tree = ElementTree.fromstring(mathml(latex(text)))

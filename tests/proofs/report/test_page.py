@@ -141,6 +141,7 @@ def test_the_theorem_has_what_its_claims_prove_and_leads_to_the_ledger(found):
             assert count == 1 or (refutes and count == 0), statement.label
 
 
+@pytest.mark.slow
 def test_a_small_folder_makes_a_page_of_its_own(small, capsys):
     assert command.main(["--out", str(small)]) == 0
     parsed = Page((small / "index.html").read_text())

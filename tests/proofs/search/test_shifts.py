@@ -57,6 +57,7 @@ def falling():
     return own_sets(at("0.103", "0.541"))
 
 
+@pytest.mark.slow
 def test_where_f_decreases_the_sign_is_part_of_the_statement(falling):
     """A certificate without it, or with other ones, is refused, and so is that f increases."""
     made = produce({"horseshoe": CLAIMS}, falling, digits=15).certificate
@@ -93,6 +94,7 @@ def test_where_f_decreases_theorems_and_dimension_are_those_of_the_oracle(fallin
     assert [x for each in proved for x in oracle(each, random.Random(1), falling)] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu"), [("0.25", "-0.3"), ("0.5", "0.2"), ("2.5", "1.9")])
 def test_where_there_is_none_none_is_found(eta, nu):
     assert own_sets(at(eta, nu)) is None

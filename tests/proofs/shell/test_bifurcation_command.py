@@ -17,6 +17,7 @@ def answer(capsys, *arguments):
     return json.loads(capsys.readouterr().out)
 
 
+@pytest.mark.slow
 def test_formulas_with_latex(capsys):
     found = answer(capsys, *HENON, "--kind", "flip")
     assert found["jacobian"][0][0] == {"formula": "-2*a*x", "latex": r"- 2 a x"}
@@ -38,6 +39,7 @@ def test_enclosures_hold_the_digits_asked_for(capsys):
     assert found["critical"]["lower"].startswith("0.148413461538461538461538")
 
 
+@pytest.mark.slow
 def test_the_lemma_file_is_accepted_and_a_changed_one_is_not(tmp_path, capsys):
     assert main([LOGISTIC, "--out", str(tmp_path)]) == 0
     source = (tmp_path / "bifurcation.json").read_text()
@@ -46,6 +48,7 @@ def test_the_lemma_file_is_accepted_and_a_changed_one_is_not(tmp_path, capsys):
         check(source.replace('"r": "3"', '"r": "5/2"'))
 
 
+@pytest.mark.slow
 def test_equations_from_a_file(tmp_path, capsys):
     (tmp_path / "map").write_text("\n".join(HENON))
     found = answer(capsys, f"@{tmp_path / 'map'}", "--kind", "fold")

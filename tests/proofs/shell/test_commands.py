@@ -59,6 +59,7 @@ def test_a_command_is_named_first(capsys):
     assert "python -m proofs.stress" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_without_a_command_options_are_the_ledgers(tmp_path, capsys):
     ask = ["--only", "H16", "--out", str(tmp_path), "--json", "-"]
     assert every.main(ask) == 0
@@ -204,6 +205,7 @@ def piped(text):
     return subprocess.run(command, input=text, cwd=ROOT, capture_output=True, check=False)
 
 
+@pytest.mark.slow
 def test_the_checker_reads_what_is_piped_in():
     text = (ROOT / "tests/certificates/accepted/h16_alone.json").read_bytes()
     done = piped(text)

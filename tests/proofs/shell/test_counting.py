@@ -196,6 +196,7 @@ def test_the_map_s_evaluations_are_those_that_wrappers_count(arguments, status, 
     assert slopes[Interval] + matrices[""] > 0 or status or "4.64" in arguments
 
 
+@pytest.mark.slow
 def test_other_formulas_are_those_that_wrappers_count(watch, monkeypatch, capsys):
     rows = shown(capsys, single_impact, *AT, "--n", "4")
     calls = watch(single_orbits.multiplier, "multiplier", lambda *_, **__: {"": 1})

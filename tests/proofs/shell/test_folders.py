@@ -50,6 +50,7 @@ def test_another_run_leaves_the_papers_results_alone(arguments, clone, capsys):
     assert "runs/horseshoe.md" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [OTHERS[0], OTHERS[1]], ids=" ".join)
 def test_not_even_if_it_is_told_to_write_there(arguments, clone, capsys):
     before = contents(clone / "reports")

@@ -94,6 +94,7 @@ def test_what_is_undecided_is_tried_again(tmp_path, monkeypatch):
     assert shell._unchanged(tmp_path, FLAT[:2]) is None
 
 
+@pytest.mark.slow
 def test_pages_are_made_again_only_where_something_has_changed(tmp_path, monkeypatch, capsys):
     made = []
 
@@ -109,6 +110,7 @@ def test_pages_are_made_again_only_where_something_has_changed(tmp_path, monkeyp
         assert f"{tmp_path}/ledger.md" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_pages_are_those_of_the_certificates_and_of_the_program(tmp_path, monkeypatch):
     (tmp_path / "one.json").write_text("{}")
     texts = {"ledger.md": "text", "figures/one.svg": "<svg/>"}
@@ -164,6 +166,7 @@ def test_a_file_that_does_not_prove_it_is_proved_again(tmp_path, old, new):
     assert found.is_new and found.made.certificate == good
 
 
+@pytest.mark.slow
 def test_a_claim_that_is_not_there_is_proved(tmp_path):
     assert run(tmp_path) == 0
     (job,) = jobs(["H1", "H16"], tmp_path, 30, False)

@@ -178,6 +178,7 @@ def test_the_escape_rate_by_the_operator_by_cycles_and_by_lengths(capsys):
     assert abs(low - mp.log(length_left(9) / length_left(10))) < 1e-8
 
 
+@pytest.mark.slow
 def test_the_escape_rate_in_words(capsys):
     assert orbits.main(["--cycles", "2", "--fast"]) == 0
     text = capsys.readouterr().out
@@ -203,6 +204,7 @@ def test_the_words_that_come_before_their_rotations():
     assert [sum(1 for _ in lyndon(n)) for n in range(2, 15)] == counts
 
 
+@pytest.mark.slow
 def test_orbits_one_by_one_are_those_of_all_words(capsys, monkeypatch):
     monkeypatch.setattr(periodic, "_AT_ONCE", 4)
     rows = answer(capsys, "--cycles", "7", "--fast")["orbits"]
@@ -231,6 +233,7 @@ def test_all_orbits_solve_the_equations(length, digits):
             assert row.point[1] - row.point[0] <= Fraction(2, 10**digits)
 
 
+@pytest.mark.slow
 def test_the_machine_form(capsys):
     found = answer(capsys, "--word", "0010", "--digits", "30")
     assert found["schema"] == "impact-proofs.orbits/1"

@@ -74,6 +74,7 @@ def test_the_saddle_node_is_one_of_orbits_from_epsilon_1_on(capsys, epsilon, orb
     assert near(found["epsilon_least"], 0.02045763242544665)
 
 
+@pytest.mark.slow
 def test_at_the_numbers_of_a_referee(capsys):
     """epsilon = 1/2, rho = 6: the second fixed point goes through the table, so does no orbit."""
     (motions,) = answer(capsys, "--epsilon", "1/2", "--rho", "6")["at"].values()
@@ -101,6 +102,7 @@ def test_springs_of_any_stiffness(capsys):
     assert "a supercritical period doubling: an orbit" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_orbit_of_period_2_is_followed(capsys):
     found = answer(capsys, "--epsilon", "0.3", "--follow", "--digits", "10")["followed"]
     rhos = [float(each["rho"]["lower"]) for each in found]
@@ -120,6 +122,7 @@ def test_what_is_not_decided_is_said(capsys):
     assert main(arguments) == 1 and "too close to h to tell" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_digits_do_not_cancel(capsys):
     epsilon = str(1 - Fraction(1, 10**150))
     found = answer(capsys, "--epsilon", epsilon)["rho_saddle_node"]

@@ -48,6 +48,7 @@ def test_numbers_that_nothing_is_about_are_refused(command, arguments, tmp_path,
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [horseshoe, sets, dimension])
 def test_the_paper_s_sets_are_not_taken_elsewhere(command, tmp_path, capsys):
     options = ["--eta", "0.25", "--nu", "-0.3", "--out", str(tmp_path / "runs")]

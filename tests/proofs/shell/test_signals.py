@@ -161,6 +161,7 @@ def without_reader(name, arguments):
     return process.returncode, err.decode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_closed_pipe_is_quiet(name, tmp_path):
     assert without_reader(name, ["--help"]) == (141, "")
@@ -191,17 +192,10 @@ def on_full_disk(name, arguments):
     return process.returncode, err.decode()
 
 
-@needs_full
-@pytest.mark.parametrize("name", COMMANDS)
-def test_a_full_disk_is_a_line(name, tmp_path):
-    line = f"{prog(name)}: No space left on device\n"
-    assert on_full_disk(name, ["--help"]) == (2, line)
-
-
-@needs_full
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["check", "horseshoe", "orbits"])
-def test_a_full_disk_is_a_line_after_work_as_well(name, tmp_path):
+@needs_full
+@pytest.mark.parametrize("name", ["check", "horseshoe", "orbits", "stress"])
+def test_a_full_disk_is_a_line(name, tmp_path):
     line = f"{prog(name)}: No space left on device\n"
     assert on_full_disk(name, arguments_of(name, tmp_path)) == (2, line)
 

@@ -143,6 +143,7 @@ def test_the_gap_alone_has_no_slopes_and_slopes_no_second_derivative_at_points()
     assert by(counts, MATRIX) == 0
 
 
+@pytest.mark.slow
 def test_one_claim_is_less_than_two_and_shared_steps_are_made_once():
     one, other, both = (
         evaluations(proved("horseshoe", *claims)[1], CHECKER)
@@ -153,6 +154,7 @@ def test_one_claim_is_less_than_two_and_shared_steps_are_made_once():
     assert again == one
 
 
+@pytest.mark.slow
 def test_restitution_and_the_plastic_map_do_not_need_each_other():
     _, counts = proved("horseshoe", "N2")
     assert counts[Kind(MATRIX, CHECKER)] > 0 == by(counts, SLOPE) + by(counts, SECOND)
@@ -263,6 +265,7 @@ def settled(folder, name, fresh=False):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KEPT)
 def test_a_certificate_that_is_there_is_checked_and_not_proved(tmp_path, name):
     first = settled(tmp_path, name)
@@ -282,6 +285,7 @@ def test_a_certificate_that_is_there_is_checked_and_not_proved(tmp_path, name):
         assert by(third.counts, what) == by(first.counts, what)
 
 
+@pytest.mark.slow
 def test_a_good_certificate_about_other_numbers_is_none_here(tmp_path):
     other, _ = proved("horseshoe", *KEPT["horseshoe"], of=replace(PAPER, eta=Fraction(212, 1000)))
     assert not check(other).is_paper
@@ -301,6 +305,7 @@ def changed_gap():
     return space["gap"].__code__
 
 
+@pytest.mark.slow
 def test_another_equation_has_it_proved_again(tmp_path, monkeypatch):
     """Prover and checker share the equations, so that what is proved then is about the new ones."""
     first = settled(tmp_path, "horseshoe")
@@ -334,6 +339,7 @@ def test_a_table_of_what_there_is():
     assert rows_of("\n" + "\n".join(lines)) == {GAP: expected, WORK: 7}
 
 
+@pytest.mark.slow
 def test_the_commands_show_it(tmp_path, capsys):
     ask = ["--only", "H1", "--out", str(tmp_path)]
     assert horseshoe.main([*ask, "--stats"]) == 0
@@ -352,6 +358,7 @@ def test_the_commands_show_it(tmp_path, capsys):
     assert rows_of(said.err) == rows
 
 
+@pytest.mark.slow
 def test_the_ledger_shows_it_of_each_file(tmp_path, capsys):
     """The work is done in other processes; their counts come back."""
     ask = ["--only", "H1", "H15", "--out", str(tmp_path), "--stats"]

@@ -3,6 +3,7 @@
 import json
 import re
 import sys
+from contextlib import suppress
 from io import StringIO
 from time import sleep
 
@@ -10,6 +11,7 @@ import pytest
 
 from proofs import check, horseshoe
 from proofs.shell.cli import progress
+from proofs.shell.entry import run_command
 from proofs.shell.screen import Decided, fitted, gist, show_verdicts
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.shell.processes import (
@@ -32,13 +34,19 @@ def words(lines):
     return " ".join(lines).split()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_fits(name, tmp_path):
-    width = WIDTHS[COMMANDS.index(name) % 2]
-    status, lines, _ = on_terminal(name, ["--help"], width)
-    assert status == 0 and fits(lines, width), [line for line in lines if len(line) > width]
+def test_help_fits(name, monkeypatch):
+    screen, width = Terminal(), WIDTHS[COMMANDS.index(name) % 2]
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(sys, "stdout", screen)
+    with suppress(SystemExit):
+        assert run_command(f"proofs.{name}", ["--help"]) == 0
+    lines = screen.getvalue().splitlines()
+    assert len(lines) > 5 and fits(lines, width), [line for line in lines if len(line) > width]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", WIDTHS)
 def test_the_main_job_fits_and_says_the_same_as_in_a_pipe(width, tmp_path):
     arguments = arguments_of("horseshoe", tmp_path)

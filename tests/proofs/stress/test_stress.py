@@ -23,9 +23,7 @@ from proofs.stress.motions import CoverCase, ImageCase, ReboundCase
 from proofs.stress.truth import Launched, first_impact, kernel_of
 from tests.proofs.trusted.paper import reference
 
-pytestmark = pytest.mark.slow
-
-COUNT = int(os.environ.get("STRESS_CASES", "10000"))
+COUNT = int(os.environ.get("STRESS_CASES", "5000"))
 EXACT = ("operations", "functions", "arrays")
 ETA, NU, FAR = Fraction("0.2121"), Fraction("-0.2"), Fraction(1000)
 
@@ -118,6 +116,7 @@ def test_a_soft_spring_has_the_limit_of_free_flight(by):
         assert close(first_impact(by, of, Fraction(100)).known["flight"], limit, mpf(10) ** -35)
 
 
+@pytest.mark.slow
 def test_each_graze_is_seen_from_both_sides(by):
     """Next to a grazing launch the flight is about as long as the graze, or much longer."""
     for k in range(sum(map(len, GRAZES.values()))):
@@ -174,6 +173,7 @@ SOUND = [
 NEVER = point("1.11", horizon=Fraction(10))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", SOUND, ids=lambda case: case.family)
 def test_a_sound_answer_is_enclosed(case):
     found = judge(case, kernel_of(), 10.0)
@@ -205,6 +205,7 @@ DEFECTS = [  # what is broken, how, and a case on which it shows
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("holder", "name", "spoil", "case"), DEFECTS)
 def test_a_wrong_answer_excludes_the_truth(monkeypatch, holder, name, spoil, case):
     sound = getattr(holder, name)
@@ -265,6 +266,7 @@ def busy(seconds):
         pass
 
 
+@pytest.mark.slow
 def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
     monkeypatch.setattr(motions, "image", lambda *args, **options: busy(9))
     assert judge(point("1.11"), kernel_of(), 0.05).outcome is Outcome.STOPPED
@@ -273,6 +275,7 @@ def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
     busy(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_alarm_that_is_lost_in_a_finaliser_comes_again():
     slow = type("Slow", (), {"__del__": lambda self: busy(0.2)})
@@ -308,6 +311,7 @@ def test_a_failure_is_made_smaller():
     assert len(str(small.eta)) <= 4 and small.family == "tangent"
 
 
+@pytest.mark.slow
 def test_the_command_reports_a_failure_and_exits_1(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(Interval, "exp", lambda x: x)
     monkeypatch.setattr(arithmetic, "NAMES", ("exp",))
@@ -383,6 +387,7 @@ def test_hard_inputs_stay_without_failure(case):
     assert not judge(case, kernel_of()).outcome.failure
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("exact", "count"), [(True, COUNT), (False, max(15, COUNT // 150))])
 def test_no_random_case_excludes_the_truth(exact, count):
     some = [family for family in FAMILIES if (family.name in EXACT) is exact]

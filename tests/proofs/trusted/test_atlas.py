@@ -137,12 +137,14 @@ def test_what_is_no_cell(key):
 # -- the store -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_all_cells_are_proved_again(path):
     found = check_store(path)
     assert found.cells == {"SPLIT": 5, "VERIFIED": 16}
     assert found.areas["VERIFIED"] == found.whole and found.missing == 0
 
 
+@pytest.mark.slow
 def test_cells_that_are_not_there_are_missing(path):
     edit(path, "DELETE FROM cells WHERE key = '0/01'")
     found = check_store(path)

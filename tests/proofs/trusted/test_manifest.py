@@ -87,6 +87,7 @@ def test_the_command_names_epsilon_beyond_the_paper():
     assert command("nonplastic.json", PAPER) == "python -m proofs.nonplastic"
 
 
+@pytest.mark.slow
 def test_an_undecided_claim_in_a_manifest_is_status_1(tmp_path, capsys):
     words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H4", "--out", str(tmp_path)]
     assert main(words) == 1

@@ -123,6 +123,7 @@ def test_both_refuse_a_number_out_of_form(number):
     assert found == other == "malformed", reasons
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changes",
     [

@@ -69,6 +69,7 @@ def test_enclosures_contain_the_values(expression, x, y, width, share):
             check_contains(values[0], true)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(expressions, points, points, st.sampled_from([0, 1]))
 def test_derivatives_contain_the_slopes(expression, x, y, variable):
@@ -221,6 +222,7 @@ def test_other_names_are_all_substituted_away():
         formula("at(x + Z, Z=y)")
 
 
+@pytest.mark.slow
 def test_derivatives_that_grow_are_refused_when_read():
     """Each derivative of a product is about twice as long."""
     product = "*".join(["sin(x)*exp(x**2)"] * 12)

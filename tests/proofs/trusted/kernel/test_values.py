@@ -151,6 +151,7 @@ def generator(forms, place, n, x):
     return base ** int(n)
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(expressions, points, points)
 def test_normal_forms_have_the_values_of_the_formulas(text, x, y):

@@ -59,12 +59,14 @@ def both():
 # -- what is concluded -----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_checker_concludes_what_the_prover_says():
     for name, own in evidence().proofs["G16"]:
         if isinstance(own, StableCycle):
             assert known()[name] == own
 
 
+@pytest.mark.slow
 def test_what_is_said():
     decision = find("G16").decide(PAPER, proof())
     assert find("G16").own and decision.verdict.value == "VERIFIED"
@@ -84,6 +86,7 @@ def orbit(epsilon):
     return state
 
 
+@pytest.mark.slow
 def test_the_printed_equations_have_this_orbit():
     cycles = both().cycles
     low, high = both().at.epsilon

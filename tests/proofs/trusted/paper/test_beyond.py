@@ -586,6 +586,7 @@ def test_verdicts_at_parameters_of_one_s_own(eta, nu, verdicts):
     assert len(check(made.certificate).claims) == 6
 
 
+@pytest.mark.slow
 def test_how_much_of_the_circle_comes_to_the_motion_that_sticks():
     """Between bounds, by orbits of random phases: the oracle's impacts, until the mass sticks."""
     of, rng, sticking, none = replace(PAPER, eta=F("0.25"), nu=F("-0.3")), random.Random(3), 0, 0

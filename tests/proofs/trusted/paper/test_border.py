@@ -35,11 +35,13 @@ def kinds(*left_out):
     return [x for name, x in known().items() if name not in left_out]
 
 
+@pytest.mark.slow
 def test_the_checker_concludes_what_the_prover_says():
     for name, own in evidence().proofs["G15"][1:]:
         assert replace(own, arc=known()[name].arc) == known()[name]
 
 
+@pytest.mark.slow
 def test_what_is_said():
     decision = find("G15").decide(PAPER, kinds())
     assert find("G15").own and decision.verdict.value == "VERIFIED"

@@ -197,6 +197,7 @@ ONE_OSCILLATOR = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_which_rules_of_committed_certificates_hold_all_over_a_box():
     """In boxes so small that no enclosure is in the way, and none of the rules may think so."""
     holds, fails, small = set(), set(), F(1, 10**60)

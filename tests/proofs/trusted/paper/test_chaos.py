@@ -394,6 +394,7 @@ def test_branches_bracket_the_true_impacts(small):
         assert branch.begin < true_map(middle)[0] < branch.ends[0]
 
 
+@pytest.mark.slow
 def test_a_long_flight_is_proved_by_prover_and_checker():
     """phi = 1.6: the first impact is in turn 844, after some 5300 units of time."""
     phase, found = 1.6, Candidates(SYSTEM, 1500).impact(1.6)

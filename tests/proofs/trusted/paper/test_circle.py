@@ -383,6 +383,7 @@ def next_phase(phase, horizon=3000.0):
     return None
 
 
+@pytest.mark.slow
 def test_absorbed_phases_stick_as_soon_as_is_said(coarse):
     rng = random.Random(1)
     for (low, high), steps in coarse[1].within:
@@ -404,6 +405,7 @@ def test_the_measure_against_a_sample(coarse):
         assert share >= float(coarse[1].rest[n]) / (2 * np.pi) - 0.05
 
 
+@pytest.mark.slow
 def test_the_coarse_certificate_is_accepted(coarse):
     report = check(json.dumps(coarse[0]))
     assert [claim.verdict for claim in report.claims] == [Verdict.VERIFIED, Verdict.REFUTED]
@@ -523,6 +525,7 @@ def test_the_figure_draws_what_is_proved(coarse):
 # -- images beside phase 0 -----------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("eta", "nu", "phases"),
     [("5/22", "-0.95", ("1.228", "1.236")), ("1/6", "-0.45", ("1.246", "1.25"))],
@@ -708,6 +711,7 @@ def test_a_shift_where_the_mass_sticks_says_nothing(arc):
         long_transients(elsewhere, followed(arc[2], (4, 1), ("1.2", "1.3", 3)))
 
 
+@pytest.mark.slow
 def test_transients_beside_a_periodic_orbit_are_as_long_as_is_said():
     """Near the points of the orbit of period 2 of G5: more than n impacts, at most n + 3.
 
@@ -726,6 +730,7 @@ def test_transients_beside_a_periodic_orbit_are_as_long_as_is_said():
             assert sum(counts[n + 1 :]) > 0
 
 
+@pytest.mark.slow
 def test_rows_about_printed_phases_are_not_asked_elsewhere():
     """At (1/6, -0.45) a motion sticks too, at (5.17, 6.22): not at the phases printed."""
     of = replace(PAPER, eta=Fraction(1, 6), nu=Fraction("-0.45"))

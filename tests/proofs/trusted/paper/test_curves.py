@@ -127,6 +127,7 @@ def test_ends_of_the_closed_curves(epsilon):
     assert flip(n, q, 0.25 - near) > 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("row", "theorem"), [(ROWS[0], curves), (ROWS[3], sticking)])
 def test_the_theorem_needs_each_lemma(row, theorem):
     from proofs.search.derivations import Steps
@@ -167,6 +168,7 @@ def judged(witness):
     return meeting(Context(known={"grazing-curve-1": checked()}), Reader(witness))
 
 
+@pytest.mark.slow
 def test_prover_and_checker_conclude_the_same():
     curve, point = checked(), judged(steps_of()[1])
     (_, own), (_, meets) = found().found[0], found().meetings[0]
@@ -176,6 +178,7 @@ def test_prover_and_checker_conclude_the_same():
     assert all(high - low < F(1, 10**12) for low, high in (*curve.amplitudes, point.amplitude))
 
 
+@pytest.mark.slow
 def test_rows_are_decided_by_what_is_about_their_epsilon():
     curve, point = checked(), judged(steps_of()[1])
     plastic, other = (replace(PAPER, epsilon=F(x)) for x in ("0", "0.01"))

@@ -55,6 +55,7 @@ def decide(found, of=PAPER):
 # -- the numbers -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "longest", "read"),
     [
@@ -83,6 +84,7 @@ def test_ten_digits_by_periodic_orbits():
         assert low < values[each.words] < high < low + Fraction(1, 10**10)
 
 
+@pytest.mark.slow
 def test_the_slopes_are_those_of_the_branches():
     """1 / g' at the ends of I, and the extremes in between, by equations typed by hand."""
     for letter, (low, high) in enumerate(one(Repeller, words=FULL).slopes):
@@ -220,12 +222,14 @@ def document():
     return render(groups.certificate(PAPER, evidence().steps, [entry]))
 
 
+@pytest.mark.slow
 def test_the_certificate_is_accepted_and_small():
     (claim,) = check(document()).claims
     assert (claim.id, claim.verdict) == ("H13", Verdict.REFUTED)
     assert len(document()) < 30_000
 
 
+@pytest.mark.slow
 def test_narrower_bounds_are_rejected():
     false = json.loads(document())
     false["claims"][0]["quantities"]["dimension"] = {

@@ -68,6 +68,7 @@ def test_the_conclusion_is_the_prover_s():
     assert found.growth[0] < 1 < found.growth[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shift", ["1e-4", "-1e-4", "1/100"])
 def test_another_exponent_proves_wider_bounds(shift):
     given = witness()
@@ -189,6 +190,7 @@ WIDE = {
 }
 
 
+@pytest.mark.slow
 def test_a_letter_that_ends_no_word_need_not_be_an_inverse_on_the_hull():
     """f maps I0 of the paper's I over a part of it only, so the sentence must not say all."""
     sentence = replace(proved()[2], words=WITHOUT_000, slopes=(proved()[2].slopes[0],) * 3).sentence
@@ -260,6 +262,7 @@ def test_without_an_inverse_image_there_is_none():
         letter().inverse(rational(Fraction("1.2"), 64), around)
 
 
+@pytest.mark.slow
 def test_branches_on_arcs_by_newton_s_method():
     """g and g' at complex numbers, by equation (10) typed by hand, are in the boxes."""
     inverses, _, by = dimension_read(witness())

@@ -112,6 +112,7 @@ MISPRINTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("claim", "right", "wrong"), MISPRINTS)
 def test_a_misprint_is_not_proved(document, claim, right, wrong):
     """Prover and checker refuse a step about formulas with one sign or factor changed."""

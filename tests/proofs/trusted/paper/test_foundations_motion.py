@@ -33,6 +33,7 @@ def gap(eta, nu, psi, t, epsilon=mpf(0), gamma=mpf(0)):
 slow = partial(pytest.param, marks=pytest.mark.slow)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("eta", "nu", "never"),
     [

@@ -101,6 +101,7 @@ def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):
     assert told["H2"] == f"At {PAPER.place}: {found.sentence}"
 
 
+@pytest.mark.slow
 def test_the_corrected_sets_are_right_by_brute_force():
     for phi, holds in (("1.1", lambda f: f < 1.1), ("1.15", lambda f: f > 1.32),
                        ("1.27", lambda f: f < 1.1), ("1.32", lambda f: f > 1.32)):  # fmt: skip
@@ -176,6 +177,7 @@ def run(*arguments):
     )
 
 
+@pytest.mark.slow
 def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
     script = (
         "import sys; from proofs.horseshoe import main; status = main(sys.argv[1:]);"

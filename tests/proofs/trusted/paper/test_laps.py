@@ -62,6 +62,7 @@ def only(kind, known):
     return [x for x in known.values() if isinstance(x, kind)]
 
 
+@pytest.mark.slow
 def test_prover_and_checker_agree(evidence, known):
     ((name, own),) = evidence.proofs["G17"]
     found = known[name]

@@ -50,6 +50,7 @@ def corner(phi, gamma, near):
     return (numbers[3] + time) % (2 * mp.pi)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "state"),
     [
@@ -351,6 +352,7 @@ def test_other_parameters(paper, field, value):
     broken(paper, lambda certificate: certificate["parameters"].update({field: value}))
 
 
+@pytest.mark.slow
 def test_too_much_work(paper):
     certificate = copy.deepcopy(paper[1])
     one, little = wide(certificate), 10**6

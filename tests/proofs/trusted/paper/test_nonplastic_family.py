@@ -39,6 +39,7 @@ def shoes(known):
     return [each for each in known if isinstance(each, RectangleHorseshoe)]
 
 
+@pytest.mark.slow
 def test_what_is_said(family, known):
     (claim,) = check(render(family)).claims
     assert claim.verdict.value == "VERIFIED"
@@ -95,6 +96,7 @@ def follow(shoe, epsilon, word):
     return None
 
 
+@pytest.mark.slow
 def test_every_word_is_followed(known):
     shoe = shoes(known)[-1]
     low, high = map(float, shoe.at.epsilon)

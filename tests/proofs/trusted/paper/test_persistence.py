@@ -116,6 +116,7 @@ def test_so_do_bounces_at_the_corners_of_the_states(epsilon):
         assert exact(moved[-1]) < found.rest
 
 
+@pytest.mark.slow
 def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
     leave, _, phase, speed = truth()
     *before, last = bounces(mpf("0.4"), phase, speed)
@@ -125,6 +126,7 @@ def test_beyond_the_bound_a_bounce_passes_the_separation_phase():
 # -- the other orbit -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_boxes_of_the_other_orbit_are_mapped_by_the_printed_equations():
     """The first one into the second one, and from there into itself."""
     pair = dict(evidence().proofs["G7"])[PAIR]
@@ -161,6 +163,7 @@ def no_pair(steps):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [(0, 1, 2, 2), (1, 0, 3, 2), (0, 1, 3, 2), (0, 3, 2, 1)])
 def test_other_orders_of_its_steps_prove_no_pair(order):
     assert no_pair([rebounds()[k] for k in order])
@@ -473,6 +476,7 @@ def test_an_edited_entry_is_rejected(path, value):
 # -- the figure ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu"), [("0.2121", "-0.2"), ("1/6", "-0.45")])
 def test_the_figure_is_about_the_oscillator_of_its_certificate(monkeypatch, eta, nu):
     pytest.importorskip("matplotlib")

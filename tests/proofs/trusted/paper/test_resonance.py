@@ -70,6 +70,7 @@ def solved(wanted):
     return Expressions(tuple(_explicit(wanted).items()), wanted.lemmas)
 
 
+@pytest.mark.slow
 def test_every_lemma_is_needed():
     for row in ROWS:
         whole = [need for need in row.needs if isinstance(need, Equal)]
@@ -157,6 +158,7 @@ def test_misprints_are_no_lemmas():
     assert all(equal(each.left, "0") == each for each in eq.ENTRIES)
 
 
+@pytest.mark.slow
 def test_only_the_true_jacobian_at_rest_is_taken():
     """Another matrix there solves nothing, whatever its form."""
     document = certificate("R3")

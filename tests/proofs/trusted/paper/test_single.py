@@ -466,6 +466,7 @@ def test_what_there_is_is_summed_up_before_it_is_listed(capsys):
     assert "n = 1: 2 solutions of (16)" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nu", ["1", "-1"])
 def test_at_amplitude_one_a_solution_is_at_rest_and_the_other_as_elsewhere(nu):
     """It is sin(phi) = -1/nu, cos(phi) = 0; the other one is continued from |nu| = 1 -+ 1e-12."""

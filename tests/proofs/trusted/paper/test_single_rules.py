@@ -102,6 +102,7 @@ def test_identities_are_proved_and_misprints_are_not(index):
 # -- the rules -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_checker_derives_what_the_prover_did(evidence):
     for proof in evidence.proofs.values():
         for name, conclusion in proof:
@@ -111,6 +112,7 @@ def test_the_checker_derives_what_the_prover_did(evidence):
             assert derived(step["rule"], step["witness"]) == conclusion
 
 
+@pytest.mark.slow
 def test_solutions_are_not_talked_into(document):
     for given in steps_of(document, "single-solution"):
         witness = {**given, "flight": None}
@@ -147,6 +149,7 @@ def test_a_bracket_of_three_solutions_is_refused():
     refused("single-solution", {**one, **resonant})
 
 
+@pytest.mark.slow
 def test_orbits_are_not_talked_into(document):
     known, flights = {}, {}
     for name, step in document["steps"].items():
@@ -331,6 +334,7 @@ def verdict(claim, conclusions):
     return find(claim).decide(PAPER, conclusions).verdict
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("claim", CLAIMS)
 def test_a_claim_without_one_of_its_conclusions_is_undecided(claim, evidence):
     """But for orbits, which are examples."""
@@ -363,6 +367,7 @@ def sticking(found):
     return replace(found, acceleration=(-ONE, -ONE)) if found.early is not None else found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("claims", "kind", "change"),
     [

@@ -114,6 +114,7 @@ def random_boxes(count, seed):
             yield place(eta, nu, epsilon, width), rng
 
 
+@pytest.mark.slow
 def test_boxes_at_random_by_what_repeats_and_its_first_impact():
     """Everything that is proved is true at a random oscillator of the box, by `tests.oracles`."""
     seen = {True: 0, False: 0}

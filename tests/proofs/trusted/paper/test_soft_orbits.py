@@ -203,6 +203,7 @@ def test_orbits_of_period_2_are_above_the_flip(m, eps, k, q):
             assert abs(limit - kappa) < 1e-3
 
 
+@pytest.mark.slow
 def test_kappa_is_positive_wherever_there_is_a_flip():
     chance, least = random.Random(7), math.inf
     for _ in range(4000):
@@ -242,6 +243,7 @@ def test_o_of_mu_is_conditional_on_fixed_points(said):
     assert line.why.startswith("True if X < 1")
 
 
+@pytest.mark.slow
 def test_five_conditions_fail(said):
     """At the printed rho_o, m = 1, by differences of the map: one of six holds."""
     why = said("S22").why
