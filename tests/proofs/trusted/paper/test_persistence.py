@@ -13,8 +13,8 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.motion.chatter import Pushing
-from proofs.motion.simulate import Summary, transients
 from proofs.motion.system import System
+from proofs.motion.transients import Summary, transients
 from proofs.report.figures import restitution
 from proofs.search.evidence import Evidence
 from proofs.search.s34_persistence import prove
