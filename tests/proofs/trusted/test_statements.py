@@ -68,11 +68,6 @@ def verdict(claim, found, of=PAPER):
 # -- dropped hypotheses ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("claim", ["H4", "H11"])
-def test_without_conclusions_nothing_is_decided(claim):
-    assert verdict(claim, []) is UNDECIDED
-
-
 @pytest.mark.parametrize("claim", ["H1", "H2", "H3", "H5", "H6"])
 def test_one_interval_is_not_both(claim):
     wide = replace(PAPER, slopes=span("4.2", "5.3"))

@@ -597,16 +597,6 @@ def documents(staying, small):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("claim", "verdict"),
-    [("G5", Verdict.VERIFIED), ("G9", Verdict.VERIFIED), ("G11", Verdict.REFUTED)],
-)
-def test_the_certificates_are_accepted(documents, claim, verdict):
-    (found,) = check(render(documents[claim])).claims
-    assert (found.id, found.verdict) == (claim, verdict)
-
-
-@pytest.mark.slow
 def test_symbols_are_numbered_in_order_of_phases_whatever_the_order_of_the_file(documents):
     forged = copy.deepcopy(documents["G5"])
     steps = forged["steps"].values()
@@ -619,31 +609,6 @@ def test_symbols_are_numbered_in_order_of_phases_whatever_the_order_of_the_file(
     assert false != theorem
     forged["claims"][0]["corrected"] = false
     with pytest.raises(Rejected):
-        check(render(forged))
-
-
-ENTRY_LIES = [
-    ("G5", "verdict", "REFUTED"),
-    ("G11", "verdict", "VERIFIED"),
-    ("G5", "corrected", "f is tame."),
-    ("G11", "witness", None),
-    ("G5", "proof", ["staying-set-2"]),
-    ("G5", "statement", "[1.32, 1.48] holds nothing."),
-    ("G9", "verdict", "REFUTED"),
-    ("G9", "proof", []),
-    ("G9", "proof", ["branch-1"]),
-    ("G9", "corrected", "The entropy is infinite."),
-    ("G9", "quantities", {"entropy": {"lower": "1.76", "upper": "1.77"}}),
-    ("G9", "quantities", {"pressure": {"lower": "1", "upper": "2"}}),
-]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("claim", "field", "value"), ENTRY_LIES)
-def test_a_forged_entry_is_rejected(documents, claim, field, value):
-    forged = copy.deepcopy(documents[claim])
-    forged["claims"][0][field] = value
-    with pytest.raises((Rejected, Malformed)):
         check(render(forged))
 
 

@@ -568,11 +568,6 @@ def _every(low, high, unit=Fraction(1, 100)):
 # -- decisions -----------------------------------------------------------------------------------
 
 
-def test_nothing_is_decided_without_conclusions():
-    for claim in CLAIMS:
-        assert find(claim).decide(PAPER, []).verdict is Verdict.UNDECIDED
-
-
 def test_nothing_is_claimed_where_the_mass_does_not_stick_and_fly():
     of = replace(PAPER, nu=Fraction(1, 5))
     assert not any(circle.prove(of, CLAIMS).proofs.values())

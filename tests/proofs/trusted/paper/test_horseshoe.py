@@ -288,13 +288,6 @@ def test_a_figure_of_what_is_not_proved_is_refused(claim, status, capsys, tmp_pa
 
 
 @pytest.mark.slow
-def test_help_shows_examples():
-    for module in ("proofs.horseshoe", "proofs.impact", "proofs.check"):
-        done = run("-m", module, "--help")
-        assert f"python -m {module}" in done.stdout.split("example")[-1]
-
-
-@pytest.mark.slow
 def test_the_committed_report_is_what_the_command_writes(tmp_path):
     assert horseshoe.main(["--out", str(tmp_path)]) == 0
     for name in ("horseshoe.json", "horseshoe.md"):

@@ -323,22 +323,6 @@ def part(*domain):
     )
 
 
-def claim(name, **fields):
-    def edit(document):
-        entry = next(entry for entry in document["claims"] if entry["id"] == name)
-        entry.update({key: value(entry[key]) for key, value in fields.items()})
-
-    return edit
-
-
-def always(value):
-    return lambda before: value
-
-
-def without(name):
-    return lambda names: [each for each in names if each != name]
-
-
 def dropped_point(document):
     """f at a phase beside an image of 1.11 is not known any more."""
     step = document["steps"]["slope-range-1"]["witness"]
@@ -375,26 +359,6 @@ FORGED = {
     "orbit in no horseshoe": (witness("itinerary-1", horseshoe="avoids-1"), "Horseshoe"),
     "another root": (witness("moran-root-1", root=["0.449", "0.45"]), "canonical"),
     "a root beyond": (witness("moran-root-1", root=["9/20", "1/2"]), "signs"),
-    "onto after all": (claim("H7", verdict=always("VERIFIED")), "REFUTED"),
-    "chaos denied": (claim("H8", verdict=always("REFUTED")), "VERIFIED"),
-    "another word": (claim("H7", witness=lambda text: text.replace("000", "010")), None),
-    "a larger subshift": (claim("H7", corrected=lambda text: text.replace("000", "0000")), None),
-    "no correction": (claim("H15", corrected=always(None)), None),
-    "correction of a true claim": (claim("H9", corrected=always("Lambda is empty.")), None),
-    "another pair": (claim("H15", witness=lambda text: text.replace("5/21", "6/21")), None),
-    "another reason": (claim("H10", why=always("f' >= 5")), None),
-    "no orbit": (claim("H8", proof=without("itinerary-1")), "H8"),
-    "no horseshoe": (claim("H10", proof=always([])), "H10"),
-    "an L for one pair of ratios": (claim("H14", proof=without("moran-root-2")), "H14"),
-    "statement softened": (claim("H17", statement=lambda x: x.replace("keeps", "may keep")), None),
-    "entropy tightened": (
-        claim("H7", quantities=always({"growth": {"lower": "1.8393", "upper": "1.84"}})),
-        "bounds",
-    ),
-    "dimension tightened": (
-        claim("H12", quantities=always({"dimension": {"lower": "0.4489694", "upper": "0.449"}})),
-        "bounds",
-    ),
     "points dropped": (dropped_point, None),
     "another eta": (lambda document: document["parameters"].update(eta="53/250"), None),
 }
