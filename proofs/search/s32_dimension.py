@@ -34,7 +34,8 @@ from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
@@ -223,7 +224,7 @@ def _staying(run: _Run) -> Proof:
     if around:
         staying = invariant_set(of.interval, Found(of, [each for _, each in around]))
         base = staying.base
-        whole = base.interval, (base.left, base.right), FULL
+        whole = base.interval, base.cells, FULL
         proof += run.attempt(partial(run.repeller, *whole))
         if staying.shift.factors == "000":
             inner = Phases(*of.interval), (Phases(*of.left), Phases(*of.right)), WITHOUT_000
