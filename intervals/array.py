@@ -309,8 +309,7 @@ class IntervalArray(Relations[Mask], Elementary):
         rows = _rows_of(other)
         if rows is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(total, *aligned(self._rows, rows)))
+        return _make(in_blocks(total, *aligned(self._rows, rows)))
 
     __radd__ = __add__
 
@@ -333,8 +332,7 @@ class IntervalArray(Relations[Mask], Elementary):
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(product, *aligned(self._rows, factor)))
+        return _make(in_blocks(product, *aligned(self._rows, factor)))
 
     __rmul__ = __mul__
 
@@ -343,8 +341,7 @@ class IntervalArray(Relations[Mask], Elementary):
         divisor = _rows_of(other)
         if divisor is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(quotient, *aligned(self._rows, divisor)))
+        return _make(in_blocks(quotient, *aligned(self._rows, divisor)))
 
     def __rtruediv__(self, other: Operand) -> IntervalArray:
         dividend = _rows_of(other)
@@ -359,8 +356,7 @@ class IntervalArray(Relations[Mask], Elementary):
             return (1 / self) ** -n
         if n < 2:
             return self if n else self * 0 + 1
-        with _quiet():
-            return _make(in_blocks(partial(power, n=n), self._rows))
+        return _make(in_blocks(partial(power, n=n), self._rows))
 
     def __rpow__(self, base: Operand) -> IntervalArray:
         rows = _rows_of(base)
@@ -385,8 +381,7 @@ class IntervalArray(Relations[Mask], Elementary):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         if name not in _IEEE:
             return _make(binary64.monotone(name, self._rows))
-        with _quiet():
-            return _make(in_blocks(_IEEE[name], self._rows))
+        return _make(in_blocks(_IEEE[name], self._rows))
 
     def _inside(self, domain: Domain) -> bool:
         ends = (None if domain.low is None else -domain.low, domain.high)
