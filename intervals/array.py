@@ -18,7 +18,7 @@ from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
 from intervals.reductions import matrix_product, product_rows, sum_rows
 from intervals.relations import Relations, overlap_state
-from intervals.rounding import Rows, all_of, bounded, outward_sum, require_subnormals
+from intervals.rounding import Rows, all_of, bounded, joined, outward_sum, require_subnormals
 from intervals.rows import (
     STEPS,
     aligned,
@@ -150,7 +150,7 @@ class IntervalArray(Relations[Mask], Elementary):
     def bisect(self) -> tuple[IntervalArray, IntervalArray]:
         """Return two arrays, the halves of each interval, cut at `mid`."""
         middle = self.mid
-        left, right = np.stack((self._rows[0], middle)), np.stack((-middle, self._rows[1]))
+        left, right = joined(self._rows[0], middle), joined(-middle, self._rows[1])
         return _make(left), _make(right)
 
     def widen(self, radius: Exact) -> IntervalArray:
@@ -190,7 +190,7 @@ class IntervalArray(Relations[Mask], Elementary):
         """Select intervals, by any index that numpy knows, on the element axes."""
         if isinstance(index, slice):
             return _make(self._rows[:, index])
-        return _make(np.stack((self._rows[0][index], self._rows[1][index])))
+        return _make(joined(self._rows[0][index], self._rows[1][index]))
 
     def reshape(self, *shape: int) -> IntervalArray:
         """Return the same intervals in another shape."""
@@ -425,12 +425,12 @@ class IntervalArray(Relations[Mask], Elementary):
     def minimum(self, other: Operand) -> IntervalArray:
         """Return the range of min(x, y)."""
         a, b = self._pair(other)
-        return _make(np.stack((np.maximum(a[0], b[0]), np.minimum(a[1], b[1]))))
+        return _make(joined(np.maximum(a[0], b[0]), np.minimum(a[1], b[1])))
 
     def maximum(self, other: Operand) -> IntervalArray:
         """Return the range of max(x, y)."""
         a, b = self._pair(other)
-        return _make(np.stack((np.minimum(a[0], b[0]), np.maximum(a[1], b[1]))))
+        return _make(joined(np.minimum(a[0], b[0]), np.maximum(a[1], b[1])))
 
     # -- text ----------------------------------------------------------------------------------
 
