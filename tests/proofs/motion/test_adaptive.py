@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from mpmath import mp, mpf
 from intervals import Undecided
 from proofs.horseshoe import main as horseshoe
 from proofs.motion.candidate import next_impact
-from proofs.motion.covering import cover_by_impacts, precision_for, steps_for
+from proofs.motion.covering import cover_by, cover_by_impacts, precision_for, steps_for
 from proofs.motion.flight import Flight
 from proofs.motion.image import Image, image
 from proofs.motion.impact import LEAST, Sticks, Unsettled, first_impact, locate, march
@@ -316,3 +317,31 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     assert known[:2] == start and known == sorted(set(known))
     assert known[-1] < horizon - 4
     assert all(flight.gap(time).certainly_positive() for time in known[1:])
+
+
+def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
+    phases = Fraction("1.21"), Fraction("1.27")
+    thin = Fraction(1, 50)
+
+    def parts():
+        return cover_by(
+            PAPER, phases, lambda found: found.transversal and width(found) < thin, obstacle="width"
+        )
+
+    def width(found):
+        return found.flight.phases[1] - found.flight.phases[0]
+
+    with counted() as cut:
+        found = parts()
+    assert len(found) == 4
+    with counted() as afresh:
+        alone = [
+            first_impact(Flight(PAPER, part.flight.phases), finest=steps_for(part.flight.phases))
+            for part in found
+        ]
+    assert evaluations(cut) < evaluations(afresh)
+    for part, other in zip(found, alone, strict=True):
+        assert set(part.windows) <= set(pairwise(part.times))
+        assert abs(part.window[1] - other.window[1]) < Fraction(1, 2)
+        witness = {"phases": in_json(part.flight.phases), "times": in_json(part.times[1:])}
+        assert flights.first_impact(Context(FACTS), Reader(witness)).transversal
