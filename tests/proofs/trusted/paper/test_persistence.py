@@ -254,13 +254,14 @@ def test_g8_is_simulated_and_rests_on_no_step():
 
 
 @pytest.mark.slow
-def test_g8_tells_what_is_simulated():
+def test_g8_tells_what_is_simulated(monkeypatch):
     """Medians grow with epsilon, means do not, and some motions do not come to rest."""
+    rows = transients(System(PAPER.eta, PAPER.nu))
+    monkeypatch.setattr("proofs.search.s34_persistence.transients", lambda system: rows)
     found = prove(PAPER, ("G8",))
     assert found.steps == {} and found.proofs == {}
     line, entry = decide("G8", PAPER, found, 30)
     assert found.notes["G8"] in line.why and found.notes["G8"] not in entry["why"]
-    rows = transients(System(PAPER.eta, PAPER.nu))
     medians, means = (
         [getattr(row, name) for row in rows] for name in ("median_turns", "mean_turns")
     )
