@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from math import lcm
+from typing import Any
 
 from intervals import Undecided
 from proofs.methods.dimension import POINTS, Images, Remembered, boundary, ellipses, enough_arcs
@@ -54,6 +55,7 @@ class _Run:
     digits: int
     tell: Tell
     letters: dict[Range, tuple[list[str], Letter]] = field(default_factory=dict)
+    inverses: dict[Any, tuple[Inverses, Remembered, int]] = field(default_factory=dict)
 
     def attempt(self, make: Callable[[], tuple[str, Repeller]]) -> Proof:
         """Make a part of the proof; what cannot be proved leaves no step."""
@@ -88,7 +90,10 @@ class _Run:
         """
         flights, letters = zip(*map(self.letter, domains), strict=True)
         self.tell("the inverse branches of f on an ellipse")
-        inverses, known, arcs = self._inverses(hull, letters, words)
+        sets = hull, tuple(domains), words
+        if sets not in self.inverses:
+            self.inverses[sets] = self._inverses(hull, letters, words)
+        inverses, known, arcs = self.inverses[sets]
         self.tell("a test function for the dimension")
         trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
         self.tell("the operator's inequality, on all of the interval")
