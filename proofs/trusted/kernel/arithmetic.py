@@ -137,13 +137,8 @@ class Enclosure:
         """Return (sin X, cos X): the hull of the values at the ends and the extrema between.
 
         The multiples m pi/2 in X satisfy floor(lo) < m <= floor(hi) in quarter turns; where an
-        end is too close to one to tell, the extremum is put in, which is outward. Where x^4 < 2^3
-        units, sin x is within one of x - x^3 / 6, and cos x of 1 - x^2 / 2.
+        end is too close to one to tell, the extremum is put in, which is outward.
         """
-        if max(abs(self.lo), abs(self.hi)) >> (self.bits - (self.bits >> 2)) == 0:
-            square = self * self
-            odd, even = self - self * square / 6, 1 - square / 2
-            return _wider(odd), _wider(even)
         sin, cos, first, _ = _sincos(self.lo, self.bits)
         width, one = self.hi - self.lo, 1 << self.bits
         if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
@@ -157,10 +152,19 @@ class Enclosure:
         return Enclosure(a, b, self.bits), Enclosure(c, d, self.bits)
 
 
-def _wider(x: Enclosure) -> Enclosure:
-    """Return an enclosure with one unit more on both sides, in [-1, 1]."""
-    one = 1 << x.bits
-    return Enclosure(max(x.lo - 1, -one), min(x.hi + 1, one), x.bits)
+def sincos_near_zero(x: Enclosure) -> tuple[Enclosure, Enclosure]:
+    """Return (sin X, cos X), with few products for |X| < 2^-(bits / 4).
+
+    Then |X|^4 < 8 units, so sin x is within one of x - x^3 / 6, and cos x of 1 - x^2 / 2.
+    """
+    if max(abs(x.lo), abs(x.hi)) >> (x.bits - (x.bits >> 2)):
+        return x.sincos()
+    square, one = x * x, 1 << x.bits
+    sin, cos = x - x * square / 6, 1 - square / 2
+    return (
+        Enclosure(sin.lo - 1, sin.hi + 1, x.bits),
+        Enclosure(cos.lo - 1, min(cos.hi + 1, one), x.bits),
+    )
 
 
 def rational(value: Fraction, bits: int) -> Enclosure:
@@ -198,15 +202,56 @@ def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
 
     The work counts whether or not the values are known: flights meet at the same times.
     """
-    halvings = max(2, isqrt(bits) >> 2)
-    work = bits + 12 + 2 * halvings + max(0, abs(x).bit_length() - bits)
+    work = bits + 12 + max(0, abs(x).bit_length() - bits)
+    if bits < _MANY:
+        METER.get().spend(8 + (3 * (work >> 6) ** 2 >> 2))  # work / 4 steps
+        return _sincos_at(x, bits, work)
     METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
-    return _sincos_at(x, bits, halvings, work)
+    halvings = isqrt(bits) >> 2
+    return _sincos_by_halves(x, bits, work + 2 * halvings, halvings)
 
 
 @lru_cache(maxsize=4096)
-def _sincos_at(x: int, bits: int, halvings: int, work: int) -> tuple[_Ends, _Ends, int, int]:
+def _sincos_at(x: int, bits: int, work: int) -> tuple[_Ends, _Ends, int, int]:
     """Return what `_sincos` does.
+
+    Proof. With g = 12 + (bit length of x above the point) guard bits, x is exact, k the nearest
+    multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. exp(ir) is summed as
+    t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
+    most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
+    2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
+    """
+    guard = work - bits
+    half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
+    x <<= guard
+    k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
+    doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
+    r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
+    sums, term, n = [0, 1 << work], 1 << work, 0
+    while term not in (0, -1):
+        n += 1
+        term = (term * r >> work) // n
+        if n & 2:
+            sums[1 - (n & 1)] -= term
+        else:
+            sums[1 - (n & 1)] += term
+    error = 3 * n + 2 + (r_hi - r)
+    return *_turned(sums, error, bits, guard, k), k - (r <= 0), k - (r_hi < 0)
+
+
+def _turned(values: list[int], error: int, bits: int, guard: int, k: int) -> tuple[_Ends, _Ends]:
+    """Return the ends of sin, cos at k quarter turns more, from `guard` bits more, and an error."""
+    one = 1 << bits
+    (a, b), (c, d) = (
+        (max((v - error) >> guard, -one), min(-((-v - error) >> guard), one)) for v in values
+    )
+    turned = (((a, b), (c, d)), ((c, d), (-b, -a)), ((-b, -a), (-d, -c)), ((-d, -c), (a, b)))
+    return turned[k & 3]
+
+
+@lru_cache(maxsize=4096)
+def _sincos_by_halves(x: int, bits: int, work: int, halvings: int) -> tuple[_Ends, _Ends, int, int]:
+    """Return what `_sincos` does, for many bits.
 
     Proof. With g = 12 + 2 h + (bit length of x above the point) guard bits, h the halvings, x is
     exact and r = x - k pi/2 within [r_lo, r_hi], 0.39 < r < 1.98. The series of cos(r_lo / 2^h) is
@@ -225,13 +270,9 @@ def _sincos_at(x: int, bits: int, halvings: int, work: int) -> tuple[_Ends, _End
     for _ in range(halvings):
         rise, error = rise * (2 * one - rise) >> (work - 1), 4 * error + 2
     error = 3 * error + 2 + r_hi - r
-    unit = 1 << bits
-    (a, b), (c, d) = (
-        (max((v - error) >> guard, -unit), min(-((-v - error) >> guard), unit))
-        for v in (isqrt(rise * (2 * one - rise)), one - rise)
-    )
-    turned = (((a, b), (c, d)), ((c, d), (-b, -a)), ((-b, -a), (-d, -c)), ((-d, -c), (a, b)))
-    return *turned[k & 3], k + (doubled[0] >= pi_hi), k + (doubled[1] >= pi_lo)
+    values = [isqrt(rise * (2 * one - rise)), one - rise]
+    quarters = k + (doubled[0] >= pi_hi), k + (doubled[1] >= pi_lo)
+    return *_turned(values, error, bits, guard, k), *quarters
 
 
 def _exponential(z: int, step: int, work: int) -> int:

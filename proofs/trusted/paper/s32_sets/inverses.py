@@ -11,7 +11,7 @@ from math import prod
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.flights import FirstImpact, Motion, excess, transversal_step, whole_turns
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational, sincos_near_zero
 from proofs.trusted.kernel.complexes import BITS, Arc, Complex, Ellipse
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
@@ -136,7 +136,7 @@ def _later(start: Launch, now: Clock, d: Enclosure) -> tuple[Launch, Clock]:
     By the addition theorems: the phase of the launch grows by d, the time of flight shrinks by d.
     """
     eta, lift, rate = (rounded(each, d.bits) for each in (start.eta, start.lift, start.rate))
-    (slow_sin, slow_cos), (sin, cos) = (eta * d).sincos(), d.sincos()
+    (slow_sin, slow_cos), (sin, cos) = map(sincos_near_zero, (eta * d, d))
     mass_sin, mass_cos, table_sin, table_cos = (rounded(each, d.bits) for each in now)
     clock_then = Clock(
         mass_sin * slow_cos - mass_cos * slow_sin,

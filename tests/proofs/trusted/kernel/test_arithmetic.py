@@ -328,17 +328,17 @@ def test_what_the_series_err_by_is_allowed_for(off, monkeypatch):
     """With few bits, some of very many values lie next to a multiple of a unit."""
     right = arithmetic._exponential
     monkeypatch.setattr(arithmetic, "_exponential", lambda *given: right(*given) + off)
-    arithmetic._sincos_at.cache_clear()
+    by_halves = arithmetic._sincos_by_halves.__wrapped__
     for x in range(-4 << 8, 5 << 8):
-        point, angle = Enclosure(x, x, 8), x / 2**8
-        sin, cos = point.sincos()
-        for found, true in (
+        angle, grown = x / 2**8, arithmetic.exp(Enclosure(x, x, 8))
+        sin, cos, first, last = by_halves(x, 8, 8 + 12 + 4 + 3, 2)
+        assert first <= angle // (math.pi / 2) <= last <= first + 1
+        for (low, high), true in (
             (sin, math.sin(angle)),
             (cos, math.cos(angle)),
-            (arithmetic.exp(point), math.exp(angle)),
+            ((grown.lo, grown.hi), math.exp(angle)),
         ):
-            assert found.lo <= true * 2**8 + 1e-9 and true * 2**8 - 1e-9 <= found.hi
-    arithmetic._sincos_at.cache_clear()
+            assert low <= true * 2**8 + 1e-9 and true * 2**8 - 1e-9 <= high
 
 
 # -- dual numbers ----------------------------------------------------------------------------------

@@ -7,7 +7,7 @@ import pytest
 from mpmath import chebyt, mp, mpc, mpf
 
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log_of, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log_of, rational, sincos_near_zero
 from proofs.trusted.kernel.complexes import BITS, Complex, Ellipse
 from proofs.trusted.kernel.transfer import Growth, Series
 
@@ -191,9 +191,10 @@ def test_sines_of_many_bits_and_of_narrow_enclosures(bits):
         near_zero = chance.randint(-1, 1) * chance.getrandbits(3 * bits // 4)
         x = chance.choice((x, near_zero, int(mp.pi / 2 * chance.randint(-9, 9) * 2**bits)))
         for width in (0, 3, arithmetic._NARROW):
-            sin, cos = Enclosure(x, x + width, bits).sincos()
+            angles = Enclosure(x, x + width, bits)
+            (sin, cos), (odd, even) = angles.sincos(), sincos_near_zero(angles)
             for angle in (x, x + width):
-                for found, true in ((sin, mp.sin), (cos, mp.cos)):
+                for found, true in ((sin, mp.sin), (cos, mp.cos), (odd, mp.sin), (even, mp.cos)):
                     assert found.lo <= true(mpf(angle) / 2**bits) * 2**bits <= found.hi
                     assert found.hi - found.lo <= 4 + 2 * width
 
