@@ -5,10 +5,10 @@ from fractions import Fraction as F
 
 import pytest
 
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import between, covered, increasing
 from proofs.trusted.parameters import PAPER, Place
-from proofs.trusted.verdicts import told
+from proofs.trusted.verdicts import Found, told
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,27 @@ def test_later_sentences_begin_with_a_capital_unless_with_a_symbol():
     )
     assert told([Said("a."), Said("a.")]) == "a."
     assert told([]) == ""
+
+
+@dataclass(frozen=True)
+class Part(Conclusion):
+    of: Conclusion
+    at = About("of")
+
+
+@dataclass(frozen=True)
+class Misnamed(Conclusion):
+    of: Conclusion
+    at = About("off")
+
+
+def test_a_conclusion_about_a_part_is_never_about_all_oscillators():
+    """No place would mean: true of every oscillator."""
+    here = Said("the mass sticks.", PAPER.place)
+    assert Part(here).place == Part(Part(here)).place == PAPER.place
+    for made in (Misnamed(here), Part(Misnamed(here)), Part(Conclusion())):
+        with pytest.raises(TypeError, match="no oscillators"):
+            Found(PAPER, [made])
 
 
 @pytest.mark.parametrize(
