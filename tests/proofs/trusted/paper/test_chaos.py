@@ -326,6 +326,13 @@ def test_hypotheses_about_different_oscillators_are_refused():
         made(SWAP[0], other)
 
 
+def test_an_arrow_that_is_told_twice_makes_no_shift():
+    alone, golden = made(FULL[0]), made(*GOLDEN)
+    for told, onward in ((alone, ((0, 0),)), (golden, ((1, 1), (0, 1))), (golden, ((1,), (1, 0)))):
+        with pytest.raises(Unproved, match="path"):
+            replace(told, onward=onward)
+
+
 def test_a_full_shift_is_in_order_of_phase_or_nothing():
     shift = made(*FULL)
     for cells in (shift.cells[::-1], shift.cells[:1], (shift.cells[0],) * 2):
