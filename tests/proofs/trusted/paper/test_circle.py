@@ -134,8 +134,15 @@ def test_a_density_holds_up_to_the_true_end_of_a_cell():
     """Ends are rounded down: the first cell may end at 10.5 units, where |X'| = 1 + y is 11.5."""
     one = 2**64
     steep = Inverse(((0, 0), (20, 20)), ((one, one), (21 * one, 21 * one)), (one**2, one**2))
-    (link,) = [_links((0, 10, 20), (0, 20), steep)]
+    link = _links((0, 10, 20), (0, 20), steep)
     assert link.dense[0] >= 23 * one // 2 and link.sparse[1] <= 11 * one
+
+
+def test_what_is_held_may_lie_as_far_as_it_can_from_an_image():
+    """A cell from 0.95 to 10.9 units holds 9, perhaps from 1.9 on: 3.1 of them in [0, 5]."""
+    one = 2**64
+    even = Inverse(((0, 0), (5, 5)), ((one, one), (one, one)), (0, 0))
+    assert _links((0, 10, 20), (0, 5), even).least([9, 0]) <= 31 * one // 10
 
 
 @pytest.mark.parametrize("seed", range(3))
