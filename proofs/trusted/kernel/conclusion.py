@@ -17,8 +17,11 @@ class About:
         self.part = part
 
     def __get__(self, conclusion: Conclusion, _: type) -> Place:
-        """Return them."""
-        place: Place = getattr(conclusion, self.part).at
+        """Return them; TypeError, not AttributeError, which `Conclusion.place` takes for none."""
+        try:
+            place: Place = getattr(conclusion, self.part).at
+        except AttributeError:
+            raise TypeError(f"no oscillators of the part {self.part!r}") from None
         return place
 
 

@@ -83,7 +83,7 @@ class StayingSet(Conclusion):
         ordered = all(low <= high for low, high in self.slopes)
         if len(self.slopes) != count or not ordered or self.expansion <= 1:
             raise Unproved("f does not expand")
-        known = all(set(after) <= set(range(count)) for after in self.onward)
+        known = all(list(x) == sorted(set(x) & set(range(count))) for x in self.onward)
         if len(self.onward) != count or not known or not irreducible(dict(enumerate(self.onward))):
             raise Unproved("no path leads from every cell to every one")
         if self.whole and (len(self.region) > 1 or not self.full):

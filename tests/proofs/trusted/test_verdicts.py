@@ -1,14 +1,14 @@
 """How decisions are told, and the small predicates on intervals."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction as F
 
 import pytest
 
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import between, covered, increasing
 from proofs.trusted.parameters import PAPER, Place
-from proofs.trusted.verdicts import told
+from proofs.trusted.verdicts import Found, told
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,37 @@ def test_later_sentences_begin_with_a_capital_unless_with_a_symbol():
     )
     assert told([Said("a."), Said("a.")]) == "a."
     assert told([]) == ""
+
+
+@dataclass(frozen=True)
+class Part(Conclusion):
+    of: Conclusion
+    at = About("of")
+
+
+@dataclass(frozen=True)
+class Misnamed(Conclusion):
+    of: Conclusion
+    at = About("off")
+
+
+def test_a_conclusion_about_a_part_is_never_about_all_oscillators():
+    """No place would mean: true of every oscillator."""
+    here = Said("the mass sticks.", PAPER.place)
+    assert Part(here).place == Part(Part(here)).place == PAPER.place
+    for made in (Misnamed(here), Part(Misnamed(here)), Part(Conclusion())):
+        with pytest.raises(TypeError, match="no oscillators"):
+            Found(PAPER, [made])
+
+
+def test_what_is_about_rebounds_says_nothing_where_no_restitution_is_given():
+    eta, nu, epsilon = PAPER.box.sides
+    plastic = replace(PAPER, epsilon=None, reach=None)
+    assert PAPER.box.holds(PAPER) and not PAPER.box.holds(plastic)
+    assert PAPER.place.holds(PAPER) and PAPER.place.holds(plastic)
+    assert PAPER.place.inside(Place(eta, nu, (F(0), F(0)))) and not PAPER.place.inside(PAPER.box)
+    for other in (Place(eta, nu, (epsilon[0], F("0.009"))), Place((eta[0],) * 2, nu, epsilon)):
+        assert not other.holds(PAPER) and other.inside(PAPER.box)
 
 
 @pytest.mark.parametrize(

@@ -132,7 +132,7 @@ def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Lin
     inner = inverse.images[0][1], inverse.images[1][0]
     for place, (left, right) in enumerate(pairwise(marks[first : last + 1])):
         begin, end = max(low, left), min(high, right)
-        least, most = inverse.density(begin, end)
+        least, most = inverse.density(begin, end + 1)  # the cell may end within a unit after
         found.dense.append(most)
         found.sparse.append(least)
         if left < inner[0] or inner[1] < right:

@@ -323,6 +323,20 @@ def test_the_series_of_exp_and_cos_err_by_32_units(size, is_negative, step, bits
     assert low * 2**bits - 32 <= found <= high * 2**bits + 32
 
 
+@pytest.mark.parametrize("bits", [8, 24])
+def test_what_is_known_from_few_terms_holds_no_further_than_it_is_used(bits):
+    """exp X from its lower end, if X is narrow; sin X, cos X from two terms, if X is near 0."""
+    one, root = 1 << bits, 1 << (bits >> 1)
+    for x in range(-one >> 1, 3 * one, max(1, one // 160)):
+        for width in (1, root - 1, root, one >> 4):
+            piece = Enclosure(x, x + width, bits)
+            sin, cos = piece.sincos()
+            for y in (x / one, (x + width) / one):
+                values = math.sin(y), math.cos(y), math.exp(y)
+                for found, true in zip((sin, cos, arithmetic.exp(piece)), values, strict=True):
+                    assert found.lo - 1e-6 <= true * one <= found.hi + 1e-6
+
+
 @pytest.mark.parametrize("off", [-31, 31])
 def test_what_the_series_err_by_is_allowed_for(off, monkeypatch):
     """With few bits, some of very many values lie next to a multiple of a unit."""

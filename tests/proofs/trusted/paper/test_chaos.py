@@ -250,6 +250,8 @@ def test_connections_are_for_three_symbols():
     assert "connected" not in made(*FULL).sentence
     falling = cell("1.38", "1.4", "1.3", "1.5", slope=-5)
     assert "connected" not in made(FULL[1], falling, FULL[0]).sentence
+    brackets = [x.domain for x in (FULL[1], middle, FULL[0])]  # no interval up to p
+    assert "connected" not in made(FULL[1], middle, FULL[0], region=brackets).sentence
 
 
 def test_one_orbit_needs_one_closed_path_that_is_covered():
@@ -264,6 +266,7 @@ def test_one_orbit_needs_one_closed_path_that_is_covered():
     shared = (cell("1.32", "1.4", "1.4", "1.5"), cell("1.4", "1.48", "1.3", "1.39"))
     for cells in (
         (cell(*A, "1.46", "1.5"), SWAP[1]),  # B is met, not covered
+        (cell(*A, "1.33", "1.5"), SWAP[1]),  # so is A, beside B
         (SWAP[0], cell(*B, "1.5", "1.6")),  # nothing stays
         (cell(*A, "1.3", "1.35"), cell(*B, "1.44", "1.5")),  # two orbits
         (cell(*A, "1.44", "1.5"), cell(*B, "1.44", "1.5")),  # a path that joins a cycle
@@ -304,6 +307,12 @@ def test_what_is_no_staying_set(cells, reason):
         made(*cells)
 
 
+def test_the_intervals_of_a_region_are_apart():
+    for region in ((A_AND, Phases(F("1.35"), F("1.48"))), (A_AND, A_AND, B_AND)):
+        with pytest.raises(Unproved, match="apart"):
+            made(*FULL, region=region)
+
+
 def test_an_image_that_straddles_the_whole_turn_is_no_phase():
     with pytest.raises(Unproved, match="straddles"):
         cell(*A, "1.3", "6.2832")
@@ -327,6 +336,13 @@ def test_hypotheses_about_different_oscillators_are_refused():
         made(SWAP[0], other)
 
 
+def test_an_arrow_that_is_told_twice_makes_no_shift():
+    alone, golden = made(FULL[0]), made(*GOLDEN)
+    for told, onward in ((alone, ((0, 0),)), (golden, ((1, 1), (0, 1))), (golden, ((1,), (1, 0)))):
+        with pytest.raises(Unproved, match="path"):
+            replace(told, onward=onward)
+
+
 def test_a_full_shift_is_in_order_of_phase_or_nothing():
     shift = made(*FULL)
     for cells in (shift.cells[::-1], shift.cells[:1], (shift.cells[0],) * 2):
@@ -348,6 +364,7 @@ def test_another_set_is_decided_by_what_stays_in_the_printed_interval(claim, one
 
     full, swap = made(*FULL), made(*SWAP)
     assert verdict(full) is Verdict.VERIFIED
+    assert verdict(made(*GOLDEN)) is Verdict.UNDECIDED
     assert verdict(swap) is Verdict(one_orbit)
     assert (
         verdict(replace(swap, cells=(Phases(F("1.2"), F("1.21")), Phases(F("1.3"), F("1.31")))))

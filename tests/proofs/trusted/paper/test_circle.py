@@ -29,7 +29,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
-from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
+from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbed, in_order
 from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.transients import long_transients
@@ -128,6 +128,21 @@ def test_bounds_of_a_density_from_both_ends(slope):
     rough = Inverse.of(((zero, zero), (one, one)), ends, (Fraction(slope) / 2, 2 * Fraction(slope)))
     assert rough.density(2**62, 2**63)[0] == 2**64 + slope * 2**61  # from the lower end
     assert rough.density(2**62, 2**63)[1] == 2**64 + slope * 3 * 2**62  # from the upper one
+
+
+def test_a_density_holds_up_to_the_true_end_of_a_cell():
+    """Ends are rounded down: the first cell may end at 10.5 units, where |X'| = 1 + y is 11.5."""
+    one = 2**64
+    steep = Inverse(((0, 0), (20, 20)), ((one, one), (21 * one, 21 * one)), (one**2, one**2))
+    link = _links((0, 10, 20), (0, 20), steep)
+    assert link.dense[0] >= 23 * one // 2 and link.sparse[1] <= 11 * one
+
+
+def test_what_is_held_may_lie_as_far_as_it_can_from_an_image():
+    """A cell from 0.95 to 10.9 units holds 9, perhaps from 1.9 on: 3.1 of them in [0, 5]."""
+    one = 2**64
+    even = Inverse(((0, 0), (5, 5)), ((one, one), (one, one)), (0, 0))
+    assert _links((0, 10, 20), (0, 5), even).least([9, 0]) <= 31 * one // 10
 
 
 @pytest.mark.parametrize("seed", range(3))
