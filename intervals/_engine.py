@@ -36,7 +36,7 @@ def arrange(interval: type) -> None:
             nonlocal computed
             computed += self.precision
             if computed > _PATIENCE:
-                use(interval, fastest())
+                use(interval, fastest(interval))
             return BY_MPMATH[name](self, *arguments)
 
         return method
@@ -44,12 +44,13 @@ def arrange(interval: type) -> None:
     use(interval, {name: counted(name) for name in _REPLACED})
 
 
-def fastest() -> dict[str, Method]:
-    """Return the operations by FLINT, or those by mpmath where it is not installed."""
+def fastest(interval: type) -> dict[str, Method]:
+    """Return the operations of Interval by FLINT, or by mpmath where that is not installed."""
     try:
         from intervals import _engine_flint
     except ImportError:
         return BY_MPMATH
+    _engine_flint.Interval = interval
     _engine_flint.BY_MPMATH.update(BY_MPMATH)
     return _engine_flint.BY_FLINT
 

@@ -22,14 +22,15 @@ from flint import arb, ctx
 from mpmath.libmp import from_man_exp
 
 from intervals.functions import DECREASING, DOMAINS
-from intervals.interval import Interval
 
 Ball: TypeAlias = Any  # flint.arb, which has no types
 Arguments: TypeAlias = tuple[Ball, ...]
 Ends: TypeAlias = tuple[Ball, Ball]
 Method: TypeAlias = Callable[..., Any]
 
-BY_MPMATH: dict[str, Method] = {}  # what is replaced: filled in by who loads this
+# Filled in by who loads this: the type, and what is replaced
+Interval: Any = None
+BY_MPMATH: dict[str, Method] = {}
 
 _GUARD = 30  # bits beyond the precision: one result in 10^8 is not settled
 _MOST = 64  # the largest power by multiplication

@@ -68,7 +68,7 @@ def _row(pair: _Pair, rounds: int) -> Row:
             import flint
 
             stack.enter_context(flint.ctx.workprec(pair.bits))
-            use(Interval, fastest())
+            use(Interval, fastest(Interval))
         ours, theirs = (_task(pair, library) for library in pair[:2])
         above, below = in_turn([ours, theirs], rounds)
         return ratio_row(str(pair), above, below, pair.most)

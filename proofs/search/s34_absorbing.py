@@ -145,6 +145,8 @@ class Partition:
         left = _last(lambda x: self._height(x, leave), start - 1e-3, leave - math.tau)
         first, last = self.line
         between = short(Fraction(right - self.spare), 40), short(Fraction(left + self.spare), 40)
+        if not first < between[0] < between[1] < last:
+            raise Undecided("no phases are seen on both sides that land on the arc")
         cuts = [first + (between[0] - first) * i / self.pieces for i in range(self.pieces + 1)]
         for ends, count in ((cuts, turns), ([between[1], last], 0)):
             witness = {"separation": name, "cuts": texts(ends), "turns": str(count)}

@@ -4,7 +4,7 @@ import pytest
 
 from intervals import Interval, _engine
 
-ENGINES = {"flint": _engine.fastest(), "mpmath": _engine.BY_MPMATH}
+ENGINES = {"flint": _engine.fastest(Interval), "mpmath": _engine.BY_MPMATH}
 BRIEF = {"exact", "functions", "relations", "sharing", "text"}
 LENGTHY = {"interval", "jet", "krawczyk", "newton", "search", "taylor"}
 

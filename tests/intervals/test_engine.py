@@ -14,7 +14,7 @@ from intervals import Interval, _engine
 from intervals.functions import DOMAINS
 from tests.effort import examples
 
-BY_FLINT = _engine.fastest()
+BY_FLINT = _engine.fastest(Interval)
 FUNCTIONS = [
     *("sqrt", "cbrt", "exp", "exp2", "exp10", "expm1", "log", "log2", "log10", "log1p", "floor"),
     *("sin", "cos", "sincos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh"),

@@ -7,6 +7,7 @@ from time import perf_counter
 import pytest
 
 from proofs import bifurcation, impact, orbits, period_doubling, resonance, single_impact
+from proofs.search import periodic
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 POINT = [*AT, "--phi", "1.11"]
@@ -35,7 +36,7 @@ NO_DIGITS = ["0", "-3", "1000000000", "1001", "1.5", "nan", "1e3", "x", "", "\u0
 FILES = [*((command, "--json") for command in BASES), (orbits, "--csv")]
 WORK = {
     impact: "rebound",
-    orbits: "horseshoe",
+    periodic: "horseshoe",
     period_doubling: "answer_for",
     single_impact: "answer_for",
     resonance: "motion",

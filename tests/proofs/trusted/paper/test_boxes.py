@@ -181,7 +181,7 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
     made["claims"] = [{"id": "X2"}]
     rejected(made, "string", Malformed)
     known = copy.deepcopy(premises(text()).known)
-    with pytest.raises(Unproved, match="one oscillator"):
+    with pytest.raises(Unproved, match="one eta and one nu"):
         from proofs.trusted.paper.s34_circle.entropy import branch
 
         witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
