@@ -18,7 +18,7 @@ from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
 from intervals.reductions import matrix_product, product_rows, sum_rows
 from intervals.relations import Relations, overlap_state
-from intervals.rounding import Rows, all_of, bounded, outward_sum, require_subnormals
+from intervals.rounding import Rows, all_of, bounded, joined, outward_sum, require_subnormals
 from intervals.rows import (
     STEPS,
     aligned,
@@ -150,7 +150,7 @@ class IntervalArray(Relations[Mask], Elementary):
     def bisect(self) -> tuple[IntervalArray, IntervalArray]:
         """Return two arrays, the halves of each interval, cut at `mid`."""
         middle = self.mid
-        left, right = np.stack((self._rows[0], middle)), np.stack((-middle, self._rows[1]))
+        left, right = joined(self._rows[0], middle), joined(-middle, self._rows[1])
         return _make(left), _make(right)
 
     def widen(self, radius: Exact) -> IntervalArray:
@@ -190,7 +190,7 @@ class IntervalArray(Relations[Mask], Elementary):
         """Select intervals, by any index that numpy knows, on the element axes."""
         if isinstance(index, slice):
             return _make(self._rows[:, index])
-        return _make(np.stack((self._rows[0][index], self._rows[1][index])))
+        return _make(joined(self._rows[0][index], self._rows[1][index]))
 
     def reshape(self, *shape: int) -> IntervalArray:
         """Return the same intervals in another shape."""
@@ -309,8 +309,7 @@ class IntervalArray(Relations[Mask], Elementary):
         rows = _rows_of(other)
         if rows is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(total, *aligned(self._rows, rows)))
+        return _make(in_blocks(total, *aligned(self._rows, rows)))
 
     __radd__ = __add__
 
@@ -333,8 +332,7 @@ class IntervalArray(Relations[Mask], Elementary):
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(product, *aligned(self._rows, factor)))
+        return _make(in_blocks(product, *aligned(self._rows, factor)))
 
     __rmul__ = __mul__
 
@@ -343,8 +341,7 @@ class IntervalArray(Relations[Mask], Elementary):
         divisor = _rows_of(other)
         if divisor is None:
             return NotImplemented
-        with _quiet():
-            return _make(in_blocks(quotient, *aligned(self._rows, divisor)))
+        return _make(in_blocks(quotient, *aligned(self._rows, divisor)))
 
     def __rtruediv__(self, other: Operand) -> IntervalArray:
         dividend = _rows_of(other)
@@ -359,8 +356,7 @@ class IntervalArray(Relations[Mask], Elementary):
             return (1 / self) ** -n
         if n < 2:
             return self if n else self * 0 + 1
-        with _quiet():
-            return _make(in_blocks(partial(power, n=n), self._rows))
+        return _make(in_blocks(partial(power, n=n), self._rows))
 
     def __rpow__(self, base: Operand) -> IntervalArray:
         rows = _rows_of(base)
@@ -385,8 +381,7 @@ class IntervalArray(Relations[Mask], Elementary):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         if name not in _IEEE:
             return _make(binary64.monotone(name, self._rows))
-        with _quiet():
-            return _make(in_blocks(_IEEE[name], self._rows))
+        return _make(in_blocks(_IEEE[name], self._rows))
 
     def _inside(self, domain: Domain) -> bool:
         ends = (None if domain.low is None else -domain.low, domain.high)
@@ -430,12 +425,12 @@ class IntervalArray(Relations[Mask], Elementary):
     def minimum(self, other: Operand) -> IntervalArray:
         """Return the range of min(x, y)."""
         a, b = self._pair(other)
-        return _make(np.stack((np.maximum(a[0], b[0]), np.minimum(a[1], b[1]))))
+        return _make(joined(np.maximum(a[0], b[0]), np.minimum(a[1], b[1])))
 
     def maximum(self, other: Operand) -> IntervalArray:
         """Return the range of max(x, y)."""
         a, b = self._pair(other)
-        return _make(np.stack((np.minimum(a[0], b[0]), np.maximum(a[1], b[1]))))
+        return _make(joined(np.minimum(a[0], b[0]), np.maximum(a[1], b[1])))
 
     # -- text ----------------------------------------------------------------------------------
 

@@ -35,6 +35,7 @@ ULP = 2.0**-52
 ETA = 2.0**-1074
 MAX = 2.0**1023 * (2.0 - ULP)
 
+BEYOND = "a bound is beyond the range of binary64"
 _ONE = 1.0
 _LEAST_NORMAL = 2.0**-1022
 _ULP, _ETA, _MAX = map(constant, (ULP, ETA, MAX))
@@ -110,7 +111,7 @@ def bounded(rows: Rows) -> Rows:
     lower <= upper, both rows < MAX also exclude -inf.
     """
     if not all_of(rows < _MAX):
-        raise OverflowError("a bound is beyond the range of binary64")
+        raise OverflowError(BEYOND)
     return rows
 
 

@@ -187,7 +187,7 @@ class Oscillator:
         prover = Prover(self._system, digits, HORIZON)
         parts: list[tuple[str, SlopeRange]] = [prover.slopes(list(x)) for x in (left, right)]
         gap = prover.avoids(of.gap, of.interval)
-        name, found = prover.horseshoe(parts[0], parts[1], gap, of, 2)
+        name, found = prover.horseshoe(parts, gap, of)
         return _certified(of, prover.steps, {"H5": [*parts, gap], "H8": [(name, found)]}, digits)
 
     def _rectangles(self, left: Range, right: Range, gamma: Range, digits: int) -> Theorem:

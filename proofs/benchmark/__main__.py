@@ -24,7 +24,7 @@ from proofs.shell.entry import USAGE_ERROR, run_process
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
-SUBJECTS = ("all", "horseshoe", "limit", "precision", "claims", "intervals")
+SUBJECTS = ("all", "horseshoe", "limit", "precision", "ledger", "claims", "library", "intervals")
 EXAMPLES = """
 examples:
   python -m proofs.benchmark
@@ -33,14 +33,16 @@ examples:
   python -m proofs.benchmark claims --smallest
   python -m proofs.benchmark precision --out diagrams --json precision.json
 
-all: horseshoe and precision.
+all: horseshoe, library, ledger and precision.
 horseshoe: the main job beside bare imports and a script in python-flint; its bounds of f', and its
 kernel beside python-flint. limit: the first of these alone.
 precision: time against error: bounds of f' by natural, mean-value and Taylor forms and by
 monotonicity, flight times beside algorithm A.1 and an ODE solver, dimensions, periodic points,
 checks. Peers do the same work; fitted orders; diagrams with --out.
+ledger: all claims, made anew and with nothing changed; 30 digits of two dimensions.
 claims: the command of each group of claims, a whole process with its check, the check alone, and
 time against digits (dimension) and period (orbits).
+library: a few operations of Interval and of short IntervalArrays beside python-flint and mpmath.iv.
 intervals: each operation of IntervalArray and Interval beside python-flint, mpmath.iv and codac, by
 pyperf, which prints them: python -m proofs.benchmark.operations, in binary64 and at 333 bits. It
 writes no report; --codac-python is then the interpreter of all.
@@ -54,11 +56,15 @@ exit status: 0 every target was reached, 1 one was missed or could not be measur
 
 def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     """Measure the subject."""
-    from proofs.benchmark import horseshoe, precision
+    from proofs.benchmark import horseshoe, library, precision
 
     subject, mode = options.subject, options.mode
     if subject in ("all", "horseshoe", "limit"):
         yield horseshoe.limits(mode, tell)
+    if subject in ("all", "library"):
+        yield library.measure(mode, tell)
+    if subject in ("all", "ledger"):
+        yield horseshoe.ledger(mode, tell)
     if subject == "horseshoe":
         yield from precision.of_main_job(mode, tell)
     if subject in ("all", "precision"):

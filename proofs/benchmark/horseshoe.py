@@ -109,6 +109,40 @@ def limits(mode: str, tell: Tell) -> Section:
     return Section("The main job", about, rows)
 
 
+def ledger(mode: str, tell: Tell) -> Section:
+    """Measure the whole ledger, made anew and with nothing changed, and 30 digits of H13."""
+    tell("the ledger")
+    counts = {"smallest": 1, "quick": 1, "full": 3}
+    with scratch() as folder:
+        out = ["--out", str(folder / "ledger")]
+        claims = ["-m", "proofs", "ledger", *out]
+        digits = [
+            "-m",
+            "proofs.dimension",
+            "--only",
+            "H13",
+            "--digits",
+            "30",
+            *out[:1],
+            str(folder),
+        ]
+        jobs: list[tuple[str, list[str], float]] = [
+            ("all claims, everything made anew", [*claims, "--fresh"], 10),
+            ("all claims, nothing changed", claims, 2),
+            ("two dimensions, 30 digits, found and checked", digits, 1),
+        ]
+        process(digits)
+        rows = [_within(name, job, most, counts[mode]) for name, job, most in jobs]
+    return Section("The ledger", "Whole processes, with the check of all certificates.", rows)
+
+
+def _within(name: str, job: Sequence[str], most: float, runs: int) -> Row:
+    seconds = [process(job).seconds for _ in range(runs)]
+    row = Row(f"{name} [s]", spread(seconds), f"< {most:g}", median(seconds) < most)
+    row.samples = {"seconds": seconds}
+    return row
+
+
 def claims(mode: str, tell: Tell) -> Section:
     """Measure the command of each group of claims, its check alone, and that of the orbits."""
     commands: dict[str, tuple[list[str], float | None]] = {}

@@ -16,7 +16,7 @@ from functools import cache
 from typing import Any
 
 from intervals import Interval, Jet
-from proofs.trusted.equations import sincos
+from proofs.trusted.equations import registered_sincos
 
 OURS, FLINT, IV, CODAC, MP = "Interval", "python-flint", "mpmath.iv", "codac", "mpmath"
 PEERS = (FLINT, IV, CODAC)
@@ -88,7 +88,7 @@ def _flint(bits: int) -> Arithmetic:
 
     arb, series = flint.arb, flint.arb_series
     for kind in (arb, series):
-        sincos.register(kind, kind.sin_cos)
+        registered_sincos.register(kind, kind.sin_cos)
 
     def exact(x: End) -> Any:
         return arb(x) if isinstance(x, float) else arb(flint.fmpq(x.numerator, x.denominator))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from proofs.search.repair import rounded_slopes
+from proofs.search.repair import places, rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range, hull
-from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
@@ -101,8 +101,10 @@ def _headline(
 ) -> Headline | None:
     """Return the corrected theorem, or that of the given sets if H4 and H5 hold on them."""
     for each in found:
-        if isinstance(each, Horseshoe):
-            return Headline(each.left, each.right, each.signs, each.slopes, True)
+        if isinstance(each, StayingSet) and each.is_horseshoe:
+            slopes = rounded_slopes(each.steepness, max(2, places(of.slopes)))
+            left, right = each.cells
+            return Headline(left, right, (each.signs[0], each.signs[1]), slopes, True)
     if not all(verdicts.get(claim) is Verdict.VERIFIED for claim in ("H4", "H5")):
         return None
     ranges = [each for each in found if isinstance(each, SlopeRange)]

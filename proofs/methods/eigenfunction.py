@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     _Matrix = np.ndarray[Any, Any]
 
-_MOST_NODES = 2000
+_MOST_NODES = 2500
 _FIRST = 40  # bits that floating point is trusted with
 _STEPS = 60  # of Newton's method, or of secants
 _CLOSE = 1e-13

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
-from proofs.trusted.equations import clock, gap, launch, launch_acceleration, sincos
+from proofs.trusted.equations import clock, gap, launch, launch_acceleration, registered_sincos
 from proofs.trusted.numbers import Range
 
 _STEPS = 40  # of Newton's method
 _EXACT = 1e-13
 
 
-@sincos.register
+@registered_sincos.register
 def _(x: complex) -> tuple[complex, complex]:
     return cmath.sin(x), cmath.cos(x)
 

@@ -27,7 +27,7 @@ class Sketch:
     ) -> None:
         try:
             self.inf = float(lower)
-            self.sup = self.inf if upper is None else float(upper)
+            self.sup = self.inf if upper is None or upper is lower else float(upper)
         except OverflowError:
             raise DomainError("larger than a float") from None
 

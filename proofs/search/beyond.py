@@ -23,7 +23,6 @@ from proofs.search.loops import loops
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_chaos import prove_entropy
 from proofs.search.s34_circle import prove_arc, prove_longest
-from proofs.search.s34_staying import record
 from proofs.search.shifts import full_shifts, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -118,7 +117,7 @@ def _markov(run: Run, candidates: Iterator[list[Range]]) -> Proof:
             with prover.undone():
                 parts = [prover.slopes(list(domain)) for domain in sets]
                 cells = [part.domain for _, part in parts]
-                kept = record(prover, cells, list(zip(parts, cells, strict=True)))
+                kept = prover.stays(cells, list(zip(parts, cells, strict=True)))
                 if kept[1].orbit:
                     raise Undecided("one orbit alone stays in the sets")
                 return [kept]

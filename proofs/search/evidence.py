@@ -23,8 +23,8 @@ class Evidence:
     """What a prover found: its steps in order, and for each claim the steps that it rests on.
 
     Each of these comes with the conclusion that the prover reached, by arithmetic of its own or,
-    where floats found the witness, by the checker's rule. notes: why
-    more was not proved, or what was simulated.
+    where floats found the witness, by the checker's rule. notes: why more was not proved, or what
+    was simulated.
     """
 
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)

@@ -23,9 +23,9 @@ from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
-from proofs.trusted.paper.s34_circle.other_sets import staying_set
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s31_horseshoe import ROWS
+from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Verdict
@@ -48,7 +48,7 @@ def horseshoe(of: Parameters) -> ImpactMap:
     decisions = {row.id: row.decide(of, known[row.id]) for row in ROWS if row.id in known}
     for claim, decision in decisions.items():
         if decision.verdict is not Verdict.VERIFIED:
-            beside = next((x for x in known[claim] if isinstance(x, Horseshoe)), None)
+            beside = next((x for x in known[claim] if isinstance(x, StayingSet)), None)
             raise Undecided(_refusal(decision.why, beside))
     expanding, covering = decisions["H1"], decisions["H5"]
     least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
@@ -93,12 +93,11 @@ def _impact_map(of: Parameters, least: Fraction, images: Sequence[Range]) -> Imp
     return ImpactMap(of, least, covers, (turns[0], turns[1]))
 
 
-def _refusal(why: str, corrected: Horseshoe | None) -> str:
+def _refusal(why: str, corrected: StayingSet | None) -> str:
     """Say why there is no proof, and on which sets there is one."""
     if corrected is None:
         return f"no horseshoe is proved: {why}"
-    sets = f"I0 = {show_range(corrected.left)}, I1 = {show_range(corrected.right)}"
-    return f"no horseshoe is proved: {why}; it is one on {sets}"
+    return f"no horseshoe is proved: {why}; it is one on {corrected.sets}"
 
 
 def of_words(

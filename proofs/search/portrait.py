@@ -14,7 +14,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.motion.candidate import next_impact
-from proofs.motion.simulate import late_state, transient
+from proofs.motion.simulate import late_state
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
@@ -171,6 +171,10 @@ def _cycle_name(system: System, phase: float, farthest: float) -> str:
 
 def rebounding_fates(system: System, epsilon: float, starts: int, impacts: int) -> list[Fate]:
     """Follow motions with restitution from random impacts, and count what they come to."""
+    import numpy as np
+
+    from proofs.motion.transients import until_rest
+
     generator, ends = random.Random(1), Counter[str]()
     for _ in range(starts):
         start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
@@ -185,7 +189,8 @@ def rebounding_fates(system: System, epsilon: float, starts: int, impacts: int) 
         if first is not None:
             ends[f"a stable orbit of period {period}" if period else _WANDERS] += 1
         else:
-            rests = transient(system, epsilon, *start).rests
+            one, phase, speed = (np.array([x]) for x in (epsilon, *start))
+            (rests,), _ = until_rest(system, one, phase, speed)
             ends["it rests on the table for a while" if rests else _NAMES[FLIES]] += 1
     return [Fate(name, count / starts, impacts) for name, count in ends.most_common()]
 

@@ -18,13 +18,14 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
-from proofs.search.repair import grid, nearest_sets, places
+from proofs.search.repair import grid, nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.s31_horseshoe import ROWS, Horseshoe
+from proofs.trusted.paper.s31_horseshoe import ROWS
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import Avoids, Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
@@ -123,8 +124,8 @@ class _Run:
             if _DECIDE[claim](of, [guess]).verdict is Verdict.REFUTED:
                 yield phase
 
-    def correction(self) -> tuple[str, Horseshoe] | None:
-        """Prove a horseshoe on the nearest sets on which that succeeds, slopes rounded outward."""
+    def correction(self) -> tuple[str, StayingSet] | None:
+        """Prove a horseshoe on the nearest sets on which that succeeds."""
         for sets in islice(nearest_sets(self.of), _TRIES):
             if self._proved(sets) is None and not (
                 self.prove_slopes(sets) and self.prove_gap(sets)
@@ -135,20 +136,16 @@ class _Run:
                 return proved
         return None
 
-    def _proved(self, sets: Parameters) -> tuple[str, Horseshoe] | None:
+    def _proved(self, sets: Parameters) -> tuple[str, StayingSet] | None:
         """Return a horseshoe on these sets by the steps that there are."""
         known = [
-            next(((name, found) for name, found in self.slopes if found.over(domain)), None)
+            next((step for step in self.slopes if step[1].over(domain)), None)
             for domain in (sets.left, sets.right)
         ]
-        for gap in self.gaps:
-            if known[0] is None or known[1] is None:
-                return None
-            try:
-                digits = max(2, places(self.of.slopes))
-                return self.prover.horseshoe(known[0], known[1], gap, sets, digits)
-            except Unproved:
-                continue
+        slopes = [each for each in known if each is not None]
+        for gap in self.gaps if len(slopes) == len(known) else ():
+            with suppress(Unproved), self.prover.undone():
+                return self.prover.horseshoe(slopes, gap, sets)
         return None
 
 

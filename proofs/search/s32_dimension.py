@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from math import lcm
+from typing import Any
 
 from intervals import Undecided
 from proofs.methods.dimension import POINTS, Images, Remembered, boundary, ellipses, enough_arcs
@@ -34,7 +35,8 @@ from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
@@ -53,6 +55,7 @@ class _Run:
     digits: int
     tell: Tell
     letters: dict[Range, tuple[list[str], Letter]] = field(default_factory=dict)
+    inverses: dict[Any, tuple[Inverses, Remembered, int]] = field(default_factory=dict)
 
     def attempt(self, make: Callable[[], tuple[str, Repeller]]) -> Proof:
         """Make a part of the proof; what cannot be proved leaves no step."""
@@ -87,7 +90,10 @@ class _Run:
         """
         flights, letters = zip(*map(self.letter, domains), strict=True)
         self.tell("the inverse branches of f on an ellipse")
-        inverses, known, arcs = self._inverses(hull, letters, words)
+        sets = hull, tuple(domains), words
+        if sets not in self.inverses:
+            self.inverses[sets] = self._inverses(hull, letters, words)
+        inverses, known, arcs = self.inverses[sets]
         self.tell("a test function for the dimension")
         trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
         self.tell("the operator's inequality, on all of the interval")
@@ -223,7 +229,7 @@ def _staying(run: _Run) -> Proof:
     if around:
         staying = invariant_set(of.interval, Found(of, [each for _, each in around]))
         base = staying.base
-        whole = base.interval, (base.left, base.right), FULL
+        whole = base.interval, base.cells, FULL
         proof += run.attempt(partial(run.repeller, *whole))
         if staying.shift.factors == "000":
             inner = Phases(*of.interval), (Phases(*of.left), Phases(*of.right)), WITHOUT_000

@@ -16,7 +16,7 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
-from proofs.search.repair import nearest_sets, places
+from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.numbers import within
 from proofs.trusted.paper.s32_sets.invariant import follow
@@ -49,9 +49,8 @@ def _staying_in(sets: Parameters, of: Parameters, prover: Prover) -> Proof:
         inside = {point for point in extra if domain[0] < point < domain[1]}
         name, found = prover.slopes(sorted({*domain, *inside}))
         slopes[name] = found
-    left, right = slopes.items()
     gap = prover.avoids(sets.gap, sets.interval)
-    base, proved = prover.horseshoe(left, right, gap, sets, max(2, places(of.slopes)))
+    base, proved = prover.horseshoe(list(slopes.items()), gap, sets)
     proof: Proof = [(base, proved)]
     for start in starts:
         orbit = follow(proved, list(slopes.values()), start)

@@ -8,8 +8,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 
-import numpy as np
-
 from intervals import Undecided
 from proofs.motion.simulate import TURNS, late_state, next_impact
 from proofs.motion.system import System
@@ -99,6 +97,8 @@ def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
 
     That is the spectral radius of |D|, D the derivative of F^n; in floating point.
     """
+    import numpy as np
+
     eta, nu, epsilon = (low for low, _ in at.sides)
     system, (phase, gamma) = System(eta, nu), map(float, state)
     for _ in range(_NEWTON):

@@ -86,8 +86,9 @@ class ReboundProver:
 
     def rebound(self, at: Place, phases: Range, velocities: Range) -> tuple[str, Rebound]:
         """Prove the next impact of all states of a box (rule rebound), once."""
-        for name, known in self.all(Rebound, at):
-            if (known.phases, known.velocities) == (phases, velocities):
+        wanted = phases, velocities, at  # phases first: they are seldom the same
+        for name, known in self.known.items():
+            if type(known) is Rebound and (known.phases, known.velocities, known.at) == wanted:
                 return name, known
         name = self.plain.seen_or_proved(partial(self._rebound, at, phases, velocities))
         return name, self.get(name, Rebound)

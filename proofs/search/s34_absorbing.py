@@ -55,11 +55,12 @@ _GRID = 2000
 _EDGES = (5e-10, 8e-10, 1e-8, 1e-6)  # how far from grazing phases cells end
 _OUTSIDE = 1e-5  # how far outside of the line branches are looked for
 _MOST_TURNS = 10_000
+_HALVINGS, _NEWTON = 20, 5  # steps to an inverse image: close first, then by Newton's method
 _WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
 _NAMED = Fraction(1, 10**4)  # the shortest intervals whose numbers of impacts are told
 _SPARE = Fraction(1, 10**9)  # what bounds are rounded by
-_SLOW = 1e-2  # gap' below which floats do not tell an impact's time
+_SLOW = 3e-3  # gap' from which on floats seem to tell an impact's time
 Turn = int | None
 
 
@@ -160,24 +161,29 @@ class Partition:
 
     def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
         """Prove the cells of one branch between cuts."""
-        phases, times = self._impacts(cuts)
-        cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
         after = str(after_reversal(self.system, branch))
-        entry = {"branch": name, "cuts": cuts_of, "times": times_of, "after": after}
-        with suppress(*FAILED):
-            context = Context(self.prover.at, {}, self.prover.known)
-            self.cells += [*branch_cells(context, Reader(entry), self.line[0])]
-            self.entries["cells"].append(entry)
+        context = Context(self.prover.at, {}, self.prover.known)
+        for slow in (_SLOW, math.inf):
+            phases, times = self._impacts(cuts, slow)
+            cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
+            entry = {"branch": name, "cuts": cuts_of, "times": times_of, "after": after}
+            with suppress(*FAILED):
+                self.cells += [*branch_cells(context, Reader(entry), self.line[0])]
+                self.entries["cells"].append(entry)
+                return
 
-    def _impacts(self, cuts: Cutting) -> tuple[list[Fraction], list[Fraction]]:
-        """Return the cuts in units, and times just before the impacts after launches there."""
+    def _impacts(self, cuts: Cutting, slow: float) -> tuple[list[Fraction], list[Fraction]]:
+        """Return the cuts in units, and times just before the impacts after launches there.
+
+        Where gap' is less than `slow`, floats are not trusted to tell an impact's time.
+        """
         rounded = np.round(cuts.phases / float(UNIT)) * float(UNIT)
         images, falls = polished(self.system, rounded, cuts.images, cuts.turns)
         whole, times = 2 * middle(pi(BITS)), []
         phases = [Fraction(x) for x in rounded.tolist()]
         for x, y, n, fall in zip(phases, images.tolist(), cuts.turns.tolist(), falls, strict=True):
             time = Fraction(y) - x + n * whole
-            if abs(fall) < _SLOW:
+            if abs(fall) < slow:
                 time = zero(Motion(self.prover.at, (x, x), BITS), time, 0)
             times.append(short(time, 48) - BRACKET / 2)
         return phases, times
@@ -274,11 +280,11 @@ class _Pieces:
         """Return about the phases of a branch with these images: there the gap is monotone."""
         low, high = (np.full(len(images), end) for end in self.parts[index].phases)
         sign = -1 if self.parts[index].images[0] < self.parts[index].images[1] else 1
-        for count in range(40):
+        for count in range(_HALVINGS + _NEWTON):
             middle = (low + high) / 2
             now = reduced_clock(self.system, middle, images, turns)
             height = gap(float_launch(self.system, middle), now)
-            if count >= 34:  # close: by Newton's method
+            if count >= _HALVINGS:
                 step = height / self._along(middle, now)
                 low = high = np.clip(middle + step, low.min(initial=9), high.max(initial=-9))
                 continue

@@ -16,8 +16,9 @@ from intervals import DomainError, Undecided
 from proofs.motion.chatter import Pushing, Settled
 from proofs.motion.covering import halves
 from proofs.motion.impact import HORIZON
-from proofs.motion.simulate import INITIAL_STATES, TURNS, Summary, transients
+from proofs.motion.simulate import TURNS
 from proofs.motion.system import System
+from proofs.motion.transients import INITIAL_STATES, Summary, transients
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver

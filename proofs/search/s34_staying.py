@@ -14,10 +14,9 @@ from proofs.motion.impact import impact_time, locate
 from proofs.motion.phase import phase_after
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import Phases, Range, within
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet, staying_set
-from proofs.trusted.slopes import Avoids, SlopeRange
+from proofs.trusted.paper.staying import StayingSet
+from proofs.trusted.slopes import SlopeRange
 
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
@@ -197,7 +196,7 @@ class Pieces:
             for known, cuts in zip(slopes, sketch.pieces, strict=True)
             for pair in pairwise(cuts)
         ]
-        return record(self.prover, [sketch.interval], ends, gaps)
+        return self.prover.stays([sketch.interval], ends, gaps)
 
     def _slopes(self, piece: Sequence[Fraction]) -> tuple[str, SlopeRange]:
         for name, known in self._known:
@@ -210,30 +209,6 @@ class Pieces:
                     points |= set(other)
         self._known.append(self.prover.slopes(sorted(points)))
         return self._known[-1]
-
-
-def record(
-    prover: Prover,
-    region: Sequence[Range],
-    cells: Sequence[tuple[tuple[str, SlopeRange], Range]],
-    gaps: Sequence[tuple[str, Avoids]] = (),
-) -> tuple[str, StayingSet]:
-    """Record the step `staying-set`, with its conclusion by the theorem.
-
-    cells: each a slope-range step and two of its points.
-    """
-    parts = [known.over(ends) for (_, known), ends in cells]
-    found = staying_set(
-        [Phases(*part) for part in region],
-        [part for part in parts if part is not None],
-        [gap for _, gap in gaps],
-    )
-    witness = {
-        "region": [texts(part) for part in region],
-        "cells": [{"slopes": name, "domain": texts(ends)} for (name, _), ends in cells],
-        "gaps": [name for name, _ in gaps],
-    }
-    return prover.add("staying-set", witness), found
 
 
 def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, StayingSet]:
@@ -249,7 +224,7 @@ def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, Staying
         brackets.append((low, high))
         phase = _value(prover, phase)[0]
     parts = [(prover.slopes(list(ends)), ends) for ends in brackets]
-    return record(prover, brackets, parts)
+    return prover.stays(brackets, parts)
 
 
 def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fraction:

@@ -48,7 +48,7 @@ _SCALE, _RATE = Fraction(1, 7), Fraction(5, 4)  # of lengths above pi/2, and how
 _DEEPEST = 40  # halvings of a piece
 _BRACKET_PLACES = 40  # binary, of a time in a bracket
 _LONGEST, _RADIUS = 3, Fraction(1, 10**7)  # period of orbits, and how near they are
-_SWEEPS = 40
+_SWEEPS, _STILL = 40, 1e-14
 _ROOT_PLACES = 16  # of narrow grazes
 _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 _SOONER = Fraction(1, 10**6)  # than a narrow graze, impacts beside it
@@ -203,11 +203,14 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
     ends = [(float(x.phases[0]), float(x.phases[1])) for x in branches]
     phases = [(low + high) / 2 for low, high in ends]
     for _ in range(_SWEEPS):
+        before = list(phases)
         for k in reversed(range(len(phases))):
             seen = laps.found.impact(phases[k])
             image = phases[k] + seen.time - math.tau * branches[k].turn
             moved = phases[k] + (phases[(k + 1) % len(phases)] - image) / seen.slope
             phases[k] = min(max(moved, ends[k][0]), ends[k][1])
+        if max(abs(x - y) for x, y in zip(phases, before, strict=True)) < _STILL:
+            break
     return [round(Fraction(phase), 14) for phase in phases]
 
 

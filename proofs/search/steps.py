@@ -7,7 +7,7 @@ need neither mpmath nor numpy.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -23,14 +23,13 @@ from proofs.motion.flight import Numbers, interval, sketch
 from proofs.motion.impact import FirstImpact, impact_time, locate
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
-from proofs.search.repair import rounded_slopes
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, hull, show_range
-from proofs.trusted.paper.s31_horseshoe import Horseshoe, horseshoe
+from proofs.trusted.numbers import Phases, Range, show_range
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import Avoids, Impact, SlopeRange, meets
@@ -152,25 +151,40 @@ class Prover:
         root = texts(moran_root(ratios, self.bits))
         return self.derive("moran-root", {"ratios": texts(ratios), "root": root})
 
+    def stays(
+        self,
+        region: Sequence[Range],
+        cells: Sequence[tuple[tuple[str, SlopeRange], Range]],
+        gaps: Sequence[tuple[str, Avoids]] = (),
+    ) -> tuple[str, StayingSet]:
+        """Prove what stays in a region (rule staying-set).
+
+        cells: each a slope-range step and two of its points.
+        """
+        parts = [known.over(ends) for (_, known), ends in cells]
+        if None in parts:
+            raise Unproved("f' is not known on the cells")
+        found = staying_set(
+            [Phases(*part) for part in region],
+            [part for part in parts if part is not None],
+            [gap for _, gap in gaps],
+        )
+        witness = {
+            "region": [texts(part) for part in region],
+            "cells": [{"slopes": name, "domain": texts(ends)} for (name, _), ends in cells],
+            "gaps": [name for name, _ in gaps],
+        }
+        return self.add("staying-set", witness), found
+
     def horseshoe(
         self,
-        left: tuple[str, SlopeRange],
-        right: tuple[str, SlopeRange],
+        slopes: Sequence[tuple[str, SlopeRange]],
         gap: tuple[str, Avoids],
         sets: Parameters,
-        digits: int,
-    ) -> tuple[str, Horseshoe]:
-        """Prove a horseshoe on I0 and I1 of `sets`, slopes rounded outward (rule horseshoe)."""
-        domains = sets.left, sets.right
-        parts = [x[1].over(domain) for x, domain in zip((left, right), domains, strict=True)]
-        if parts[0] is None or parts[1] is None:
-            raise Unproved("f' is not known on I0 and I1")
-        bounds = hull([part.bounds(part.sign) for part in parts if part is not None])
-        slopes = rounded_slopes(bounds, digits)
-        found = horseshoe(parts[0], parts[1], gap[1], slopes)
-        named = zip((left[0], right[0]), domains, strict=True)
-        witness = [{"slopes": name, "domain": texts(domain)} for name, domain in named]
-        return self.add(
-            "horseshoe",
-            {"left": witness[0], "right": witness[1], "gap": gap[0], "slopes": texts(slopes)},
-        ), found
+    ) -> tuple[str, StayingSet]:
+        """Prove a horseshoe on I0 and I1 of `sets`."""
+        cells = list(zip(slopes, (sets.left, sets.right), strict=True))
+        name, found = self.stays([sets.interval], cells, [gap])
+        if not found.is_horseshoe:
+            raise Unproved("I is not covered")
+        return name, found

@@ -36,7 +36,7 @@ CLAIMS = tuple(
         key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
     )
 )
-_LONGEST = ("circle", "soft", "entropy", "dimension", "persistence")  # begun before the others
+_LONGEST = ("circle", "dimension", "entropy", "nonplastic", "soft")  # begun before the others
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
 group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and

@@ -7,7 +7,7 @@ statement: the mass is a harmonic oscillator of frequency eta about 0, the table
 frequency 1 about 1, both start at the same place, and their distance vanishes at the impact.
 
 Numbers are anything with + - * / and `sincos()`: Interval, IntervalArray, Jet, the checker's
-own; floats too. Other types (sympy's) register themselves with `sincos`.
+own; floats too. Other types (sympy's) are entered in `registered_sincos`.
 """
 
 from __future__ import annotations
@@ -19,14 +19,20 @@ from typing import Any, NamedTuple
 Number = Any
 
 
-@singledispatch
 def sincos(x: Number) -> tuple[Number, Number]:
-    """Return (sin x, cos x) by the number's own method."""
-    pair: tuple[Number, Number] = x.sincos()
+    """Return (sin x, cos x) by the number's own method, else as its type is registered."""
+    own = getattr(x, "sincos", None)
+    pair: tuple[Number, Number] = registered_sincos(x) if own is None else own()
     return pair
 
 
-@sincos.register
+@singledispatch
+def registered_sincos(x: Number) -> tuple[Number, Number]:
+    """Return (sin x, cos x) for numbers of other libraries."""
+    raise TypeError(f"no sine of {type(x).__name__}")
+
+
+@registered_sincos.register
 def _(x: float) -> tuple[float, float]:
     return math.sin(x), math.cos(x)
 

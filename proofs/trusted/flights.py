@@ -31,15 +31,16 @@ Gap = Callable[[Range, int], Enclosure]
 # -- what excludes, brackets and falls -------------------------------------------------------------
 
 
-def stays_up(gap_of: Gap, time: Range, least: Fraction) -> bool:
+def stays_up(gap_of: Gap, time: Range, least: Fraction | int) -> bool:
     """Whether gap > 0 on an interval of times, at whose ends it is `least` or more.
 
-    It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval.
+    It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval. `least` is in
+    the units of the enclosures of gap''.
     """
     if least <= 0:
         return False
-    bend = max(_ZERO, gap_of(time, 2).range[1])
-    return least > bend * (time[1] - time[0]) ** 2 / 8
+    width = time[1] - time[0]
+    return 8 * least * width.denominator**2 > gap_of(time, 2).hi * width.numerator**2
 
 
 def brackets(gap_of: Gap, time: Range) -> bool:
@@ -77,7 +78,7 @@ def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
     value = gap_of((times[0], times[0]), 0)
     for before, now in pairwise(times):
         following = gap_of((now, now), 0)
-        if not stays_up(gap_of, (before, now), min(value.range[0], following.range[0])):
+        if not stays_up(gap_of, (before, now), min(value.lo, following.lo)):
             begin = windows.pop()[0] if windows and windows[-1][1] == before else before
             windows.append((begin, now))
         value = following

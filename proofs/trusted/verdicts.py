@@ -72,7 +72,7 @@ class Decision(NamedTuple):
     corrected: tuple[Conclusion, ...] = ()
     margin: Fraction | None = None
     missing: str = ""
-    quantities: Mapping[str, Range] = MappingProxyType({})
+    quantities: Mapping[str, Range] = {}
 
     @property
     def why(self) -> str:
@@ -108,7 +108,7 @@ def decided(
 
 def undecided(missing: str, known: Mapping[str, Range] = MappingProxyType({})) -> Decision:
     """Return that nothing is decided, what is missing, and what is known all the same."""
-    return Decision(Verdict.UNDECIDED, missing=missing, quantities=known)
+    return Decision(Verdict.UNDECIDED, missing=missing, quantities={**known})
 
 
 class Found:

@@ -139,7 +139,7 @@ def clear(motion: Motion, times: Range) -> None:
         end, height = waiting[-1]
         if min(least, height) <= 0 or end - begin <= shortest:
             raise Unproved("an earlier impact is not excluded")
-        if stays_up(gap_of, (begin, end), min(least, height)):
+        if stays_up(gap_of, (begin, end), min(least, height) * 2**motion.bits):
             begin, least = waiting.pop()
         else:
             middle = (begin + end) / 2

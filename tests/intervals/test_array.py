@@ -383,6 +383,30 @@ def test_elements_as_intervals():
         iter(x[0, 0]).__next__()
 
 
+@pytest.mark.parametrize("op", ["*", "/"])
+@pytest.mark.parametrize("few", [1, 2, 7, 8])
+def test_few_intervals_have_the_bits_that_they_have_among_many(op, few):
+    x, y = sample(op, 1200), sample(few, 1200)
+    keep = fits(x, y, op)
+    x, y = x[keep], y[keep]
+    whole, among = BINARY[op](x, y), len(x) - len(x) % few
+    for i in range(0, among, few):
+        part = slice(i, i + few)
+        assert (BINARY[op](x[part], y[part]) == whole[part]).all()
+        assert (BINARY[op](x[i], y[i]) == whole[i]).all()
+
+
+@pytest.mark.parametrize("count", [1, 8, 9])
+def test_few_intervals_are_refused_as_many_are(count):
+    one, huge = IntervalArray([1] * count), IntervalArray.from_floats([1e200] * count)
+    for divisor in ((-1, 1), (0, 1), (-1, 0), 0):
+        with pytest.raises(DomainError, match="contains 0"):
+            one / IntervalArray([1] * (count - 1) + [divisor])
+    for beyond in (lambda: huge * huge, lambda: huge / (one / huge)):
+        with pytest.raises(OverflowError, match="beyond the range"):
+            beyond()
+
+
 def test_large_arrays_in_blocks_are_what_small_ones_are():
     rng = np.random.default_rng(3)
     a = rng.normal(size=(3, 20_000))

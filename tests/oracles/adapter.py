@@ -11,7 +11,6 @@ from types import SimpleNamespace
 
 _BLIND = {"tape", "roots", "parts", "work"}  # the checker's machinery inside of conclusions
 _MORE = {  # properties that sentences or rows rest on
-    "Horseshoe": ("interval",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
     "Between": ("images", "full"),

@@ -139,14 +139,14 @@ def one_phase():
 
 ORDER = (
     Lines(
-        "paper.s34_circle.other_sets:staying_set",
+        "paper.staying:staying_set",
         (
             ("sorted(cells, key=lambda x: x.domain)", "list(cells)"),
             ('raise Unproved("cells overlap")', "pass"),
         ),
     ),
     Lines(
-        "paper.s34_circle.other_sets:StayingSet.__post_init__",
+        "paper.staying:StayingSet.__post_init__",
         (("not apart(self.cells)", "False"),),
     ),
 )

@@ -328,12 +328,6 @@ def _short(view, cell, target):
     return [f"a cell is mapped to ({low % TURN:.9g}, {high % TURN:.9g}) only"]
 
 
-def horseshoe(view, rng):
-    """H1 to H6 hold at the sets, and the slopes are above 1."""
-    told = [] if view.slopes[0] > 1 else ["the slopes do not expand"]
-    return told + horseshoe_faults(view, rng)
-
-
 def image_arc(view, rng):
     """f is continuous and monotone on the domain, onto the arc between its ends' images."""
     at = [lifted(view, phase) for phase in points(view.domain, rng, 4)]
@@ -387,6 +381,7 @@ def _covered(images, interval):
 def itinerary(view, rng):
     """The orbit of a phase, and which of the sets it visits; `cut`: the word, where it leaves."""
     sets, told, lift, *word = view.base, [], ball(view.orbit[0][0]), *map(int, view.cut)
+    left, right = sets.cells
     if len(view.orbit) != len(word):
         return ["the lengths do not fit"]
     with flint.ctx.workprec(PRECISION):
@@ -394,7 +389,7 @@ def itinerary(view, rng):
             if not inside_mod(lift, bounds):
                 return [f"f^{k} of the phase is {float(lift) % TURN:.15g}"]
             phase = lift - int(float(lift) // TURN) * two_pi()
-            where = [inside(phase, sets.left), inside(phase, sets.right)]
+            where = [inside(phase, left), inside(phase, right)]
             if k < len(word) - 1:
                 if not where[word[k]]:
                     return [f"f^{k} of the phase, {float(phase):.12g}, is not in I{word[k]}"]
@@ -403,7 +398,7 @@ def itinerary(view, rng):
                     return told
                 lift = found.lifted
             else:
-                place = (phase > ball(sets.left[0])) + (phase > ball(sets.right[0]))
+                place = (phase > ball(left[0])) + (phase > ball(right[0]))
                 if any(where) or int(place) != word[k]:
                     told.append(f"f^{k} of the phase, {float(phase):.12g}, is elsewhere")
         return told
@@ -418,6 +413,5 @@ JUDGES = {
     "EntropyBound": entropy_bound,
     "StayingSet": staying_set,
     "ImageArc": image_arc,
-    "Horseshoe": horseshoe,
     "Itinerary": itinerary,
 }

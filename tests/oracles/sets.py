@@ -176,7 +176,7 @@ def invariant_set(view, rng):
         told += itinerary(one, rng)
     factors = [each for each in view.shift.factors.split(" or ") if each]
     counts = Counter()
-    for word, orbit in _periodic(base.eta, base.nu, base.left, base.right):
+    for word, orbit in _periodic(base.eta, base.nu, *base.cells):
         near = min(abs(x - end) for x in orbit for end in (low, high))
         stays = low <= min(orbit) and max(orbit) <= high
         said = not any(each in word * 12 for each in factors)

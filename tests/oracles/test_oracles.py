@@ -178,12 +178,6 @@ FALSE = {
     "SlopeRange": [offs("pieces"), offs("images"), offs("slopes"), _swap("points")],
     "Avoids": [_target_hit],
     "ImageArc": [offs("low"), offs("high"), put("domain", (F("1.11"), F("1.3")))],
-    "Horseshoe": [
-        put("slopes", (F(5), F(7))),
-        put("slopes", (F(4), F(5))),
-        put("right", (F("1.29"), F("1.32"))),
-        put("signs", (1, -1)),
-    ],
     "Itinerary": [offs("orbit"), put("cut", lambda old: old[:-1] + "012"[int(old[-1]) - 1])],
     "InvariantSet": [
         put("interval", (F("1.11"), F("1.3"))),

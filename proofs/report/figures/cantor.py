@@ -11,8 +11,8 @@ from proofs.report.figures.sampled import image, preimage
 from proofs.report.figures.style import BLUE, GREY, ORANGE, proved_boxes, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, show_range
-from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.repeller import Repeller
+from proofs.trusted.paper.staying import StayingSet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,11 +43,11 @@ def cylinders(system: System, left: Range, right: Range, levels: int) -> dict[st
 
 def plot(proved: Context) -> Drawing:
     """Draw both constructions, level by level."""
-    of, corrected = proved.of, the(proved, Horseshoe)
+    of, corrected = proved.of, the(proved, StayingSet)
     drawing, both = sheet(4.2, 2, 1, sharex=True)
     for axes, (left, right), name in (
         (both[0], (of.left, of.right), "printed"),
-        (both[1], (corrected.left, corrected.right), "corrected"),
+        (both[1], corrected.cells, "corrected"),
     ):
         whole = left[0], right[1]
         _levels(axes, whole, (left, right), cylinders(System(of.eta, of.nu), left, right, _LEVELS))

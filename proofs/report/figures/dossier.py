@@ -18,7 +18,7 @@ from proofs.trusted.paper.beyond.attractors import StableOrbit
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet
+from proofs.trusted.paper.staying import StayingSet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -22,7 +23,7 @@ from proofs.report.figures.style import (
 )
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, show, show_range
-from proofs.trusted.paper.s31_horseshoe import Horseshoe
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.slopes import Avoids, SlopeRange
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def hulls(slopes: SlopeRange) -> list[Corners]:
 
 def plot(proved: Context) -> Drawing:
     """Draw the graph, the printed and the corrected I, and where f is proved not to go."""
-    of, corrected = proved.of, the(proved, Horseshoe)
+    of, corrected = proved.of, the(proved, StayingSet)
     drawing, axes = sheet(5.0)
     low, high = (float(x) for x in corrected.interval)
     _gap(axes, the(proved, Avoids))
@@ -64,7 +65,7 @@ def plot(proved: Context) -> Drawing:
     label = f"corrected $I \\times I$, I = {show_range(corrected.interval)}"
     _square(axes, corrected.interval, "-", label)
     _on_axis(axes, (of.left, of.right), 1.063, ORANGE, "printed")
-    _on_axis(axes, (corrected.left, corrected.right), 1.048, "0.75", "corrected")
+    _on_axis(axes, corrected.cells, 1.048, "0.75", "corrected")
     _shortfall(axes, proved)
     axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]", xlim=(1.085, 1.335))
     axes.set_ylim(1.04, 1.42)
@@ -96,7 +97,7 @@ def _square(axes: Axes, interval: Range, style: object, label: str) -> None:
     axes.plot(*corners, linestyle=style, color=BLACK, lw=0.7, label=label)
 
 
-def _on_axis(axes: Axes, sets: tuple[Range, Range], y: float, colour: str, name: str) -> None:
+def _on_axis(axes: Axes, sets: Sequence[Range], y: float, colour: str, name: str) -> None:
     """Mark I0 and I1 above the axis."""
     for index, ends in enumerate(sets):
         low, high = (float(x) for x in ends)

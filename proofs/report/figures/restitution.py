@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from proofs.motion.simulate import INITIAL_STATES, TURNS, transients
+from proofs.motion.simulate import TURNS
 from proofs.motion.system import System
+from proofs.motion.transients import INITIAL_STATES, transients
 from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.style import BLACK, PROVED, RED, sheet
 from proofs.trusted.kernel.context import Context

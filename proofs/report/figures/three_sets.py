@@ -12,7 +12,7 @@ from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLACK, BLUE, GREY, dots, proved_polygons, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show_range, within
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.slopes import SlopeRange
 
 if TYPE_CHECKING:

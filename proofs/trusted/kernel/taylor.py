@@ -77,10 +77,10 @@ class Taylor:
             varying = tuple(each for each in monomial if self._varies(each[0]))
             rest = tuple(each for each in monomial if each not in varying)
             groups.setdefault(varying, {})[rest] = value
-        total = [number(0)] * length
+        total, pole = [number(0)] * length, self._pole(polynomial)
         for varying, factor in groups.items():
             start, rates = self._rates(varying)
-            start += self._pole(polynomial)
+            start += pole
             terms = [number(1)]
             for k in range(1, length - start):
                 term = number(0)

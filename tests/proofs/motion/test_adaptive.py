@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from mpmath import mp, mpf
 from intervals import Undecided
 from proofs.horseshoe import main as horseshoe
 from proofs.motion.candidate import next_impact
-from proofs.motion.covering import cover_by_impacts, precision_for, steps_for
+from proofs.motion.covering import cover_by, cover_by_impacts, precision_for, steps_for
 from proofs.motion.flight import Flight
 from proofs.motion.image import Image, image
 from proofs.motion.impact import (
@@ -356,3 +357,31 @@ def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
     last = (found.window[1] - found.window[0]) / 2**16
     assert found.flight.gap(low).inf > 0 >= found.flight.gap(low + last).inf
     assert found.flight.gap(high).sup < 0 <= found.flight.gap(high - last).sup
+
+
+def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
+    phases = Fraction("1.21"), Fraction("1.27")
+    thin = Fraction(1, 50)
+
+    def parts():
+        return cover_by(
+            PAPER, phases, lambda found: found.transversal and width(found) < thin, obstacle="width"
+        )
+
+    def width(found):
+        return found.flight.phases[1] - found.flight.phases[0]
+
+    with counted() as cut:
+        found = parts()
+    assert len(found) == 4
+    with counted() as afresh:
+        alone = [
+            first_impact(Flight(PAPER, part.flight.phases), finest=steps_for(part.flight.phases))
+            for part in found
+        ]
+    assert evaluations(cut) < evaluations(afresh)
+    for part, other in zip(found, alone, strict=True):
+        assert set(part.windows) <= set(pairwise(part.times))
+        assert abs(part.window[1] - other.window[1]) < Fraction(1, 2)
+        witness = {"phases": in_json(part.flight.phases), "times": in_json(part.times[1:])}
+        assert flights.first_impact(Context(FACTS), Reader(witness)).transversal

@@ -119,28 +119,6 @@ def test_for_people(capsys):
     assert "velocity gamma" in said and "d gamma / d phi" in said and "slope" not in said
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--gamma", "-0.3"], "--epsilon is missing"),
-        (["--epsilon", "0.01"], "--gamma is missing"),
-        (["--epsilon", "2", "--gamma", "-0.3"], "epsilon must be in [0, 1]"),
-        (["--epsilon", "-1/2", "--gamma", "-0.3"], "epsilon must be in [0, 1]"),
-        (["--epsilon", "x", "--gamma", "-0.3"], "not a number"),
-        (["--epsilon", "0.01", "--gamma", "0.42"], "gamma is at most 0.4192"),
-        (["--epsilon", "0.01", "--gamma", "0", "1"], "physically impossible"),
-        (["--epsilon", "0.01", "--gamma", "0", "-1"], "reversed"),
-        (["--epsilon", "0.01", "--gamma", "0", "1", "2"], "one velocity or two"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, message, capsys):
-    with pytest.raises(SystemExit) as leave:
-        impact.main([*AT, "--phi", "1.11", *arguments])
-    said = capsys.readouterr()
-    assert leave.value.code == 2 and said.out == ""
-    assert said.err.count("\n") == 1 and message in said.err
-
-
 def test_no_impact_within_the_horizon_is_status_1(capsys):
     state = ["--epsilon", "0.01", "--gamma", "-0.3", "--horizon", "9"]
     assert impact.main([*AT, "--phi", "1.11", *state]) == 1

@@ -74,36 +74,6 @@ def test_the_text_has_all_digits(capsys):
     assert "0.59746447785597285867098909025706" in text
 
 
-@pytest.mark.parametrize(
-    ("state", "why"),
-    [
-        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma 0.3", "physically impossible"),
-        ("--nu 0 --epsilon 0.5 --phi 1 --gamma 0.3", "nu must not be 0"),
-        ("--nu -0.2 --epsilon 1.1 --phi 1 --gamma -0.3", "epsilon must be in"),
-        ("--nu -0.2 --epsilon -1/2 --phi 1 --gamma -0.3", "epsilon must be in"),
-        ("--nu -0.2 --epsilon 0.5 --phi 7 --gamma -0.3", "phase outside"),
-        ("--nu -0.2 --phi 1", "required: --epsilon, --gamma"),
-        ("--nu -0.2 --epsilon 0.5 --phi x --gamma -0.3", "--phi"),
-        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma nan", "--gamma"),
-        ("--eta 1 --nu -0.2 --epsilon 0.5 --phi 1 --gamma 0", "--eta"),
-    ],
-)
-def test_bad_input_is_one_line(state, why, capsys):
-    with pytest.raises(SystemExit) as leaving:
-        resonance.main(state.split())
-    written = capsys.readouterr()
-    assert leaving.value.code == 2 and written.out == ""
-    assert written.err.count("\n") == 1 and why in written.err
-
-
-def test_help_shows_examples(capsys):
-    for options in (["--help"], ["--phi", "1", "--help"]):
-        with pytest.raises(SystemExit) as leaving:
-            resonance.main(options)
-        assert leaving.value.code == 0
-        assert "python -m proofs.resonance --nu -0.2 --epsilon 0.5" in capsys.readouterr().out
-
-
 @pytest.mark.slow
 def test_too_many_impacts_are_undecided(capsys):
     state = [Fraction(text) for text in ("-0.2", "0.9999999999", "1", "-3")]

@@ -67,30 +67,6 @@ def test_no_bifurcation_near_a_guess(capsys, tmp_path):
     assert "undecided: flip" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["x1 = r*x*(1 - x"], "not a formula"),
-        (["x1 = x^2 + c", "--set", "d=1"], "no parameter d"),
-        (["x1 = x^2 + c", "--set", "c"], "NAME=NUMBER"),
-        (["x1 = x^2 + c", "--kind", "neimark_sacker"], "one variable"),
-        (["x1 = x^2 + c", "--near", "x=0,c=0"], "--kind"),
-        (["x1 = x^2 + c", "--kind", "flip", "--near", "x=0"], "one parameter"),
-        (["x1 = x^2 + c", "--solve", "x"], "2 names"),
-        (["x1 = x^2 + h"], "something else: h"),
-        (["x = 2"], "one or two variables"),
-        ([LOGISTIC, "--json", "/proc/none/x"], "cannot write"),
-        ([LOGISTIC, "--out", "/proc/none"], "cannot write"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, message, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(arguments)
-    printed = capsys.readouterr()
-    assert stop.value.code == 2 and not printed.out
-    assert printed.err.count("\n") == 1 and message in printed.err
-
-
 def test_a_checker_that_disagrees_is_said_loudly(monkeypatch, capsys):
     def disagree(source):
         raise Rejected("$.steps")
@@ -98,11 +74,3 @@ def test_a_checker_that_disagrees_is_said_loudly(monkeypatch, capsys):
     monkeypatch.setattr(bifurcation, "check", disagree)
     assert main([LOGISTIC]) == 3
     assert "the checker disagrees" in capsys.readouterr().err
-
-
-def test_help_has_examples(capsys):
-    with pytest.raises(SystemExit):
-        main(["--help"])
-    shown = capsys.readouterr().out
-    assert 'python -m proofs.bifurcation "x1 = r*x*(1 - x)"' in shown
-    assert "bouncing ball" in shown

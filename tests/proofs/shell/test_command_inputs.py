@@ -1,14 +1,16 @@
 """Bad input to the commands that answer a question: one line, status 2, nothing written."""
 
 import os
+import shlex
 from time import perf_counter
 
 import pytest
 
-from proofs import impact, orbits, period_doubling, resonance, single_impact
+from proofs import bifurcation, impact, orbits, period_doubling, resonance, single_impact
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 POINT = [*AT, "--phi", "1.11"]
+KICK = " ".join(POINT)
 KICKED = {"--epsilon": "0.01", "--gamma": "-0.3"}
 BASES = {
     impact: {"--eta": "0.2121", "--nu": "-0.2", "--phi": "1.11", **KICKED},
@@ -74,6 +76,85 @@ def wrong_options():
 @pytest.mark.parametrize("command, arguments", [*wrong_options()])
 def test_a_wrong_number_is_refused(command, arguments, capsys):
     refused(capsys, command, arguments)
+
+
+WHY = {  # what the line says
+    impact: [
+        ("--eta x --nu 1 --phi 1", "not a number"),
+        ("--eta 0 --nu 1 --phi 1", "eta must be positive"),
+        ("--eta 1 --nu 0 --phi 1", "nu must not be 0"),
+        ("--eta 1 --nu 1 --phi 2 1", "reversed"),
+        ("--eta 1 --nu 1 --phi 7", "outside the circle"),
+        ("--eta 1 --nu 1 --phi -1/5", "outside the circle"),
+        ("--eta 1 --nu 1 --phi 1 2 3", "one phase or two"),
+        ("--eta 1 --nu 1", "--phi"),
+        (f"{KICK} --gamma -0.3", "--epsilon is missing"),
+        (f"{KICK} --epsilon 0.01", "--gamma is missing"),
+        (f"{KICK} --epsilon 2 --gamma -0.3", "epsilon must be in [0, 1]"),
+        (f"{KICK} --epsilon -1/2 --gamma -0.3", "epsilon must be in [0, 1]"),
+        (f"{KICK} --epsilon x --gamma -0.3", "not a number"),
+        (f"{KICK} --epsilon 0.01 --gamma 0.42", "gamma is at most 0.4192"),
+        (f"{KICK} --epsilon 0.01 --gamma 0 1", "physically impossible"),
+        (f"{KICK} --epsilon 0.01 --gamma 0 -1", "reversed"),
+        (f"{KICK} --epsilon 0.01 --gamma 0 1 2", "one velocity or two"),
+    ],
+    orbits: [
+        ("", "--period"),
+        ("--period 0", "from 1 to 16"),
+        ("--period 17", "from 1 to 16"),
+        ("--period x", "from 1 to 16"),
+        ("--word 012", "letters 0 and 1"),
+        ("--word ''", "letters 0 and 1"),
+        (f"--word {'0' * 300}", "letters 0 and 1"),
+        ("--word 01 --period 2", "not allowed with"),
+        ("--word 01 --left 1.2 1.1", "reversed"),
+        ("--word 01 --left 1.1 1.3", "overlap"),
+        ("--word 01 --nu 0", "nu must not be 0"),
+        ("--word 01 --eta abc", "not a number"),
+    ],
+    period_doubling: [
+        *((f"--m {text}", "whole number") for text in ("0", "1.5", "-1", "1000000001", "x")),
+        ("--epsilon 1", "epsilon is in [0, 1)"),
+        ("--epsilon -0.1", "epsilon is in [0, 1)"),
+        ("--k 0.5", "k is in [0, 1/(2 m))"),
+        ("--m 3 --k 1/6", "k is in [0, 1/(2 m))"),
+        ("--k -0.1", "k is in [0, 1/(2 m))"),
+        ("--q 1", "q plays no part"),
+        ("--k 0.1 --q 200", "k^2 q is less than 2"),
+        ("--rho 0", "rho is positive"),
+    ],
+    resonance: [
+        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma 0.3", "physically impossible"),
+        ("--nu 0 --epsilon 0.5 --phi 1 --gamma 0.3", "nu must not be 0"),
+        ("--nu -0.2 --epsilon 1.1 --phi 1 --gamma -0.3", "epsilon must be in"),
+        ("--nu -0.2 --epsilon -1/2 --phi 1 --gamma -0.3", "epsilon must be in"),
+        ("--nu -0.2 --epsilon 0.5 --phi 7 --gamma -0.3", "phase outside"),
+        ("--nu -0.2 --phi 1", "required: --epsilon, --gamma"),
+        ("--nu -0.2 --epsilon 0.5 --phi x --gamma -0.3", "--phi"),
+        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma nan", "--gamma"),
+        ("--eta 1 --nu -0.2 --epsilon 0.5 --phi 1 --gamma 0", "--eta"),
+    ],
+    bifurcation: [
+        ("'x1 = r*x*(1 - x'", "not a formula"),
+        ("'x1 = x^2 + c' --set d=1", "no parameter d"),
+        ("'x1 = x^2 + c' --set c", "NAME=NUMBER"),
+        ("'x1 = x^2 + c' --kind neimark_sacker", "one variable"),
+        ("'x1 = x^2 + c' --near x=0,c=0", "--kind"),
+        ("'x1 = x^2 + c' --kind flip --near x=0", "one parameter"),
+        ("'x1 = x^2 + c' --solve x", "2 names"),
+        ("'x1 = x^2 + h'", "something else: h"),
+        ("'x = 2'", "one or two variables"),
+        ("'x1 = r*x*(1 - x)' --json /proc/none/x", "cannot write"),
+        ("'x1 = r*x*(1 - x)' --out /proc/none", "cannot write"),
+    ],
+}
+
+
+@pytest.mark.parametrize(
+    "command, arguments, why", [(command, *row) for command, rows in WHY.items() for row in rows]
+)
+def test_the_line_says_why(command, arguments, why, capsys):
+    assert why in refused(capsys, command, shlex.split(arguments))
 
 
 @pytest.mark.parametrize("text", NO_DIGITS, ids=[text[:10] for text in NO_DIGITS])

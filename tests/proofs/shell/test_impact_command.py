@@ -53,28 +53,6 @@ def test_json_to_a_file(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--eta", "x", "--nu", "1", "--phi", "1"], "not a number"),
-        (["--eta", "0", "--nu", "1", "--phi", "1"], "eta must be positive"),
-        (["--eta", "1", "--nu", "0", "--phi", "1"], "nu must not be 0"),
-        (["--eta", "1", "--nu", "1", "--phi", "2", "1"], "reversed"),
-        (["--eta", "1", "--nu", "1", "--phi", "7"], "outside the circle"),
-        (["--eta", "1", "--nu", "1", "--phi", "-1/5"], "outside the circle"),
-        (["--eta", "1", "--nu", "1", "--phi", "1", "2", "3"], "one phase or two"),
-        ([*AT, "--phi", "1.11", "--digits", "x"], "whole number"),
-        ([*AT], "--phi"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, message, capsys):
-    with pytest.raises(SystemExit) as leave:
-        impact.main(arguments)
-    said = capsys.readouterr()
-    assert leave.value.code == 2 and said.out == ""
-    assert said.err.count("\n") == 1 and message in said.err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
         (["--eta", "1", "--nu", "1", "--phi", "1"], "forever"),
         ([*AT, "--phi", "1.57"], "horizon"),
         ([*AT, "--phi", "1.11", "--horizon", "20"], "horizon"),

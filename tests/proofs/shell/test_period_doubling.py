@@ -128,36 +128,3 @@ def test_digits_do_not_cancel(capsys):
     found = answer(capsys, "--epsilon", epsilon)["rho_saddle_node"]
     low, high = Fraction(found["lower"]), Fraction(found["upper"])
     assert 0 < (high - low) * 10**29 <= low
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--m", "0"], "whole number"),
-        (["--m", "1.5"], "whole number"),
-        (["--m", "-1"], "whole number"),
-        (["--m", "1000000001"], "whole number"),
-        (["--m", "x"], "whole number"),
-        (["--epsilon", "1"], "epsilon is in [0, 1)"),
-        (["--epsilon", "-0.1"], "epsilon is in [0, 1)"),
-        (["--k", "0.5"], "k is in [0, 1/(2 m))"),
-        (["--m", "3", "--k", "1/6"], "k is in [0, 1/(2 m))"),
-        (["--k", "-0.1"], "k is in [0, 1/(2 m))"),
-        (["--q", "1"], "q plays no part"),
-        (["--k", "0.1", "--q", "200"], "k^2 q is less than 2"),
-        (["--rho", "0"], "rho is positive"),
-        (["--digits", "0"], "digits"),
-    ],
-)
-def test_bad_input_is_one_line(capsys, arguments, message):
-    with pytest.raises(SystemExit) as failure:
-        main(arguments)
-    out, err = capsys.readouterr()
-    assert failure.value.code == 2 and out == ""
-    assert message in err and err.count("\n") == 1
-
-
-def test_help_has_examples(capsys):
-    with pytest.raises(SystemExit):
-        main(["--help"])
-    assert "python -m proofs.period_doubling --m 3" in capsys.readouterr().out

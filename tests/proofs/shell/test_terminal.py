@@ -36,14 +36,16 @@ def words(lines):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_fits(name, monkeypatch):
+def test_help_fits_and_has_examples(name, monkeypatch):
     screen, width = Terminal(), WIDTHS[COMMANDS.index(name) % 2]
     monkeypatch.setenv("COLUMNS", str(width))
     monkeypatch.setattr(sys, "stdout", screen)
     with suppress(SystemExit):
         assert run_command(f"proofs.{name}", ["--help"]) == 0
     lines = screen.getvalue().splitlines()
-    assert len(lines) > 5 and fits(lines, width), [line for line in lines if len(line) > width]
+    examples = " ".join(words(lines)).partition("examples:")[2]
+    assert name == "__main__" or f"python -m proofs.{name} " in examples
+    assert fits(lines, width), [line for line in lines if len(line) > width]
 
 
 @pytest.mark.slow

@@ -156,14 +156,14 @@ def quantity_tightened(document: Document) -> None:
     bounds["lower"] = bounds["upper"]
 
 
-def corrected_slopes_tightened(document: Document) -> None:
-    witness = witness_of(document, first(document, "horseshoe"))
-    low, high = witness["slopes"]
-    witness["slopes"] = [low, str(Fraction(high) - Fraction(1, 50))]
+def corrected_interval_widened(document: Document) -> None:
+    witness_of(document, first(document, "staying-set"))["region"] = [["11/10", "133/100"]]
 
 
 def corrected_sets_printed(document: Document) -> None:
-    witness_of(document, first(document, "horseshoe"))["left"]["domain"] = ["111/100", "23/20"]
+    witness = witness_of(document, first(document, "staying-set"))
+    witness["cells"][0]["domain"] = ["111/100", "23/20"]
+    witness["region"] = [["111/100", "33/25"]]
 
 
 FALSE = Parameters(
@@ -216,13 +216,13 @@ def false_horseshoe(document: Document) -> None:
         },
     }
     parts = zip(("slope-range-1", "slope-range-2"), (FALSE.left, FALSE.right), strict=True)
-    left, right = ({"slopes": name, "domain": [str(x) for x in part]} for name, part in parts)
-    witness = {"left": left, "right": right, "gap": "avoids-1", "slopes": ["2", "3"]}
-    document["steps"]["horseshoe-1"] = {"rule": "horseshoe", "witness": witness}
+    cells = [{"slopes": name, "domain": [str(x) for x in part]} for name, part in parts]
+    witness = {"region": [target], "cells": cells, "gaps": ["avoids-1"]}
+    document["steps"]["staying-set-1"] = {"rule": "staying-set", "witness": witness}
     text = {"verdict": "VERIFIED", "why": "", "witness": None, "corrected": None}
     statement = find("H5").says(FALSE)
     document["claims"] = [
-        {"id": "H5", "statement": statement, "proof": ["horseshoe-1"], "quantities": {}, **text}
+        {"id": "H5", "statement": statement, "proof": ["staying-set-1"], "quantities": {}, **text}
     ]
 
 
@@ -317,14 +317,14 @@ CORPUS: dict[str, Entry] = {
         "do not contain",
         changing(only("H1"), quantity_tightened),
     ),
-    "rejected/corrected_slopes_tightened": Entry(
-        "the corrected theorem with a slope bound lower by 0.02",
-        "not within",
-        changing(corrected_slopes_tightened),
+    "rejected/corrected_interval_widened": Entry(
+        "the corrected theorem on a wider I, which the gap is not proved to avoid",
+        "to avoid the region",
+        changing(corrected_interval_widened),
     ),
     "rejected/corrected_sets_printed": Entry(
         "the corrected theorem on the printed I0, whose image does not cover I",
-        "I is not covered",
+        "neither covered nor missed",
         changing(corrected_sets_printed),
     ),
     "rejected/false_horseshoe": Entry(

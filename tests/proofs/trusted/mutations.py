@@ -39,7 +39,7 @@ HARMLESS = {
     "claims reordered": "the same claims",
     "reference added": "the same proof, and another true step",
     "proof of another claim": "where it decides the same, by the same texts",
-    "corrected slope bounds weakened, texts renewed": "a weaker theorem, named as such",
+    "corrected sets swapped, texts renewed": "the order in a file says nothing",
     "restitution changed": "claims about plastic impacts do not speak of it",
     "restitution left out": "claims about plastic impacts do not speak of it",
 }
@@ -370,26 +370,20 @@ def fixed(value: Fraction, digits: int) -> str:
 
 
 def correction(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Edit]]:
-    for name, witness in steps(document, "horseshoe"):
+    for name, witness in steps(document, "staying-set"):
         base = ("steps", name, "witness")
-        low, high = map(Fraction, witness["slopes"])
-        for pair in ([low, high - Fraction(1, 10)], [low + Fraction(1, 5), high], [low + 2, high]):
-            edit = put((*base, "slopes"), list(map(str, pair)))
-            yield "corrected slope bounds strengthened, texts renewed", base, both(edit)
-        for pair in ([low - Fraction(1, 10), high], [low, high + 1]):
-            edit = put((*base, "slopes"), list(map(str, pair)))
-            yield "corrected slope bounds weakened, texts renewed", base, both(edit)
-        weak = put((*base, "slopes"), ["1", str(high)])
-        yield "corrected slopes that do not expand, texts renewed", base, both(weak)
-        for side, domain in (("left", ["111/100", "23/20"]), ("right", ["32/25", "33/25"])):
-            edit = put((*base, side, "domain"), domain)
+        first, second = ((*base, "cells", k) for k in (0, 1))
+        for side, domain in ((first, ["111/100", "23/20"]), (second, ["32/25", "33/25"])):
+            edit = put((*side, "domain"), domain)
             yield "corrected sets changed, texts renewed", base, both(edit)
-        yield (
-            "corrected sets swapped, texts renewed",
-            base,
-            both(swap((*base, "left"), (*base, "right"))),
-        )
-        yield "corrected gap changed", base, put((*base, "gap"), witness["left"]["slopes"])
+        yield "corrected sets swapped, texts renewed", base, both(swap(first, second))
+        for region in ([["111/100", "33/25"]], [["11/10", "133/100"]], [["11/10", "13/10"]], []):
+            edit = put((*base, "region"), region)
+            yield "corrected interval changed, texts renewed", base, both(edit)
+        for part in (witness["cells"][:1], [*witness["cells"], witness["cells"][0]], []):
+            yield "corrected sets left out or doubled", base, both(put((*base, "cells"), part))
+        yield "corrected gap changed", base, put((*base, "gaps", 0), witness["cells"][0]["slopes"])
+        yield "corrected gap left out", base, both(put((*base, "gaps"), []))
 
 
 def noncanonical(value: str) -> Iterator[str]:

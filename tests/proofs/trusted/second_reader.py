@@ -20,7 +20,7 @@ from tests.proofs.trusted.second_map import Impacts, NotAProof, avoids, moran_ro
 
 __all__ = ["NotACertificate", "NotAProof", "read"]
 
-RULES = ("first-impact", "point", "slope-range", "avoids", "moran-root", "horseshoe")
+RULES = ("first-impact", "point", "slope-range", "avoids", "moran-root", "staying-set")
 CLAIMS = GROUPS["horseshoe"]
 PARAMETERS_OF_CLAIMS = ("slopes", "ratios", "printed_s0", "epsilon", "velocities", "reach")
 NUMBER = "-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?"
@@ -167,34 +167,43 @@ def read_step(step, earlier, used):
         touching = all(a[1] == b[0] for a, b in pairwise(parts))
         form(touching, "flights that do not touch")
         return rule, (flights, phases(target))
-    if rule == "horseshoe":
-        left, right, gap, slopes = fields(witness, "left", "right", "gap", "slopes")
-        parts = []
-        for side in (left, right):
-            name, domain = fields(side, "slopes", "domain")
+    if rule == "staying-set":
+        region, cells, gaps = fields(witness, "region", "cells", "gaps")
+
+        def part(value):
+            name, domain = fields(value, "slopes", "domain")
             form(string(name) in earlier and earlier[name][0] == "slope-range", "no such slopes")
             domain = interval(domain)
             marks = [phase for _, phase, _ in earlier[name][1][0]]
             form(set(domain) <= set(marks), "points of the slopes")
             used.add(name)
-            parts.append((name, domain))
-        form(string(gap) in earlier and earlier[gap][0] == "avoids", "no such gap")
-        used.add(gap)
-        return rule, (parts, gap, interval(slopes))
+            return name, domain
+
+        def gap(name):
+            form(string(name) in earlier and earlier[name][0] == "avoids", "no such gap")
+            used.add(name)
+            return name
+
+        region = entries(region, interval, 1, 500)
+        return rule, (region, entries(cells, part, 1, 500), entries(gaps, gap, 0, 50))
     ratios, root = fields(witness, "ratios", "root")
     return rule, (entries(ratios, number, 2, 2), interval(root))
 
 
 def prove_step(impacts, rule, data, earlier, of):
     """The conclusion of a step, from those of the earlier ones."""
-    if rule == "horseshoe":
-        parts, gap, slopes = data
-        left, right = (domain for _, domain in parts)
-        proof(left[0] < left[1] < right[0] < right[1], "I0 before I1")
-        proof(1 < slopes[0] <= slopes[1], "slopes that expand")
-        its = replace(of, left=left, right=right, interval=(left[0], right[1]), slopes=slopes)
-        facts = [("slope-range", earlier[name]) for name, _ in parts] + [("avoids", earlier[gap])]
-        proof(all(verified(f"H{k}", Facts(its, facts), closed=True) for k in range(1, 7)), "H1-H6")
+    if rule == "staying-set":  # horseshoes alone
+        region, parts, gaps = data
+        proof(len(region) == 1 and len(parts) == 2, "one interval and two sets")
+        left, right = sorted(domain for _, domain in parts)
+        proof(left[0] < left[1] < right[0] < right[1] <= BELOW_TURN, "I0 before I1")
+        proof(region[0] == (left[0], right[1]), "I from I0 to I1")
+        its = replace(of, left=left, right=right, interval=region[0], slopes=(1, 10**9))
+        facts = [("slope-range", earlier[name]) for name, _ in parts]
+        facts = Facts(its, facts + [("avoids", earlier[gap]) for gap in gaps])
+        proof(all(within(region[0], earlier[gap][1]) for gap in gaps), "gaps that leave I")
+        proof(all(verified(f"H{k}", facts, closed=True) for k in range(1, 7)), "H1-H6")
+        proof(all(slopes[0][0] > 1 for slopes in facts.slopes), "slopes that expand")
         return its
     if rule == "first-impact":
         return impacts.first_impact(*data)

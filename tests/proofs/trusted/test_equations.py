@@ -13,7 +13,7 @@ from proofs.trusted.equations import (
     launch,
     launch_acceleration,
     launch_with_restitution,
-    sincos,
+    registered_sincos,
     slope,
 )
 from tests.proofs.trusted.paper import reference
@@ -21,12 +21,12 @@ from tests.proofs.trusted.paper import reference
 eta, nu, phi, t, epsilon, gamma = sympy.symbols("eta nu phi t epsilon gamma", positive=True)
 
 
-@sincos.register(sympy.Expr)
+@registered_sincos.register(sympy.Expr)
 def _(x):
     return sympy.sin(x), sympy.cos(x)
 
 
-@sincos.register(mpf)
+@registered_sincos.register(mpf)
 def _(x):
     return reference.mp.sin(x), reference.mp.cos(x)
 

@@ -34,9 +34,11 @@ def parabola(time, order):
 
 def test_a_chord_bounds_from_below_less_the_bend():
     """cos on [2 pi - 1, 2 pi + 1]: ends cos 1 = 0.54; on [pi - 1/2, pi + 1/2] sup cos'' = 1."""
-    assert stays_up(cosine, (F(-1), F(1)), F("0.54"))  # cos'' < 0 there: the chord is below
-    assert not stays_up(cosine, (F("2.6"), F("3.6")), F("0.12"))  # 1/8 < 0.12 is needed
-    assert stays_up(cosine, (F("2.6"), F("3.6")), F("0.13"))
+    unit, bent = 2**BITS, (F("2.6"), F("3.6"))
+    assert stays_up(cosine, (F(-1), F(1)), F("0.54") * unit)  # cos'' < 0 there: the chord is below
+    assert not stays_up(cosine, (F(-1), F(1)), 0)
+    assert not stays_up(cosine, bent, F("0.12") * unit)  # 1/8 < 0.12 is needed
+    assert stays_up(cosine, bent, F("0.13") * unit)
 
 
 @pytest.mark.parametrize(

@@ -22,6 +22,7 @@ from tests.proofs.trusted.renewing import rederived
 
 REFUSED = (Malformed, Rejected)
 EXACT = {"H15", "H16", "H17", "A2"}  # decided by exact arithmetic on the paper's numbers
+SPARE = {(claim, "separation-1") for claim in ("G4", "G6", "G10", "G13")}  # absorption has the arc
 SLOW = {
     "nonplastic",
     "dimension",
@@ -96,13 +97,13 @@ def test_nothing_in_an_entry_is_believed(group):
             moved = {"lower": f"{beyond:f}", "upper": f"{beyond + 1:f}"}
             refused(group, entry, quantities={name: moved})
             refused(group, entry, quantities={"other": bounds})
+            if bounds["lower"] != bounds["upper"]:
+                refused(group, entry, quantities={name: {**bounds, "lower": bounds["upper"]}})
         for name in entry["proof"]:
-            fewer = {**entry, "proof": [step for step in entry["proof"] if step != name]}
-            try:
-                left = judged(group, fewer)
-            except REFUSED:
-                continue
-            assert left.verdict.value == entry["verdict"], f"{entry['id']} without {name}"
+            if (entry["id"], name) not in SPARE:
+                refused(group, entry, proof=[step for step in entry["proof"] if step != name])
+        if entry["proof"]:
+            refused(group, entry, proof=[])
 
 
 @pytest.mark.parametrize("group", GROUPS)

@@ -16,9 +16,8 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
 from proofs.trusted.paper.beyond.returning import StickingMotion
-from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet
+from proofs.trusted.paper.staying import StayingSet, read_part
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange, image_range, inside
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided

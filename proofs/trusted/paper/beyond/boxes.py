@@ -17,7 +17,7 @@ from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.numbers import Phases, Range, between, floor_text, show_range
 from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.other_sets import apart
+from proofs.trusted.paper.staying import apart
 from proofs.trusted.parameters import Place
 
 MOST_CELLS = 50

@@ -19,8 +19,8 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
-from proofs.trusted.paper.s31_horseshoe import read_part
 from proofs.trusted.paper.s34_circle.landing import Lands, Separation
+from proofs.trusted.paper.staying import read_part
 from proofs.trusted.slopes import SlopeRange, image_range, inside
 
 _MOST_IMPACTS = 200

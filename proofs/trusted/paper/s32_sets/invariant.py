@@ -17,8 +17,8 @@ from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
-from proofs.trusted.paper.s31_horseshoe import Horseshoe
 from proofs.trusted.paper.s32_sets.subshift import Subshift, closed_paths, log_of
+from proofs.trusted.paper.staying import StayingSet, horseshoes
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -27,10 +27,12 @@ _LONGEST = 10
 _SPOTS = ("below I0", "in I0", "between I0 and I1", "in I1", "above I1")
 
 
-def _spot(base: Horseshoe, x: Range) -> int:
+def _spot(base: StayingSet, x: Range) -> int:
     """Return which of `_SPOTS` an enclosed phase is in: 1 and 3 are the sets, 0, 2, 4 are not."""
-    (a, b), (c, d) = base.left, base.right
-    known = (x[1] < a, within(x, base.left), b < x[0] and x[1] < c, within(x, base.right), d < x[0])
+    if not base.is_horseshoe:
+        raise Unproved("orbits are followed in a horseshoe, on two sets")
+    left, right = (a, b), (c, d) = base.cells
+    known = (x[1] < a, within(x, left), b < x[0] and x[1] < c, within(x, right), d < x[0])
     if True not in known:
         raise Unproved("it is not decided in which of I0 and I1 an image is")
     return known.index(True)
@@ -43,7 +45,7 @@ class Itinerary(Conclusion):
     orbit: the phase, and enclosures of its images up to the one that is in neither.
     """
 
-    base: Horseshoe
+    base: StayingSet
     orbit: tuple[Range, ...]
 
     at = About("base")
@@ -82,7 +84,7 @@ class Itinerary(Conclusion):
         )
 
 
-def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary:
+def follow(base: StayingSet, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary:
     """Follow a phase through a horseshoe, f being known at points of `slopes`.
 
     f increases on I0 and I1, and f(I0), f(I1) do not pass phase 0. So where p <= x <= q are
@@ -97,7 +99,7 @@ def follow(base: Horseshoe, slopes: Sequence[SlopeRange], phase: Fraction) -> It
         if len(orbit) > _LONGEST:
             raise Unproved(f"the orbit of {show(phase)} stays in I0 and I1 for {_LONGEST} steps")
         METER.get().spend(len(known))
-        domain, (low, high) = base.left if spot == 1 else base.right, orbit[-1]
+        domain, (low, high) = base.cells[spot // 2], orbit[-1]
         below = [image[0] for p, image in known if domain[0] <= p <= low]
         above = [image[1] for p, image in known if high <= p <= domain[1]]
         if not below or not above:
@@ -113,7 +115,7 @@ def itinerary(context: Context, reader: Reader) -> Itinerary:
     """
     base, names, phase = reader.fields("horseshoe", "slopes", "phase")
     slopes = [context.step(name, SlopeRange) for name in names.items(most=10)]
-    return follow(context.step(base, Horseshoe), slopes, phase.number())
+    return follow(context.step(base, StayingSet), slopes, phase.number())
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,7 @@ class InvariantSet(Conclusion):
     iterate is below the one end or above the other} is as stated; a restriction of the conjugacy.
     """
 
-    base: Horseshoe
+    base: StayingSet
     interval: Phases
     orbits: tuple[Itinerary, ...]
 
@@ -143,7 +145,7 @@ class InvariantSet(Conclusion):
 
     def __post_init__(self) -> None:
         """Raise Unproved unless J is in I, and the orbits are those of its other ends, in order."""
-        if not within(self.interval, self.base.interval):
+        if not self.base.is_horseshoe or not within(self.interval, self.base.interval):
             raise Unproved("the horseshoe is not around the interval")
         ends = sorted(set(self.interval) - set(self.base.interval))
         if [(x.base, x.phase) for x in self.orbits] != [(self.base, end) for end in ends]:
@@ -193,8 +195,8 @@ def staying(interval: Range, found: Found) -> InvariantSet:
     return InvariantSet(base, Phases(*interval), tuple(known[x] for x in ends if x in known))
 
 
-def _around(interval: Range, found: Found) -> Horseshoe:
-    for base in found.all(Horseshoe):
+def _around(interval: Range, found: Found) -> StayingSet:
+    for base in horseshoes(found):
         if within(interval, base.interval):
             return base
     raise Unproved("no horseshoe is proved on sets around the given interval I")

@@ -28,7 +28,7 @@ from proofs.trusted.parameters import Place
 
 _ONE, _LOG_BITS = Fraction(1), 64
 _WORD = re.compile("[0-9]{1,16}")
-_MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 2000, 4000
+_MOST_LETTERS, _MOST_WORDS, _MOST_ARCS, _MOST_TERMS, _MOST_BITS = 10, 16, 2000, 2500, 4000
 
 
 @dataclass(frozen=True)

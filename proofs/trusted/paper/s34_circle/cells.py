@@ -104,24 +104,20 @@ class _Links(NamedTuple):
     dense: list[int]
     sparse: list[int]
     partial: list[tuple[int, int, int]]
-    lost: int
 
     def most(self, left: list[int]) -> int:
-        """Bound, in units of 2^-128, the measure that is sent into a set.
-
-        left: bounds of the measure of what is in it of each cell.
-        """
+        """Bound, in units of 2^-128, what is sent into a set, by what is in it of each cell."""
         inside = left[self.first : self.last]
         for place, common, _ in self.partial:
             inside[place] = min(inside[place], common)
         return sum(map(mul, self.dense, inside))
 
     def least(self, held: list[int]) -> int:
-        """Do the same from below."""
+        """Do the same from below; each cell may be a unit longer, its ends being rounded down."""
         inside = held[self.first : self.last]
         for place, _, missed in self.partial:
             inside[place] = max(0, inside[place] - missed)
-        return int(sum(map(mul, self.sparse, inside))) - self.lost
+        return int(sum(map(mul, self.sparse, inside))) - sum(self.sparse)
 
 
 def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Links:
@@ -129,20 +125,20 @@ def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Lin
     low, high = image[0] - 1, image[1] + 1
     first = max(0, bisect_left(marks, low) - 1)
     last = min(len(marks) - 1, bisect_right(marks, high))
+    found = _Links(first, last, [], [], [])
     METER.get().spend(4 + 12 * (last - first))
     if inverse is None:
-        return _Links(first, last, [], [], [], 0)
-    dense, sparse, partial = list[int](), list[int](), list[tuple[int, int, int]]()
+        return found
     inner = inverse.images[0][1], inverse.images[1][0]
     for place, (left, right) in enumerate(pairwise(marks[first : last + 1])):
         begin, end = max(low, left), min(high, right)
         least, most = inverse.density(begin, end + 1)  # the cell may end within a unit after
-        dense.append(most)
-        sparse.append(least)
+        found.dense.append(most)
+        found.sparse.append(least)
         if left < inner[0] or inner[1] < right:
             held = max(0, min(end, inner[1]) - max(begin, inner[0]))
-            partial.append((place, end - begin + 2, right - left - held))
-    return _Links(first, last, dense, sparse, partial, sum(sparse))
+            found.partial.append((place, end - begin + 2, right - left - held))
+    return found
 
 
 class Absorbed(NamedTuple):
@@ -174,7 +170,6 @@ def absorbed(
     marks = [_outward((end, end))[0] for end in ends]
     lengths = [high - low + 1 for low, high in pairwise(marks)]
     links = [_links_of(marks, cell) for cell in cells]
-    work = [sum(4 + (len(link.dense) >> 2) for link in met) for met in links]
     steps: list[int | None] = [None] * len(cells)
     left = list(lengths)
     if arc is not None:
@@ -182,7 +177,7 @@ def absorbed(
     rest, settled = [sum(left)], -1
     moving = [i for i, cell in enumerate(cells) if cell.inverses and i not in (arc, sink)]
     for n in range(1, count + 1):
-        METER.get().spend(sum(map(work.__getitem__, moving)))
+        METER.get().spend(_work(links, moving))
         if settled != (settled := steps.count(None)):
             steps = [
                 n if known is None and _all_known(steps, met, cell) else known
@@ -194,17 +189,12 @@ def absorbed(
         left = [bound if known is None else 0 for known, bound in zip(steps, left, strict=True)]
         moving = [i for i in moving if left[i]]
         rest.append(sum(left))
-    onward = moving, 2 * sum(map(work.__getitem__, moving))
-    sunk = 0 if sink is None else _sunk(lengths, links, sink, *onward)
+    sunk = 0 if sink is None else _sunk(lengths, links, moving, sink)
     return Absorbed(steps, [Fraction(total, _UNIT) for total in rest], Fraction(sunk, _UNIT))
 
 
 def _sunk(
-    lengths: Sequence[int],
-    links: Sequence[Sequence[_Links]],
-    sink: int,
-    moving: Sequence[int],
-    work: int,
+    lengths: Sequence[int], links: Sequence[Sequence[_Links]], moving: Sequence[int], sink: int
 ) -> int:
     """Bound from below how much comes to a sink, from cells that f maps one-to-one.
 
@@ -218,7 +208,7 @@ def _sunk(
     away = list(map(sub, lengths, held))
     gained = _UNIT
     while gained > _LEAST_GAIN:
-        METER.get().spend(work)
+        METER.get().spend(2 * _work(links, moving))
         before = sum(held)
         for i in moving:
             inside = sum(link.least(held) for link in links[i]) >> _BITS
@@ -227,6 +217,11 @@ def _sunk(
             away[i] = lengths[i] - held[i]
         gained = sum(held) - before
     return sum(held)
+
+
+def _work(links: Sequence[Sequence[_Links]], moving: Sequence[int]) -> int:
+    """Return the work to follow cells one step."""
+    return sum(4 + (len(link.dense) >> 2) for i in moving for link in links[i])
 
 
 def _links_of(marks: Sequence[int], cell: Cell) -> list[_Links]:

@@ -17,8 +17,9 @@ from proofs.trusted.numbers import (
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.paper.s34_circle.transients import long_transients
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 

@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
@@ -59,7 +59,7 @@ class Branch(Conclusion):
         if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
             raise Unproved("a branch has an end after each piece's impacts, all after its begin")
 
-    @property
+    @cached_property
     def phases(self) -> Phases:
         """The closed interval of phases."""
         return Phases(self.cuts[0], self.cuts[-1])

@@ -11,7 +11,8 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Range, decimals, show_range, within
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.s34_circle.other_sets import PRINTED, StayingSet
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

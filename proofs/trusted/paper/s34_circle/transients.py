@@ -9,7 +9,7 @@ from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import Phases, floor_text, show, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet
+from proofs.trusted.paper.staying import StayingSet
 
 
 @dataclass(frozen=True)

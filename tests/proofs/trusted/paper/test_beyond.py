@@ -34,7 +34,7 @@ from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import staying_set
+from proofs.trusted.paper.staying import staying_set
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc, image_range, inside
 from proofs.trusted.verdicts import Verdict
@@ -135,6 +135,7 @@ def test_what_is_no_markov_set(parts):
         {"cells": (Phases(F("1.6"), F(2)), Phases(F(1), F("1.4")))},
         {"slopes": ((F(1), F(3)), (F(-3), F(-2)))},
         {"slopes": ((F(2), F(3)),)},
+        {"slopes": ((F(3), F(2)), (F(-3), F(-2)))},
         {"slopes": ((F(2), F(3)), (F(-2), F(3)))},
         {"onward": ((0, 1), (0, 2))},
         {"onward": ((0, 1),)},

@@ -189,7 +189,7 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "horseshoe", "itinerary", "lands", "point",
+    "avoids", "first-impact", "itinerary", "lands", "point",
     "separation", "slope-range", "staying-set",
 }  # fmt: skip
 ONE_OSCILLATOR = {

@@ -32,8 +32,8 @@ from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbed, in_order
 from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet, staying_set
 from proofs.trusted.paper.s34_circle.transients import long_transients
+from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
@@ -581,11 +581,6 @@ def _every(low, high, unit=Fraction(1, 100)):
 
 
 # -- decisions -----------------------------------------------------------------------------------
-
-
-def test_nothing_is_decided_without_conclusions():
-    for claim in CLAIMS:
-        assert find(claim).decide(PAPER, []).verdict is Verdict.UNDECIDED
 
 
 def test_nothing_is_claimed_where_the_mass_does_not_stick_and_fly():

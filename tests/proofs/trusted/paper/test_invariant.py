@@ -19,7 +19,6 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phase, Phases
-from proofs.trusted.paper.s31_horseshoe import Horseshoe, prove_horseshoe
 from proofs.trusted.paper.s32_sets.invariant import (
     ROWS,
     InvariantSet,
@@ -28,6 +27,7 @@ from proofs.trusted.paper.s32_sets.invariant import (
     staying,
 )
 from proofs.trusted.paper.s32_sets.subshift import words
+from proofs.trusted.paper.staying import StayingSet, prove_staying_set
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Found, Verdict
@@ -80,7 +80,9 @@ def sets(left, right):
 
 
 def horseshoe(of, slopes=PAPER.slopes, at=PAPER.place):
-    return Horseshoe(at, Phases(*of.left), Phases(*of.right), slopes)
+    cells = Phases(*of.left), Phases(*of.right)
+    whole = Phases(*of.interval)
+    return StayingSet(at, (whole,), cells, (slopes,) * 2, ((0, 1),) * 2, whole=True)
 
 
 @pytest.fixture(scope="module")
@@ -194,9 +196,9 @@ def test_every_step_of_an_orbit_counts_the_points_it_looks_at():
         follow(BASE, [known(*images)], Fraction("1.1"))
     assert meter.spent >= 200
     part = {"slopes": "s", "domain": ["1", "1199/1000"]}
-    witness = Reader({"left": part, "right": part, "gap": "g", "slopes": ["2", "3"]})
+    witness = Reader({"region": [["1", "2"]], "cells": [part, part], "gaps": []})
     with metered(1000), pytest.raises(Exhausted):
-        prove_horseshoe(Context(PAPER, {}, {"s": known(*images)}), witness)
+        prove_staying_set(Context(PAPER, {}, {"s": known(*images)}), witness)
 
 
 @pytest.mark.parametrize(
@@ -217,8 +219,28 @@ def test_no_itinerary_without_its_orbit(orbit):
 @pytest.mark.parametrize("signs", [(-1, -1), (1, -1), (-1, 1)])
 def test_orbits_are_followed_where_f_increases(signs):
     """The order of phases is that of itineraries, and of images, there alone."""
+    slopes = tuple(
+        (Fraction(4), Fraction(5)) if x > 0 else (Fraction(-5), Fraction(-4)) for x in signs
+    )
     with pytest.raises(Unproved, match="increases"):
-        follow(replace(BASE, signs=signs), [STEPS], Fraction("1.1"))
+        follow(replace(BASE, slopes=slopes), [STEPS], Fraction("1.1"))
+
+
+def test_orbits_are_followed_in_a_horseshoe_alone():
+    part = replace(BASE, whole=False)
+    third = Phases(Fraction("1.5"), Fraction("1.6"))
+    three = replace(
+        BASE,
+        region=(Phases(Fraction(1), third[1]),),
+        cells=(*BASE.cells, third),
+        slopes=(BASE.slopes[0],) * 3,
+        onward=((0, 1, 2),) * 3,
+    )
+    for base in (part, three):
+        with pytest.raises(Unproved, match="horseshoe"):
+            follow(base, [STEPS], Fraction("1.1"))
+        with pytest.raises(Unproved, match="around"):
+            InvariantSet(base, base.interval, ())
 
 
 # -- decisions -------------------------------------------------------------------------------------
@@ -258,7 +280,7 @@ def test_nothing_without_a_horseshoe_around_the_interval(claim, found):
     "other",
     [
         orbit("001", phase=Fraction("1.12")),
-        orbit("001", base=replace(AROUND, slopes=(Fraction(3),) * 2)),
+        orbit("001", base=replace(AROUND, slopes=((Fraction(3),) * 2,) * 2)),
     ],
 )
 def test_the_end_itself_must_be_followed(claim, other):
@@ -289,7 +311,7 @@ def test_gap_of_another_width():
 
 
 def test_slopes_of_two_are_not_enough_for_measure_zero():
-    slow = replace(AROUND, slopes=(Fraction(2), Fraction(7)))
+    slow = replace(AROUND, slopes=((Fraction(2), Fraction(7)),) * 2)
     assert DECIDE["H10"](PAPER, [slow]).verdict is Verdict.UNDECIDED
     assert "measure" not in slow.sentence
     assert DECIDE["H10"](PAPER, [AROUND]).verdict is Verdict.VERIFIED
@@ -318,25 +340,9 @@ def witness(name, **fields):
 
 
 def part(*domain):
-    return lambda document: document["steps"]["horseshoe-1"]["witness"]["left"].update(
+    return lambda document: document["steps"]["staying-set-1"]["witness"]["cells"][0].update(
         domain=list(domain)
     )
-
-
-def claim(name, **fields):
-    def edit(document):
-        entry = next(entry for entry in document["claims"] if entry["id"] == name)
-        entry.update({key: value(entry[key]) for key, value in fields.items()})
-
-    return edit
-
-
-def always(value):
-    return lambda before: value
-
-
-def without(name):
-    return lambda names: [each for each in names if each != name]
 
 
 def dropped_point(document):
@@ -351,50 +357,33 @@ def fewer_flights(document):
     document["steps"]["avoids-1"]["witness"]["flights"].pop()
 
 
-def swapped_sets(document):
-    """I1 in the place of I0: their order is the order of phases."""
-    given = document["steps"]["horseshoe-1"]["witness"]
-    given["left"], given["right"] = given["right"], given["left"]
+def doubled_set(document):
+    cells = document["steps"]["staying-set-1"]["witness"]["cells"]
+    cells[1] = cells[0]
+
+
+def one_set(document):
+    document["steps"]["staying-set-1"]["witness"]["cells"].pop()
 
 
 FORGED = {
     "a part of the gap": (fewer_flights, "gap"),
     "escape from a part of I": (witness("avoids-1", target=["6/5", "33/25"]), "gap"),
-    "slopes tightened below": (witness("horseshoe-1", slopes=["22/5", "619/100"]), "not within"),
-    "slopes tightened above": (witness("horseshoe-1", slopes=["43/10", "6"]), "not within"),
-    "slopes that do not expand": (witness("horseshoe-1", slopes=["1", "619/100"]), "do not expand"),
-    "the printed sets": (part("111/100", "23/20"), "not covered"),
+    "a wider interval": (witness("staying-set-1", region=[["109/100", "33/25"]]), "avoid"),
+    "the printed interval": (witness("staying-set-1", region=[["111/100", "33/25"]]), "leaves"),
+    "the printed sets": (part("111/100", "23/20"), "cover the region"),
     "wider than proved": (part("109/100", "23/20"), "not two points"),
     "a wider gap": (part("11/10", "57/50"), None),
-    "I0 and I1 swapped": (swapped_sets, "before I1"),
+    "one set twice": (doubled_set, "overlap"),
+    "one set": (one_set, "cover the region"),
     "no slopes": (part(), None),
-    "gap of another rule": (witness("horseshoe-1", gap="first-impact-1"), "Avoids"),
+    "gap of another rule": (witness("staying-set-1", gaps=["first-impact-1"]), "Avoids"),
     "another phase": (witness("itinerary-1", phase="28/25"), None),
     "the fixed point's side": (witness("itinerary-1", phase="11/10"), None),
     "orbit without slopes": (witness("itinerary-1", slopes=[]), "not known"),
-    "orbit in no horseshoe": (witness("itinerary-1", horseshoe="avoids-1"), "Horseshoe"),
+    "orbit in no horseshoe": (witness("itinerary-1", horseshoe="avoids-1"), "StayingSet"),
     "another root": (witness("moran-root-1", root=["0.449", "0.45"]), "canonical"),
     "a root beyond": (witness("moran-root-1", root=["9/20", "1/2"]), "signs"),
-    "onto after all": (claim("H7", verdict=always("VERIFIED")), "REFUTED"),
-    "chaos denied": (claim("H8", verdict=always("REFUTED")), "VERIFIED"),
-    "another word": (claim("H7", witness=lambda text: text.replace("000", "010")), None),
-    "a larger subshift": (claim("H7", corrected=lambda text: text.replace("000", "0000")), None),
-    "no correction": (claim("H15", corrected=always(None)), None),
-    "correction of a true claim": (claim("H9", corrected=always("Lambda is empty.")), None),
-    "another pair": (claim("H15", witness=lambda text: text.replace("5/21", "6/21")), None),
-    "another reason": (claim("H10", why=always("f' >= 5")), None),
-    "no orbit": (claim("H8", proof=without("itinerary-1")), "H8"),
-    "no horseshoe": (claim("H10", proof=always([])), "H10"),
-    "an L for one pair of ratios": (claim("H14", proof=without("moran-root-2")), "H14"),
-    "statement softened": (claim("H17", statement=lambda x: x.replace("keeps", "may keep")), None),
-    "entropy tightened": (
-        claim("H7", quantities=always({"growth": {"lower": "1.8393", "upper": "1.84"}})),
-        "bounds",
-    ),
-    "dimension tightened": (
-        claim("H12", quantities=always({"dimension": {"lower": "0.4489694", "upper": "0.449"}})),
-        "bounds",
-    ),
     "points dropped": (dropped_point, None),
     "another eta": (lambda document: document["parameters"].update(eta="53/250"), None),
 }

@@ -427,25 +427,6 @@ def test_command_says_what_is_resonant_and_what_is_left_out(capsys):
     assert "n = 4: an orbit, not stable" in out and "greater n" not in out
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--eta", "0", "--nu", "0.1"],
-        ["--eta", "0.3", "--nu", "0"],
-        ["--eta", "0.3", "--nu", "0.1", "--n", "1.5"],
-        ["--eta", "0.3", "--nu", "0.1", "--n", "0"],
-        ["--eta", "zero", "--nu", "0.1"],
-        ["--nu", "0.1"],
-    ],
-)
-def test_bad_input_is_one_line(arguments, capsys):
-    with pytest.raises(SystemExit) as left:
-        single_impact.main(arguments)
-    captured = capsys.readouterr()
-    assert left.value.code == 2
-    assert captured.out == "" and captured.err.count("\n") == 1
-
-
 @pytest.mark.parametrize(("eta", "nu"), [("1", "0.2"), ("1/2", "0.2"), ("13.999", "0.2")])
 def test_where_no_n_is_looked_at_that_is_said(eta, nu, capsys):
     assert single_impact.main(["--eta", eta, "--nu", nu]) == 0

@@ -16,8 +16,8 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, within
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.s34_circle.other_sets import StayingSet
 from proofs.trusted.paper.s34_circle.thin import ThinShift
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
