@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from intervals import DomainError, Undecided
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 
 Tell = Callable[[str], None]
 Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
-FAILED = (Undecided, DomainError, Unproved)  # what a proof that does not succeed raises
+# What a proof that does not succeed raises; Malformed: what floats saw is no witness of a rule.
+FAILED = (Undecided, DomainError, Unproved, Malformed)
 
 
 @dataclass

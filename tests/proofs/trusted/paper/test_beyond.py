@@ -484,6 +484,8 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 
 ASKED = [  # verdicts of X1 to X5, X10; X2, X4 and X5 by simulation in the oracles
     ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED UNDECIDED"),
+    # floats see no phases between those that stick: no witness
+    ("0.112", "-0.336", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED UNDECIDED"),
     ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED UNDECIDED"),
     ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED REFUTED"),
     ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED UNDECIDED"),
