@@ -113,6 +113,7 @@ def test_it_goes_nearly_to_the_fold_and_to_the_flip():
 # -- what it rests on ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_nothing_is_decided_without_any_part():
     motion, *cycles = proof()
     row = find("G16")

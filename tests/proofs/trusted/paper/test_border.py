@@ -52,6 +52,7 @@ def test_what_is_said():
     assert "before the first phi_s after it lands" in decision.theorem
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "left_out", [(RESTS,), (PASSES,), ("superstable-motion-1",), (RESTS, PASSES)]
 )

@@ -188,6 +188,7 @@ def test_rows_are_decided_by_what_is_about_their_epsilon():
         assert there.verdict is row.decide(plastic, []).verdict is Verdict.UNDECIDED
 
 
+@pytest.mark.slow
 def test_orbits_are_on_the_side_that_is_said():
     """Simulated: an impact 2 pi n later on one side of the curve, an earlier one on the other."""
     curve = checked()

@@ -102,6 +102,7 @@ def words(ends, region, length):
     return follow(*region, length)
 
 
+@pytest.mark.slow
 def test_words_counted_by_brute_force_grow_as_is_proved(known):
     (pieces,), (bounds,) = only(Pieces, known), only(EntropyRange, known)
     ends = [tuple(map(float, piece.branch.phases)) for piece in pieces.monotone]

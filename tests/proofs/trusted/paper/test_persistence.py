@@ -209,6 +209,7 @@ def test_a_pair_of_invented_boxes():
     assert no_pair([*all_of_them[:3], steps(half)[3]]), "not the same oscillators"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change",
     [

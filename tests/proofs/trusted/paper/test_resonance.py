@@ -44,6 +44,7 @@ def equal(left, right):
     return rule_equal(Context(PAPER), Reader({"left": left, "right": right}))
 
 
+@pytest.mark.slow
 def test_every_claim_and_its_verdict():
     document = certificate()
     assert (*(f"R{n}" for n in range(1, 14)), "E1") == CLAIMS

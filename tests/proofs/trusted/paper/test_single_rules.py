@@ -183,6 +183,7 @@ def test_orbits_are_not_talked_into(document):
         refused("single-solution", one, {**known, one["flight"]: changed})
 
 
+@pytest.mark.slow
 def test_windows_in_eta_are_not_talked_into(document):
     (witness,) = steps_of(document, "single-eta-windows")
     ends = witness["ends"]

@@ -223,6 +223,7 @@ def said(claim):
     return groups.decide(claim, of, Evidence({}, {claim: [(x, known[x]) for x in proof]}), 20)[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("claim", ["S8", "S10"])
 def test_a_table_that_moves_and_gravity_are_assumed(claim):
     """With beta < 0, m = 1, epsilon = 0: X < 1, and no phase has cos psi = X."""
