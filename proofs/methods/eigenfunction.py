@@ -8,7 +8,7 @@ method, its linear equations by iterative refinement of what floating point give
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -266,9 +266,13 @@ def _rough(inverse: _Matrix, values: list[int], size: int) -> list[int]:
     import numpy as np
 
     shift = size.bit_length() - 60
-    scaled = [value >> shift if shift > 0 else value << -shift for value in values]
-    change = (int(x) for x in inverse @ np.array(scaled, dtype=float))
-    return [x << shift if shift > 0 else x >> -shift for x in change]
+    change = inverse @ np.array(_moved(values, -shift), dtype=float)
+    return _moved(map(int, change), shift)
+
+
+def _moved(values: Iterable[int], up: int) -> list[int]:
+    """Return values times a power of 2, rounded down."""
+    return [value << up if up > 0 else value >> -up for value in values]
 
 
 def _weighted(terms: list[int], bits: int, weights: list[int], points: list[int]) -> list[int]:

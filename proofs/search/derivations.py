@@ -16,7 +16,7 @@ from typing import Any
 from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.formulas import Tree, values
 from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
-from proofs.search.evidence import Evidence, Tell
+from proofs.search.evidence import Evidence, Tell, concluded
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -24,7 +24,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.solutions import Expressions
-from proofs.trusted.kernel.values import Equal, Series, Value, equal, series
+from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.formulas import (
     Asked,
@@ -73,12 +73,10 @@ class Steps:
 
     def _lemma(self, wanted: Equal | Series) -> None:
         """Prove an equality or a series by the rule itself: there is nothing to be found."""
-        rule, theorem = (
-            ("formula-equal", equal) if isinstance(wanted, Equal) else ("formula-series", series)
-        )
+        rule = "formula-equal" if isinstance(wanted, Equal) else "formula-series"
         witness = witness_of(wanted)
         with suppress(Unproved):
-            self._add(wanted, theorem(Context(), Reader(witness)), rule, witness)
+            self._add(wanted, concluded(rule, witness, Context()), rule, witness)
 
     def _solution(self, wanted: Unknowns) -> None:
         try:

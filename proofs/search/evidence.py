@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from intervals import DomainError, Undecided
-from proofs.trusted.certificate import Malformed
+from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.rules import find_rule
 
 Tell = Callable[[str], None]
 Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
@@ -30,6 +32,14 @@ class Evidence:
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     proofs: dict[str, Proof] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
+
+
+def concluded(rule: str, witness: dict[str, Any], context: Context) -> Any:
+    """Return what the checker's rule concludes from a witness, or raise as it does."""
+    theorem = find_rule(rule)
+    if theorem is None:
+        raise ValueError(f"there is no rule {rule}")
+    return theorem(context, Reader(witness))
 
 
 def search_each(

@@ -18,14 +18,13 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.phase import turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
-from proofs.search.evidence import Tell
+from proofs.search.evidence import FAILED, Tell
 from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s31_horseshoe import ROWS
-from proofs.trusted.paper.staying import StayingSet, staying_set
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Verdict
@@ -61,16 +60,17 @@ def horseshoe(of: Parameters) -> ImpactMap:
 def own_horseshoe(of: Parameters) -> ImpactMap:
     """Prove a full shift on two sets that are found, f increasing or decreasing on each.
 
-    Its theorem, `staying_set`, has f monotone and C^1 on both, |f'| > 1. Here both images must be
+    By the rule `staying-set` f is monotone and C^1 on both, |f'| > 1. Here both images must be
     intervals of phases as well, that contain both sets: then they contain I, and the turns that are
     left out are the same on all of a set, as in `horseshoe`.
     """
     system = System(of.eta, of.nu)
     for left, right in islice(pairs(pieces(system)), _TRIES):
-        with suppress(Undecided, Unproved):
+        with suppress(*FAILED):
             prover = Prover(system, _DIGITS, HORIZON)
-            parts = [prover.slopes(list(domain))[1] for domain in (left, right)]
-            shift = staying_set([part.domain for part in parts], parts, [])
+            steps = [prover.slopes(list(domain)) for domain in (left, right)]
+            shift = prover.stays([left, right], list(zip(steps, (left, right), strict=True)))[1]
+            parts = [part for _, part in steps]
             if shift.full and all(image_arc(part).is_interval for part in parts):
                 sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
                 images = [part.images[0] for part in parts]

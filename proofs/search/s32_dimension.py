@@ -24,11 +24,10 @@ from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
 from proofs.search.s34_staying import prove_full_shifts
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader, texts
-from proofs.trusted.flights import first_impact
+from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.transfer import growth, on_boundary
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
@@ -70,8 +69,7 @@ class _Run:
         if domain not in self.letters:
             found = cover_by_impacts(self.prover.system, domain)
             names = [self.prover.add_impact(part) for part in found]
-            context, steps = Context(self.of), self.prover.steps
-            proved = [first_impact(context, Reader(steps[name]["witness"])) for name in names]
+            proved = [self.prover.context.step(Reader(name), FirstImpact) for name in names]
             cuts = (domain[0], *(part.flight.phases[1] for part in found))
             turns = InverseBranch(self.prover.system, domain).turns
             self.letters[domain] = names, Letter(cuts, tuple(proved), turns)

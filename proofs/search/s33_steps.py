@@ -18,10 +18,10 @@ from intervals.errors import Undecided
 from proofs.motion.flight import Numbers
 from proofs.motion.restitution import Rebounds, locate_impact
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED
+from proofs.search.evidence import FAILED, concluded
 from proofs.search.s33_rectangles import Sets, state_after
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -29,7 +29,6 @@ from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s33_restitution.cones import PLAIN
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.rules import find_rule
 
 C = TypeVar("C", bound=Conclusion)
 Box = tuple[Range, Range]  # phases x velocities
@@ -121,10 +120,7 @@ class ReboundProver:
         for name, known in self.steps.items():
             if known == step:
                 return name
-        theorem = find_rule(rule)
-        if theorem is None:
-            raise ValueError(f"there is no rule {rule}")
-        conclusion = theorem(Context(self.of, {}, self.known), Reader(witness))
+        conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
         name = self.plain.add(rule, witness)
         self.known[name] = conclusion
         return name

@@ -37,7 +37,6 @@ from proofs.trusted.equations import (
 )
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import pi
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.absorption import (
     BRACKET,
@@ -164,13 +163,12 @@ class Partition:
     def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
         """Prove the cells of one branch between cuts."""
         after = str(after_reversal(self.system, branch))
-        context = Context(self.prover.at, {}, self.prover.known)
         for slow in (_SLOW, math.inf):
             phases, times = self._impacts(cuts, slow)
             cuts_of, times_of = ([str(x / UNIT) for x in each] for each in (phases, times))
             entry = {"branch": name, "cuts": cuts_of, "times": times_of, "after": after}
             with suppress(*FAILED):
-                self.cells += [*branch_cells(context, Reader(entry), self.line[0])]
+                self.cells += [*branch_cells(self.prover.context, Reader(entry), self.line[0])]
                 self.entries["cells"].append(entry)
                 return
 

@@ -34,14 +34,11 @@ from proofs.trusted.windows import BITS
 
 _GRID = 1200
 _OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
-_DEPTHS = 3, 4  # of the towers of states, from below and from above
 _PLACES = 8  # of the ends of states
 _LONGEST = Fraction(1, 100)  # time after a graze in which the gap is proved to rise
 _SPARE = Fraction(1, 10**8)  # of times
 _MOST_TURNS = 20_000
 FINE = 160  # bits of Newton's method
-_ROOT_PLACES = 16  # of narrow grazes
-_ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 
 
 @dataclass

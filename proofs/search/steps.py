@@ -22,16 +22,15 @@ from proofs.motion.covering import cover_by, cover_by_impacts
 from proofs.motion.flight import Numbers, interval, sketch
 from proofs.motion.impact import FirstImpact, impact_time, locate
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED
-from proofs.trusted.certificate import Reader, texts
+from proofs.search.evidence import FAILED, concluded
+from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phases, Range, show_range
+from proofs.trusted.numbers import Range, show_range
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
-from proofs.trusted.paper.staying import StayingSet, staying_set
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import Avoids, Impact, SlopeRange, meets
 
 _Made = TypeVar("_Made")
@@ -57,6 +56,11 @@ class Prover:
         """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
         return self.digits * 10 // 3 + 16
 
+    @property
+    def context(self) -> Context:
+        """What a rule is told: the oscillator, and what is proved."""
+        return Context(self.at, {}, self.known)
+
     @contextmanager
     def undone(self) -> Iterator[None]:
         """Take back the steps made inside if the proof fails there; the failure goes on."""
@@ -78,10 +82,7 @@ class Prover:
 
     def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
         """Record a step, with what the checker's rule concludes from it, or raises."""
-        theorem = find_rule(rule)
-        if theorem is None:
-            raise ValueError(f"there is no rule {rule}")
-        conclusion = theorem(Context(self.at, {}, self.known), Reader(witness))
+        conclusion = concluded(rule, witness, self.context)
         name = self.add(rule, witness)
         self.known[name] = conclusion
         return name, conclusion
@@ -161,20 +162,12 @@ class Prover:
 
         cells: each a slope-range step and two of its points.
         """
-        parts = [known.over(ends) for (_, known), ends in cells]
-        if None in parts:
-            raise Unproved("f' is not known on the cells")
-        found = staying_set(
-            [Phases(*part) for part in region],
-            [part for part in parts if part is not None],
-            [gap for _, gap in gaps],
-        )
         witness = {
             "region": [texts(part) for part in region],
             "cells": [{"slopes": name, "domain": texts(ends)} for (name, _), ends in cells],
             "gaps": [name for name, _ in gaps],
         }
-        return self.add("staying-set", witness), found
+        return self.derive("staying-set", witness)
 
     def horseshoe(
         self,

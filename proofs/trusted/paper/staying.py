@@ -90,14 +90,9 @@ class StayingSet(Conclusion):
             raise Unproved("not every cell is mapped over the region")
 
     @property
-    def _sizes(self) -> list[Range]:
-        """Bounds on |f'|; from 0 on where f' may be 0."""
-        return [signed(*each) for each in zip(self.slopes, self.signs, strict=True)]
-
-    @property
     def steepness(self) -> Range:
         """Bounds on |f'|."""
-        return hull(self._sizes)
+        return hull([signed(*each) for each in zip(self.slopes, self.signs, strict=True)])
 
     @property
     def expansion(self) -> Fraction:
