@@ -5,6 +5,7 @@ if __name__ == "__main__":
 
     launch("proofs.report.__main__")
 
+import os
 import sys
 from contextlib import nullcontext
 from pathlib import Path
@@ -12,6 +13,7 @@ from pathlib import Path
 from proofs.report.build import INSTALL, built, missing
 from proofs.report.checker import NoPyodide, runtime
 from proofs.shell.cli import Parser, progress
+from proofs.shell.entry import workers
 from proofs.shell.files import check_folder, refusing, write_files
 from proofs.shell.screen import say
 from proofs.trusted.certificate import Malformed
@@ -49,8 +51,12 @@ def main(arguments: list[str] | None = None) -> int:
     packages = missing()
     wanted = options.with_checker or options.pyodide is not None
     try:
-        with progress() as tell, runtime(options.pyodide) if wanted else nullcontext() as pyodide:
-            files = built(options.out, tell, bool(packages), pyodide)
+        with (
+            progress() as tell,
+            runtime(options.pyodide) if wanted else nullcontext() as pyodide,
+            workers(os.cpu_count() or 1) as pool,
+        ):
+            files = built(options.out, tell, bool(packages), pyodide, each=pool.map)
     except NoPyodide as error:
         say(f"{parser.prog}: no page with a checker: {error}", sys.stderr)
         return 1

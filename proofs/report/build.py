@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
@@ -11,15 +11,17 @@ from intervals import Undecided
 from proofs.report import graph
 from proofs.report.atlases import atlases
 from proofs.report.checker import checker
-from proofs.report.figures.figure import Certificates, Documents
+from proofs.report.figures.figure import Certificates, Documents, Figure
 from proofs.report.findings import findings
 from proofs.report.ledger import ledger
 from proofs.report.pictures import pictures
 from proofs.report.theorem import theorem
+from proofs.trusted.kernel.context import Context
 
 NEEDED = ("jinja2", "latex2mathml", "matplotlib")  # for the page, by the extra `report`
 INSTALL = "pip install 'impact-proofs[report]'"
 Tell = Callable[[str], None]
+Each = Callable[..., Iterable[str | None]]  # as `map`, here or in other processes
 
 
 def missing() -> list[str]:
@@ -33,12 +35,13 @@ def built(
     only_text: bool = False,
     pyodide: Path | None = None,
     known: Documents = MappingProxyType({}),
+    each: Each = map,
 ) -> dict[str, str]:
     """Return the files of the report, by their names in the folder; nothing is proved again.
 
     only_text: without the page and the figures of matplotlib, for which packages may be missing.
     pyodide: where it is, for a page with a checker in it, too. known: what was derived from
-    certificates of the folder just now, by name.
+    certificates of the folder just now, by name. each: what draws the figures.
     Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
     certificates do not prove.
     """
@@ -50,13 +53,13 @@ def built(
     files["figures/dependencies.svg"] = graph.svg(found)
     if only_text:
         return files
+    proved = [documents[picture.figure.certificate] for picture in shown]
+    texts = iter(each(_svg, [picture.figure for picture in shown], proved))
     drawn = {}
     for picture in shown:
         tell(picture.title)
-        try:
-            drawn[picture.name] = picture.figure.svg(documents)
-        except Undecided:  # the certificates do not prove what it shows
-            continue
+        if (text := next(texts)) is not None:
+            drawn[picture.name] = text
     files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
     tell("index.html")
     from proofs.report.html import page  # needs what may be missing
@@ -70,3 +73,11 @@ def built(
             found, shown, drawn, checker(pyodide, folder, certificates), maps
         )
     return files
+
+
+def _svg(figure: Figure, proved: Context) -> str | None:
+    """Return a figure, None where the certificate does not prove what it shows."""
+    try:
+        return figure.svg({figure.certificate: proved})
+    except Undecided:
+        return None

@@ -76,7 +76,7 @@ class Partition:
     prover: Prover
     arc: tuple[str, Separation]
     never: tuple[str, NeverImpacts] | None = None
-    goal: float = 5.9e-6
+    goal: float = 1e-4
     most: int = 12_000
     turns: int = _MOST_TURNS
     impacts: int = 90

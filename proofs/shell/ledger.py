@@ -256,8 +256,8 @@ def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
     from proofs.report.build import built, missing
 
     known = {one.job.name: one.report.context for one in settled}
-    with progress() as tell:
-        made = built(folder, tell, bool(missing()), known=known)
+    with progress() as tell, workers(os.cpu_count() or 1) as pool:
+        made = built(folder, tell, bool(missing()), known=known, each=pool.map)
     write_files(folder, made)
     current.record(folder, made_from, made)
     return set(made)

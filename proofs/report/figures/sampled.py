@@ -34,7 +34,7 @@ def graph(system: System, first: float, last: float, count: int) -> list[tuple[f
 
 def preimage(system: System, target: float, first: float, last: float) -> float:
     """Return the phase in [first, last], on which f increases, that f takes to the target."""
-    for _ in range(50):
+    for _ in range(30):
         middle = (first + last) / 2
         below = (image(system, middle) or 0.0) < target
         first, last = (middle, last) if below else (first, middle)
