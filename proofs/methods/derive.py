@@ -72,7 +72,7 @@ def simplest(expression: Any) -> Any:
             return sympy.Integer(0)
         expression = sympy.trigsimp(expression)
         expression = expression.replace(sympy.tan, lambda x: sympy.sin(x) / sympy.cos(x))
-    return sympy.factor(sympy.cancel(sympy.together(expression)))
+    return sympy.factor(expression)
 
 
 def write(expression: Any) -> str:

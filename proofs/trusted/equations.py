@@ -21,6 +21,8 @@ Number = Any
 
 def sincos(x: Number) -> tuple[Number, Number]:
     """Return (sin x, cos x) by the number's own method, else as its type is registered."""
+    if isinstance(x, float):
+        return math.sin(x), math.cos(x)
     own = getattr(x, "sincos", None)
     pair: tuple[Number, Number] = registered_sincos(x) if own is None else own()
     return pair
@@ -30,11 +32,6 @@ def sincos(x: Number) -> tuple[Number, Number]:
 def registered_sincos(x: Number) -> tuple[Number, Number]:
     """Return (sin x, cos x) for numbers of other libraries."""
     raise TypeError(f"no sine of {type(x).__name__}")
-
-
-@registered_sincos.register
-def _(x: float) -> tuple[float, float]:
-    return math.sin(x), math.cos(x)
 
 
 class Launch(NamedTuple):
@@ -122,9 +119,9 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
 
 def _turned(cos: Number, sin: Number, quarters: int) -> tuple[Number, Number]:
     """Return the cosine and the sine after quarter turns."""
-    for _ in range(quarters % 4):
+    if quarters & 1:
         cos, sin = -sin, cos
-    return cos, sin
+    return (-cos, -sin) if quarters & 2 else (cos, sin)
 
 
 def launch_acceleration(start: Launch) -> Number:
