@@ -49,12 +49,14 @@ def built(
     tell("certificates")
     found = findings(folder, documents)
     shown = pictures(documents, [claim.id for claim in found.claims])
+    figures = [] if only_text else [picture.figure for picture in shown]
+    texts = iter(each(_svg, figures, [documents[figure.certificate] for figure in figures]))
     files = {"ledger.md": ledger(found, shown), "theorem.md": theorem(found)}
     files["figures/dependencies.svg"] = graph.svg(found)
     if only_text:
         return files
-    proved = [documents[picture.figure.certificate] for picture in shown]
-    texts = iter(each(_svg, [picture.figure for picture in shown], proved))
+    from proofs.report.html import page  # needs what may be missing
+
     drawn = {}
     for picture in shown:
         tell(picture.title)
@@ -62,8 +64,6 @@ def built(
             drawn[picture.name] = text
     files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
     tell("index.html")
-    from proofs.report.html import page  # needs what may be missing
-
     shown = [picture for picture in shown if picture.name in drawn]
     maps = atlases(folder)
     files["index.html"] = page(found, shown, drawn, atlases=maps)
