@@ -34,6 +34,7 @@ def built(
     tell: Tell = lambda stage: None,
     only_text: bool = False,
     pyodide: Path | None = None,
+    *,
     known: Documents = MappingProxyType({}),
     each: Each = map,
 ) -> dict[str, str]:
