@@ -17,7 +17,8 @@ from proofs.benchmark.measure import Row, Tell, ratio_row, spread
 from proofs.benchmark.page import Section
 from proofs.benchmark.peers import FLINT, libraries
 from proofs.shell.entry import run_process
-from proofs.trusted.paper import GROUPS, find
+from proofs.shell.groups import row_of
+from proofs.trusted.paper import GROUPS
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")  # that the script in flint decides too
 _PAIRS = {"smallest": 1, "quick": 7, "full": 31}
@@ -139,7 +140,7 @@ def ledger(mode: str, tell: Tell) -> Section:
 
 def _papers() -> list[str]:
     """Return the ids of the paper's own claims."""
-    return [claim for ids in GROUPS.values() for claim in ids if not find(claim).own]
+    return [claim for ids in GROUPS.values() for claim in ids if not row_of(claim).own]
 
 
 def _within(name: str, job: Sequence[str], most: float, runs: int) -> Row:
