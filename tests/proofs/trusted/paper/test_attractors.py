@@ -25,6 +25,8 @@ from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, derive, edited, exact
 
+pytestmark = pytest.mark.slow
+
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 MOTION = "superstable-motion-1"
 
@@ -59,14 +61,12 @@ def both():
 # -- what is concluded -----------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_the_checker_concludes_what_the_prover_says():
     for name, own in evidence().proofs["G16"]:
         if isinstance(own, StableCycle):
             assert known()[name] == own
 
 
-@pytest.mark.slow
 def test_what_is_said():
     decision = find("G16").decide(PAPER, proof())
     assert find("G16").own and decision.verdict.value == "VERIFIED"
@@ -86,7 +86,6 @@ def orbit(epsilon):
     return state
 
 
-@pytest.mark.slow
 def test_the_printed_equations_have_this_orbit():
     cycles = both().cycles
     low, high = both().at.epsilon
@@ -99,7 +98,6 @@ def test_the_printed_equations_have_this_orbit():
                 assert a < value < b
 
 
-@pytest.mark.slow
 def test_it_goes_nearly_to_the_fold_and_to_the_flip():
     """The multipliers of the printed equations are 1 near 0.28631, -1 near 0.29447."""
     with pytest.MonkeyPatch.context() as patch:
@@ -113,7 +111,6 @@ def test_it_goes_nearly_to_the_fold_and_to_the_flip():
 # -- what it rests on ------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
 def test_nothing_is_decided_without_any_part():
     motion, *cycles = proof()
     row = find("G16")

@@ -17,6 +17,7 @@ from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, derive, edited
 
+pytestmark = pytest.mark.slow
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 RESTS, PASSES = "bounces-end-1", "bounces-end-2"
 
@@ -35,13 +36,11 @@ def kinds(*left_out):
     return [x for name, x in known().items() if name not in left_out]
 
 
-@pytest.mark.slow
 def test_the_checker_concludes_what_the_prover_says():
     for name, own in evidence().proofs["G15"][1:]:
         assert replace(own, arc=known()[name].arc) == known()[name]
 
 
-@pytest.mark.slow
 def test_what_is_said():
     decision = find("G15").decide(PAPER, kinds())
     assert find("G15").own and decision.verdict.value == "VERIFIED"
@@ -52,7 +51,6 @@ def test_what_is_said():
     assert "before the first phi_s after it lands" in decision.theorem
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "left_out", [(RESTS,), (PASSES,), ("superstable-motion-1",), (RESTS, PASSES)]
 )
@@ -98,7 +96,6 @@ def _root(epsilon, phase, gamma, low, high):
     return low
 
 
-@pytest.mark.slow
 def test_the_printed_equation_agrees():
     assert followed(mpf("0.361115")) == (known()[PASSES].bounces, True)
     count, flies = followed(mpf("0.361112"))

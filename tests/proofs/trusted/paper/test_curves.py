@@ -198,6 +198,7 @@ def test_orbits_are_on_the_side_that_is_said():
         assert oracle.repeats(2, 0.0, eta, p + 1e-4, -1) is False
 
 
+@pytest.mark.slow
 def test_the_gap_of_a_piece_is_enclosed():
     curve, rng = checked(), random.Random(7)
     for piece in curve.arc.pieces[::3]:

@@ -219,6 +219,7 @@ def test_windows_in_eta_are_not_talked_into(document):
             replace(found, ends=bad)
 
 
+@pytest.mark.slow
 def test_windows_for_a_table_below_are_not_talked_into(document):
     (witness,) = steps_of(document, "single-below-windows")
     ends, late, touch = witness["ends"], witness["late"], Fraction(witness["touch"])
@@ -284,6 +285,7 @@ def test_windows_at_an_amplitude_beyond_the_lemmas_are_not_proved():
         derived("single-below-windows", {**steps.prover.steps[name]["witness"], "nu": "-31/100"})
 
 
+@pytest.mark.slow
 def test_windows_in_nu_are_not_talked_into(document):
     (witness,) = steps_of(document, "single-nu-windows")
     above, below, early = witness["above"], witness["below"], witness["early"]

@@ -231,6 +231,7 @@ def test_a_table_that_moves_and_gravity_are_assumed(claim):
     assert 2 * math.pi / -1 < -1
 
 
+@pytest.mark.slow
 def test_o_of_mu_is_conditional_on_fixed_points():
     line = said("S10")
     assert line.verdict.value == "CONDITIONAL" and "lim f(mu) = K" in line.statement
