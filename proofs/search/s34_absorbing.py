@@ -8,12 +8,11 @@ grazing phases, where f jumps, and the phases that never impact. The theorem is 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -42,10 +41,10 @@ from proofs.trusted.paper.s34_circle.absorption import (
     BRACKET,
     UNIT,
     Absorption,
-    Sink,
     branch_cells,
+    followed,
 )
-from proofs.trusted.paper.s34_circle.cells import Cell, absorbed, in_order
+from proofs.trusted.paper.s34_circle.cells import Cell
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.windows import BITS
@@ -57,8 +56,6 @@ _MOST_TURNS = 10_000
 _HALVINGS, _NEWTON = 20, 5  # steps to an inverse image: close first, then by Newton's method
 _WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
-_NAMED = Fraction(1, 10**4)  # the shortest intervals whose numbers of impacts are told
-_SPARE = Fraction(1, 10**9)  # what bounds are rounded by
 _SLOW = 3e-3  # gap' from which on floats seem to tell an impact's time
 Turn = int | None
 
@@ -151,7 +148,6 @@ class Partition:
             witness = {"separation": name, "cuts": texts(ends), "turns": str(count)}
             step, found = self.prover.derive("lands", witness)
             self.entries.setdefault("lands", []).append(step)
-            self.cells.append(Cell(found.phases, ()))
             self.lands = *self.lands, found
         return between
 
@@ -189,32 +185,16 @@ class Partition:
         return phases, times
 
     def _conclude(self) -> tuple[str, Absorption]:
-        """Follow all cells, and record what is found, a little rounded."""
-        arc = Cell((self.line[1], lifted(self.line, 1, BITS)[1]), ())
-        never, cells, place = None, in_order([*self.cells, arc]), None
-        if self.never is not None:
-            phases = self.never[1].phases
-            around = in_order([*self.cells, Cell((phases[0], phases[1])), arc])
-            at = [cell.phases for cell in around].index(phases)
-            if all(around[i].inverses for i in (at - 2, at + 2)):  # impacts are proved near it
-                never, cells, place = self.never[1], around, at
-        found = absorbed(cells, self.impacts, len(cells) - 1, place)
-        rest = tuple(_rounded(bound * (1 + _SPARE) + _SPARE) for bound in found.rest)
-        sunk = max(Fraction(0), _rounded(found.sunk * (1 - _SPARE)) - _SPARE)
-        within = tuple(_runs_of_equal(cells, found.steps))
-        sink = None
-        if never is not None and place is not None:
-            ends = [cells[i].phases for i in (place - 1, place + 1)]
-            sink = Sink(never, (ends[0], ends[1]), sunk)
+        """Follow all cells, by the theorem of the rule, and record the step."""
+        name, never = self.never or (None, None)
+        found = followed(self.arc[1], self.lands, never, self.cells, self.impacts)
         witness = {
             "separation": self.arc[0],
-            "never": [] if never is None or self.never is None else [self.never[0]],
+            "never": [] if name is None else [name],
             **self.entries,
-            "rest": texts(rest),
-            "within": [texts([*phases, Fraction(steps)]) for phases, steps in within],
-            "sunk": str(sunk),
+            "impacts": str(self.impacts),
         }
-        return self.prover.add("absorption", witness), Absorption(self.arc[1], rest, within, sink)
+        return self.prover.add("absorption", witness), found
 
 
 def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
@@ -222,25 +202,11 @@ def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
     return float(math.ceil(low / UNIT) * UNIT), float(math.floor(high / UNIT) * UNIT)
 
 
-def _rounded(value: Fraction) -> Fraction:
-    """Round up to twelve decimal places."""
-    return Fraction(math.ceil(value * 10**12), 10**12)
-
-
 def after_reversal(system: System, branch: Branch) -> Fraction:
     """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
     half = math.pi / float(system.eta)
     last = math.floor(float(min(branch.ends)) / half) * half
     return max(branch.begin, short(Fraction(last + 1e-3), 20))
-
-
-def _runs_of_equal(cells: Sequence[Cell], steps: Sequence[Turn]) -> Iterator[tuple[Range, int]]:
-    """Join neighbouring cells that are absorbed within the same number of steps."""
-    for count, group in groupby(zip(steps, cells, strict=True), key=lambda pair: pair[0]):
-        members = [cell.phases for _, cell in group]
-        low, high = members[0][0], members[-1][1]
-        if count and high - low >= _NAMED:
-            yield (low, high), count
 
 
 # -- in floating point ---------------------------------------------------------------------------

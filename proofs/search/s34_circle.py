@@ -35,7 +35,6 @@ from proofs.trusted.parameters import Parameters
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
 _FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
-_MILLIONTH = 5.9e-6  # a little less than this part of the circle, in measure
 _SYMBOLS = 3  # of the full shift around all invariant sets of section 3
 _Found = TypeVar("_Found", bound=Conclusion)
 
@@ -58,10 +57,7 @@ def prove(
         lemmas = Steps(digits, steps=prover.steps)
         found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
-        partition = Partition(prover, arc, never)
-        if "G13" in claims:
-            partition.goal = _MILLIONTH
-        found.attempt("where all others lead", _FOLLOWED, partition.prove)
+        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
     around = hull([of.interval, PRINTED])
     found.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
     return found.evidence

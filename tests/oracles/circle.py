@@ -127,6 +127,10 @@ def absorption(view, rng):
         error = 0.02 + 4 * sqrt(share * (1 - share) / max(1, len(counts)))
         if share * TURN > float(bound) + TURN * error:
             told.append(f"after {n} impacts about {share:.3g} of the circle is left")
+        if n == most and share * TURN > float(view.open) + TURN * (error + 0.01):
+            told.append(
+                f"after {n} impacts {share:.3g} of the circle is not where it is said to be"
+            )
     away = separation(view.eta, view.nu)
     if away is not None and float(view.rest[0]) < 3 * pi - 2 * float(away) + TURN - 1e-9:
         told.append("less is left at first than the phases that do not stick")

@@ -17,6 +17,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import premises
+from tests.once import report
 from tests.oracles.curves import amplitude, grazing
 from tests.oracles.sources import curves as curves_of_grazing
 from tests.proofs.trusted.paper import reference
@@ -213,10 +214,10 @@ def test_5_arc_landing_and_silence(drawings, ledger):
 
 
 def test_6_bars_are_the_certificate_s(drawings):
-    within = numbers(step("circle", "absorption-1")["within"])
+    within = report("circle").context.known["absorption-1"].within
     for found in shapes(drawings["figure-6"]):
         bars = [box(x) for x in found["within n impacts, proved"]]
-        wanted = [(part, n) for low, high, n in within for part in on_circle(low, high)]
+        wanted = [(part, n) for (low, high), n in within for part in on_circle(low, high)]
         assert [(x, y[1]) for x, y in bars] == wanted
         assert sum(high - low for (low, high), _ in bars) < math.tau - 2.6
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import gap, inverse_bend, inverse_slope
@@ -14,7 +13,6 @@ from proofs.trusted.flights import lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     TURN,
     Range,
@@ -26,7 +24,7 @@ from proofs.trusted.numbers import (
     show_range,
     within,
 )
-from proofs.trusted.paper.s34_circle.cells import Absorbed, Cell, Inverse, absorbed, in_order
+from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, NeverImpacts, Separation
 from proofs.trusted.windows import BITS
@@ -34,6 +32,7 @@ from proofs.trusted.windows import BITS
 BRACKET = Fraction(1, 2**40)  # the width of the time brackets in the rule `absorption`
 UNIT = Fraction(1, 2**48)  # of the cuts and times there
 _MOST_STEPS = 400
+_SHORTEST = Fraction(1, 10**4)  # of the intervals whose numbers of impacts are told
 _LENGTH_NAMED = Fraction(1, 50)
 _TABLE = (0, 1, 2, 3, 4, 6, 8, 10, 15, 20, 30, 40, 60)
 
@@ -90,19 +89,25 @@ class Absorption(Conclusion):
 
     The phases that do not within n impacts have a measure of at most rest[n]. within: intervals
     of phases, mod 2 pi, in order, all of which do within that number of impacts. sink: the other
-    ones, where they are known.
+    ones, where they are known; open: a bound of the measure of those that come to neither, within
+    as many impacts as `rest` goes up to.
     """
 
     arc: Separation
     rest: tuple[Fraction, ...]
     within: tuple[tuple[Range, int], ...]
+    open: Fraction
     sink: Sink | None = None
 
     def __post_init__(self) -> None:
         ends = [end for phases, _ in self.within for end in phases]
         empty = any(low >= high for (low, high), _ in self.within)
-        if min(self.rest) < 0 or empty or ends != sorted(ends):
+        if not 0 <= self.open <= min(self.rest) or empty or ends != sorted(ends):
             raise Unproved("no bound, or intervals that are not in order")
+        if self.sink is None and self.open != self.rest[-1]:
+            raise Unproved("phases come to a sink that is not known")
+        if self.sink is not None and self.sink.at != self.arc.at:
+            raise Unproved("the arc and the sink are about different oscillators")
 
     at = About("arc")
 
@@ -110,6 +115,11 @@ class Absorption(Conclusion):
     def share(self) -> Fraction:
         """The least share of the circle that reaches the arc."""
         return 1 - self.rest[-1] / TURN
+
+    @property
+    def open_share(self) -> Fraction:
+        """The largest share of the circle of which nothing is said."""
+        return self.open / TURN
 
     @property
     def sentence(self) -> str:
@@ -126,6 +136,18 @@ class Absorption(Conclusion):
         return (
             f"{self.brief}; percentages by number of impacts, at least: {table}. The most impacts "
             f"that it takes are, for every phase mod 2 pi of the longest intervals: {named}."
+            f"{self._others}"
+        )
+
+    @property
+    def _others(self) -> str:
+        """What is said of phases that do not come to the arc."""
+        if self.sink is None:
+            return ""
+        return (
+            f" All but at most {ceil_text(100 * self.open_share, 7)} percent come, within "
+            f"{len(self.rest) - 1} impacts, there or to phases of "
+            f"{show_range(self.sink.never.phases)}, after which there is no impact."
         )
 
     @property
@@ -137,66 +159,72 @@ class Absorption(Conclusion):
 
 
 def absorption(context: Context, reader: Reader) -> Absorption:
-    """Rule `absorption`: {separation, lands, never, cells: [{branch, cuts, times, after}], rest,
-    within, sunk}.
+    """Rule `absorption`: {separation, lands, never, cells: [{branch, cuts, times, after}],
+    impacts}.
 
     Cuts and times are counted in units of 2^-48. Hypotheses: the phases of the `lands` steps, of
     the `never-impacts` step, if there is one, and of cells between the cuts of each branch do not
     overlap, and lie on a line that reaches from before the separation phase, less 2 pi, to beyond
     the start of the sticking arc; at each cut the gap is > 0 at the time given and < 0 by 2^-40
     later, both in the window of the branch, which begins at `after` if gap > 0 then; sin(eta t) has
-    one sign there. rest: bounds of what is left after 0, 1, ... steps, by `absorbed`; within: [low,
-    high, n] such that all cells in [low, high] are absorbed within n; sunk: a lower bound of what
-    comes to the phases of the `never-impacts` step, between which and those of branches, on both
-    sides, there is one cell. Conclusion: `Absorption`.
+    one sign there. impacts: how many are followed. Conclusion: `Absorption`, by `followed`.
 
     Proof. f' = (sin(eta t) / eta) A / gap' has one sign on a branch, so that f is monotone there
-    and a cell's image lies between those of its ends, and has an inverse. Phases between cells form
-    cells of which nothing is known, the arc one more cell. Then `absorbed` applies.
+    and a cell's image lies between those of its ends, and has an inverse.
     """
-    separation_of, lands_of, never_of, cells_of, rest_of, within_of, sunk_of = reader.fields(
-        "separation", "lands", "never", "cells", "rest", "within", "sunk"
+    separation_of, lands_of, never_of, cells_of, impacts_of = reader.fields(
+        "separation", "lands", "never", "cells", "impacts"
     )
     arc = context.step(separation_of, Separation)
-    cells = [Cell(context.step(name, Lands).phases, ()) for name in lands_of.items(least=2)]
-    origin, end = hull([cell.phases for cell in cells])
+    lands = [context.step(name, Lands) for name in lands_of.items(least=2)]
+    never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
+    origin = min(each.phases[0] for each in lands)
+    cells = [cell for entry in cells_of.items() for cell in branch_cells(context, entry, origin)]
+    impacts = impacts_of.number()
+    if impacts not in range(1, _MOST_STEPS + 1):
+        raise impacts_of.fail(f"a number of impacts up to {_MOST_STEPS} is expected")
+    return followed(arc, lands, never[0] if never else None, cells, int(impacts))
+
+
+def followed(
+    arc: Separation,
+    lands: Sequence[Lands],
+    never: NeverImpacts | None,
+    cells: Sequence[Cell],
+    impacts: int,
+) -> Absorption:
+    """Follow phases for so many impacts, by cells of branches and by what lands on the arc at once.
+
+    Theorem. Phases between cells form cells of which nothing is known, the arc is one more cell.
+    Then `absorbed` applies. Where between the phases that never impact again and those of branches
+    there is one cell on each side, they are a sink: in these cells the longest interval ends.
+    """
+    origin, end = hull([each.phases for each in lands])
     if origin > lifted(arc.phase, -1, BITS)[0] or end < arc.start[1]:
         raise Unproved("the cells do not reach the sticking arc on both sides")
-    never = [context.step(name, NeverImpacts) for name in never_of.items(0, 1)]
-    cells += [Cell((each.phases[0], each.phases[1])) for each in never]
-    for entry in cells_of.items():
-        cells += branch_cells(context, entry, origin)
-    cells = in_order([*cells, Cell((end, origin + whole_turns(1, BITS)[1]), ())])
-    phases = [cell.phases for cell in cells]
-    if phases[0][0] < origin or phases[-1][0] != end:
+    silent = [] if never is None else [Cell((never.phases[0], never.phases[1]))]
+    whole = Cell((end, origin + whole_turns(1, BITS)[1]), ())
+    line = in_order([*(Cell(each.phases, ()) for each in lands), *silent, *cells, whole])
+    phases = [cell.phases for cell in line]
+    if phases[0][0] < origin or phases[-1] != whole.phases:
         raise Unproved("cells lie beyond the line")
-    place = phases.index(never[0].phases) if never else None
-    rest, sunk = rest_of.numbers(1, _MOST_STEPS), sunk_of.number()
-    found = absorbed(cells, len(rest) - 1, len(cells) - 1, place)
-    if any(own > given for own, given in zip(found.rest, rest, strict=True)) or found.sunk < sunk:
-        raise Unproved("more may be left than is said, or less come to the sink")
-    within = [_within(item, cells, found) for item in within_of.items()]
+    place = None if never is None else phases.index((never.phases[0], never.phases[1]))
+    if place is not None and not all(line[i].inverses for i in (place - 2, place + 2)):
+        place = None  # no impact is proved near them
+    found = absorbed(line, impacts, len(line) - 1, place)
     sink = None
-    if place is not None:
-        ends = phases[place - 1], phases[place + 1]
-        if not all(cells[i].inverses for i in (place - 2, place + 2)):
-            raise Unproved("no impact is proved near phases that never impact")
-        sink = Sink(never[0], ends, sunk)
-    return Absorption(arc, rest, tuple(within), sink)
+    if never is not None and place is not None:
+        sink = Sink(never, (phases[place - 1], phases[place + 1]), found.sunk)
+    return Absorption(arc, tuple(found.rest), tuple(_within(line, found.steps)), found.open, sink)
 
 
-def _within(reader: Reader, cells: Sequence[Cell], found: Absorbed) -> tuple[Range, int]:
-    """Read [low, high, n], all cells between being absorbed within n."""
-    low, high, steps = reader.numbers(3, 3)
-    first = bisect_right(cells, low, key=lambda cell: cell.phases[1])
-    last = bisect_left(cells, high, key=lambda cell: cell.phases[0])
-    METER.get().spend(last - first)
-    known = found.steps[first:last]
-    if not cells[0].phases[0] <= low < high <= cells[-1].phases[1]:
-        raise reader.fail("an interval of the line is expected")
-    if any(n is None or n > steps for n in known):
-        raise Unproved("a phase is not proved to be absorbed so soon")
-    return (low, high), int(steps)
+def _within(cells: Sequence[Cell], steps: Sequence[int | None]) -> Iterator[tuple[Range, int]]:
+    """Join neighbouring cells that are absorbed within the same number of steps."""
+    for count, group in groupby(zip(steps, cells, strict=True), key=lambda pair: pair[0]):
+        members = [cell.phases for _, cell in group]
+        low, high = members[0][0], members[-1][1]
+        if count and high - low >= _SHORTEST:
+            yield (low, high), count
 
 
 def branch_cells(context: Context, reader: Reader, origin: Fraction) -> Iterator[Cell]:

@@ -143,12 +143,14 @@ def _links(marks: Sequence[int], image: _Units, inverse: Inverse | None) -> _Lin
 
 class Absorbed(NamedTuple):
     """For each cell the number of steps within which all of it is absorbed, None if unknown; for
-    n = 0, 1, ... a bound of the measure of all phases that are not absorbed within n; and a lower
+    n = 0, 1, ... a bound of the measure of all phases that are not absorbed within n; such a bound
+    of the phases that within all these steps are neither absorbed nor come to the sink; and a lower
     bound of the measure of those that come to the sink, sooner or later.
     """
 
     steps: Sequence[int | None]
     rest: Sequence[Fraction]
+    open: Fraction
     sunk: Fraction
 
 
@@ -160,37 +162,66 @@ def absorbed(
     For cells that are `in_order`, and n <= count steps; all images lie in cells.
 
     Theorem. (1) A cell whose images meet only cells that are absorbed within n - 1 steps is
-    absorbed within n. (2) Let N_n be the phases not absorbed within n steps. In a cell that f maps
-    one-to-one, with the inverse X, the phases of N_n are sent into N_(n-1): so their measure is
-    the integral of |X'| over N_(n-1) in the image; over what is there of a cell j that is at most
-    the maximum of |X'| times the bound for cell j, and times the common length. And it is at most
-    the cell's length. (3) See `_sunk`.
+    absorbed within n. (2) Let N_n be the phases that within n steps come to none of some cells. In
+    a cell that f maps one-to-one, with the inverse X, the phases of N_n are sent into N_(n-1): so
+    their measure is the integral of |X'| over N_(n-1) in the image; over what is there of a cell j
+    that is at most the maximum of |X'| times the bound for cell j, and times the common length. And
+    it is at most the cell's length. (3) See `_sunk`.
     """
     ends = [cell.phases[0] for cell in cells] + [cells[-1].phases[1]]
     marks = [_outward((end, end))[0] for end in ends]
     lengths = [high - low + 1 for low, high in pairwise(marks)]
     links = [_links_of(marks, cell) for cell in cells]
-    steps: list[int | None] = [None] * len(cells)
-    left = list(lengths)
-    if arc is not None:
-        steps[arc], left[arc] = 0, 0
-    rest, settled = [sum(left)], -1
+    steps = _steps(cells, links, count, arc)
     moving = [i for i, cell in enumerate(cells) if cell.inverses and i not in (arc, sink)]
+    rest = _left(lengths, links, moving, steps, count)
+    lost, sunk = rest[-1], 0
+    if sink is not None:
+        lost = _left([*lengths[:sink], 0, *lengths[sink + 1 :]], links, moving, steps, count)[-1]
+        sunk = _sunk(lengths, links, [i for i in moving if steps[i] is None], sink)
+    units = [Fraction(total, _UNIT) for total in (*rest, lost, sunk)]
+    return Absorbed(steps, units[:-2], units[-2], units[-1])
+
+
+def _steps(
+    cells: Sequence[Cell], links: Sequence[Sequence[_Links]], count: int, arc: int | None
+) -> list[int | None]:
+    """Return within how many steps all of each cell is absorbed, None if not within count."""
+    steps: list[int | None] = [0 if i == arc else None for i in range(len(cells))]
+    for n in range(1, count + 1):
+        METER.get().spend(len(cells))
+        found = [
+            n if known is None and _all_known(steps, met, cell) else known
+            for known, met, cell in zip(steps, links, cells, strict=True)
+        ]
+        if found == steps:
+            break
+        steps = found
+    return steps
+
+
+def _left(
+    lengths: Sequence[int],
+    links: Sequence[Sequence[_Links]],
+    moving: Sequence[int],
+    steps: Sequence[int | None],
+    count: int,
+) -> list[int]:
+    """Bound what is left after 0, 1, ..., count steps of cells with these lengths."""
+    left = [0 if known == 0 else length for length, known in zip(lengths, steps, strict=True)]
+    rest = [sum(left)]
     for n in range(1, count + 1):
         METER.get().spend(_work(links, moving))
-        if settled != (settled := steps.count(None)):
-            steps = [
-                n if known is None and _all_known(steps, met, cell) else known
-                for known, met, cell in zip(steps, links, cells, strict=True)
-            ]
         before = list(left)
         for i in moving:
             left[i] = min(left[i], 1 + (sum(link.most(before) for link in links[i]) >> _BITS))
-        left = [bound if known is None else 0 for known, bound in zip(steps, left, strict=True)]
+        left = [
+            0 if known is not None and known <= n else bound
+            for bound, known in zip(left, steps, strict=True)
+        ]
         moving = [i for i in moving if left[i]]
         rest.append(sum(left))
-    sunk = 0 if sink is None else _sunk(lengths, links, moving, sink)
-    return Absorbed(steps, [Fraction(total, _UNIT) for total in rest], Fraction(sunk, _UNIT))
+    return rest
 
 
 def _sunk(

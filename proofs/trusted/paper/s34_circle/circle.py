@@ -115,7 +115,7 @@ def _almost_every(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
 def _two_basins(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     """G13: by both basins, and the ends of the interval that ends one of them."""
     del rest
-    if known.sink is None or known.share + known.sink.share < 1 - _OPEN_SHARE:
+    if known.sink is None or known.open_share > _OPEN_SHARE:
         return _OPEN
     widest = max(high - low for low, high in known.sink.ends)
     return Verdict.VERIFIED if widest <= _END else _OPEN

@@ -612,10 +612,10 @@ def test_how_much_of_the_circle_comes_to_the_motion_that_sticks():
 
 def test_the_share_is_asked_of_a_motion_that_sticks():
     """By what reaches the arc, if the flight from the separation ends there; refuted at rest."""
-    row, more = find("X10"), Absorption(arc(4), (F(6), F(2)), ())
+    row, more = find("X10"), Absorption(arc(4), (F(6), F(2)), (), F(2))
     assert row.decide(PAPER, [more]).verdict is Verdict.VERIFIED
     for known in (
-        replace(more, rest=(F(6), F(4))),  # less than half
+        replace(more, rest=(F(6), F(4)), open=F(4)),  # less than half
         replace(more, arc=arc(1)),  # it does not stick there
         replace(more, arc=arc(4, THERE)),
     ):
