@@ -271,7 +271,7 @@ FALSE = {
     "NeverImpacts": [put("phases", (F("1.2"), F("1.25"))), put("phases", (F("1.5708"),) * 2)],
     "Absorption": [
         put("rest", lambda old: tuple(x / 100 for x in old)),
-        put("rest", lambda old: old[:4]),  # of so few impacts too much is open
+        put("rest", lambda old: old[:1]),  # of so few impacts too much is open
         put("within", (((F("1.57"), F("1.58")), 3),)),
         _of("sink", put("measure", F(2))),
         _of("sink", put("ends", lambda old: ((old[0][0] + F(1, 10**5), old[0][1]), old[1]))),
