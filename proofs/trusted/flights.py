@@ -135,6 +135,18 @@ class Motion:
         """Return the state after a launch at a phase."""
         return launch(self.side, self.eta, self.nu, phi)
 
+    @cached_property
+    def moving(self) -> Launch:
+        """The launch states, with their derivatives in the phase."""
+        one = rational(Fraction(1), self.bits)
+        return self.launch(Dual(Enclosure.of(*self.phases, self.bits), one))
+
+    @cached_property
+    def outer(self) -> tuple[Launch, Launch]:
+        """The states after launches at the ends of the phases."""
+        first, last = (self.launch(rational(end, self.bits)) for end in self.phases)
+        return first, last
+
     def clock(self, time: Range | Dual) -> Clock:
         """Return the time functions over an interval of times."""
         t = time if isinstance(time, Dual) else Enclosure.of(*time, self.bits)
@@ -169,12 +181,11 @@ class Motion:
     def curvature(self, time: Range) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
         start, now = self.start(), self.clock(time)
-        one, down = rational(Fraction(1), self.bits), fall(self.gap_of, time)
+        down = fall(self.gap_of, time)
         faster = slope(start, now, down) - 1
-        moved = self.launch(Dual(Enclosure.of(*self.phases, self.bits), one))
-        change = gap(moved, now, 1).derivative + self.gap(start, time, 2) * faster
+        change = gap(self.moving, now, 1).derivative + self.gap(start, time, 2) * faster
         later = self.clock(Dual(Enclosure.of(*time, self.bits), faster))
-        bent: Dual = slope(moved, later, Dual(down, change))
+        bent: Dual = slope(self.moving, later, Dual(down, change))
         return bent.derivative
 
 

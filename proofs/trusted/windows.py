@@ -122,12 +122,11 @@ def leaves(motion: Motion) -> Fraction:
 
 def level(motion: Motion, time: Fraction) -> Range:
     """Enclose the gap at one time: by the ends of the phases where it is monotone in the phase."""
-    low, high = motion.phases
-    one, now = rational(Fraction(1), motion.bits), motion.clock((time, time))
-    whole: Dual = gap(motion.launch(Dual(Enclosure.of(low, high, motion.bits), one)), now)
-    if low == high or whole.derivative.lo <= 0 <= whole.derivative.hi:
+    now = motion.clock((time, time))
+    whole: Dual = gap(motion.moving, now)
+    if whole.derivative.lo <= 0 <= whole.derivative.hi:
         return whole.value.range
-    return hull([gap(motion.launch(rational(end, motion.bits)), now).range for end in (low, high)])
+    return hull([gap(end, now).range for end in motion.outer])
 
 
 def clear(motion: Motion, times: Range) -> None:
