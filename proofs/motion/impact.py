@@ -209,8 +209,8 @@ def positive_between(
     """Whether gap > 0 between two times, by its values there and the greatest gap''."""
     if not (at_low.certainly_positive() and at_high.certainly_positive()):
         return False
-    bend = flight.gap(low, high, order=2).sup
-    return bend <= 0 or min(at_low.inf, at_high.inf) > bend * ((high - low) ** 2 / 8)
+    least, square = min(at_low.inf, at_high.inf), (high - low) ** 2 / 8
+    return least > flight.bend.sup * square or least > flight.gap(low, high, order=2).sup * square
 
 
 def locate(

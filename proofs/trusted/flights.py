@@ -31,16 +31,20 @@ Gap = Callable[[Range, int], Enclosure]
 # -- what excludes, brackets and falls -------------------------------------------------------------
 
 
-def stays_up(gap_of: Gap, time: Range, least: Fraction | int) -> bool:
+def stays_up(
+    gap_of: Gap, time: Range, least: Fraction | int, bend: Enclosure | None = None
+) -> bool:
     """Whether gap > 0 on an interval of times, at whose ends it is `least` or more.
 
     It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval. `least` is in
-    the units of the enclosures of gap''.
+    the units of the enclosures of gap''. bend: one on a longer interval, if it is known.
     """
     if least <= 0:
         return False
     width = time[1] - time[0]
-    return 8 * least * width.denominator**2 > gap_of(time, 2).hi * width.numerator**2
+    rise, square = 8 * least * width.denominator**2, width.numerator**2
+    known = bend is not None and rise > bend.hi * square
+    return known or rise > gap_of(time, 2).hi * square
 
 
 def brackets(gap_of: Gap, time: Range) -> bool:
@@ -75,10 +79,10 @@ def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
 def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
     """Return the runs of pieces [t_j, t_(j+1)] that do not stay up; gap < 0 must hold at t_n."""
     windows: list[Range] = []
-    value = gap_of((times[0], times[0]), 0)
+    value, bend = gap_of((times[0], times[0]), 0), gap_of((times[0], times[-1]), 2)
     for before, now in pairwise(times):
         following = gap_of((now, now), 0)
-        if not stays_up(gap_of, (before, now), min(value.lo, following.lo)):
+        if not stays_up(gap_of, (before, now), min(value.lo, following.lo), bend):
             begin = windows.pop()[0] if windows and windows[-1][1] == before else before
             windows.append((begin, now))
         value = following
