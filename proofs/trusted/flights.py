@@ -131,9 +131,13 @@ class Motion:
         """An enclosure of nu."""
         return Enclosure.of(*self.at.nu, self.bits)
 
+    @cached_property
+    def _start(self) -> Launch:
+        return self.launch(Enclosure.of(*self.phases, self.bits))
+
     def start(self) -> Launch:
         """Return the launch states."""
-        return self.launch(Enclosure.of(*self.phases, self.bits))
+        return self._start
 
     def launch(self, phi: Enclosure | Dual) -> Launch:
         """Return the state after a launch at a phase."""
@@ -248,7 +252,7 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
 def bits_for_pieces(times: Sequence[Fraction]) -> int:
     """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    return _rounded(COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def bits_for(time: Range) -> int:
@@ -256,7 +260,12 @@ def bits_for(time: Range) -> int:
     width = time[1] - time[0]
     if width == 0:
         raise Unproved("an empty bracket")
-    return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+    return _rounded(max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+
+
+def _rounded(bits: int) -> int:
+    """Return a precision that many flights share, so that the sines of their times are known."""
+    return min(MAX_BITS, -(-bits // 16) * 16)
 
 
 def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:

@@ -396,41 +396,39 @@ class Dual:
     def __init__(self, value: Enclosure, derivative: Enclosure) -> None:
         self.value, self.derivative = value, derivative
 
-    def _like(self, other: Dual | Enclosure | Fraction | int) -> Dual:
-        if isinstance(other, Dual):
-            return other
-        zero = 0 * self.value
-        return Dual(zero + other, zero)
-
     def __neg__(self) -> Dual:
         return Dual(-self.value, -self.derivative)
 
     def __add__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        return Dual(self.value + other.value, self.derivative + other.derivative)
+        if isinstance(value, Dual):
+            return Dual(self.value + value.value, self.derivative + value.derivative)
+        return Dual(self.value + value, self.derivative)
 
     __radd__ = __add__
 
     def __sub__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        return self + -self._like(value)
+        return self + -value
 
     def __rsub__(self, value: Enclosure | Fraction | int) -> Dual:
         return -self + value
 
     def __mul__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        slope = self.derivative * other.value + self.value * other.derivative
-        return Dual(self.value * other.value, slope)
+        if isinstance(value, Dual):
+            slope = self.derivative * value.value + self.value * value.derivative
+            return Dual(self.value * value.value, slope)
+        return Dual(self.value * value, self.derivative * value)
 
     __rmul__ = __mul__
 
     def __truediv__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        quotient = self.value / other.value
-        return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+        if isinstance(value, Dual):
+            quotient = self.value / value.value
+            return Dual(quotient, (self.derivative - quotient * value.derivative) / value.value)
+        return Dual(self.value / value, self.derivative / value)
 
     def __rtruediv__(self, value: Enclosure | Fraction | int) -> Dual:
-        return self._like(value) / self
+        zero = 0 * self.value
+        return Dual(zero + value, zero) / self
 
     def __pow__(self, n: int) -> Dual:
         return reduce(mul, [self] * n)
