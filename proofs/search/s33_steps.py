@@ -48,6 +48,7 @@ class ReboundProver:
     of: Parameters
     plain: Prover
     known: dict[str, Conclusion] = field(default_factory=dict)
+    _names: dict[object, str] = field(default_factory=dict)  # some of steps that were taken back
 
     @property
     def steps(self) -> dict[str, dict[str, Any]]:
@@ -86,12 +87,12 @@ class ReboundProver:
 
     def rebound(self, at: Place, phases: Range, velocities: Range) -> tuple[str, Rebound]:
         """Prove the next impact of all states of a box (rule rebound), once."""
-        wanted = phases, velocities, at  # phases first: they are seldom the same
-        for name, known in self.known.items():
-            if type(known) is Rebound and (known.phases, known.velocities, known.at) == wanted:
-                return name, known
-        name = self.plain.seen_or_proved(partial(self._rebound, at, phases, velocities))
-        return name, self.get(name, Rebound)
+        wanted = at, phases, velocities
+        known = self.known.get(self._names.get(wanted, ""))
+        if type(known) is not Rebound or (known.at, known.phases, known.velocities) != wanted:
+            make = partial(self._rebound, at, phases, velocities)
+            self._names[wanted] = self.plain.seen_or_proved(make)
+        return self._names[wanted], self.get(self._names[wanted], Rebound)
 
     def _rebound(self, at: Place, phases: Range, velocities: Range, numbers: Numbers) -> str:
         etas, nus, epsilons = at.sides
@@ -118,12 +119,11 @@ class ReboundProver:
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""
         step = {"rule": rule, "witness": witness}
-        for name, known in self.steps.items():
-            if known == step:
-                return name
-        conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
-        name = self.plain.add(rule, witness)
-        self.known[name] = conclusion
+        name = self._names.get(repr(step), "")
+        if self.steps.get(name) != step:
+            conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
+            name = self._names[repr(step)] = self.plain.add(rule, witness)
+            self.known[name] = conclusion
         return name
 
     def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction]) -> str:

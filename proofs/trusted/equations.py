@@ -21,6 +21,8 @@ Number = Any
 
 def sincos(x: Number) -> tuple[Number, Number]:
     """Return (sin x, cos x) by the number's own method, else as its type is registered."""
+    if isinstance(x, float):
+        return math.sin(x), math.cos(x)
     own = getattr(x, "sincos", None)
     pair: tuple[Number, Number] = registered_sincos(x) if own is None else own()
     return pair
@@ -30,11 +32,6 @@ def sincos(x: Number) -> tuple[Number, Number]:
 def registered_sincos(x: Number) -> tuple[Number, Number]:
     """Return (sin x, cos x) for numbers of other libraries."""
     raise TypeError(f"no sine of {type(x).__name__}")
-
-
-@registered_sincos.register
-def _(x: float) -> tuple[float, float]:
-    return math.sin(x), math.cos(x)
 
 
 class Launch(NamedTuple):
@@ -106,8 +103,9 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
     (d/dt)^k cos(wt) = w^k cos(wt + k pi/2). Flight means gap > 0, an impact gap = 0.
     """
     side, eta, lift, rate, kick = start
-    mass_cos, mass_sin = _turned(now.mass_cos, now.mass_sin, order)
-    table_cos, table_sin = _turned(now.table_cos, now.table_sin, order)
+    mass_sin, mass_cos, table_sin, table_cos = now
+    for _ in range(order % 4):
+        mass_cos, mass_sin, table_cos, table_sin = -mass_sin, mass_cos, -table_sin, table_cos
     if order == 0:
         mass_sin = mass_sin / eta
     elif order == 1:
@@ -121,13 +119,6 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
     if kick is not None:
         total = total + kick * mass_sin
     return total if side > 0 else -total
-
-
-def _turned(cos: Number, sin: Number, quarters: int) -> tuple[Number, Number]:
-    """Return the cosine and the sine after quarter turns."""
-    for _ in range(quarters % 4):
-        cos, sin = -sin, cos
-    return cos, sin
 
 
 def launch_acceleration(start: Launch) -> Number:
