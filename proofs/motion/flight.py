@@ -91,6 +91,13 @@ class Flight:
         value: Interval = gap(self.start, self.clock(low, high), order)
         return value
 
+    @cached_property
+    def bend(self) -> Interval:
+        """An enclosure of gap'' at all times, coarse and made once."""
+        unit = self.number(Fraction(-1), Fraction(1))
+        value: Interval = gap(self.start, Clock(unit, unit, unit, unit), 2)
+        return value
+
     def velocity(self, low: Fraction, high: Fraction) -> Interval:
         """Enclose gap' over [low, high] from its ends and gap'' (mean value theorem).
 

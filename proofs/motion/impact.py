@@ -26,6 +26,7 @@ LEAST = 64  # bits: multiprecision costs no more than at fewer
 _ATTEMPTS = 8
 _STEPS, _FLOAT_BITS = 30, 40  # of Newton's method in floats, and what it is good for
 MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
+_LIKELY = Fraction(3, 8)  # of bend w^2: up to 1/2 a step of 2 w may not be closed; few of them are
 _CLOSE = Fraction(1, 1000)  # of times to that of a touch
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
 
@@ -125,9 +126,10 @@ def first_impact(
     """Exclude impacts from time zero on until one is certain, for all launches at once.
 
     On [0, t_1] by `Flight.rises`. On [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j),
-    gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error). Steps adapt down to `finest`, or to
-    an eighth of the time passed if that is less; what is then not excluded opens a window, in
-    which they grow again, to 16 times that or an eighth of the window.
+    gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error). Steps are doubled where the bend at
+    all times may allow it, and halved down to `finest`, or to an eighth of the time passed if that
+    is less; what is then not excluded opens a window, in which they grow again, to 16 times that or
+    an eighth of the window.
 
     Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
     where all phases do, Undecided where the launch itself is not decided.
@@ -174,7 +176,8 @@ def march(
         if positive_between(flight, now, value, ahead, next_value):
             if single and windows:
                 raise Unsettled(windows, times, flight)
-            step, allowed = 2 * step, least
+            seldom = next_value.inf <= flight.bend.sup * (_LIKELY * step**2)
+            step, allowed = (step if seldom else 2 * step), least
         elif step > allowed:
             step = max(step / 2, allowed)
             continue
@@ -209,8 +212,8 @@ def positive_between(
     """Whether gap > 0 between two times, by its values there and the greatest gap''."""
     if not (at_low.certainly_positive() and at_high.certainly_positive()):
         return False
-    bend = flight.gap(low, high, order=2).sup
-    return bend <= 0 or min(at_low.inf, at_high.inf) > bend * ((high - low) ** 2 / 8)
+    least, square = min(at_low.inf, at_high.inf), (high - low) ** 2 / 8
+    return least > flight.bend.sup * square or least > flight.gap(low, high, order=2).sup * square
 
 
 def locate(

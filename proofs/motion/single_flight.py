@@ -12,7 +12,7 @@ from proofs.motion.flight import Flight
 from proofs.motion.impact import first_step, positive_between
 from proofs.motion.phase import turn
 from proofs.motion.system import System
-from proofs.trusted.equations import Launch, clock, gap
+from proofs.trusted.equations import Clock, Launch, clock, gap
 from proofs.trusted.kernel.enclose import centre_of
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range
@@ -71,6 +71,13 @@ class SingleFlight(Flight):
         if found is None:
             raise ArithmeticError("two enclosures of the same gaps are disjoint")
         return found
+
+    @cached_property
+    def bend(self) -> Interval:
+        """An enclosure of gap'' over the piece at all times."""
+        unit = Interval(-1, 1, precision=self.precision)
+        value: Interval = gap(self._moving[1], Clock(unit, unit, unit, unit), 2).value
+        return value
 
     def rises(self, until: Fraction) -> bool:
         """Whether gap > 0 on (0, until]: by gap' after a rebound, by gap'' else."""

@@ -88,8 +88,11 @@ class Sketch:
         if other is None:
             return NotImplemented
         a, b, c, d = self.inf, self.sup, other.inf, other.sup
-        products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
-        return _made(min(products), max(products))
+        if c >= 0:
+            return _made(a * (c if a >= 0 else d), b * (d if b >= 0 else c))
+        if d <= 0:
+            return _made(b * (c if b >= 0 else d), a * (d if a >= 0 else c))
+        return _made(min(a * d, b * c), max(a * c, b * d))
 
     __rmul__ = __mul__
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from itertools import product
 
 from proofs.motion.simulate import next_impact
@@ -21,6 +21,7 @@ _MOST_UNITS = 2
 _HALVINGS = 12  # of a candidate for an end
 
 
+@lru_cache(maxsize=4096)
 def state_after(
     eta: float, nu: float, epsilon: float, state: tuple[float, float], horizon: float = 1000.0
 ) -> tuple[float, float] | None:

@@ -16,8 +16,6 @@ from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
-from proofs.search.s33_boxes import on_box
-from proofs.search.s33_family import along_epsilon
 from proofs.search.s33_rectangles import (
     Images,
     Sets,
@@ -54,9 +52,13 @@ def prove(
     exact = [claim for claim in claims if claim not in ("N4", "N5")]
     named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
     if "N4" in claims:
+        from proofs.search.s33_boxes import on_box  # what one claim alone needs
+
         tell("the box of parameters")
         named["N4"], notes["N4"] = on_box(prover, of.box)
     if "N5" in claims:
+        from proofs.search.s33_family import along_epsilon
+
         tell("larger epsilon")
         named["N5"], notes["N5"] = along_epsilon(prover)
     proofs = {

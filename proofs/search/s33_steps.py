@@ -19,7 +19,7 @@ from proofs.motion.flight import Numbers
 from proofs.motion.restitution import Rebounds, locate_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, concluded
-from proofs.search.s33_rectangles import Sets, state_after
+from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -33,6 +33,7 @@ from proofs.trusted.parameters import Parameters, Place
 C = TypeVar("C", bound=Conclusion)
 Box = tuple[Range, Range]  # phases x velocities
 Fits = Callable[[Rebound], bool]
+ImagesOf = Callable[[Place, Fraction, Range], Range]  # phases after one phase and velocities
 _WIDEST = Fraction(1, 32)  # of a part of a rectangle, in phase
 _NARROWEST = Fraction(1, 256)
 _LONGEST = 8  # symbols of a barred word
@@ -47,6 +48,7 @@ class ReboundProver:
     of: Parameters
     plain: Prover
     known: dict[str, Conclusion] = field(default_factory=dict)
+    _names: dict[object, str] = field(default_factory=dict)  # some of steps that were taken back
 
     @property
     def steps(self) -> dict[str, dict[str, Any]]:
@@ -85,12 +87,12 @@ class ReboundProver:
 
     def rebound(self, at: Place, phases: Range, velocities: Range) -> tuple[str, Rebound]:
         """Prove the next impact of all states of a box (rule rebound), once."""
-        wanted = phases, velocities, at  # phases first: they are seldom the same
-        for name, known in self.known.items():
-            if type(known) is Rebound and (known.phases, known.velocities, known.at) == wanted:
-                return name, known
-        name = self.plain.seen_or_proved(partial(self._rebound, at, phases, velocities))
-        return name, self.get(name, Rebound)
+        wanted = at, phases, velocities
+        known = self.known.get(self._names.get(wanted, ""))
+        if type(known) is not Rebound or (known.at, known.phases, known.velocities) != wanted:
+            make = partial(self._rebound, at, phases, velocities)
+            self._names[wanted] = self.plain.seen_or_proved(make)
+        return self._names[wanted], self.get(self._names[wanted], Rebound)
 
     def _rebound(self, at: Place, phases: Range, velocities: Range, numbers: Numbers) -> str:
         etas, nus, epsilons = at.sides
@@ -117,12 +119,11 @@ class ReboundProver:
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""
         step = {"rule": rule, "witness": witness}
-        for name, known in self.steps.items():
-            if known == step:
-                return name
-        conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
-        name = self.plain.add(rule, witness)
-        self.known[name] = conclusion
+        name = self._names.get(repr(step), "")
+        if self.steps.get(name) != step:
+            conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
+            name = self._names[repr(step)] = self.plain.add(rule, witness)
+            self.known[name] = conclusion
         return name
 
     def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction]) -> str:
@@ -204,18 +205,20 @@ class ReboundProver:
     # -- words ---------------------------------------------------------------------------------
 
     def bar(self, pair: Sequence[str], word: Sequence[int], above: bool) -> str:
-        """Prove that no orbit follows a word, bounds rounded outward to four places."""
-        maps = [self.get(name, RectangleMap) for name in pair]
-        extreme, gammas, images = maps[word[0]].phases[above], self.velocities, []
+        """Prove that no orbit follows a word, if floats agree."""
+        maps, images = [self.get(name, RectangleMap) for name in pair], list[str]()
+
+        def proved(at: Place, bound: Fraction, gammas: Range) -> Range:
+            name, image = self.rebound(at, (bound, bound), gammas)
+            images.append(name)
+            return image.phase
+
+        low, high = maps[word[-1]].phases
+        seen = self._extreme(maps, word, above, _seen_images)
+        if seen >= low if above else seen <= high:
+            raise Unproved("in floating point an orbit follows the word")
         with self.attempt():
-            for symbol in word[:-1]:
-                here = maps[symbol]
-                low, high = here.phases
-                bound = min(high, _up(extreme)) if above else max(low, -_up(-extreme))
-                name, image = self.rebound(here.at, (bound, bound), gammas)
-                images.append(name)
-                extreme = image.phase[above]
-                gammas = -_up(-here.velocity[0]), _up(here.velocity[1])
+            self._extreme(maps, word, above, proved)
             return self.derive(
                 "barred-word",
                 rectangles=list(pair),
@@ -223,6 +226,19 @@ class ReboundProver:
                 images=images,
                 **{"from": "above" if above else "below"},
             )
+
+    def _extreme(
+        self, maps: Sequence[RectangleMap], word: Sequence[int], above: bool, images: ImagesOf
+    ) -> Fraction:
+        """Return how far states come along a word, bounds rounded outward to four places."""
+        extreme, gammas = maps[word[0]].phases[above], self.velocities
+        for symbol in word[:-1]:
+            here = maps[symbol]
+            low, high = here.phases
+            bound = min(high, _up(extreme)) if above else max(low, -_up(-extreme))
+            extreme = images(here.at, bound, gammas)[above]
+            gammas = -_up(-here.velocity[0]), _up(here.velocity[1])
+        return extreme
 
     def constant_word(self, pair: Sequence[str], symbols: Sequence[int] = (0, 1)) -> str:
         """Prove that no orbit follows some word of one symbol, the shortest that will do."""
@@ -300,6 +316,14 @@ class ReboundProver:
                 if states:
                     return states
         return []
+
+
+def _seen_images(at: Place, phase: Fraction, velocities: Range) -> Range:
+    """Return about the least and the greatest next phase."""
+    seen = image_phases(at, velocities)(phase)
+    if seen is None:
+        raise Unproved("in floating point a state sticks, or never impacts")
+    return Fraction(seen[0]), Fraction(seen[1])
 
 
 def _up(value: Fraction) -> Fraction:

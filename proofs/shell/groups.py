@@ -80,17 +80,17 @@ def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Li
     quantities = decision.quantities.items()
     noted = decision.verdict in (Verdict.UNDECIDED, Verdict.SIMULATED)
     note = found.notes.get(claim) if noted else None
-    why = "; ".join(filter(None, (decision.why, note)))
-    said = (row.words, row.says(of), why, decision.theorem)
+    why, theorem = decision.why, decision.theorem
+    said = (row.words, row.says(of), "; ".join(filter(None, (why, note))), theorem)
     line = Line(claim, decision.verdict, *said, decision.quantities)
     return line, {
         "id": claim,
         "statement": line.statement,
         "verdict": decision.verdict.value,
         "proof": [name for name, _ in proof],
-        "why": decision.why,
+        "why": why,
         "witness": decision.witness,
-        "corrected": decision.theorem,
+        "corrected": theorem,
         "quantities": {name: printed(each, digits) for name, each in quantities},
     }
 

@@ -148,7 +148,8 @@ class Reader:
 
     def number(self) -> Fraction:
         """Return an exact rational, written in lowest terms."""
-        value = Fraction(text_value := self._matching(_RATIONAL))
+        numerator, _, denominator = (text_value := self._matching(_RATIONAL)).partition("/")
+        value = Fraction(int(numerator), int(denominator or 1))
         if str(value) != text_value:
             raise self.fail(f"not in lowest terms: {text_value[:40]!r}")
         return value
@@ -185,16 +186,17 @@ def _no_number(value: str) -> Any:
     return _Broken(f"a bare JSON number, {value[:40]}: numbers are strings here")
 
 
-def _refuse_broken(value: Any, path: str) -> None:
+def _refuse_broken(value: Any, *path: str | int) -> None:
     """Raise Malformed at the first place that is not in the accepted form."""
     if isinstance(value, _Broken):
-        raise Malformed(f"{path}: {value}")
+        parts = (f"[{part}]" if isinstance(part, int) else f".{_shown(part)}" for part in path)
+        raise Malformed(f"${''.join(parts)}: {value}")
     if isinstance(value, dict):
         for name, inner in value.items():
-            _refuse_broken(inner, f"{path}.{_shown(name)}")
+            _refuse_broken(inner, *path, name)
     elif isinstance(value, list):
         for index, inner in enumerate(value):
-            _refuse_broken(inner, f"{path}[{index}]")
+            _refuse_broken(inner, *path, index)
 
 
 def parse(source: str) -> Reader:
@@ -209,7 +211,7 @@ def parse(source: str) -> Reader:
             parse_int=_no_number,
             parse_constant=_no_number,
         )
-        _refuse_broken(value, "$")
+        _refuse_broken(value)
     except RecursionError:
         raise Malformed("$: nested too deeply") from None
     except json.JSONDecodeError as error:

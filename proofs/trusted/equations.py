@@ -103,25 +103,22 @@ def gap(start: Launch, now: Clock, order: int = 0) -> Number:
     (d/dt)^k cos(wt) = w^k cos(wt + k pi/2). Flight means gap > 0, an impact gap = 0.
     """
     side, eta, lift, rate, kick = start
-    mass_cos, mass_sin = _turned(now.mass_cos, now.mass_sin, order)
-    table_cos, table_sin = _turned(now.table_cos, now.table_sin, order)
-    if order > 0:
-        scale = eta**order if order > 1 else eta
-        mass_cos, mass_sin = scale * mass_cos, scale * mass_sin
-    mass_sin = mass_sin / eta
+    mass_sin, mass_cos, table_sin, table_cos = now
+    for _ in range(order % 4):
+        mass_cos, mass_sin, table_cos, table_sin = -mass_sin, mass_cos, -table_sin, table_cos
+    if order == 0:
+        mass_sin = mass_sin / eta
+    elif order == 1:
+        mass_cos = eta * mass_cos
+    else:
+        scale = eta ** (order - 1)
+        mass_cos, mass_sin = eta * scale * mass_cos, scale * mass_sin
     total = lift * (mass_cos - table_cos) + rate * (mass_sin - table_sin) + mass_cos
     if order == 0:
         total = total - 1
     if kick is not None:
         total = total + kick * mass_sin
     return total if side > 0 else -total
-
-
-def _turned(cos: Number, sin: Number, quarters: int) -> tuple[Number, Number]:
-    """Return the cosine and the sine after quarter turns."""
-    if quarters & 1:
-        cos, sin = -sin, cos
-    return (-cos, -sin) if quarters & 2 else (cos, sin)
 
 
 def launch_acceleration(start: Launch) -> Number:
@@ -185,9 +182,11 @@ def arrival(start: Launch, now: Clock) -> tuple[Number, Number]:
 
 
 def return_map_derivative(
-    start: Launch, now: Clock, epsilon: Number
+    start: Launch, now: Clock, epsilon: Number, fall: Number | None = None
 ) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
     """Return DF, rows (phase, velocity) by columns (phi, gamma), at an impact `now` after `start`.
+
+    fall: gap' there, if it is known.
 
     Theorem. Let S, C = sin(eta t), cos(eta t), K = kick and a = nu sin(phi) (1 + epsilon) -
     eta^2 (1 + nu sin(phi)). With D = d/dt - d/dphi, D Z = 0, D X = a S/eta + K C and
@@ -196,20 +195,12 @@ def return_map_derivative(
     p = side D X / gap' and q = -side epsilon S / gap', and X'' = -eta^2 X gives those of
     gamma = -X'/eta: eta X p + (D X')/eta and eta X q - epsilon C. For epsilon = 0, p is `slope`.
     """
-    side, eta, lift, _, kick = start
-    big_s, big_c = now.mass_sin, now.mass_cos
-    fall = side * gap(start, now, 1)
-    along = (side * launch_acceleration(start) + epsilon * lift) / eta
-    moved, turned = along * big_s, along * big_c
-    if kick is not None:
-        moved, turned = moved + kick * big_c, turned - kick * big_s
-    by_phi, by_gamma = moved / fall, -(epsilon * big_s) / fall
-    pull = eta * arrival(start, now)[0]
-    return (by_phi, by_gamma), (pull * by_phi + turned, pull * by_gamma - epsilon * big_c)
+    push = start.side * launch_acceleration(start) + epsilon * start.lift
+    return _impact_derivative(start, now, push, epsilon, fall)
 
 
 def flight_derivative(
-    start: Launch, now: Clock
+    start: Launch, now: Clock, fall: Number | None = None
 ) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
     """Return the derivatives of phase and velocity at an impact (rows) by phi and by the kick.
 
@@ -217,6 +208,21 @@ def flight_derivative(
     of `return_map_derivative` for epsilon = 0 but for the kick, and the second one, as gamma moves
     the kick by epsilon eta, its second column divided by that: for epsilon = 1/eta, itself.
     """
-    (by_phi, _), (turned, _) = return_map_derivative(start, now, start.eta * 0)
-    (_, by_kick), (_, pulled) = return_map_derivative(start, now, (start.eta * 0 + 1) / start.eta)
-    return (by_phi, by_kick), (turned, pulled)
+    push = start.side * launch_acceleration(start)
+    return _impact_derivative(start, now, push, 1 / start.eta, fall)
+
+
+def _impact_derivative(
+    start: Launch, now: Clock, push: Number, epsilon: Number, fall: Number | None
+) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
+    """Return DF as `return_map_derivative` has it, its columns of the push a and of epsilon."""
+    side, eta, _, _, kick = start
+    big_s, big_c = now.mass_sin, now.mass_cos
+    fall = side * (gap(start, now, 1) if fall is None else fall)
+    along = push / eta
+    moved, turned = along * big_s, along * big_c
+    if kick is not None:
+        moved, turned = moved + kick * big_c, turned - kick * big_s
+    by_phi, by_gamma = moved / fall, -(epsilon * big_s) / fall
+    pull = eta * arrival(start, now)[0]
+    return (by_phi, by_gamma), (pull * by_phi + turned, pull * by_gamma - epsilon * big_c)

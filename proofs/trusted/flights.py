@@ -31,16 +31,20 @@ Gap = Callable[[Range, int], Enclosure]
 # -- what excludes, brackets and falls -------------------------------------------------------------
 
 
-def stays_up(gap_of: Gap, time: Range, least: Fraction | int) -> bool:
+def stays_up(
+    gap_of: Gap, time: Range, least: Fraction | int, bend: Enclosure | None = None
+) -> bool:
     """Whether gap > 0 on an interval of times, at whose ends it is `least` or more.
 
     It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval. `least` is in
-    the units of the enclosures of gap''.
+    the units of the enclosures of gap''. bend: one on a longer interval, if it is known.
     """
     if least <= 0:
         return False
     width = time[1] - time[0]
-    return 8 * least * width.denominator**2 > gap_of(time, 2).hi * width.numerator**2
+    rise, square = 8 * least * width.denominator**2, width.numerator**2
+    known = bend is not None and rise > bend.hi * square
+    return known or rise > gap_of(time, 2).hi * square
 
 
 def brackets(gap_of: Gap, time: Range) -> bool:
@@ -75,10 +79,10 @@ def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
 def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
     """Return the runs of pieces [t_j, t_(j+1)] that do not stay up; gap < 0 must hold at t_n."""
     windows: list[Range] = []
-    value = gap_of((times[0], times[0]), 0)
+    value, bend = gap_of((times[0], times[0]), 0), gap_of((times[0], times[-1]), 2)
     for before, now in pairwise(times):
         following = gap_of((now, now), 0)
-        if not stays_up(gap_of, (before, now), min(value.lo, following.lo)):
+        if not stays_up(gap_of, (before, now), min(value.lo, following.lo), bend):
             begin = windows.pop()[0] if windows and windows[-1][1] == before else before
             windows.append((begin, now))
         value = following
@@ -127,9 +131,13 @@ class Motion:
         """An enclosure of nu."""
         return Enclosure.of(*self.at.nu, self.bits)
 
+    @cached_property
+    def _start(self) -> Launch:
+        return self.launch(Enclosure.of(*self.phases, self.bits))
+
     def start(self) -> Launch:
         """Return the launch states."""
-        return self.launch(Enclosure.of(*self.phases, self.bits))
+        return self._start
 
     def launch(self, phi: Enclosure | Dual) -> Launch:
         """Return the state after a launch at a phase."""
@@ -255,7 +263,7 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
 def bits_for_pieces(times: Sequence[Fraction]) -> int:
     """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    return min(MAX_BITS, COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
+    return _rounded(COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def bits_for(time: Range) -> int:
@@ -263,7 +271,12 @@ def bits_for(time: Range) -> int:
     width = time[1] - time[0]
     if width == 0:
         raise Unproved("an empty bracket")
-    return min(MAX_BITS, max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+    return _rounded(max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+
+
+def _rounded(bits: int) -> int:
+    """Return a precision that many flights share, so that the sines of their times are known."""
+    return min(MAX_BITS, -(-bits // 16) * 16)
 
 
 def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:

@@ -82,8 +82,9 @@ def check(source: str, work: float = DEFAULT) -> Report:
     does not follow from the witnesses, Exhausted where that takes more work.
     """
     with metered(work):
-        steps_of, claims_of = parse(source).fields(*FIELDS)[3:]
-        context = premises(source)
+        document = parse(source)
+        steps_of, claims_of = document.fields(*FIELDS)[3:]
+        context = _premises(document)
         used: set[str] = set()
         try:
             report = _conclude(context, claims_of, used)
@@ -97,7 +98,11 @@ def check(source: str, work: float = DEFAULT) -> Report:
 
 def premises(source: str) -> Context:
     """Return what the steps of a certificate prove, whatever its claims."""
-    schema, parameters_of, functions_of, steps_of, _ = parse(source).fields(*FIELDS)
+    return _premises(parse(source))
+
+
+def _premises(document: Reader) -> Context:
+    schema, parameters_of, functions_of, steps_of, _ = document.fields(*FIELDS)
     if schema.string() != SCHEMA:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     context = Context(subject_from_json(parameters_of))
@@ -154,18 +159,18 @@ def _check_claim(context: Context, entry: Reader, used: set[str]) -> Checked:
     if row is None:
         raise id_of.fail(f"unknown claim {id_of.string()[:20]!r}")
     decision = row.decide(context.of, _conclusions(context, proof, used))
-    says = row.says(context.of)
+    says, own_why, theorem = row.says(context.of), decision.why, decision.theorem
     for given, own in (
         (statement, says),
         (verdict, decision.verdict.value),
-        (why, decision.why),
+        (why, own_why),
         (witness, decision.witness),
-        (corrected, decision.theorem),
+        (corrected, theorem),
     ):
         if (None if given.is_null() else given.string()) != own:
             raise Rejected(f"{given.path}: the proof of {row.id} gives {str(own)[:100]!r}")
     _check_quantities(row.id, decision.quantities, bounds)
-    return Checked(row.id, decision.verdict, says, decision.why, decision.theorem)
+    return Checked(row.id, decision.verdict, says, own_why, theorem)
 
 
 def _named(context: Context, names: Reader, used: set[str]) -> list[str]:

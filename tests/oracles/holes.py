@@ -158,7 +158,7 @@ PLACES = Lines(
 STRADDLE = Lines("numbers:Phase._require", (("low <= high <= TURN", "low <= high"),))
 GAP = Lines("paper.s32_sets.linear:LinearSet.__post_init__", (("sum(self.ratios) >= 1", "False"),))
 EQUAL = Lines(
-    "paper.s32_sets.linear:_gap_estimates",
+    "paper.s32_sets.linear_steps:_gap_estimates",
     (("if true and false:", "if False:"), ("if true:", "if not false:")),
 )
 POINT = (

@@ -81,8 +81,13 @@ class Enclosure:
             METER.get().spend(1 + (bits >> 7))
             a, b, c, d = self.lo, self.hi, value.lo, value.hi
             if bits < _MANY:
-                products = (a * c, b * d) if a >= 0 <= c else (a * c, a * d, b * c, b * d)
-                return Enclosure(min(products) >> bits, -(-max(products) >> bits), bits)
+                if c >= 0:
+                    low, high = a * (c if a >= 0 else d), b * (d if b >= 0 else c)
+                elif d <= 0:
+                    low, high = b * (c if b >= 0 else d), a * (d if a >= 0 else c)
+                else:
+                    low, high = min(a * d, b * c), max(a * c, b * d)
+                return Enclosure(low >> bits, -(-high >> bits), bits)
             first, by_b, by_d = a * c, (b - a) * c, a * (d - c)  # often only one has many digits
             changes = 0, by_b, by_d, by_b + by_d + (b - a) * (d - c)
             return Enclosure(
@@ -134,22 +139,14 @@ class Enclosure:
         return Enclosure(low, high, self.bits)
 
     def sincos(self) -> tuple[Enclosure, Enclosure]:
-        """Return (sin X, cos X): the hull of the values at the ends and the extrema between.
-
-        The multiples m pi/2 in X satisfy floor(lo) < m <= floor(hi) in quarter turns; where an
-        end is too close to one to tell, the extremum is put in, which is outward.
-        """
-        sin, cos, first, _ = _sincos(self.lo, self.bits)
-        width, one = self.hi - self.lo, 1 << self.bits
-        if width == 0 or (width < _NARROW and self.bits >= _MANY):  # |sin'|, |cos'| <= 1
-            ends = [[max(x - width, -one), min(y + width, one)] for x, y in (sin, cos)]
+        """Return (sin X, cos X); the work counts whether or not the values are known."""
+        bits, work = self.bits, 12 + max(self.bits, max(-self.lo, self.hi).bit_length())
+        if bits < _MANY:
+            METER.get().spend(2 * (8 + (3 * (work >> 6) ** 2 >> 2)))  # work / 4 steps
         else:
-            sin_hi, cos_hi, _, last = _sincos(self.hi, self.bits)
-            ends = [[min(x[0], y[0]), max(x[1], y[1])] for x, y in ((sin, sin_hi), (cos, cos_hi))]
-            for turn in range(first + 1, min(last, first + 4) + 1):
-                ends[1 - (turn & 1)][1 - (turn >> 1 & 1)] = -one if turn & 2 else one
-        (a, b), (c, d) = ends
-        return Enclosure(a, b, self.bits), Enclosure(c, d, self.bits)
+            METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
+        (a, b), (c, d) = _sincos_between(self.lo, self.hi, bits)
+        return Enclosure(a, b, bits), Enclosure(c, d, bits)
 
 
 def sincos_near_zero(x: Enclosure) -> tuple[Enclosure, Enclosure]:
@@ -197,16 +194,31 @@ def _atan_inverse(n: int, bits: int) -> tuple[int, int]:
     return total, k + 1
 
 
-def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
-    """Return the ends of sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last.
+@lru_cache(maxsize=4096)
+def _sincos_between(lo: int, hi: int, bits: int) -> tuple[_Ends, _Ends]:
+    """Return the ends of sin and cos: the hull of the values at lo and hi and the extrema between.
 
-    The work counts whether or not the values are known: flights meet at the same times.
+    The multiples m pi/2 in X satisfy floor(lo) < m <= floor(hi) in quarter turns; where an
+    end is too close to one to tell, the extremum is put in, which is outward.
     """
-    work = bits + 12 + max(0, abs(x).bit_length() - bits)
+    sin, cos, first, _ = _sincos(lo, bits)
+    width, one = hi - lo, 1 << bits
+    if width == 0 or (width < _NARROW and bits >= _MANY):  # |sin'|, |cos'| <= 1
+        ends = [(max(x - width, -one), min(y + width, one)) for x, y in (sin, cos)]
+        return ends[0], ends[1]
+    sin_hi, cos_hi, _, last = _sincos(hi, bits)
+    hulls = [[min(x[0], y[0]), max(x[1], y[1])] for x, y in ((sin, sin_hi), (cos, cos_hi))]
+    for turn in range(first + 1, min(last, first + 4) + 1):
+        hulls[1 - (turn & 1)][1 - (turn >> 1 & 1)] = -one if turn & 2 else one
+    (a, b), (c, d) = hulls
+    return (a, b), (c, d)
+
+
+def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
+    """Return the ends of sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last."""
+    work = 12 + max(bits, abs(x).bit_length())
     if bits < _MANY:
-        METER.get().spend(8 + (3 * (work >> 6) ** 2 >> 2))  # work / 4 steps
         return _sincos_at(x, bits, work)
-    METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
     halvings = isqrt(bits) >> 2
     return _sincos_by_halves(x, bits, work + 2 * halvings, halvings)
 
@@ -384,41 +396,39 @@ class Dual:
     def __init__(self, value: Enclosure, derivative: Enclosure) -> None:
         self.value, self.derivative = value, derivative
 
-    def _like(self, other: Dual | Enclosure | Fraction | int) -> Dual:
-        if isinstance(other, Dual):
-            return other
-        zero = 0 * self.value
-        return Dual(zero + other, zero)
-
     def __neg__(self) -> Dual:
         return Dual(-self.value, -self.derivative)
 
     def __add__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        return Dual(self.value + other.value, self.derivative + other.derivative)
+        if isinstance(value, Dual):
+            return Dual(self.value + value.value, self.derivative + value.derivative)
+        return Dual(self.value + value, self.derivative)
 
     __radd__ = __add__
 
     def __sub__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        return self + -self._like(value)
+        return self + -value
 
     def __rsub__(self, value: Enclosure | Fraction | int) -> Dual:
         return -self + value
 
     def __mul__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        slope = self.derivative * other.value + self.value * other.derivative
-        return Dual(self.value * other.value, slope)
+        if isinstance(value, Dual):
+            slope = self.derivative * value.value + self.value * value.derivative
+            return Dual(self.value * value.value, slope)
+        return Dual(self.value * value, self.derivative * value)
 
     __rmul__ = __mul__
 
     def __truediv__(self, value: Dual | Enclosure | Fraction | int) -> Dual:
-        other = self._like(value)
-        quotient = self.value / other.value
-        return Dual(quotient, (self.derivative - quotient * other.derivative) / other.value)
+        if isinstance(value, Dual):
+            quotient = self.value / value.value
+            return Dual(quotient, (self.derivative - quotient * value.derivative) / value.value)
+        return Dual(self.value / value, self.derivative / value)
 
     def __rtruediv__(self, value: Enclosure | Fraction | int) -> Dual:
-        return self._like(value) / self
+        zero = 0 * self.value
+        return Dual(zero + value, zero) / self
 
     def __pow__(self, n: int) -> Dual:
         return reduce(mul, [self] * n)

@@ -119,13 +119,13 @@ def test_coq_and_python_compute_the_same_integers_often(transcription):
 
 def test_another_rounding_is_noticed(transcription, monkeypatch):
     """The comparison fails if one step of the checker's loop differs."""
-    original = arithmetic._sincos
+    original = arithmetic._sincos_between
 
-    def wider(x, bits):
-        sin, cos, first, last = original(x, bits)
-        return (sin[0], sin[1] + 1), cos, first, last
+    def wider(lo, hi, bits):
+        sin, cos = original(lo, hi, bits)
+        return (sin[0], sin[1] + 1), cos
 
-    monkeypatch.setattr(arithmetic, "_sincos", wider)
+    monkeypatch.setattr(arithmetic, "_sincos_between", wider)
     assert differences(transcription, 2, 3) != []
 
 

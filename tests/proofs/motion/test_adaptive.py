@@ -385,3 +385,13 @@ def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
         assert abs(part.window[1] - other.window[1]) < Fraction(1, 2)
         witness = {"phases": in_json(part.flight.phases), "times": in_json(part.times[1:])}
         assert flights.first_impact(Context(FACTS), Reader(witness)).transversal
+
+
+@pytest.mark.parametrize(("eta", "nu"), [("0.2121", "-0.2"), ("1.7", "0.4"), ("6", "-0.9")])
+def test_the_bend_is_that_of_all_times(eta, nu):
+    system = System(Fraction(eta), Fraction(nu))
+    flight = Flight(system, (Fraction("1.11"), Fraction("1.15")))
+    bends = [flight.gap(Fraction(k, 16), order=2) for k in range(400)]
+    low, high = min(each.inf for each in bends), max(each.sup for each in bends)
+    assert flight.bend.inf <= low and high <= flight.bend.sup
+    assert flight.bend.wid < 3 * (high - low)

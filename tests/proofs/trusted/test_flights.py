@@ -41,6 +41,16 @@ def test_a_chord_bounds_from_below_less_the_bend():
     assert stays_up(cosine, bent, F("0.13") * unit)
 
 
+def test_a_bend_on_a_longer_interval_may_do():
+    """cos'' <= 1 at all times; on [-1, 1] it is below -0.54."""
+    unit, around = 2**BITS, (F(-1), F(1))
+    ever = cosine((F(-1), F(7)), 2)
+    assert ever.hi == unit
+    assert stays_up(lambda time, order: pytest.fail("not needed"), around, F("0.51") * unit, ever)
+    assert stays_up(cosine, around, F("0.49") * unit, ever)  # its own bend is looked at
+    assert not stays_up(cosine, (F("2.6"), F("3.6")), F("0.12") * unit, ever)
+
+
 @pytest.mark.parametrize(
     ("time", "whether"),
     [

@@ -146,31 +146,32 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     if not brackets(gap_of, impact):
         raise Unproved("the bracket does not have the signs +, - at its ends")
     now = clock(eta, Enclosure.of(*impact, bits))
-    (p, q), (r, s) = return_map_derivative(start, now, epsilon)
+    falling = gap(start, now, 1)
+    (p, q), (r, s) = return_map_derivative(start, now, epsilon, falling)
     early, late = phases[0] + impact[0], phases[1] + impact[1]
     turns = early // whole_turns(1, bits)[0]
     kick, direct = epsilon * closing(start, gamma), arrival(start, now)[1].range
-    on_line, moved = _centred(start, nu, (phases, kick), impact, bits)
+    on_line, moved = _centred(start, nu, (phases, kick), impact, falling)
     phase = lifted(common((early, late), on_line), -turns, bits)
     derivative = (p.range, q.range), (r.range, s.range)
     return Rebound(at, phases, velocities, turns, phase, common(direct, moved), derivative)
 
 
 def _centred(
-    start: Launch, nu: Enclosure, box: tuple[Range, Enclosure], impact: Range, bits: int
+    start: Launch, nu: Enclosure, box: tuple[Range, Enclosure], impact: Range, fall: Enclosure
 ) -> tuple[Range, Range]:
     """Enclose phases, on the line, and velocities at the impacts of all flights from `start`.
 
     By the mean value theorem in (phi, kick), from the flight in their middle. Its time of flight,
     too: gap(t) = gap'(xi) (t - time), so time = t - gap(t) / gap'(xi), t the middle of what
     encloses it; twice. Hypothesis: the first impact of all launches in the box, phases x kicks, in
-    which `start` encloses the two apart, is transversal, after a time in `impact`.
+    which `start` encloses the two apart, is transversal, at a time in `impact`, gap' in `fall`.
     """
-    (phases, kick), eta = box, start.eta
+    (phases, kick), eta, bits = box, start.eta, fall.bits
     now = clock(eta, Enclosure.of(*impact, bits))
     centre, pushed = (_middle(ends, bits) for ends in (phases, kick.range))
     middle = launch(start.side, eta, nu, centre)._replace(kick=pushed)
-    fall, time = gap(start, now, 1), impact
+    time = impact
     for _ in range(2):
         guess = _middle(time, bits)
         time = common(time, (guess - gap(middle, clock(eta, guess)) / fall).range)
@@ -179,7 +180,7 @@ def _centred(
     aside = Enclosure.of(*phases, bits) - centre, kick - pushed
     phase, velocity = (
         (value + row[0] * aside[0] + row[1] * aside[1]).range
-        for value, row in zip(values, flight_derivative(start, now), strict=True)
+        for value, row in zip(values, flight_derivative(start, now, fall), strict=True)
     )
     return phase, velocity
 

@@ -298,6 +298,7 @@ def test_touches_before_an_earlier_impact_are_refused():
     start = [F("1.42"), F("0.230927"), F("3.71823")]
     (traced,) = follow(touch(2, F(0)), ETA, start, F("1.4201"), step=F(1, 100))
     flight = SingleFlight.of(2, F(1), -1, traced.piece)
+    assert all(flight.gap(F(k, 4), order=2) <= flight.bend.sup for k in range(200))
     times = [*flight._closed(first_step(flight), F("3.6")), F("3.6")]
     times += [*flight._closed(F("3.84"), F("7.3")), F("7.3"), F("7.6")]
     assert flight.gap(F("7.6")).certainly_negative()

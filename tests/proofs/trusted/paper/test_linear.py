@@ -10,22 +10,15 @@ from flint import arb, ctx
 
 from proofs.search.s32_sets import prove
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.paper.s32_sets.linear import (
-    ROWS,
-    ExactMeasure,
-    Excess,
-    LinearDimension,
-    LinearSet,
-    ShortGap,
-    Uncovered,
-    linear_sets,
-)
+from proofs.trusted.paper.s32_sets import linear, linear_steps
+from proofs.trusted.paper.s32_sets.linear import ExactMeasure, LinearDimension, LinearSet
+from proofs.trusted.paper.s32_sets.linear_steps import Excess, ShortGap, Uncovered, linear_sets
 from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.subshift import words
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 
-DECIDE = {row.id: row.decide for row in ROWS}
+DECIDE = {row.id: row.decide for row in (*linear.ROWS, *linear_steps.ROWS)}
 EXACT = (Fraction(4, 21), Fraction(5, 21))
 ROUNDED = (Fraction("0.1905"), Fraction("0.2381"))
 ROOTS = {  # mpmath, 50 digits

@@ -18,6 +18,7 @@ from proofs.trusted.certificate import (
     parameters_from_json,
     parameters_to_json,
 )
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.cones import Rates
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
@@ -339,6 +340,20 @@ def test_a_word_is_barred_for_each_oscillator_anew():
         assert prover.known[names[-1]].at == at
         assert prover.bar(pair, (1,) * 4, True) == names[-1]
     assert len(set(names)) == 2
+
+
+def test_a_step_that_was_taken_back_is_made_again():
+    """Its name is another one's by then."""
+    prover = ReboundProver(PAPER, Prover(System(PAPER.eta, PAPER.nu), 30, HORIZON))
+    edge, other = ((end, end) for end in PAPER.left)
+    with pytest.raises(Unproved), prover.attempt():
+        lost, _ = prover.rebound(EXACT, edge, prover.velocities)
+        raise Unproved("elsewhere")
+    assert prover.rebound(EXACT, other, prover.velocities)[0] == lost
+    name, found = prover.rebound(EXACT, edge, prover.velocities)
+    assert name != lost and found.phases == edge
+    assert prover.rebound(EXACT, edge, prover.velocities) == (name, found)
+    assert list(prover.steps) == [lost, name]
 
 
 # -- the command -----------------------------------------------------------------------------------
