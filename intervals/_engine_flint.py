@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
-from functools import partial, reduce
+from functools import partial
+from itertools import starmap
 from math import pi
 from operator import methodcaller
 from typing import Any, TypeAlias
@@ -73,21 +74,24 @@ def take(interval: Any, by_mpmath: dict[str, Method]) -> None:
     if Interval is None:
         Interval = interval
         BY_MPMATH.update(by_mpmath)
-        for name, ball in (("_lo", interval._low), ("_hi", interval._high)):
-            setattr(interval, name, _from_ball(getattr(interval, name), ball))
+        low, high = interval._given_lo, interval._given_hi = interval._lo, interval._hi  # the slots
+        interval._lo, interval._hi = property(_lower, low.__set__), property(_upper, high.__set__)
 
 
-def _from_ball(slot: Any, ball: Any) -> property:
-    """Return what stands in the place of a slot, filled in from that of the ball."""
+def _lower(self: Any) -> Any:
+    try:
+        return self._given_lo
+    except AttributeError:
+        self._given_lo = raw = _raw(self._low)
+        return raw
 
-    def end(self: Any) -> Any:
-        try:
-            return slot.__get__(self)
-        except AttributeError:
-            slot.__set__(self, raw := _raw(ball.__get__(self)))
-            return raw
 
-    return property(end, slot.__set__)
+def _upper(self: Any) -> Any:
+    try:
+        return self._given_hi
+    except AttributeError:
+        self._given_hi = raw = _raw(self._high)
+        return raw
 
 
 def _balls(x: Any) -> Ends:
@@ -128,20 +132,23 @@ def _bounds(self: Any, other: Any) -> tuple[Any, Any, Any, Any]:
     return ends
 
 
-def _operator(function: Callable[[Any], Ball]) -> Any:
+def _operator(function: Any) -> Any:
     """Return f with f[x] = function(x), for a function in C: no call in the sense above."""
     return type("", (), {"__slots__": (), "__getitem__": staticmethod(function)})()
 
 
-_down, _up = map(_operator, (arb.lower, arb.upper))
+_down, _up, _next = map(_operator, (arb.lower, arb.upper, next))
 
 
 def _range(p: int, bits: int, function: Any, least: Any, most: Any) -> Any:
-    """Return [function[least], function[most]] rounded outward from `bits` to p bits, or None."""
+    """Return [function[least], function[most]] rounded outward from `bits` to p bits, or None.
+
+    Without `most` both are the same. `_next` takes them from an iterator in C that computes them.
+    """
     saved = _context._prec
     _context._prec = bits
     x = function[least]
-    y = x if least is most else function[most]
+    y = x if most is None else function[most]
     exact = x == x and y == y  # noqa: PLR0124 - certainly: no ball of several numbers does
     upper, lower = (x, y) if exact else (_up[x], _down[y])
     _context._prec = p
@@ -171,7 +178,6 @@ def _arithmetic(
 
     Its values are exact, mostly, at `factor` times the precision, if this is 2.
     """
-    of_pair = _operator(partial(reduce, operation))
 
     def method(self: Any, value: Any) -> Any:
         p = self.precision
@@ -183,8 +189,10 @@ def _arithmetic(
         else:
             return BY_MPMATH[name](self, value)
         a, b = _balls(self)
-        places = corners(a, b, c, d)
-        result = places and _range(p, factor * p + _GUARD, of_pair, *places)
+        places, result = corners(a, b, c, d), None
+        if places:
+            values = starmap(operation, places)
+            result = _range(p, factor * p + _GUARD, _next, values, values)
         return BY_MPMATH[name](self, value) if result is None else result
 
     method.__name__ = method.__qualname__ = name
@@ -269,15 +277,13 @@ def _square(self: Any) -> Any:
     return x * x
 
 
-_POWER = _operator(partial(reduce, operator.pow))
-
-
 def _power(self: Any, n: Any) -> Any:
     result = None
     if type(n) is int and 0 < n <= _MOST:
         low, high = _balls(self if n % 2 else abs(self))
         p = self.precision
-        result = _range(p, p + _GUARD, _POWER, (low, n), (high, n))
+        values = map(operator.pow, (low, high), (n, n))
+        result = _range(p, p + _GUARD, _next, values, values)
     return BY_MPMATH["__pow__"](self, n) if result is None else result
 
 
@@ -293,7 +299,7 @@ def _elementary(name: str) -> Method:
         result, p = None, self.precision
         if not limits or (limits[0] < low and high < limits[1]):
             least, most = (high, low) if falls else (low, high)
-            result = _range(p, p + _GUARD, function, least, most)
+            result = _range(p, p + _GUARD, function, least, None if low is high else most)
         return BY_MPMATH["_monotone"](self, name) if result is None else result
 
     method.__name__ = method.__qualname__ = name
@@ -323,7 +329,7 @@ def _circular(part: int) -> Method:
         n = first // 1.0
         if first - n > 1e-6 and float(high) * _TURNS + shift - n < 1 - 1e-6 and -1e6 < n < 1e6:
             least, most = (high, low) if n % 2 else (low, high)
-            result = _range(p, p + _GUARD, function, least, most)
+            result = _range(p, p + _GUARD, function, least, None if low is high else most)
         return BY_MPMATH["sincos"](self)[part] if result is None else result
 
     return method
