@@ -50,8 +50,7 @@ def fastest(interval: type) -> dict[str, Method]:
         from intervals import _engine_flint
     except ImportError:
         return BY_MPMATH
-    _engine_flint.Interval = interval
-    _engine_flint.BY_MPMATH.update(BY_MPMATH)
+    _engine_flint.take(interval, BY_MPMATH)
     return _engine_flint.BY_FLINT
 
 

@@ -5,17 +5,20 @@ largest number of p bits that is not above them, this is the largest one <= y, s
 is monotone; so for rounding up. An exact ball is y itself.
 
 What this does not settle, and what raises, is left to the method that is replaced here. Beside
-libmp's ends an Interval has the slot `_balls`, its ends as exact balls; each is filled from the
-other where it is asked for first. FLINT's precision is one for the whole process, and restored;
-`_prec`, the number behind `ctx.prec`, costs no conversion to digits. CPython switches threads at
-calls only, and after them: what is set is heeded by the call or the operators that follow.
+libmp's ends an Interval has the slots `_low` and `_high`, its ends as exact balls; each pair is
+filled from the other where it is asked for first. FLINT's precision is one for the whole process;
+`_prec`, the number behind `ctx.prec`, costs no conversion to digits. CPython switches threads, and
+heeds signals, at calls only: where the precision is another, there are operators alone.
 """
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from functools import partial
+from itertools import starmap
 from math import pi
+from operator import methodcaller
 from typing import Any, TypeAlias
 
 from flint import arb, ctx
@@ -24,7 +27,6 @@ from mpmath.libmp import from_man_exp
 from intervals.functions import DECREASING, DOMAINS
 
 Ball: TypeAlias = Any  # flint.arb, which has no types
-Arguments: TypeAlias = tuple[Ball, ...]
 Ends: TypeAlias = tuple[Ball, Ball]
 Method: TypeAlias = Callable[..., Any]
 
@@ -48,13 +50,12 @@ _LIMITS = {  # where the values are finite
 _NAMES = ("exp", "expm1", "log", "log1p", "atan", "asin", "acos", "sinh", "cosh", "tanh", "asinh")
 _FUNCTIONS: dict[str, Callable[[Ball], Ball]] = {
     **{name: getattr(arb, name) for name in (*_NAMES, "acosh", "atanh", "sqrt")},
-    "cbrt": lambda x: x.root(3),
-    "exp2": lambda x: _TWO**x,
-    "exp10": lambda x: _TEN**x,
-    "log2": lambda x: x.log_base(2),
-    "log10": lambda x: x.log_base(10),
+    "cbrt": methodcaller("root", 3),
+    "exp2": partial(operator.pow, _TWO),
+    "exp10": partial(operator.pow, _TEN),
+    "log2": methodcaller("log_base", 2),
+    "log10": methodcaller("log_base", 10),
 }
-_inside = _outside = 0  # how many computations run, and the precision around them
 _context: Any = ctx
 _new: Callable[[type], Any] = object.__new__
 if not hasattr(ctx, "_prec"):
@@ -64,16 +65,43 @@ if not hasattr(ctx, "_prec"):
 # -- the ends --------------------------------------------------------------------------------------
 
 
-def _fill(self: Any, name: str) -> Any:
-    """Fill in the ends in the form that is not there yet (as Interval.__getattr__)."""
-    if name == "_balls":
-        low = _ball(self._lo)
-        self._balls = low, low if self._hi == self._lo else _ball(self._hi)
-    elif name in {"_lo", "_hi"}:
-        self._lo, self._hi = map(_raw, self._balls)
-    else:
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-    return object.__getattribute__(self, name)
+def take(interval: Any, by_mpmath: dict[str, Method]) -> None:
+    """Compute for this type from now on, and make its ends by libmp from balls where asked for.
+
+    Not by `__getattr__`: a type that has one is read more slowly in all of its slots.
+    """
+    global Interval  # noqa: PLW0603 - there is one
+    if Interval is None:
+        Interval = interval
+        BY_MPMATH.update(by_mpmath)
+        low, high = interval._given_lo, interval._given_hi = interval._lo, interval._hi  # the slots
+        interval._lo, interval._hi = property(_lower, low.__set__), property(_upper, high.__set__)
+
+
+def _lower(self: Any) -> Any:
+    try:
+        return self._given_lo
+    except AttributeError:
+        self._given_lo = raw = _raw(self._low)
+        return raw
+
+
+def _upper(self: Any) -> Any:
+    try:
+        return self._given_hi
+    except AttributeError:
+        self._given_hi = raw = _raw(self._high)
+        return raw
+
+
+def _balls(x: Any) -> Ends:
+    """Return the ends as exact balls, filled in from libmp's."""
+    try:
+        return x._low, x._high
+    except AttributeError:
+        low = x._low = _ball(x._lo)
+        high = x._high = low if x._hi == x._lo else _ball(x._hi)
+        return low, high
 
 
 def _ball(raw: tuple[int, int, int, int]) -> Ball:
@@ -87,7 +115,8 @@ def _raw(end: Ball) -> Any:
 
 def _make(low: Ball, high: Ball, precision: int) -> Any:
     result = _new(Interval)
-    result._balls = low, high
+    result._low = low
+    result._high = high
     result.precision = precision
     return result
 
@@ -95,48 +124,43 @@ def _make(low: Ball, high: Ball, precision: int) -> Any:
 def _bounds(self: Any, other: Any) -> tuple[Any, Any, Any, Any]:
     """Return the ends of both as exact balls, which compare as numbers do."""
     if type(other) is Interval:
-        return *self._balls, *other._balls
+        return *_balls(self), *_balls(other)
     if type(other) is int:
         number = arb(other)
-        return *self._balls, number, number
+        return *_balls(self), number, number
     ends: tuple[Any, Any, Any, Any] = BY_MPMATH["_bounds"](self, other)
     return ends
 
 
-def _range(
-    p: int, bits: int, function: Callable[..., Ball], least: Arguments, most: Arguments
-) -> Any:
-    """Return [function(least), function(most)] rounded outward from `bits` to p bits, or None.
+def _operator(function: Any) -> Any:
+    """Return f with f[x] = function(x), for a function in C: no call in the sense above."""
+    return type("", (), {"__slots__": (), "__getitem__": staticmethod(function)})()
 
-    Other threads may change the precision at any call here, so it is set before each that must
-    round to p bits; the others enclose at any. The last to leave restores what the first found.
+
+_down, _up, _next = map(_operator, (arb.lower, arb.upper, next))
+
+
+def _range(p: int, bits: int, function: Any, least: Any, most: Any) -> Any:
+    """Return [function[least], function[most]] rounded outward from `bits` to p bits, or None.
+
+    Without `most` both are the same. `_next` takes them from an iterator in C that computes them.
     """
-    global _inside, _outside  # noqa: PLW0603 - as python-flint's precision is
-    if not _inside:
-        _outside = _context._prec
-    _inside += 1
-    try:
-        _context._prec = bits
-        x = function(*least)
-        y = x if least is most else function(*most)
-        exact = x == x and y == y  # noqa: PLR0124 - certainly: no ball of several numbers does
-        upper, lower = (x, y) if exact else (x.upper(), y.lower())
-        _context._prec = p
-        low = x.lower()
-        _context._prec = p
-        high = y.upper()
-        if not exact:
-            _context._prec = p
-            settled = upper.lower() == low
-            _context._prec = p
-            if not (settled and lower.upper() == high):
-                return None
-    finally:
-        _inside -= 1
-        if not _inside:
-            _context._prec = _outside
+    saved = _context._prec
+    _context._prec = bits
+    x = function[least]
+    y = x if most is None else function[most]
+    exact = x == x and y == y  # noqa: PLR0124 - certainly: no ball of several numbers does
+    upper, lower = (x, y) if exact else (_up[x], _down[y])
+    _context._prec = p
+    low = _down[x]
+    high = _up[y]
+    settled = exact or (_down[upper] == low and _up[lower] == high)
+    _context._prec = saved
+    if not settled:
+        return None
     result = _new(Interval)
-    result._balls = low, high
+    result._low = low
+    result._high = high
     result.precision = p
     return result
 
@@ -158,15 +182,17 @@ def _arithmetic(
     def method(self: Any, value: Any) -> Any:
         p = self.precision
         if type(value) is Interval:
-            c, d = value._balls
+            c, d = _balls(value)
             p = p if p >= value.precision else value.precision
         elif type(value) is int:
             c = d = arb(value)
         else:
             return BY_MPMATH[name](self, value)
-        a, b = self._balls
-        places = corners(a, b, c, d)
-        result = places and _range(p, factor * p + _GUARD, operation, *places)
+        a, b = _balls(self)
+        places, result = corners(a, b, c, d), None
+        if places:
+            values = starmap(operation, places)
+            result = _range(p, factor * p + _GUARD, _next, values, values)
         return BY_MPMATH[name](self, value) if result is None else result
 
     method.__name__ = method.__qualname__ = name
@@ -177,21 +203,27 @@ _by_sums = _arithmetic("__add__", operator.add, lambda a, b, c, d: ((a, c), (b, 
 
 
 def _add(self: Any, value: Any) -> Any:
-    """Return the sum, at once where it has no more bits: no call is between, see above."""
+    """Return the sum, with less around it where it is exact at first."""
     if type(value) is not Interval:
         return _by_sums(self, value)
     p, q = self.precision, value.precision
     p = p if p >= q else q
-    a, b = self._balls
-    c, d = value._balls
+    try:
+        a, b, c, d = self._low, self._high, value._low, value._high
+    except AttributeError:
+        return _by_sums(self, value)
     saved = _context._prec
+    _context._prec = p + p + _GUARD
+    x = a + c
+    y = b + d
     _context._prec = p
-    low = a + c
-    high = b + d
+    low = _down[x]
+    high = _up[y]
     _context._prec = saved
-    if low == low and high == high:  # noqa: PLR0124 - see `_range`
+    if x == x and y == y:  # noqa: PLR0124 - see `_range`
         result = _new(Interval)
-        result._balls = low, high
+        result._low = low
+        result._high = high
         result.precision = p
         return result
     return _by_sums(self, value)
@@ -226,12 +258,12 @@ def _of_quotient(a: Ball, b: Ball, c: Ball, d: Ball) -> tuple[Ends, Ends] | None
 
 
 def _negative(self: Any) -> Any:
-    low, high = self._balls
+    low, high = _balls(self)
     return _make(high.neg(True), low.neg(True), self.precision)
 
 
 def _absolute(self: Any) -> Any:
-    low, high = self._balls
+    low, high = _balls(self)
     if low >= _ZERO:
         return self
     if high <= _ZERO:
@@ -248,9 +280,10 @@ def _square(self: Any) -> Any:
 def _power(self: Any, n: Any) -> Any:
     result = None
     if type(n) is int and 0 < n <= _MOST:
-        low, high = (self if n % 2 else abs(self))._balls
+        low, high = _balls(self if n % 2 else abs(self))
         p = self.precision
-        result = _range(p, p + _GUARD, operator.pow, (low, n), (high, n))
+        values = map(operator.pow, (low, high), (n, n))
+        result = _range(p, p + _GUARD, _next, values, values)
     return BY_MPMATH["__pow__"](self, n) if result is None else result
 
 
@@ -259,14 +292,14 @@ def _power(self: Any, n: Any) -> Any:
 
 def _elementary(name: str) -> Method:
     """Return the method for a function that is monotone on its domain; outside it is NaN."""
-    function, falls, limits = _FUNCTIONS[name], name in DECREASING, _LIMITS.get(name)
+    function, falls, limits = _operator(_FUNCTIONS[name]), name in DECREASING, _LIMITS.get(name)
 
     def method(self: Any) -> Any:
-        low, high = self._balls
+        low, high = _balls(self)
         result, p = None, self.precision
         if not limits or (limits[0] < low and high < limits[1]):
-            least, most = ((high,), (low,)) if falls else ((low,), (high,))
-            result = _range(p, p + _GUARD, function, least, most)
+            least, most = (high, low) if falls else (low, high)
+            result = _range(p, p + _GUARD, function, least, None if low is high else most)
         return BY_MPMATH["_monotone"](self, name) if result is None else result
 
     method.__name__ = method.__qualname__ = name
@@ -287,16 +320,16 @@ def _circular(part: int) -> Method:
     sin(x + part pi/2) is monotone where floor(x/pi + (part + 1)/2) = n, up if n is even. Floats,
     which err by 1e-9, tell n where they are farther from its ends.
     """
-    function, shift = (arb.cos if part else arb.sin), (part + 1) / 2
+    function, shift = _operator(arb.cos if part else arb.sin), (part + 1) / 2
 
     def method(self: Any) -> Any:
-        low, high = self._balls
+        low, high = _balls(self)
         result, p = None, self.precision
         first = float(low) * _TURNS + shift
         n = first // 1.0
         if first - n > 1e-6 and float(high) * _TURNS + shift - n < 1 - 1e-6 and -1e6 < n < 1e6:
-            least, most = ((high,), (low,)) if n % 2 else ((low,), (high,))
-            result = _range(p, p + _GUARD, function, least, most)
+            least, most = (high, low) if n % 2 else (low, high)
+            result = _range(p, p + _GUARD, function, least, None if low is high else most)
         return BY_MPMATH["sincos"](self)[part] if result is None else result
 
     return method
@@ -307,7 +340,6 @@ _sin, _cos = map(_circular, (0, 1))
 
 BY_FLINT: dict[str, Method] = {
     **{name: _BY_NAME[name] for name in ("sqrt", "exp", "log")},
-    "__getattr__": _fill,
     "__neg__": _negative,
     "__abs__": _absolute,
     "__pow__": _power,

@@ -67,8 +67,9 @@ class Interval(Relations[bool], Elementary):
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
 
-    __slots__ = ("_balls", "_hi", "_lo", "precision")  # _balls: see `_engine_flint`
-    _balls: Any
+    __slots__ = ("_hi", "_high", "_lo", "_low", "precision")
+    _low: Any  # _low, _high: see `_engine_flint`
+    _high: Any
     _lo: _Raw
     _hi: _Raw
     precision: int

@@ -33,7 +33,7 @@ from intervals.rounding import (
 )
 
 _BLOCK = 16384  # elements at a time
-_FEW = 8  # intervals: they are done sooner without numpy
+_FEW = 10  # intervals: they are done sooner without numpy
 _ZERO = constant(0.0)
 _ZERO_INSIDE = "division by an interval that contains 0"
 

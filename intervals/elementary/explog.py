@@ -75,8 +75,9 @@ def log_fixed(man: int, exp: int, bits: int) -> tuple[int, int]:
     for step in (8, 15):
         man, scale, part = _toward_one(man, scale, step, v)
         total -= part
-    d, above = man - (1 << scale), man + (1 << scale)
-    value, error = arc((abs(d) << v) // above, v, 1)
+    one = 1 << scale
+    d = man - one
+    value, error = arc((abs(d) << v) // (man + one), v, 1)
     total += -2 * value if d < 0 else 2 * value
     error = 2 * error + 3 + 4 + abs(n)
     drop = v - bits

@@ -40,7 +40,7 @@ def log(x: Raw, precision: int) -> Bounds:
     if x == fone:
         return fzero, fzero
     extra = closeness(x)
-    if extra:
+    if extra >= precision:  # else |x - 1| >= 2^-extra / 4 is too large for it
         near = near_argument(mpf_sub(x, fone), 2, False, precision)
         if near:
             return near

@@ -37,21 +37,23 @@ def settled(low: int, high: int, scale: int, precision: int) -> Bounds | None:
             return None
         bounds = settled(-high, -low, scale, precision)
         return bounds and negated(bounds)
-    shift = (high - 1).bit_length() - precision
+    most = high - 1
+    shift = most.bit_length() - precision
     if shift < 0:
         return None
     down = low >> shift
-    if (high - 1) >> shift != down:
+    if most >> shift != down:
         return None
     return _number(down, shift - scale), _number(down + 1, shift - scale)
 
 
 def _number(man: int, exp: int) -> Raw:
-    """Return man 2^exp, man > 0, sooner than libmp does where man is odd."""
-    if man & 1:
-        return 0, MPZ(man), exp, man.bit_length()
-    number: Raw = from_man_exp(man, exp)
-    return number
+    """Return man 2^exp, man > 0, sooner than libmp does."""
+    if not man & 1:
+        zeros = (man & -man).bit_length() - 1
+        man >>= zeros
+        exp += zeros
+    return 0, MPZ(man), exp, man.bit_length()
 
 
 def tighten(enclose: Callable[[int], Enclosure], precision: int, extra: int = 0) -> Bounds:
