@@ -27,6 +27,7 @@ _ATTEMPTS = 8
 _STEPS, _FLOAT_BITS = 30, 40  # of Newton's method in floats, and what it is good for
 MOST = _ATTEMPTS * LEAST  # bits that a launch is given until it counts as grazing or sticking
 _LIKELY = Fraction(3, 8)  # of bend w^2: up to 1/2 a step of 2 w may not be closed; few of them are
+_PATIENCE = 4  # steps after one that was too long, until a longer one is tried whatever the bend
 _CLOSE = Fraction(1, 1000)  # of times to that of a touch
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
 
@@ -126,10 +127,10 @@ def first_impact(
     """Exclude impacts from time zero on until one is certain, for all launches at once.
 
     On [0, t_1] by `Flight.rises`. On [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j),
-    gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error). Steps are doubled where the bend at
-    all times may allow it, and halved down to `finest`, or to an eighth of the time passed if that
-    is less; what is then not excluded opens a window, in which they grow again, to 16 times that or
-    an eighth of the window.
+    gap(t_{j+1})) - w^2/8 max(0, gap'') (interpolation error). Steps are doubled (for a while after
+    one that was too long only where the bend at all times may allow it), and halved down to
+    `finest`, or to an eighth of the time passed if that is less; what is then not excluded opens a
+    window, in which they grow again, to 16 times that or an eighth of the window.
 
     Raises NoImpact or Unsettled at the horizon (Unsettled also after too many windows), Sticks
     where all phases do, Undecided where the launch itself is not decided.
@@ -163,7 +164,8 @@ def march(
     times = list(known)
     windows: list[Range] = []
     value = flight.gap(times[-1])
-    step, allowed, certain = times[-1] - times[-2], min(finest, times[-1] / 8), False
+    step, allowed = times[-1] - times[-2], min(finest, times[-1] / 8)
+    patience, certain = 0, False
     while not certain:
         now = times[-1]
         least = min(finest, now / 8)
@@ -176,10 +178,10 @@ def march(
         if positive_between(flight, now, value, ahead, next_value):
             if single and windows:
                 raise Unsettled(windows, times, flight)
-            seldom = next_value.inf <= flight.bend.sup * (_LIKELY * step**2)
-            step, allowed = (step if seldom else 2 * step), least
+            hopeless = patience > 0 and next_value.inf <= flight.bend.sup * (_LIKELY * step**2)
+            step, allowed, patience = (step if hopeless else 2 * step), least, patience - 1
         elif step > allowed:
-            step = max(step / 2, allowed)
+            step, patience = max(step / 2, allowed), _PATIENCE
             continue
         else:
             certain = next_value.certainly_negative()

@@ -32,11 +32,16 @@ class Stopped(KeyboardInterrupt):
 
 
 def launch(module: str) -> NoReturn:
-    """End the process with the status that a command returns, given by its module or package."""
+    """End the process with the status that a command returns, given by its module or package.
+
+    It ends at once: all is written and closed, and to take its objects apart takes a tenth of the
+    main job. Who traces or profiles it sees it leave in the ordinary way.
+    """
     prog = f"python -m {module.removesuffix('.__main__')}"
     gc.set_threshold(_SELDOM)
     status = guarded(prog, lambda: run_command(module))
-    gc.freeze()  # what is there ends with the process: no search for cycles first
+    if sys.gettrace() is None and sys.getprofile() is None:
+        os._exit(status)
     sys.exit(status)
 
 

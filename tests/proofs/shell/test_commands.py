@@ -233,3 +233,9 @@ def test_bad_usage_of_the_checker_is_a_line(capsys):
             check.main(wrong)
         said = capsys.readouterr()
         assert leave.value.code == 2 and said.out == "" and said.err.count("\n") == 1
+
+
+def test_who_profiles_a_command_sees_it_leave():
+    command = [sys.executable, "-m", "cProfile", "-m", "proofs.horseshoe", "--version"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=True, text=True)
+    assert __version__ in done.stdout and "function calls" in done.stdout
