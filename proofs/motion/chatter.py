@@ -1,6 +1,6 @@
 """Bounces on the arc of phases where the table pushes the mass, and the chatter that ends them.
 
-The lemmas, with their proofs, are those of `s34_circle.persistence`: where the launch
+The lemmas, with their proofs, are those of `s34_circle.bounces`: where the launch
 acceleration is negative along a flight, the gap has one zero at most, the speed changes little
 (Lemma 1), and bounces that are weak enough add up to a rest (Lemma 2).
 """
@@ -13,9 +13,14 @@ from fractions import Fraction
 
 from intervals import Interval, Undecided
 from proofs.motion.system import System
-from proofs.trusted.equations import Launch, clock, closing, gap, launch, launch_acceleration
+from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
+from proofs.trusted.flights import Motion, lifted
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell
 
+BITS = 256  # of states that are followed far
 _PRECISION = 53
 _WIDENINGS = 7
 _MOST_BOUNCES = 60
@@ -23,13 +28,16 @@ _GRID = 2**24  # times and phases of a witness are multiples of 1 / _GRID
 _RATIO_GRID = 2**10
 
 
-@dataclass(frozen=True)
-class Settled:
-    """Proof that bounces end: brackets of the first few, then Lemma 2 with `ratio` and `rest`."""
-
-    bounces: tuple[Range, ...]
-    ratio: Fraction
-    rest: Fraction
+def around(arc: Separation, spread: Fraction) -> Box:
+    """Return a box of states about so far around that at which the flight from phi_s ends."""
+    phases = arc.arrival if arc.arrival[0] > 0 else lifted(arc.arrival, 1, BITS)
+    (phase, speed), grid = ((low + high) / 2 for low, high in (phases, arc.speed)), spread / 1000
+    motion = Motion(arc.at, (phase, phase), BITS)
+    start = motion.start()
+    gamma = ((Enclosure.of(speed, speed, BITS) * motion.side - start.rate) / start.eta).range[0]
+    centre = (round(x / grid) * grid for x in (phase, gamma))
+    low, high = ((x - spread, x + spread) for x in centre)
+    return low, high
 
 
 @dataclass(frozen=True)
@@ -39,7 +47,7 @@ class Pushing:
     system: System
     last: Fraction
 
-    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Settled:
+    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
 
         Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
@@ -50,7 +58,7 @@ class Pushing:
         while len(bounces) < _MOST_BOUNCES:
             ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
-                return Settled(tuple(bounces), *ending)
+                return Cell(epsilon, bounces, *ending)
             time, speeds = self.bounce(phases, kicks)
             bounces.append(time)
             phases = phases[0] + time[0], phases[1] + time[1]
@@ -61,12 +69,6 @@ class Pushing:
         """Enclose the launch acceleration over an interval of phases."""
         value: Interval = launch_acceleration(self._launches(phases))
         return value
-
-    def speeds(self, phases: Range, velocities: Range) -> Range:
-        """Enclose the relative speeds before impacts at these phases and velocities gamma."""
-        gamma = Interval(*velocities, precision=_PRECISION)
-        speed: Interval = closing(self._launches(phases), gamma) * self.system.side
-        return speed.inf, speed.sup
 
     def _launches(self, phases: Range) -> Launch:
         eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))
