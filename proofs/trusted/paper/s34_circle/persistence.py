@@ -17,7 +17,7 @@ from proofs.trusted.flights import Motion, bits_for, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, between, ceil_text, show_range, within
+from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.paper.s34_circle.bounces import bounced, settle
@@ -92,9 +92,10 @@ class SuperstableMotion(Conclusion):
 
     @property
     def brief(self) -> str:
+        least, largest = map(show, self.epsilons)
         return (
-            f"for 0 < epsilon in {show_range(self.epsilons)} the stable motion has infinitely many "
-            f"impacts in each period{'' if self.boxes[1:] else f', of {self._period}'}: period 2 "
+            f"for {least} {'<=' if self.epsilons[0] else '<'} epsilon <= {largest} the stable "
+            f"motion has infinitely many impacts in each period{'' if self.boxes[1:] else f', of {self._period}'}: period 2 "
             "only if a landing with all that follows until rest counts as one step, and the "
             "separation as the other"
         )
