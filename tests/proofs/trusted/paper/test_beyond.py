@@ -532,7 +532,7 @@ def test_a_motion_that_chatters_is_what_the_oracle_sees():
     arc, box, impacts, cell, of = chatter()
     found = superstable_motion(arc, box, impacts, [cell])
     assert len(found.boxes) == 7 and "superstable" in found.sentence
-    assert "Its next impacts are in" in found.sentence and "the period 2 pi" not in found.sentence
+    assert "Its next impacts are in" in found.sentence and "period of 2 pi" not in found.sentence
     assert not oracle(found, random.Random(1), of)
 
 

@@ -241,7 +241,8 @@ def test_the_orbit_persists_if_a_landing_counts_once_and_not_for_the_map(claim, 
     assert found.verdict is Verdict(verdict)
     assert "one landing with all that follows until it rests and one separation" in found.witness
     assert "infinitely many" in found.witness and "none attracts this open set" in found.witness
-    assert "epsilon in [0, 0.35" in found.theorem and "4 turns" in found.theorem
+    assert "epsilon in [0, 0.35" in found.theorem and "less 4 turns" in found.theorem
+    assert "a period of 2 pi * 4;" in found.theorem
     low, high = found.quantities["impact_phase"]
     assert low < exact(truth()[2]) < high
 
