@@ -21,10 +21,9 @@ from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Box, Cell
 
 BITS = 256  # of states that are followed far
-_PRECISION = 53
 _WIDENINGS = 7
+_NEWTON = 3  # steps, each doubling the digits
 _MOST_BOUNCES = 60
-_GRID = 2**24  # times and phases of a witness are multiples of 1 / _GRID
 _RATIO_GRID = 2**10
 
 
@@ -42,10 +41,15 @@ def around(arc: Separation, spread: Fraction) -> Box:
 
 @dataclass(frozen=True)
 class Pushing:
-    """The arc of phases up to `last` on which the launch acceleration is known to be negative."""
+    """The arc of phases up to `last` on which the launch acceleration is known to be negative.
+
+    precision: of enclosures; times and phases of a witness are multiples of 1 / grid.
+    """
 
     system: System
     last: Fraction
+    precision: int = 53
+    grid: int = 2**24
 
     def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
@@ -71,8 +75,8 @@ class Pushing:
         return value
 
     def _launches(self, phases: Range) -> Launch:
-        eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))
-        return launch(self.system.side, eta, nu, Interval(*phases, precision=_PRECISION))
+        eta, nu = (Interval(x, precision=self.precision) for x in (self.system.eta, self.system.nu))
+        return launch(self.system.side, eta, nu, Interval(*phases, precision=self.precision))
 
     def ending(
         self, epsilon: Fraction, phases: Range, kick: Fraction
@@ -94,7 +98,7 @@ class Pushing:
             end = phases[1] + 2 * kick / (weakest * (1 - ratio))
             if end <= rest < self.last:
                 return ratio, rest
-            rest = _up(end + (end - phases[1]) / 16, _GRID)
+            rest = _up(end + (end - phases[1]) / 16, self.grid)
         return None
 
     def bounce(self, phases: Range, kicks: Range) -> tuple[Range, Range]:
@@ -105,18 +109,18 @@ class Pushing:
         """
         if kicks[0] <= 0:
             raise Undecided("a bounce as weak as one likes is no bounce that can be bracketed")
-        kick = Interval(*kicks, precision=_PRECISION) * self.system.side
+        kick = Interval(*kicks, precision=self.precision) * self.system.side
         start = self._launches(phases)._replace(kick=kick)
-        about = [self.candidate(float(phi), float(w)) for phi in phases for w in kicks]
-        opening = Fraction(max(about) - min(about)) / 8 + Fraction(1, 2**16)
-        low, high = _down(Fraction(min(about)), _GRID), _up(Fraction(max(about)), _GRID)
+        about = [self.candidate(phi, w) for phi in phases for w in kicks]
+        opening = (max(about) - min(about)) / 8 + Fraction(2**8, self.grid)
+        low, high = _down(min(about), self.grid), _up(max(about), self.grid)
         for _ in range(_WIDENINGS):
-            below = _gap(start, (low, low)).certainly_positive()
-            above = _gap(start, (high, high)).certainly_negative()
+            below = self._gap(start, (low, low)).certainly_positive()
+            above = self._gap(start, (high, high)).certainly_negative()
             if below and above:
                 break
-            low = low if below else max(_down(low - opening, _GRID), low / 2)
-            high = high if above else _up(high + opening, _GRID)
+            low = low if below else max(_down(low - opening, self.grid), low / 2)
+            high = high if above else _up(high + opening, self.grid)
             opening *= 2
         else:
             raise Undecided("the end of a bounce is not bracketed")
@@ -125,12 +129,21 @@ class Pushing:
         push = self.accelerations((phases[0], phases[1] + high))
         if not push.certainly_negative():
             raise Undecided("a bounce may leave the arc on which the table pushes")
-        speed, change = -_gap(start, (low, high), 1), (1 + push.inf / push.sup) / 2
+        speed, change = -self._gap(start, (low, high), 1), (1 + push.inf / push.sup) / 2
         speeds = max(speed.inf, kicks[0] / change), min(speed.sup, kicks[1] * change)
         return (low, high), speeds
 
-    def candidate(self, phase: float, kick: float) -> float:
+    def candidate(self, phase: Fraction, kick: Fraction) -> Fraction:
         """Return about the time of the next impact, by Newton's method from the parabola's."""
+        time = Fraction(self._seen(float(phase), float(kick)))
+        if self.precision > 53:
+            start = self._launches((phase, phase))._replace(kick=kick * self.system.side)
+            for _ in range(_NEWTON):
+                time -= (self._gap(start, (time, time)) / self._gap(start, (time, time), 1)).mid
+                time = _down(time, self.grid)
+        return time
+
+    def _seen(self, phase: float, kick: float) -> float:
         eta, nu = float(self.system.eta), float(self.system.nu)
         start = launch(self.system.side, eta, nu, phase)._replace(kick=self.system.side * kick)
         if (push := launch_acceleration(start)) >= 0:
@@ -143,11 +156,17 @@ class Pushing:
             time -= gap(start, now) / gap(start, now, 1)
         return float(time)
 
+    def flies(self, phases: Range, kicks: Range, until: Range) -> bool:
+        """Whether gap > 0 at all phases `until` after all these launches."""
+        times = until[0] - phases[1], until[1] - phases[0]
+        kick = Interval(*kicks, precision=self.precision) * self.system.side
+        start = self._launches(phases)._replace(kick=kick)
+        return self._gap(start, times).certainly_positive()
 
-def _gap(start: Launch, times: Range, order: int = 0) -> Interval:
-    now = clock(start.eta, Interval(*times, precision=_PRECISION))
-    value: Interval = gap(start, now, order)
-    return value
+    def _gap(self, start: Launch, times: Range, order: int = 0) -> Interval:
+        now = clock(start.eta, Interval(*times, precision=self.precision))
+        value: Interval = gap(start, now, order)
+        return value
 
 
 def _up(value: Fraction, grid: int) -> Fraction:
