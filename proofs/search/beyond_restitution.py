@@ -27,7 +27,7 @@ from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.s34_circle.persistence import on_arc, speeds_before
+from proofs.trusted.paper.s34_circle.persistence import landed
 from proofs.trusted.parameters import Parameters, Place
 
 _MOST_IMPACTS = 30
@@ -107,9 +107,8 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
         impacts.append(name)
         box = around_image(found)
         with suppress(*FAILED):
-            phases = on_arc(arc, found.phase, BITS)
-            speeds = speeds_before(arc.at, phases, found.velocity, BITS)
-            cell = pushing.settle((epsilon, epsilon), phases, speeds)
+            state = landed(arc, (found.phase, found.velocity), BITS)
+            cell = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
             name = prover.derive("superstable-motion", **made)
             return name, prover.known[name]

@@ -19,13 +19,7 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.flights import bits_for
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import (
-    Box,
-    Cell,
-    SuperstableMotion,
-    on_arc,
-    speeds_before,
-)
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 
 _GUARD = 10  # bits that the checker has beyond those of the search
 _MOST = 60  # bounces
@@ -92,8 +86,7 @@ def followed(system: System, arc: Separation, box: Box, epsilon: Fraction) -> Ce
     """
     bits, bounces = bits_for(box[0]) - _GUARD, list[Range]()
     pushing = Pushing(system, arc.phase[0], bits, 2 ** (bits - _GUARD))
-    phases = on_arc(arc, box[0], BITS)
-    speeds = speeds_before(arc.at, phases, box[1], BITS)
+    phases, speeds = landed(arc, box, BITS)
     for _ in range(_MOST):
         kicks = epsilon * speeds[0], epsilon * speeds[1]
         ending = pushing.ending(epsilon, phases, kicks[1])

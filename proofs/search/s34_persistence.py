@@ -28,13 +28,7 @@ from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import (
-    Box,
-    Cell,
-    SuperstableMotion,
-    on_arc,
-    speeds_before,
-)
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 from proofs.trusted.parameters import Parameters
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
@@ -111,10 +105,7 @@ def _cells(pushing: Pushing, arc: Separation, box: Box, enough: Fraction) -> lis
 
     By steps of epsilon and ever smaller ones, until the proof fails.
     """
-    phases = on_arc(arc, box[0], BITS)
-    speeds = speeds_before(arc.at, phases, box[1], BITS)
-    if speeds[0] <= 0:
-        raise Undecided("the impact after the separation phase is too slow")
+    phases, speeds = landed(arc, box, BITS)
     cells: list[Cell] = []
     done = Fraction(0)
     for step in _STEPS:

@@ -20,7 +20,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
-from proofs.trusted.paper.s34_circle.bounces import bounced, settle
+from proofs.trusted.paper.s34_circle.bounces import State, bounced, settle
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
@@ -142,19 +142,16 @@ def superstable_motion(
         if not all(map(within, boxes[-1], (each.phases, each.velocities))):
             raise Unproved("a box is not proved to be mapped into the next")
         boxes.append((each.phase, each.velocity))
-    phases = on_arc(arc, boxes[-1][0], bits)
-    speeds = speeds_before(arc.at, phases, boxes[-1][1], bits)
-    if speeds[0] <= 0:
-        raise Unproved("a speed is not proved to be positive")
+    state = landed(arc, boxes[-1], bits)
     for cell in cells:
-        last, (_, fast) = bounced(arc.at, (phases, speeds), cell.epsilons, cell.bounces, bits)
+        last, (_, fast) = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
         greatest = cell.epsilons[1]
         settle(arc.at, last, cell.rest, greatest * fast, (greatest, cell.ratio))
     rest = max(cell.rest for cell in cells)
     return SuperstableMotion(arc, epsilons, tuple(boxes), rest)
 
 
-def speeds_before(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
+def _speeds(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
     """Enclose the relative speeds before impacts at these phases and velocities."""
     motion = Motion(at, phases, bits)
     speed: Enclosure = closing(motion.start(), Enclosure.of(*gammas, bits)) * motion.side
@@ -166,17 +163,22 @@ def _starts(arc: Separation, box: Box, bits: int) -> bool:
     for turns in (0, 1):
         phases = lifted(arc.arrival, turns, bits)
         if box[0][0] < phases[0] and phases[1] < box[0][1]:
-            slow, fast = sorted(speeds_before(arc.at, phases, (x, x), bits) for x in box[1])
+            slow, fast = sorted(_speeds(arc.at, phases, (x, x), bits) for x in box[1])
             return slow[1] < arc.speed[0] and arc.speed[1] < fast[0]
     return False
 
 
-def on_arc(arc: Separation, phases: Range, bits: int) -> Range:
-    """Return phases, on the line, that lie inside the arc where the mass sticks; or Unproved."""
+def landed(arc: Separation, box: Box, bits: int) -> State:
+    """Return phases, on the line, and relative speeds of a box of impacts; raise Unproved unless
+    they are inside the arc where the mass sticks, and positive.
+    """
     for turns in (0, -1):
-        low, high = lifted(phases, turns, bits)
-        if arc.start[1] < low and high < arc.phase[0]:
-            return low, high
+        phases = lifted(box[0], turns, bits)
+        if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
+            speeds = _speeds(arc.at, phases, box[1], bits)
+            if speeds[0] <= 0:
+                raise Unproved("a speed is not proved to be positive")
+            return phases, speeds
     raise Unproved("an impact is not proved to be where the mass sticks")
 
 
