@@ -540,6 +540,10 @@ def moved(bounds, by):
     return bounds[0] + F(by), bounds[1] + F(by)
 
 
+def elsewhere(at):
+    return replace(at, nu=moved(at.nu, "1e-9"))
+
+
 def rebounding(impacts, low, high):
     return [replace(x, at=replace(x.at, epsilon=(F(low), F(high)))) for x in impacts]
 
@@ -566,7 +570,7 @@ def rebounding(impacts, low, high):
         (lambda a, b, x, c: (replace(a, speed=moved(a.speed, "1e-5")), b, x, c), "first box"),
         (lambda a, b, x, c: (replace(a, arrival=moved(a.arrival, "1e-5")), b, x, c), "first box"),
         (lambda a, b, x, c: (replace(a, at=HERE), b, x, c), None),
-        (lambda a, b, x, c: (a, b, [replace(y, at=HERE) for y in x], c), "different"),
+        (lambda a, b, x, c: (a, b, [replace(y, at=elsewhere(y.at)) for y in x], c), "different"),
         (lambda a, b, x, c: (a, b, [replace(x[0], phase=(F(0), F(1))), *x[1:]], c), "next"),
         (lambda a, b, x, c: (a, b, [replace(x[0], velocity=(F(0), F(9))), *x[1:]], c), "next"),
         (

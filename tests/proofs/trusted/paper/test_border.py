@@ -15,7 +15,7 @@ from proofs.trusted.paper.s34_circle.border import Border, Passes
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
-from tests.proofs.trusted.paper.steps import add, derive, edited
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
@@ -170,3 +170,20 @@ def test_a_mass_that_passes_has_landed_on_the_arc():
     for epsilon in (0, 1, -1):
         with pytest.raises(Unproved, match="followed by a bounce"):
             replace(passes, epsilon=Fraction(epsilon))
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (lambda arc: {"speed": (Fraction(1, 10**9), arc.speed[1])}, "in flight"),  # some are not
+        (lambda arc: {"phase": arc.arrival}, "after phi_s"),
+        (lambda arc: {"at": replace(arc.at, eta=(Fraction("0.2121"), Fraction(5)))}, "longer"),
+    ],
+)
+def test_all_that_has_landed_must_fly_beyond_phi_s(change, reason):
+    """From a speed of 0.1352 at 4.64, with epsilon = 0.9, the first rebound goes beyond."""
+    arc = known()["separation-1"]
+    witness = {"separation": "arc", "epsilon": "9/10", "bounces": []}
+    assert apply("passes-separation", witness, {"arc": arc}).bounces == 0
+    with pytest.raises(Unproved, match=reason):
+        apply("passes-separation", witness, {"arc": replace(arc, **change(arc))})
