@@ -1,6 +1,6 @@
 """Bounces on the arc of phases where the table pushes the mass, and the chatter that ends them.
 
-The lemmas, with their proofs, are those of `s34_circle.persistence`: where the launch
+The lemmas, with their proofs, are those of `s34_circle.bounces`: where the launch
 acceleration is negative along a flight, the gap has one zero at most, the speed changes little
 (Lemma 1), and bounces that are weak enough add up to a rest (Lemma 2).
 """
@@ -13,33 +13,45 @@ from fractions import Fraction
 
 from intervals import Interval, Undecided
 from proofs.motion.system import System
-from proofs.trusted.equations import Launch, clock, closing, gap, launch, launch_acceleration
+from proofs.trusted.equations import Launch, clock, gap, launch, launch_acceleration
+from proofs.trusted.flights import Motion, lifted
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell
 
-_PRECISION = 53
+BITS = 256  # of states that are followed far
 _WIDENINGS = 7
+_NEWTON = 3  # steps, each doubling the digits
 _MOST_BOUNCES = 60
-_GRID = 2**24  # times and phases of a witness are multiples of 1 / _GRID
 _RATIO_GRID = 2**10
 
 
-@dataclass(frozen=True)
-class Settled:
-    """Proof that bounces end: brackets of the first few, then Lemma 2 with `ratio` and `rest`."""
-
-    bounces: tuple[Range, ...]
-    ratio: Fraction
-    rest: Fraction
+def around(arc: Separation, spread: Fraction) -> Box:
+    """Return a box of states about so far around that at which the flight from phi_s ends."""
+    phases = arc.arrival if arc.arrival[0] > 0 else lifted(arc.arrival, 1, BITS)
+    (phase, speed), grid = ((low + high) / 2 for low, high in (phases, arc.speed)), spread / 1000
+    motion = Motion(arc.at, (phase, phase), BITS)
+    start = motion.start()
+    gamma = ((Enclosure.of(speed, speed, BITS) * motion.side - start.rate) / start.eta).range[0]
+    centre = (round(x / grid) * grid for x in (phase, gamma))
+    low, high = ((x - spread, x + spread) for x in centre)
+    return low, high
 
 
 @dataclass(frozen=True)
 class Pushing:
-    """The arc of phases up to `last` on which the launch acceleration is known to be negative."""
+    """The arc of phases up to `last` on which the launch acceleration is known to be negative.
+
+    precision: of enclosures; times and phases of a witness are multiples of 1 / grid.
+    """
 
     system: System
     last: Fraction
+    precision: int = 53
+    grid: int = 2**24
 
-    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Settled:
+    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
 
         Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
@@ -50,7 +62,7 @@ class Pushing:
         while len(bounces) < _MOST_BOUNCES:
             ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
-                return Settled(tuple(bounces), *ending)
+                return Cell(epsilon, bounces, *ending)
             time, speeds = self.bounce(phases, kicks)
             bounces.append(time)
             phases = phases[0] + time[0], phases[1] + time[1]
@@ -62,15 +74,9 @@ class Pushing:
         value: Interval = launch_acceleration(self._launches(phases))
         return value
 
-    def speeds(self, phases: Range, velocities: Range) -> Range:
-        """Enclose the relative speeds before impacts at these phases and velocities gamma."""
-        gamma = Interval(*velocities, precision=_PRECISION)
-        speed: Interval = closing(self._launches(phases), gamma) * self.system.side
-        return speed.inf, speed.sup
-
     def _launches(self, phases: Range) -> Launch:
-        eta, nu = (Interval(x, precision=_PRECISION) for x in (self.system.eta, self.system.nu))
-        return launch(self.system.side, eta, nu, Interval(*phases, precision=_PRECISION))
+        eta, nu = (Interval(x, precision=self.precision) for x in (self.system.eta, self.system.nu))
+        return launch(self.system.side, eta, nu, Interval(*phases, precision=self.precision))
 
     def ending(
         self, epsilon: Fraction, phases: Range, kick: Fraction
@@ -92,7 +98,7 @@ class Pushing:
             end = phases[1] + 2 * kick / (weakest * (1 - ratio))
             if end <= rest < self.last:
                 return ratio, rest
-            rest = _up(end + (end - phases[1]) / 16, _GRID)
+            rest = _up(end + (end - phases[1]) / 16, self.grid)
         return None
 
     def bounce(self, phases: Range, kicks: Range) -> tuple[Range, Range]:
@@ -103,18 +109,18 @@ class Pushing:
         """
         if kicks[0] <= 0:
             raise Undecided("a bounce as weak as one likes is no bounce that can be bracketed")
-        kick = Interval(*kicks, precision=_PRECISION) * self.system.side
+        kick = Interval(*kicks, precision=self.precision) * self.system.side
         start = self._launches(phases)._replace(kick=kick)
-        about = [self.candidate(float(phi), float(w)) for phi in phases for w in kicks]
-        opening = Fraction(max(about) - min(about)) / 8 + Fraction(1, 2**16)
-        low, high = _down(Fraction(min(about)), _GRID), _up(Fraction(max(about)), _GRID)
+        about = [self.candidate(phi, w) for phi in phases for w in kicks]
+        opening = (max(about) - min(about)) / 8 + Fraction(2**8, self.grid)
+        low, high = _down(min(about), self.grid), _up(max(about), self.grid)
         for _ in range(_WIDENINGS):
-            below = _gap(start, (low, low)).certainly_positive()
-            above = _gap(start, (high, high)).certainly_negative()
+            below = self._gap(start, (low, low)).certainly_positive()
+            above = self._gap(start, (high, high)).certainly_negative()
             if below and above:
                 break
-            low = low if below else max(_down(low - opening, _GRID), low / 2)
-            high = high if above else _up(high + opening, _GRID)
+            low = low if below else max(_down(low - opening, self.grid), low / 2)
+            high = high if above else _up(high + opening, self.grid)
             opening *= 2
         else:
             raise Undecided("the end of a bounce is not bracketed")
@@ -123,12 +129,21 @@ class Pushing:
         push = self.accelerations((phases[0], phases[1] + high))
         if not push.certainly_negative():
             raise Undecided("a bounce may leave the arc on which the table pushes")
-        speed, change = -_gap(start, (low, high), 1), (1 + push.inf / push.sup) / 2
+        speed, change = -self._gap(start, (low, high), 1), (1 + push.inf / push.sup) / 2
         speeds = max(speed.inf, kicks[0] / change), min(speed.sup, kicks[1] * change)
         return (low, high), speeds
 
-    def candidate(self, phase: float, kick: float) -> float:
+    def candidate(self, phase: Fraction, kick: Fraction) -> Fraction:
         """Return about the time of the next impact, by Newton's method from the parabola's."""
+        time = Fraction(self._seen(float(phase), float(kick)))
+        if self.precision > 53:
+            start = self._launches((phase, phase))._replace(kick=kick * self.system.side)
+            for _ in range(_NEWTON):
+                time -= (self._gap(start, (time, time)) / self._gap(start, (time, time), 1)).mid
+                time = _down(time, self.grid)
+        return time
+
+    def _seen(self, phase: float, kick: float) -> float:
         eta, nu = float(self.system.eta), float(self.system.nu)
         start = launch(self.system.side, eta, nu, phase)._replace(kick=self.system.side * kick)
         if (push := launch_acceleration(start)) >= 0:
@@ -141,11 +156,17 @@ class Pushing:
             time -= gap(start, now) / gap(start, now, 1)
         return float(time)
 
+    def flies(self, phases: Range, kicks: Range, until: Range) -> bool:
+        """Whether gap > 0 at all phases `until` after all these launches."""
+        times = until[0] - phases[1], until[1] - phases[0]
+        kick = Interval(*kicks, precision=self.precision) * self.system.side
+        start = self._launches(phases)._replace(kick=kick)
+        return self._gap(start, times).certainly_positive()
 
-def _gap(start: Launch, times: Range, order: int = 0) -> Interval:
-    now = clock(start.eta, Interval(*times, precision=_PRECISION))
-    value: Interval = gap(start, now, order)
-    return value
+    def _gap(self, start: Launch, times: Range, order: int = 0) -> Interval:
+        now = clock(start.eta, Interval(*times, precision=self.precision))
+        value: Interval = gap(start, now, order)
+        return value
 
 
 def _up(value: Fraction, grid: int) -> Fraction:

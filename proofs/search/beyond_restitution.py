@@ -11,22 +11,23 @@ from functools import partial
 from types import MappingProxyType
 
 from intervals import Undecided
-from proofs.motion.chatter import Pushing
+from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.beyond import too_fast
 from proofs.search.budget import EFFORT, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
-from proofs.search.s33_cycles import around_image, follow, stable_cycles, state_before
+from proofs.search.s33_cycles import around_image, follow, stable_cycles
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
+from proofs.search.s34_border import witness
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
-from proofs.trusted.flights import COVER_BITS, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.paper.s34_circle.persistence import landed
 from proofs.trusted.parameters import Parameters, Place
 
 _MOST_IMPACTS = 30
@@ -94,34 +95,23 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
 
 
 def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusion]:
-    """Follow the motion from the separation until bounces end in rest (rule chattering-motion)."""
+    """Follow the motion from the separation until bounces end in rest (rule superstable-motion)."""
     system = prover.plain.system
     at = Place.restituting(system.eta, system.nu, epsilon)
     separation, arc = prove_arc(prover.plain)
     prover.known[separation] = arc
-    pushing = Pushing(system, arc.phase[0])
-    phase = float(sum(arc.arrival)) / 2 % math.tau
-    near = state_before(system, phase, float(sum(arc.speed)) / 2)
-    box, impacts = [(x - _AROUND, x + _AROUND) for x in near], list[str]()
+    pushing, first = Pushing(system, arc.phase[0]), around(arc, _AROUND)
+    box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
         ((name, found),) = follow(prover, at, box, 1)
         impacts.append(name)
         box = around_image(found)
-        for turns in (0, -1):
-            phases = lifted(found.phase, turns, COVER_BITS)
-            if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
-                kick = epsilon * pushing.speeds(phases, found.velocity)[1]
-                ending = pushing.ending(epsilon, phases, kick)
-                if ending is not None:
-                    ratio, rest = map(str, ending)
-                    name = prover.derive(
-                        "chattering-motion",
-                        separation=separation,
-                        impacts=impacts,
-                        ratio=ratio,
-                        rest=rest,
-                    )
-                    return name, prover.known[name]
+        with suppress(*FAILED):
+            state = landed(arc, (found.phase, found.velocity), BITS)
+            cell = pushing.settle((epsilon, epsilon), *state)
+            made = witness(separation, first, [cell], impacts)
+            name = prover.derive("superstable-motion", **made)
+            return name, prover.known[name]
     raise Undecided(f"{_MOST_IMPACTS} impacts after the separation the mass has not come to rest")
 
 

@@ -5,35 +5,45 @@ Bounces after the flight from phi_s, one by one, in high precision, at single ep
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any
 
-from intervals import DomainError, Interval, Undecided
-from proofs.motion.chatter import Pushing
+from intervals import DomainError, Undecided
+from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import Launch, clock, gap, launch
+from proofs.trusted.flights import bits_for
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.border import BouncesEnd
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 
-_PRECISION = 256
-_GRID = 2**200  # times are multiples of 1 / _GRID
-_LEAST = Fraction(1, 2**190)  # half the width of a bracket
-_OPENINGS = 40
+_GUARD = 10  # bits that the checker has beyond those of the search
 _MOST = 60  # bounces
 _UNITS = 10**6
 
 
-class Bounces(NamedTuple):
-    """Brackets of bounces, and (ratio, rest) if the mass comes to rest after them."""
-
-    times: list[Range]
-    rest: tuple[Fraction, ...]
+def witness(
+    separation: str, box: Box, cells: Sequence[Cell], impacts: Sequence[str] = ()
+) -> dict[str, Any]:
+    """Write what the rule superstable-motion reads."""
+    return {
+        "separation": separation,
+        "box": [texts(side) for side in box],
+        "impacts": list(impacts),
+        "cells": [
+            {
+                "epsilon": texts(cell.epsilons),
+                "bounces": [texts(bounce) for bounce in cell.bounces],
+                "ratio": str(cell.ratio),
+                "rest": str(cell.rest),
+            }
+            for cell in cells
+        ],
+    }
 
 
 def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
@@ -42,68 +52,49 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
     From those on at which it is known to rest; epsilons are multiples of 1 / _UNITS.
     """
     name, found = motion
-    separation = prover.steps[name]["witness"]["separation"]
-    ends: dict[int, Bounces] = {}
+    separation, arc = prover.steps[name]["witness"]["separation"], found.arc
+    box = around(arc, 2 * max(high - low for low, high in (arc.arrival, arc.speed)))
+    rests, passes = None, None
     low, high = int(found.largest * _UNITS), _UNITS
     while high - low > 1:
         middle = (low + high) // 2
         try:
-            ends[middle] = followed(prover.system, found.arc, Fraction(middle, _UNITS))
+            end = followed(prover.system, arc, box, Fraction(middle, _UNITS))
         except (*FAILED, DomainError):
             break
-        low, high = (middle, high) if ends[middle].rest else (low, middle)
+        if isinstance(end, Cell):
+            low, rests = middle, end
+        else:
+            high, passes = middle, end
+    steps = []
+    if rests is not None:
+        steps.append(("superstable-motion", witness(separation, box, [rests])))
+    if passes is not None:
+        times, epsilon = [texts(each) for each in passes], str(Fraction(high, _UNITS))
+        made = {"separation": separation, "epsilon": epsilon, "bounces": times}
+        steps.append(("passes-separation", made))
     proof: Proof = []
-    for end, (times, rest) in ((end, ends[end]) for end in (low, high) if end in ends):
-        epsilon = Fraction(end, _UNITS)
-        witness = {
-            "separation": separation,
-            "epsilon": str(epsilon),
-            "bounces": [texts(each) for each in times],
-            "rest": texts(rest),
-        }
-        conclusion = BouncesEnd(found.arc, epsilon, len(times), bool(rest))
-        proof.append((prover.add("bounces-end", witness), conclusion))
+    for rule, made in steps:
+        with suppress(*FAILED):
+            proof.append(prover.derive(rule, made))
     return proof
 
 
-def followed(system: System, arc: Separation, epsilon: Fraction) -> Bounces:
-    """Follow the bounces at one epsilon until they end; or Undecided."""
-    pushing, bounces = Pushing(system, arc.phase[0]), list[Range]()
-    eta, nu = _interval(system.eta), _interval(system.nu)
-    phase, speed = (_interval(*ends) for ends in (arc.arrival, arc.speed))
-    left = _interval(*arc.phase)
+def followed(system: System, arc: Separation, box: Box, epsilon: Fraction) -> Cell | list[Range]:
+    """Follow bounces at one epsilon until they end: how they rest, or those before the mass passes
+    phi_s; or Undecided.
+    """
+    bits, bounces = bits_for(box[0]) - _GUARD, list[Range]()
+    pushing = Pushing(system, arc.phase[0], bits, 2 ** (bits - _GUARD))
+    phases, speeds = landed(arc, box, BITS)
     for _ in range(_MOST):
-        kick = speed * epsilon
-        start = launch(system.side, eta, nu, phase)._replace(kick=kick * system.side)
-        ending = pushing.ending(epsilon, (phase.inf, phase.sup), kick.sup)
+        kicks = epsilon * speeds[0], epsilon * speeds[1]
+        ending = pushing.ending(epsilon, phases, kicks[1])
         if ending is not None:
-            return Bounces(bounces, ending)
-        if gap(start, clock(start.eta, left - phase)).certainly_positive():
-            return Bounces(bounces, ())
-        time = _bracket(start, Fraction(pushing.candidate(float(phase.mid), float(kick.mid))))
-        fall = -gap(start, clock(start.eta, _interval(*time)), 1)
+            return Cell((epsilon, epsilon), bounces, *ending)
+        if pushing.flies(phases, kicks, arc.phase):
+            return bounces
+        time, speeds = pushing.bounce(phases, kicks)
         bounces.append(time)
-        phase, speed = phase + _interval(*time), fall
+        phases = phases[0] + time[0], phases[1] + time[1]
     raise Undecided(f"{_MOST} bounces and no end")
-
-
-def _interval(low: Fraction, high: Fraction | None = None) -> Interval:
-    return Interval(low, low if high is None else high, precision=_PRECISION)
-
-
-def _bracket(start: Launch, about: Fraction) -> Range:
-    """Bracket the impact of all flights, by Newton's method and the signs of the gap."""
-    for _ in range(5):
-        now = clock(start.eta, _interval(about))
-        about -= (gap(start, now) / gap(start, now, 1)).mid
-        about = Fraction(round(about * _GRID), _GRID)
-    for half in _openings():
-        low, high = about - half, about + half
-        above, below = (gap(start, clock(start.eta, _interval(end))) for end in (low, high))
-        if low > 0 and above.certainly_positive() and below.certainly_negative():
-            return low, high
-    raise Undecided("the end of a bounce is not bracketed")
-
-
-def _openings() -> Iterator[Fraction]:
-    return (_LEAST * 16**k for k in range(_OPENINGS))

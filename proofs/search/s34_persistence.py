@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import islice
 
 from intervals import DomainError, Undecided
-from proofs.motion.chatter import Pushing, Settled
+from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.covering import halves
 from proofs.motion.impact import HORIZON
 from proofs.motion.simulate import TURNS
@@ -23,13 +23,12 @@ from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_attractors import branch
-from proofs.search.s34_border import border
+from proofs.search.s34_border import border, witness
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 from proofs.trusted.parameters import Parameters
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
@@ -37,7 +36,6 @@ _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tri
 _HALVINGS = 9  # of a step of epsilon
 _OTHER = Fraction(29, 100)  # an epsilon at which simulated motions find another stable orbit
 _TRIES = 20  # simulated motions
-_Cell = tuple[Fraction, Settled]  # up to which epsilon, and how the bounces end
 
 
 def prove(
@@ -97,34 +95,18 @@ def superstable_motion(
 ) -> tuple[str, SuperstableMotion]:
     """Prove that the motion from phi_s comes to rest, for as many epsilon as can be, or enough."""
     separation, arc = prove_arc(prover)
-    cells = _cells(Pushing(prover.system, arc.phase[0]), arc, enough)
-    witness = {
-        "separation": separation,
-        "spread": str(_SPREAD),
-        "cells": [
-            {
-                "epsilon": str(end),
-                "bounces": [texts(bounce) for bounce in settled.bounces],
-                "ratio": str(settled.ratio),
-                "rest": str(settled.rest),
-            }
-            for end, settled in cells
-        ],
-    }
-    rest = max(settled.rest for _, settled in cells)
-    motion = SuperstableMotion(arc, cells[-1][0], _SPREAD, rest)
-    return prover.add("superstable-motion", witness), motion
+    box = around(arc, _SPREAD)
+    cells = _cells(Pushing(prover.system, arc.phase[0]), arc, box, enough)
+    return prover.derive("superstable-motion", witness(separation, box, cells))
 
 
-def _cells(pushing: Pushing, arc: Separation, enough: Fraction) -> list[_Cell]:
+def _cells(pushing: Pushing, arc: Separation, box: Box, enough: Fraction) -> list[Cell]:
     """Prove that bounces after impacts nearby end, for epsilon from 0 up to as much as can be.
 
     By steps of epsilon and ever smaller ones, until the proof fails.
     """
-    phases, speeds = ((low - _SPREAD, high + _SPREAD) for low, high in (arc.arrival, arc.speed))
-    if not (speeds[0] > 0 and arc.start[1] < phases[0] and phases[1] < arc.phase[0]):
-        raise Undecided("the impact after the separation phase is too slow, or not on the arc")
-    cells: list[_Cell] = []
+    phases, speeds = landed(arc, box, BITS)
+    cells: list[Cell] = []
     done = Fraction(0)
     for step in _STEPS:
         while done < enough and done + step < 1:
@@ -141,10 +123,10 @@ def _cells(pushing: Pushing, arc: Separation, enough: Fraction) -> list[_Cell]:
 
 def _halved(
     pushing: Pushing, epsilon: Range, phases: Range, speeds: Range, halvings: int
-) -> list[_Cell]:
+) -> list[Cell]:
     """Prove that bounces end for all epsilon of a range, in as many parts as it takes."""
     try:
-        return [(epsilon[1], pushing.settle(epsilon, phases, speeds))]
+        return [pushing.settle(epsilon, phases, speeds)]
     except (Undecided, DomainError):
         if halvings == 0:
             raise Undecided(f"epsilon near {float(epsilon[0]):.6g}") from None

@@ -1,5 +1,6 @@
 """Judges of conclusions about the whole circle (section 3.4): sticking, landing, coming to rest."""
 
+import math
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -188,55 +189,36 @@ def touching_family(view, rng):
 
 
 def superstable_motion(view, rng):
-    """Impacts near that of the flight from phi_s lead to others that end before phi_s."""
-    told, arc = separation_arc(view.arc, rng), view.arc
-    if not (view.rest < arc.phase[1] and view.spread > 0 and arc.returns):
-        told.append("no time to come to rest before phi_s")
-    if not 0 < view.largest < 1:
-        told.append("no coefficients of restitution")
-    for phase, speed, share in ((0, 0, 1), (1, 1, 1), (rng.random(), rng.random(), rng.random())):
-        state = [
-            ball(between((low - view.spread, high + view.spread), Fraction(s)))
-            for (low, high), s in ((arc.arrival, phase), (arc.speed, speed))
-        ]
-        if not state[1] > 0:
-            told.append("a speed that is not positive")
-            continue
-        told += _bounces(view, state, view.largest * Fraction(share))
-    return told
-
-
-def chattering_motion(view, rng):
     """The flight from phi_s, and states of the first box, go through the boxes to rest."""
-    away, found = _released(view)
-    if away is None or not inside(away, view.separation):
-        return ["the separation phase is not that"]
-    if not isinstance(found, Impact):
-        return [f"the flight from phi_s: {found}"] if found else []
-    told, states = [], [(found.lifted, found.velocity)]
-    if not (
+    told, (low, high) = separation_arc(view.arc, rng), view.epsilons
+    if not (view.rest < view.arc.phase[1] and 0 <= low <= high < 1 and high > 0):
+        told.append("no time to come to rest before phi_s, or no coefficients of restitution")
+    _, found = _released(view)
+    if isinstance(found, Impact) and not (
         inside_mod(found.lifted, view.boxes[0][0]) and inside(found.velocity, view.boxes[0][1])
     ):
         told.append(f"the flight from phi_s leads to ({found.phase:.9g}, {float(found.velocity)})")
-    for _ in range(3):
-        states.append([ball(between(side, Fraction(rng.random()))) for side in view.boxes[0]])
-    for phi, gamma in states:
-        told += _through(view, phi, gamma)
+    for shares in ((0, 1, 1), (1, 1, 1), (rng.random(), rng.random(), rng.random())):
+        *state, epsilon = map(between, (*view.boxes[0], view.epsilons), map(Fraction, shares))
+        with flint.ctx.workprec(240):
+            told += _through(view, ball(state[0]), ball(state[1]), epsilon)
     return told
 
 
-def _through(view, phi, gamma):
+def _through(view, phi, gamma, epsilon):
     """Follow a state of the first box through the others, and then bounces until they are tiny."""
-    for target in (*view.boxes[1:], None):
-        found = flight(view.eta, view.nu, phi, view.epsilon, gamma)
+    for target in view.boxes[1:]:
+        found = flight(view.eta, view.nu, phi, epsilon, gamma)
         if not isinstance(found, Impact):
             return [f"in a box: {found}"] if found else []
         phi, gamma = found.lifted.mid(), found.velocity.mid()
-        if target and not (inside_mod(found.lifted, target[0]) and inside(gamma, target[1])):
+        if not (inside_mod(phi, target[0]) and inside(gamma, target[1])):
             return [f"F leads to ({found.phase:.9g}, {float(gamma):.9g})"]
-    turns = -int((float(view.separation[0]) - found.phase) // TURN)
-    on_line = ball(found.lifted) - round((float(found.lifted) - found.phase) / TURN) * two_pi()
-    return _bounces(view, (on_line - turns * two_pi(), found.speed), view.epsilon)
+    phase = phi - math.ceil((float(phi) - float(view.arc.phase[1])) / TURN) * two_pi()
+    speed = (1 if view.nu > 0 else -1) * (ball(view.eta) * gamma + ball(view.nu) * phi.cos())
+    if not speed > 0:
+        return ["a speed that is not positive"]
+    return _bounces(view, (phase, speed), epsilon)
 
 
 def _bounces(view, state, epsilon):
@@ -255,7 +237,7 @@ def _bounces(view, state, epsilon):
         found = flight(view.eta, view.nu, phase, epsilon, gamma)
         if not isinstance(found, Impact):
             return [f"after a bounce: {found}"] if found == "none" else []
-        phase, speed = found.lifted, found.speed
+        phase, speed = found.lifted.mid(), found.speed.mid()
     return []
 
 
@@ -296,27 +278,27 @@ def two_attractors(view, rng, count=4):
     for cycle in rng.sample(view.cycles, min(count, len(view.cycles))):
         cycle.epsilon = between(cycle.box[2], Fraction(rng.random()))
         told += stable_cycle(cycle, rng)
-    if not 0 < view.box[2][0] < reached == view.box[2][1] <= view.motion.largest:
+    if not 0 < view.box[2][0] < reached == view.box[2][1] <= view.motion.epsilons[1]:
         told.append("not as far as said")
     return told
 
 
-def bounces_end(view, rng):
-    """How the bounces after the flight from phi_s end: in rest, or in flight at phi_s."""
+def passes(view, rng):
+    """The bounces after the flight from phi_s: how many, until it is in flight at phi_s."""
     told, arc = separation_arc(view.arc, rng), view.arc
     side = 1 if view.nu > 0 else -1
     with flint.ctx.workprec(240):
         phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
         for count in range(80):
             if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**8):
-                return told if view.rests else [*told, "it comes to rest"]
+                return [*told, "it comes to rest"]
             gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
             found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
             if found is None:
                 return told
             if not isinstance(found, Impact) or found.lifted > ball(arc.phase[1]):
                 end = f"it is in flight at phi_s after {count} bounces"
-                return [*told, end] if view.rests or count != view.bounces else told
+                return told if count == view.bounces else [*told, end]
             phase, speed = found.lifted.mid(), found.speed.mid()
     return [*told, "bounces have no end"]
 
@@ -325,18 +307,18 @@ def border(view, rng):
     """The motion rests up to one epsilon, and at another, not at a third."""
     told = [
         *superstable_motion(view.motion, rng),
-        *bounces_end(view.rests, rng),
-        *bounces_end(view.passes, rng),
+        *superstable_motion(view.rests, rng),
+        *passes(view.passes, rng),
     ]
-    epsilons = view.motion.largest, view.rests.epsilon, view.passes.epsilon
-    if not epsilons[0] <= epsilons[1] < epsilons[2] or view.passes.rests or not view.rests.rests:
+    (first, reached), rests = view.motion.epsilons, view.rests.epsilons
+    if not first == 0 < reached <= rests[0] == rests[1] < view.passes.epsilon:
         told.append("no border")
     return told
 
 
 JUDGES = {
-    "BouncesEnd": bounces_end,
     "Border": border,
+    "Passes": passes,
     "Separation": separation_arc,
     "Lands": lands,
     "NeverImpacts": never_impacts,
@@ -346,6 +328,5 @@ JUDGES = {
     "TouchingFamily": touching_family,
     "SuperstableMotion": superstable_motion,
     "StableCycle": stable_cycle,
-    "ChatteringMotion": chattering_motion,
     "TwoAttractors": two_attractors,
 }

@@ -287,36 +287,33 @@ FALSE = {
     "TouchingFamily": [put("phases", (F("1.2"), F("1.25")))],
     "SuperstableMotion": [
         *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),
-        put("rest", F(1)),
-        put("spread", F(1)),
-        put("largest", F(9, 10)),
+        put("rest", lambda old: old - F(1, 2)),
+        put("boxes", lambda old: (tuple((low - 1, high + 1) for low, high in old[0]), *old[1:])),
+        put("boxes", lambda old: (*old, old[0])),
+        put("boxes", lambda old: old[:1]),
+        put("epsilons", lambda old: (old[0], F(9, 10))),
+        _first_box_off,
     ],
-    "BouncesEnd": [
-        put("rests", lambda old: not old),
+    "Passes": [
+        put("bounces", lambda old: old + 1),
         put("epsilon", lambda old: 1 - old),
         _of("arc", offs("speed")),
     ],
     "Border": [
-        put("rests", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(2, 5)})),
+        put("rests", lambda old: SimpleNamespace(**{**vars(old), "epsilons": (F(2, 5),) * 2})),
         put("passes", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(9, 25)})),
         put("passes", lambda old: SimpleNamespace(**{**vars(old), "bounces": old.bounces + 1})),
-        _of("motion", put("largest", F(9, 10))),
+        _of("motion", put("epsilons", (F(0), F(9, 10)))),
     ],
     "StableCycle": [
         _first_box_off,
         put("boxes", lambda old: old[:1] * 2),
         put("epsilon", F(1, 2)),
     ],
-    "ChatteringMotion": [
-        _first_box_off,
-        offs("separation"),
-        put("rest", lambda old: old - F(1, 2)),
-        put("epsilon", F(9, 10)),
-    ],
     "TwoAttractors": [
         put("cycles", lambda old: (*old[:2], *old[3:])),
         put("cycles", lambda old: old[:-1]),
-        _of("motion", put("largest", F(29, 100))),
+        _of("motion", put("epsilons", (F(0), F(29, 100)))),
         lambda record: [_first_box_off(each) for each in record.cycles],
     ],
     "Solution": [

@@ -22,7 +22,8 @@ def plot(proved: Context) -> Drawing:
     rows = transients(System(proved.of.eta, proved.of.nu))
     epsilons = [float(row.epsilon) for row in rows]
     drawing, axes = sheet(3.0)
-    for motion in all_of(proved, SuperstableMotion):
+    motions = (x for x in all_of(proved, SuperstableMotion) if x.epsilons[0] == 0)
+    for motion in motions:
         label = rf"the stable motion exists, $\varepsilon \leq$ {show(motion.largest)}, proved"
         largest = float(motion.largest)
         axes.axvspan(0, largest, color="#C6E5F7", lw=0, label=label, gid=PROVED)

@@ -8,7 +8,6 @@ from fractions import Fraction
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
-from proofs.trusted.paper.beyond.chatter import ChatteringMotion
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
@@ -73,7 +72,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    kinds = (SuperstableMotion, ChatteringMotion, StableCycle)
+    kinds = (SuperstableMotion, StableCycle)
     motions = [motion for kind in kinds for motion in found.all(kind)]
     if motions:
         return decided(Verdict.VERIFIED, *motions)

@@ -100,7 +100,7 @@ def _coexist(of: Parameters, found: Found) -> Decision:
     if not motions or not cycles:
         return undecided("no motion is known that comes to rest, or no stable cycle")
     cycles.sort(key=lambda each: each.at.sides[2])
-    both = TwoAttractors(motions[0], tuple(cycles))
+    both = TwoAttractors(min(motions, key=lambda x: x.epsilons), tuple(cycles))
     if not both.at.sides[2][0] < both.at.sides[2][1]:
         return undecided("a stable cycle is known at one epsilon only")
     return decided(Verdict.VERIFIED, both, corrected=[both])

@@ -1,33 +1,32 @@
 """Section 3.4 with restitution: does the stable orbit persist, do transients grow?
 
-Claims G7, G8, and G12 of our own.
-
-A bounce, here, is a launch at a phase phi with a relative velocity w >= 0 away from the table,
-where the table pushes: let a(psi) be the launch acceleration of a mass at rest on the table at
-phase psi, negative on the sticking arc. In flight gap'' = a(phi + t) - eta^2 gap, since
-X'' = -eta^2 X for the mass, and a is the value of gap'' where gap = 0. Phases are on the line.
+Claims G7, G8, and G12 of our own. Phases are on the line.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from itertools import pairwise
+from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion, brackets
+from proofs.trusted.equations import closing
+from proofs.trusted.flights import Motion, bits_for, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, between, ceil_text, show
+from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.rebounds import Rebound
+from proofs.trusted.paper.s34_circle.bounces import State, bounced, settle
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
-_ZERO = Fraction(0)
+_MOST_IMPACTS = 100
+Box = tuple[Range, Range]  # phases x velocities
 
 
 # -- the periodic motion ---------------------------------------------------------------------------
@@ -35,53 +34,69 @@ _ZERO = Fraction(0)
 
 @dataclass(frozen=True)
 class SuperstableMotion(Conclusion):
-    """For every epsilon from 0 to `largest`: impacts near the first one after phi_s end in rest.
+    """For all epsilon of a range: the motion from phi_s has impacts in boxes, one in each, then
+    bounces on the arc where the mass sticks, and comes to rest at a phase up to `rest`.
 
-    After impacts at most `spread` beside it, in phase and in relative speed, all further ones come
-    at phases up to `rest`, below phi_s.
+    So does every motion with an impact in the first box.
     """
 
     arc: Separation
-    largest: Fraction
-    spread: Fraction
+    epsilons: Range
+    boxes: tuple[Box, ...]
     rest: Fraction
 
     def __post_init__(self) -> None:
-        if not (self.arc.returns and self.rest < self.arc.phase[0] and self.spread > 0):
+        least, largest = self.epsilons
+        if not (self.boxes and self.rest < self.arc.phase[0]):
             raise Unproved("no states that come to rest on the sticking arc")
+        if not (0 <= least <= largest < 1 and largest > 0):
+            raise Unproved("no coefficients of restitution")
 
     @property
     def at(self) -> Place:
         """The oscillators."""
-        return Place(self.arc.at.eta, self.arc.at.nu, (_ZERO, self.largest))
+        return replace(self.arc.at, epsilon=self.epsilons)
+
+    @property
+    def largest(self) -> Fraction:
+        """The greatest epsilon."""
+        return self.epsilons[1]
 
     @property
     def sentence(self) -> str:
-        near, turns = show(self.spread), self.arc.turns
         enclosures = (self.arc.phase, self.arc.time, self.arc.arrival, self.arc.speed)
         phase, time, arrival, speed = (between(each, 12) for each in enclosures)
+        images = ", ".join(" x ".join(map(between, box)) for box in self.boxes[1:])
         return (
             f"let phi_s in {phase} be the separation phase. The mass that leaves the table there "
             f"with relative velocity 0 lands after a time in {time}, at the phase phi_1 in "
-            f"{arrival}, less {turns} turns, with a relative speed u in {speed}. All further "
-            f"impacts come at phases below phi_s, up to {ceil_text(self.rest)}: none if epsilon = "
-            "0, infinitely many, at phases that increase and with speeds that tend to 0, if "
-            "epsilon > 0. Then the mass rests on the table until phi_s: the motion has the period "
-            f"2 pi * {turns}; phi_s, phi_1 and u do not depend on epsilon. Every motion with an "
-            f"impact at a phase within {near} of phi_1, with a relative speed within {near} of u, "
-            "comes to rest before phi_s in the same way and is this one, exactly, from phi_s on: "
-            "it is superstable. Counted as the plastic orbit (phi_1, phi_s), one landing with all "
-            "that follows until it rests and one separation, it has period 2. For epsilon > 0 it "
-            "is no 2-periodic orbit of the map F from one impact to the next, and none attracts "
-            "this open set of states."
+            f"{arrival}, less {self.arc.turns} turns, with a relative speed u in {speed}, in the "
+            f"box B = {' x '.join(map(show_range, self.boxes[0]))} (phases x velocities gamma "
+            "before an impact). "
+            f"{f'Its next impacts are in {images}, in this order. ' if images else ''}All further "
+            f"impacts come at phases below phi_s, up to {ceil_text(self.rest)}, mod 2 pi: none if "
+            "epsilon = 0, infinitely many, at phases that increase and with speeds that tend to "
+            "0, if epsilon > 0. Then the mass rests on the table until phi_s: the motion has a "
+            f"period{self._period}; phi_s, phi_1 and u do not depend on epsilon. Every motion with "
+            "an impact in B comes to rest before phi_s in the same way and is this one, exactly, "
+            "from phi_s on: it is superstable. Counted as the plastic orbit (phi_1, phi_s), one "
+            "landing with all that follows until it rests and one separation, it has period 2. For "
+            "epsilon > 0 it is no 2-periodic orbit of the map F from one impact to the next, and "
+            "none attracts this open set of states."
         )
 
     @property
+    def _period(self) -> str:
+        return "" if self.boxes[1:] else f" of 2 pi * {self.arc.turns}"
+
+    @property
     def brief(self) -> str:
+        least, largest = map(show, self.epsilons)
         return (
-            f"for 0 < epsilon <= {show(self.largest)} the stable motion has infinitely many "
-            f"impacts in each period, of 2 pi * {self.arc.turns}: period 2 only if a landing with "
-            "all that follows until rest counts as one step, and the separation as the other"
+            f"for {least} {'<=' if self.epsilons[0] else '<'} epsilon <= {largest} the stable "
+            f"motion has infinitely many impacts in each period{self._period}: period 2 only if a "
+            "landing with all that follows until rest counts as one step, and the separation as "
+            "the other"
         )
 
     @property
@@ -89,106 +104,100 @@ class SuperstableMotion(Conclusion):
         return {"epsilon_max": (self.largest, self.largest), **self.arc.quantities}
 
 
-def superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
-    """Rule `superstable-motion`: {separation, spread, cells: [{epsilon, bounces: [[t, t'], ...],
-    ratio, rest}]}, epsilons 0 < e_1 < ... < e_n.
+class Cell(NamedTuple):
+    """How bounces end for all epsilon of a range: the first in brackets, the others by Lemma 2."""
 
-    Hypotheses: let states be phases and relative speeds of the impacts of the `separation` step and
-    those at most `spread` beside; the speeds are > 0, the phases inside the arc. Cell i, on
-    [e_(i-1), e_i], e_0 = 0: from the states, bounce after bounce has its impact in the bracket
-    given, by `bounce`; the one after the last bracket satisfies the hypotheses of `settle`, with
-    r = ratio and T = rest, below phi_s.
+    epsilons: Range
+    bounces: Sequence[Range]
+    ratio: Fraction
+    rest: Fraction
 
-    Conclusion: `SuperstableMotion` for 0 <= epsilon <= e_n. Proof. With relative velocity 0 the
-    flight from phi_s does not depend on epsilon; a < 0 from its impact to phi_s. It is followed by
-    impacts and rest as the lemmas say, and so are impacts nearby; then the mass rests until phi_s.
-    Under F these impacts are different states that converge to one; so no 2-periodic orbit attracts
-    them.
+
+def superstable_motion(
+    arc: Separation, box: Box, impacts: Sequence[Rebound], cells: Sequence[Cell]
+) -> SuperstableMotion:
+    """Theorem. Let the mass stick exactly on an arc until phi_s, and the state at which the flight
+    from phi_s ends be inside a box of states. Let cells have intervals of epsilon, each from the
+    end of the one before. Let `impacts`, if any, be about the same eta, nu and all these epsilon:
+    on states that contain the box, on some that contain its image, and so on. Let the last image,
+    or the box if there are none, have phases inside the arc and speeds > 0; from there, for each
+    cell, bounce after bounce have its impact in the bracket given, by `bounce`, and the one after
+    the last bracket satisfy the hypotheses of `settle`, with r = ratio and T = rest, below phi_s.
+    Then what `SuperstableMotion.sentence` says.
+
+    Proof. With relative velocity 0 the flight from phi_s does not depend on epsilon. What has an
+    impact in the box has the next ones in its images, then on the arc, where a < 0, as the lemmas
+    say, and comes to rest there; it sticks until phi_s, and leaves with relative velocity 0. Under
+    F these impacts are different states that converge to one; so no 2-periodic orbit attracts them.
     """
-    separation_of, spread_of, cells = reader.fields("separation", "spread", "cells")
-    arc, spread = context.step(separation_of, Separation), spread_of.number()
-    phases, speeds = ((low - spread, high + spread) for low, high in (arc.arrival, arc.speed))
-    if not (speeds[0] > 0 and arc.start[1] < phases[0] and phases[1] < arc.phase[0]):
-        raise Unproved("the states near the impact are not all on the arc, with speed > 0")
-    epsilon, rests = _ZERO, []
-    for cell in cells.items(least=1):
-        epsilon_of, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")
-        epsilons = epsilon, epsilon_of.number()
-        if epsilons[1] <= epsilon:
-            raise epsilon_of.fail("the coefficients must increase from 0")
-        box = phases, speeds
-        for time in bounces.items():
-            kicks = epsilons[0] * box[1][0], epsilons[1] * box[1][1]
-            box = bounce(context.of, box[0], kicks, time.range())
-        epsilon = epsilons[1]
-        shrinking = epsilon, ratio.number()
-        rests.append(rest.number())
-        settle(context.of.place, box[0], rests[-1], epsilon * box[1][1], shrinking)
-    return SuperstableMotion(arc, epsilon, spread, max(rests))
+    if any(one.epsilons[1] != two.epsilons[0] for one, two in pairwise(cells)):
+        raise Unproved("the coefficients of cells do not follow one another")
+    epsilons, bits = (cells[0].epsilons[0], cells[-1].epsilons[1]), bits_for(box[0])
+    if not _starts(arc, box, bits):
+        raise Unproved("the flight from phi_s is not proved to end in the first box")
+    boxes = [box]
+    for each in impacts:
+        if each.at.sides[:2] != arc.at.sides[:2] or not within(epsilons, each.at.sides[2]):
+            raise Unproved("the steps are about different oscillators")
+        if not all(map(within, boxes[-1], (each.phases, each.velocities))):
+            raise Unproved("a box is not proved to be mapped into the next")
+        boxes.append((each.phase, each.velocity))
+    state = landed(arc, boxes[-1], bits)
+    for cell in cells:
+        last, (_, fast) = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
+        greatest = cell.epsilons[1]
+        settle(arc.at, last, cell.rest, greatest * fast, (greatest, cell.ratio))
+    rest = max(cell.rest for cell in cells)
+    return SuperstableMotion(arc, epsilons, tuple(boxes), rest)
 
 
-def _push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
-    """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
-    return push.range
+def _speeds(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
+    """Enclose the relative speeds before impacts at these phases and velocities."""
+    motion = Motion(at, phases, bits)
+    speed: Enclosure = closing(motion.start(), Enclosure.of(*gammas, bits)) * motion.side
+    return speed.range
 
 
-def bounce(
-    of: Parameters, phases: Range, kicks: Range, time: Range, bits: int = COVER_BITS
-) -> tuple[Range, Range]:
-    """Lemma 1 (one bounce). If a < 0 on [phi, phi + tau], eta tau < pi and w >= 0, then
-    h(t) = eta gap(t) / sin(eta t) decreases strictly on (0, tau]; so the gap has at most one zero
-    there, is > 0 before and < 0 after it, and gap' < 0 at it. If also -A <= a <= -b < 0, the speed
-    v at the impact has v <= w (1 + A / b) / 2 and w <= v (1 + A / b) / 2.
+def _starts(arc: Separation, box: Box, bits: int) -> bool:
+    """Whether the state at which the flight from phi_s ends is proved inside a box."""
+    for turns in (0, 1):
+        phases = lifted(arc.arrival, turns, bits)
+        if box[0][0] < phases[0] and phases[1] < box[0][1]:
+            slow, fast = sorted(_speeds(arc.at, phases, (x, x), bits) for x in box[1])
+            return slow[1] < arc.speed[0] and arc.speed[1] < fast[0]
+    return False
 
-    Proof. 1. By variation of constants, h(t) = w + int_0^t (cos(eta s) - cot(eta t) sin(eta s))
-    a(phi + s) ds, and h'(t) is eta / sin^2(eta t) times int_0^t sin(eta s) a(phi + s) ds < 0. At a
-    zero, gap' = h' sin / eta. 2. Multiply gap'' + eta^2 gap = a by gap' and integrate, up to the
-    peak, of height H, and from there: w^2 - eta^2 H^2 and v^2 - eta^2 H^2 lie in [2 b H, 2 A H], so
-    v^2 <= 2 A H + eta^2 H^2 <= (A / b) (2 b H + eta^2 H^2) <= (A / b) w^2, and the same with v and
-    w exchanged; sqrt(q) <= (1 + q) / 2.
 
-    Return phases and speeds of the impacts after all these bounces, bracketed in `time` by
-    gap > 0 at its lower, gap < 0 at its upper end.
+def landed(arc: Separation, box: Box, bits: int) -> State:
+    """Return phases, on the line, and relative speeds of a box of impacts; raise Unproved unless
+    they are inside the arc where the mass sticks, and positive.
     """
-    if time[0] <= 0 or of.eta * time[1] > 3:
-        raise Unproved("a bounce is longer than its lemma allows")
-    motion = Motion(of.place, phases, bits)
-    kick = Enclosure.of(*kicks, bits) * motion.side
-    gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
-    if not brackets(gap_of, time):
-        raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
-    strong, weak = _push(of.place, (phases[0], phases[1] + time[1]), bits)
-    if weak >= 0:
-        raise Unproved("the table is not proved to push all through a bounce")
-    (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
-    speeds = max(low, kicks[0] / change), min(high, kicks[1] * change)
-    return (phases[0] + time[0], phases[1] + time[1]), speeds
+    for turns in (0, -1):
+        phases = lifted(box[0], turns, bits)
+        if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
+            speeds = _speeds(arc.at, phases, box[1], bits)
+            if speeds[0] <= 0:
+                raise Unproved("a speed is not proved to be positive")
+            return phases, speeds
+    raise Unproved("an impact is not proved to be where the mass sticks")
 
 
-def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
-    """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
-    r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
-    are none if w = 0 (the mass sticks), infinitely many if w > 0 and epsilon > 0.
+def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
+    """Rule `superstable-motion`: {separation, box: [phases, velocities], impacts: names of rebound
+    steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...], ratio, rest}]}.
 
-    Proof. In flight gap >= 0, so gap'' <= -b and gap <= w t - b t^2 / 2: as long as phases stay
-    below T, an impact comes within 2 w / b, and as in Lemma 1 its speed is v <= sqrt(A / b) w;
-    v > 0, since gap'' < 0 while gap returns to 0. So the next bounce has w' = epsilon v <= r w, the
-    times sum to at most 2 w / b (1 + r + r^2 + ...) = 2 w / (b (1 - r)), and the speeds tend to 0.
-    At the limit of the impacts the mass is at rest on the table, where a < 0: it sticks there, as
-    long as a < 0.
-
-    Prove its hypotheses for phi in `phases`, T = rest, w at most `kick`, all coefficients up to the
-    first number of `shrinking`, r the second.
+    Conclusion: `superstable_motion`.
     """
-    (first, last), (epsilon, ratio) = phases, shrinking
-    if rest <= last or not 0 < ratio < 1:
-        raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
-    strong, weak = _push(at, (first, rest))
-    if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
-        raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
-    if last + 2 * kick / (-weak * (1 - ratio)) > rest:
-        raise Unproved("the bounces are not proved to end by the phase of rest")
+    arc_of, box_of, impacts_of, cells_of = reader.fields("separation", "box", "impacts", "cells")
+    phases, velocities = (side.range() for side in box_of.items(2, 2))
+    impacts = [context.step(name, Rebound) for name in impacts_of.items(most=_MOST_IMPACTS)]
+    cells = []
+    for cell in cells_of.items(least=1):
+        epsilons, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")
+        times = [time.range() for time in bounces.items()]
+        cells.append(Cell(epsilons.range(), times, ratio.number(), rest.number()))
+    arc = context.step(arc_of, Separation)
+    return superstable_motion(arc, (phases, velocities), impacts, cells)
 
 
 # -- the rows --------------------------------------------------------------------------------------

@@ -153,7 +153,7 @@ def test_two_attractors_need_one_orbit_and_the_motion():
         with pytest.raises(Unproved):
             TwoAttractors(motion, others)
     with pytest.raises(Unproved, match="for all these epsilon"):
-        TwoAttractors(replace(motion, largest=cycles[-1].at.epsilon[0]), cycles)
+        TwoAttractors(replace(motion, epsilons=(Fraction(0), cycles[-1].at.epsilon[0])), cycles)
 
 
 # -- the theorem about boxes of epsilon ------------------------------------------------------------

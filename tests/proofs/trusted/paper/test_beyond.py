@@ -22,7 +22,6 @@ from proofs.trusted.paper.beyond.attractors import (
     StableOrbit,
     stable_orbit,
 )
-from proofs.trusted.paper.beyond.chatter import ChatteringMotion, chattering_motion
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
 from proofs.trusted.paper.beyond.returning import (
@@ -34,6 +33,11 @@ from proofs.trusted.paper.s33_restitution.cycles import StableCycle
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
+from proofs.trusted.paper.s34_circle.persistence import (
+    Cell,
+    SuperstableMotion,
+    superstable_motion,
+)
 from proofs.trusted.paper.staying import staying_set
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.slopes import ImageArc, SlopeRange, image_arc, image_range, inside
@@ -510,25 +514,34 @@ REBOUNDING = [  # verdicts of X6 to X9; by simulation in the oracles
 
 @cache
 def chatter():
-    """What is proved of the motion from the separation phase, with two impacts before it rests."""
-    of = replace(PAPER, eta=F("1.8959"), nu=F("-1.8502"), epsilon=F("0.0948"), reach=None)
+    """What is proved of the motion from the separation phase: six more impacts, bounces, rest."""
+    of = replace(PAPER, eta=F("0.1727"), nu=F("-0.3328"), epsilon=F("0.0879"), reach=None)
     made = produce({"rebounding": ["X7"]}, of, digits=20, effort=1)
     steps = json.loads(made.certificate)["steps"]
-    witness = next(x["witness"] for x in steps.values() if x["rule"] == "chattering-motion")
+    witness = next(x["witness"] for x in steps.values() if x["rule"] == "superstable-motion")
     known = premises(made.certificate).known
     impacts = [known[name] for name in witness["impacts"]]
-    return known[witness["separation"]], impacts, F(witness["ratio"]), F(witness["rest"]), of
+    (found,) = (x for x in known.values() if isinstance(x, SuperstableMotion))
+    (cell,) = witness["cells"]
+    times = [tuple(map(F, time)) for time in cell["bounces"]]
+    ends = Cell(tuple(map(F, cell["epsilon"])), times, F(cell["ratio"]), F(cell["rest"]))
+    return known[witness["separation"]], found.boxes[0], impacts, ends, of
 
 
 def test_a_motion_that_chatters_is_what_the_oracle_sees():
-    *given, of = chatter()
-    found = chattering_motion(*given)
-    assert len(found.boxes) == 2 and "superstable" in found.sentence
+    arc, box, impacts, cell, of = chatter()
+    found = superstable_motion(arc, box, impacts, [cell])
+    assert len(found.boxes) == 7 and "superstable" in found.sentence
+    assert "Its next impacts are in" in found.sentence and "period of 2 pi" not in found.sentence
     assert not oracle(found, random.Random(1), of)
 
 
 def moved(bounds, by):
     return bounds[0] + F(by), bounds[1] + F(by)
+
+
+def elsewhere(at):
+    return replace(at, nu=moved(at.nu, "1e-9"))
 
 
 def rebounding(impacts, low, high):
@@ -538,28 +551,53 @@ def rebounding(impacts, low, high):
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
-        (lambda a, x, r, t: (a, [], r, t), "impacts"),
-        (lambda a, x, r, t: (a, x[1:], r, t), "first box"),
-        (lambda a, x, r, t: (a, x[:1], r, t), None),  # a bounce that Lemma 2 is not about
-        (lambda a, x, r, t: (a, x[::-1], r, t), None),
-        (lambda a, x, r, t: (a, x, r, a.phase[0]), "sticks"),  # rest at the separation
-        (lambda a, x, r, t: (a, x, r, t - 1), "rest"),
-        (lambda a, x, r, t: (a, x, F(1, 100), t), "shrink"),
-        (lambda a, x, r, t: (a, x, F(1), t), "ratio"),
-        (lambda a, x, r, t: (replace(a, speed=moved(a.speed, "1e-5")), x, r, t), "first box"),
-        (lambda a, x, r, t: (replace(a, arrival=moved(a.arrival, "1e-5")), x, r, t), "first box"),
-        (lambda a, x, r, t: (replace(a, at=HERE), x, r, t), "different"),
-        (lambda a, x, r, t: (a, [replace(x[0], phase=(F(0), F(1))), x[1]], r, t), "next"),
-        (lambda a, x, r, t: (a, [replace(x[0], velocity=(F(0), F(9))), x[1]], r, t), "next"),
-        (lambda a, x, r, t: (a, [x[0], *rebounding(x[1:], 0, 0)], r, t), "one oscillator"),
-        (lambda a, x, r, t: (a, rebounding(x, 0, 0), r, t), "plastic"),
-        (lambda a, x, r, t: (a, rebounding(x, "0.09", "0.1"), r, t), "plastic"),
+        (lambda a, b, x, c: (a, b, [], c), None),
+        (lambda a, b, x, c: (a, b, x[1:], c), "next"),
+        (lambda a, b, x, c: (a, (x[1].phases, x[1].velocities), x[1:], c), "first box"),
+        (lambda a, b, x, c: (a, b, x[:-1], c), None),
+        (
+            lambda a, b, x, c: (a, b, [*x[:-1], replace(x[-1], phase=moved(x[-1].phase, 3))], c),
+            "sticks",
+        ),
+        (lambda a, b, x, c: (a, b, x[::-1], c), "next"),
+        (lambda a, b, x, c: (a, b, x, c._replace(rest=a.phase[0])), None),
+        (lambda a, b, x, c: (a, b, x, c._replace(rest=c.rest - 1)), "rest"),
+        (lambda a, b, x, c: (a, b, x, c._replace(bounces=c.bounces[:-1])), None),
+        (lambda a, b, x, c: (a, b, x, c._replace(bounces=c.bounces[1:])), None),
+        (lambda a, b, x, c: (a, b, x, c._replace(ratio=F(1, 100))), "shrink"),
+        (lambda a, b, x, c: (a, b, x, c._replace(ratio=F(1))), "ratio"),
+        (lambda a, b, x, c: (a, b, x, c._replace(epsilons=(F(0), F("0.0948")))), "different"),
+        (lambda a, b, x, c: (replace(a, speed=moved(a.speed, "1e-5")), b, x, c), "first box"),
+        (lambda a, b, x, c: (replace(a, arrival=moved(a.arrival, "1e-5")), b, x, c), "first box"),
+        (lambda a, b, x, c: (replace(a, at=HERE), b, x, c), None),
+        (lambda a, b, x, c: (a, b, [replace(y, at=elsewhere(y.at)) for y in x], c), "different"),
+        (lambda a, b, x, c: (a, b, [replace(x[0], phase=(F(0), F(1))), *x[1:]], c), "next"),
+        (lambda a, b, x, c: (a, b, [replace(x[0], velocity=(F(0), F(9))), *x[1:]], c), "next"),
+        (
+            lambda a, b, x, c: (a, b, [*x[:-1], replace(x[-1], velocity=(F(-9), F(9)))], c),
+            "positive",
+        ),
+        (lambda a, b, x, c: (a, b, [x[0], *rebounding(x[1:], 0, 0)], c), "different"),
+        (lambda a, b, x, c: (a, b, rebounding(x, 0, 0), c), "different"),
+        (lambda a, b, x, c: (a, b, rebounding(x, "0.095", "0.1"), c), "different"),
+        (lambda a, b, x, c: (a, [moved(b[0], "1e-7"), b[1]], x, c), "next"),
     ],
 )
 def test_a_motion_that_chatters_needs_all(change, reason):
-    arc, impacts, ratio, rest, _ = chatter()
+    *given, cell, _ = chatter()
+    *given, cell = change(*given, cell)
     with pytest.raises(Unproved, match=reason):
-        chattering_motion(*change(arc, impacts, ratio, rest))
+        superstable_motion(*given, [cell])
+
+
+@pytest.mark.parametrize("middle", ["0.0878", "0.08795"])
+def test_coefficients_of_cells_follow_one_another(middle):
+    arc, box, impacts, cell, _ = chatter()
+    low, high = F("0.0879"), F("0.088")
+    wide = rebounding(impacts, low, high)
+    cells = [cell, cell._replace(epsilons=(F(middle), high))]
+    with pytest.raises(Unproved, match="follow"):
+        superstable_motion(arc, box, wide, cells)
 
 
 def test_a_motion_that_reaches_over_the_phase_0_is_no_malformed_one():
@@ -576,7 +614,7 @@ def test_verdicts_with_restitution(eta, nu, epsilon, verdicts):
     assert [line.verdict.value for line in made.lines] == verdicts.split()
     assert len(check(made.certificate).claims) == 4
     for found in premises(made.certificate).known.values():
-        if isinstance(found, RectangleHorseshoe | StableCycle | ChatteringMotion):
+        if isinstance(found, RectangleHorseshoe | StableCycle | SuperstableMotion):
             assert not oracle(found, random.Random(1), of)
 
 

@@ -52,6 +52,30 @@ def test_a_bounce_is_where_the_printed_equation_puts_it(system, phase, kick):
     assert number(slow) <= speed <= number(fast) and fast - slow < Fraction(1, 100)
 
 
+def test_a_bounce_in_more_digits():
+    pushing = Pushing(PAPER, separation(PAPER), 170, 2**130)
+    (low, high), (slow, fast) = pushing.bounce(point("4.64"), point("0.04"))
+    assert high - low < Fraction(1, 10**36) and fast - slow < Fraction(1, 10**34)
+    eta, nu, phase = number(PAPER.eta), number(PAPER.nu), mpf("4.64")
+    gamma = (-mpf("0.04") - nu * mp.cos(phase)) / eta
+    signs = [reference.left_side_14(eta, nu, 1, phase, gamma, t) for t in map(number, (low, high))]
+    assert signs[0] < 0 < signs[1]  # nu < 0
+    arrived = reference.right_side_15(eta, nu, 1, phase, gamma, number(low))
+    speed = -(eta * arrived + nu * mp.cos(phase + number(low)))
+    assert number(slow) - mpf("1e-45") < speed < number(fast) + mpf("1e-45")
+
+
+@pytest.mark.parametrize(("after", "flies"), [("0.1", True), ("0.55", True), ("0.56", False)])
+def test_a_mass_flies_until_it_lands(after, flies):
+    """At 4.64, with the relative velocity 0.04, it comes back after 0.56."""
+    time, _ = landing(PAPER, mpf("4.64"), mpf("0.04"))
+    assert 0.55 < time < 0.56
+    until = point(Fraction("4.64") + Fraction(after))
+    pushing = Pushing(PAPER, separation(PAPER))
+    assert pushing.flies(point("4.64"), point("0.04"), until) is flies
+    assert not pushing.flies(point("4.64"), (Fraction(0), Fraction("0.04")), until)
+
+
 def test_a_bounce_of_a_box_contains_those_of_its_points():
     phases, kicks = (Fraction("4.63"), Fraction("4.65")), (Fraction("0.039"), Fraction("0.041"))
     (low, high), (slow, fast) = Pushing(PAPER, separation(PAPER)).bounce(phases, kicks)
@@ -76,7 +100,7 @@ def test_lemma_1_bounds_the_speed_by_the_range_of_the_push():
 def test_bounces_settle_without_a_bracket_where_they_are_weak():
     pushing = Pushing(PAPER, separation(PAPER))
     settled = pushing.settle(point("0.01"), point("4.64"), point("0.135"))
-    assert settled.bounces == () and Fraction("4.64") < settled.rest < Fraction("4.67")
+    assert not settled.bounces and Fraction("4.64") < settled.rest < Fraction("4.67")
     settled = pushing.settle((Fraction(0), Fraction("0.2")), point("4.64"), point("0.135"))
     assert settled.ratio < 1 and settled.rest < pushing.last
 

@@ -24,11 +24,9 @@ from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
+from proofs.trusted.paper.s34_circle.bounces import bounce
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import (
-    SuperstableMotion,
-    bounce,
-)
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
@@ -69,7 +67,7 @@ def test_the_flight_from_the_separation_phase_is_enclosed():
 @pytest.mark.slow
 def test_prover_and_checker_conclude_the_same():
     derived, own = derive(evidence().steps), dict(evidence().proofs["G7"])
-    for field in ("at", "spread", "rest"):
+    for field in ("at", "boxes", "rest"):
         assert getattr(own[MOTION], field) == getattr(derived[MOTION], field)
     assert own[PAIR] == derived[PAIR]
     found = [find("G7").decide(PAPER, [each[step] for step in own]) for each in (own, derived)]
@@ -108,10 +106,10 @@ def test_bounces_by_the_printed_equation_stay_below_the_phase_of_rest(epsilon):
 @pytest.mark.parametrize("epsilon", ["0.1", "0.25", "0.3", "0.345", "0.355"])
 def test_so_do_bounces_at_the_corners_of_the_states(epsilon):
     found = dict(evidence().proofs["G7"])[MOTION]
-    _, _, phase, speed = truth()
-    spread = mpf(found.spread.numerator) / found.spread.denominator
-    for signs in ((1, 1), (1, -1), (-1, 1)):
-        moved = bounces(mpf(epsilon), phase + spread * signs[0], speed + spread * signs[1])
+    (box,) = found.boxes
+    for corner in ((1, 0), (1, 1), (0, 0)):
+        phase, gamma = (exact_number(ends[k]) for ends, k in zip(box, corner, strict=True))
+        moved = bounces(mpf(epsilon), phase, -(ETA * gamma + NU * mp.cos(phase)))
         assert exact(moved[-1]) < found.rest
 
 
@@ -243,7 +241,8 @@ def test_the_orbit_persists_if_a_landing_counts_once_and_not_for_the_map(claim, 
     assert found.verdict is Verdict(verdict)
     assert "one landing with all that follows until it rests and one separation" in found.witness
     assert "infinitely many" in found.witness and "none attracts this open set" in found.witness
-    assert "epsilon in [0, 0.35" in found.theorem and "4 turns" in found.theorem
+    assert "epsilon in [0, 0.35" in found.theorem and "less 4 turns" in found.theorem
+    assert "a period of 2 pi * 4;" in found.theorem
     low, high = found.quantities["impact_phase"]
     assert low < exact(truth()[2]) < high
 
@@ -276,7 +275,22 @@ def motion(largest="1/4", eta=PAPER.eta):
     ends = [(Fraction(x), Fraction(x)) for x in (3, 6, 23, 4, 1)]
     place = Place.plastic(eta, PAPER.nu)
     arc = Separation(place, ends[0], Phase(*ends[1]), ends[2], 4, *ends[3:])
-    return SuperstableMotion(arc, Fraction(largest), Fraction(1, 100), rest=Fraction(5))
+    epsilons = Fraction(0), Fraction(largest)
+    return SuperstableMotion(arc, epsilons, ((ends[2], ends[4]),), rest=Fraction(5))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"rest": Fraction(6)},  # at the separation
+        {"boxes": ()},
+        *({"epsilons": (Fraction(a), Fraction(b))} for a, b in ((0, 0), (0, 1), (-1, "0.1"))),
+        {"epsilons": (Fraction("0.2"), Fraction("0.1"))},
+    ],
+)
+def test_no_motion_without_rest_or_coefficients(change):
+    with pytest.raises(Unproved):
+        replace(motion(), **change)
 
 
 @pytest.mark.parametrize(
@@ -335,12 +349,18 @@ def test_the_certificate_is_accepted_and_small():
 
 def test_the_short_proof_is_one():
     cells = short()[MOTION]["witness"]["cells"]
-    assert derive(short())[MOTION].largest == Fraction(cells[-1]["epsilon"])
+    assert derive(short())[MOTION].largest == Fraction(cells[-1]["epsilon"][1])
     assert 3 <= len(cells) < 30
 
 
 FLIGHT, CHATTER = (ARC, "witness"), (MOTION, "witness")
 CELL = (*CHATTER, "cells", -1)
+
+
+def widen(ends, by):
+    return [add(f"-{by}")(ends[0]), add(by)(ends[1])]
+
+
 EDITS = [
     ((*FLIGHT, "phase", 0), add("1e-20")),
     ((*FLIGHT, "phase", 1), add("-1e-20")),
@@ -361,16 +381,25 @@ EDITS = [
     ((*FLIGHT, "times"), lambda times: [times[-1]]),
     ((*FLIGHT, "times"), lambda times: list(reversed(times))),
     ((*CHATTER, "separation"), lambda name: MOTION),
-    ((*CHATTER, "spread"), lambda text: "0"),
-    ((*CHATTER, "spread"), lambda text: "-1/100000"),
-    ((*CHATTER, "spread"), lambda text: "1/1000"),
-    ((*CHATTER, "spread"), lambda text: "1/2"),
+    ((*CHATTER, "box", 0), lambda ends: [ends[0], ends[0]]),
+    ((*CHATTER, "box", 1), lambda ends: [ends[1], ends[1]]),
+    ((*CHATTER, "box", 0), lambda ends: ends[::-1]),
+    ((*CHATTER, "box", 0, 0), add("11/1000000")),
+    ((*CHATTER, "box", 0, 1), add("-11/1000000")),
+    ((*CHATTER, "box", 1, 0), add("11/1000000")),
+    ((*CHATTER, "box", 1, 1), add("-11/1000000")),
+    ((*CHATTER, "box"), lambda box: [widen(ends, "1/1000") for ends in box]),
+    ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
+    ((*CHATTER, "box"), lambda box: box[:1]),
+    ((*CHATTER, "impacts"), lambda names: [ARC]),
     ((*CHATTER, "cells"), lambda cells: []),
     ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
     ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
     ((*CHATTER, "cells"), lambda cells: [cells[1], cells[0], *cells[2:]]),
-    ((*CELL, "epsilon"), lambda text: "1"),
-    ((*CELL, "epsilon"), lambda text: "2/5"),
+    ((*CELL, "epsilon", 1), lambda text: "1"),
+    ((*CELL, "epsilon", 1), lambda text: "2/5"),
+    ((*CELL, "epsilon", 0), add("1/1000")),
+    ((*CHATTER, "cells", 0, "epsilon", 0), lambda text: "-1/1000"),
     ((*CELL, "ratio"), lambda text: "1/4"),
     ((*CELL, "ratio"), lambda text: "1"),
     ((*CELL, "ratio"), lambda text: "0"),
@@ -397,27 +426,29 @@ def test_an_edited_witness_is_refused(path, change):
 
 def alone(**cell):
     """The rule on one cell and these words beside it, after the true flight."""
-    spread = cell.pop("spread", "1/100000")
-    cells = [{"epsilon": "1/100", "bounces": [], "ratio": "1/50", "rest": "5"} | cell]
-    witness = {"separation": ARC, "spread": spread, "cells": cells}
+    spread = cell.pop("spread", "0")
+    cells = [{"epsilon": ["0", "1/100"], "bounces": [], "ratio": "1/50", "rest": "5"} | cell]
+    box = [widen(ends, spread) for ends in short()[MOTION]["witness"]["box"]]
+    witness = {"separation": ARC, "box": box, "impacts": [], "cells": cells}
     return derive(edited(short(), CHATTER, lambda old: witness))[MOTION]
 
 
 def test_one_cell_alone():
     assert alone().at.epsilon == (0, Fraction(1, 100)) and alone().rest == 5
-    with pytest.raises(Unproved, match="speed > 0"):
-        alone(spread="3/20")
-    with pytest.raises(Malformed, match="increase"):
-        alone(epsilon="0")
+    assert alone(epsilon=["1/200", "1/100"]).at.epsilon == (Fraction(1, 200), Fraction(1, 100))
+    with pytest.raises(Unproved, match="positive"):
+        alone(spread="7/10")
+    with pytest.raises(Unproved, match="coefficients"):
+        alone(epsilon=["0", "0"])
     with pytest.raises(Unproved, match="end by the phase of rest"):
         alone(rest="93/20")
 
 
 def test_the_kick_of_the_largest_epsilon_counts():
     """At 1/5 the first bounce, from the speed 0.1352, takes 0.37; the lemma grants 0.6 in all."""
-    assert alone(epsilon="1/5", ratio="23/100", rest="21/4").largest == Fraction(1, 5)
+    assert alone(epsilon=["0", "1/5"], ratio="23/100", rest="21/4").largest == Fraction(1, 5)
     with pytest.raises(Unproved, match="end by the phase of rest"):
-        alone(epsilon="1/5", ratio="23/100", rest="5")
+        alone(epsilon=["0", "1/5"], ratio="23/100", rest="5")
 
 
 def test_a_bounce_that_leaves_the_arc_is_refused():
@@ -437,7 +468,7 @@ def test_the_checker_takes_the_prover_s_bracket_of_a_wide_box_of_bounces(width):
     kicks = Fraction("0.04") - reach / 5, Fraction("0.04") + reach / 5
     pushing = Pushing(System(PAPER.eta, PAPER.nu), Fraction("6.0454"))
     time, speeds = pushing.bounce(phases, kicks)
-    _, own = bounce(PAPER, phases, kicks, time)
+    _, own = bounce(PAPER.place, phases, kicks, time)
     for one, other in zip(speeds, own, strict=True):
         assert abs(one - other) < Fraction(1, 10**6)
 

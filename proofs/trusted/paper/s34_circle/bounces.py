@@ -1,0 +1,91 @@
+"""Bounces on the arc of phases where the table pushes the mass, and the chatter that ends them.
+
+A bounce, here, is a launch at a phase phi with a relative velocity w >= 0 away from the table,
+where the table pushes: let a(psi) be the launch acceleration of a mass at rest on the table at
+phase psi, negative on the sticking arc. In flight gap'' = a(phi + t) - eta^2 gap, since
+X'' = -eta^2 X for the mass, and a is the value of gap'' where gap = 0. Phases are on the line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import partial
+
+from proofs.trusted.equations import launch_acceleration
+from proofs.trusted.flights import COVER_BITS, Motion, brackets
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.numbers import Range
+from proofs.trusted.parameters import Place
+
+State = tuple[Range, Range]  # phases and relative speeds of impacts
+
+
+def _push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
+    """Bound a from below and above."""
+    push: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
+    return push.range
+
+
+def bounce(at: Place, phases: Range, kicks: Range, time: Range, bits: int = COVER_BITS) -> State:
+    """Lemma 1 (one bounce). If a < 0 on [phi, phi + tau], eta tau < pi and w >= 0, then
+    h(t) = eta gap(t) / sin(eta t) decreases strictly on (0, tau]; so the gap has at most one zero
+    there, is > 0 before and < 0 after it, and gap' < 0 at it. If also -A <= a <= -b < 0, the speed
+    v at the impact has v <= w (1 + A / b) / 2 and w <= v (1 + A / b) / 2.
+
+    Proof. 1. By variation of constants, h(t) = w + int_0^t (cos(eta s) - cot(eta t) sin(eta s))
+    a(phi + s) ds, and h'(t) is eta / sin^2(eta t) times int_0^t sin(eta s) a(phi + s) ds < 0. At a
+    zero, gap' = h' sin / eta. 2. Multiply gap'' + eta^2 gap = a by gap' and integrate, up to the
+    peak, of height H, and from there: w^2 - eta^2 H^2 and v^2 - eta^2 H^2 lie in [2 b H, 2 A H], so
+    v^2 <= 2 A H + eta^2 H^2 <= (A / b) (2 b H + eta^2 H^2) <= (A / b) w^2, and the same with v and
+    w exchanged; sqrt(q) <= (1 + q) / 2.
+
+    Return phases and speeds of the impacts after all these bounces, bracketed in `time` by
+    gap > 0 at its lower, gap < 0 at its upper end.
+    """
+    if time[0] <= 0 or at.eta[1] * time[1] > 3:
+        raise Unproved("a bounce is longer than its lemma allows")
+    motion = Motion(at, phases, bits)
+    kick = Enclosure.of(*kicks, bits) * motion.side
+    gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
+    if not brackets(gap_of, time):
+        raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
+    strong, weak = _push(at, (phases[0], phases[1] + time[1]), bits)
+    if weak >= 0:
+        raise Unproved("the table is not proved to push all through a bounce")
+    (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
+    speeds = max(low, kicks[0] / change), min(high, kicks[1] * change)
+    return (phases[0] + time[0], phases[1] + time[1]), speeds
+
+
+def bounced(at: Place, state: State, epsilons: Range, times: Iterable[Range], bits: int) -> State:
+    """Return phases and speeds of impacts after these and one bounce more for each bracket."""
+    for time in times:
+        phases, (slow, fast) = state
+        state = bounce(at, phases, (epsilons[0] * slow, epsilons[1] * fast), time, bits)
+    return state
+
+
+def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
+    """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
+    r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
+    are none if w = 0 (the mass sticks), infinitely many if w > 0 and epsilon > 0.
+
+    Proof. In flight gap >= 0, so gap'' <= -b and gap <= w t - b t^2 / 2: as long as phases stay
+    below T, an impact comes within 2 w / b, and as in Lemma 1 its speed is v <= sqrt(A / b) w;
+    v > 0, since gap'' < 0 while gap returns to 0. So the next bounce has w' = epsilon v <= r w, the
+    times sum to at most 2 w / b (1 + r + r^2 + ...) = 2 w / (b (1 - r)), and the speeds tend to 0.
+    At the limit of the impacts the mass is at rest on the table, where a < 0: it sticks there, as
+    long as a < 0.
+
+    Prove its hypotheses for phi in `phases`, T = rest, w at most `kick`, all coefficients up to the
+    first number of `shrinking`, r the second.
+    """
+    (first, last), (epsilon, ratio) = phases, shrinking
+    if rest <= last or not 0 < ratio < 1:
+        raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
+    strong, weak = _push(at, (first, rest))
+    if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
+        raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
+    if last + 2 * kick / (-weak * (1 - ratio)) > rest:
+        raise Unproved("the bounces are not proved to end by the phase of rest")
