@@ -83,7 +83,8 @@ def _parser() -> Parser:
     parser.add_argument("--epsilon", type=number, nargs="+", metavar="X", help=restitution)
     parser.add_argument("--ask", metavar="QUESTION", help=f"one of {', '.join(QUESTIONS)}")
     depth = f"how often cells are cut at most (default {_DEPTH})"
-    parser.add_argument("--depth", type=_depth, default=_DEPTH, metavar="D", help=depth)
+    read = whole("a depth", DEEPEST, 0)
+    parser.add_argument("--depth", type=read, default=_DEPTH, metavar="D", help=depth)
     jobs = "processes (default 1)"
     parser.add_argument(
         "--jobs", type=whole("--jobs", _MOST_JOBS), default=1, metavar="N", help=jobs
@@ -102,12 +103,6 @@ def _parser() -> Parser:
     share(parser, "--out", "--json", "--quiet")
     parser.set_defaults(out=FOLDER)
     return parser
-
-
-def _depth(text: str) -> int:
-    if text == "0":
-        return 0
-    return whole("a depth", DEEPEST)(text)
 
 
 def _executor(text: str) -> str:

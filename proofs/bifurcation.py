@@ -38,11 +38,12 @@ from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
 
 EPILOG = """\
-Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact. An
-argument @FILE is replaced by the lines of the file. Other bifurcations than those found in closed
-form may exist. The coefficient "critical" decides: of a flip, positive for a stable cycle of period
-two; of a Neimark-Sacker bifurcation, negative for a stable circle, if t, the trace, is between -2
-and 2, not -1, not 0. "speed" is how fast the first parameter passes it: none takes place at 0.
+Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact;
+names are of small letters, digits and _, other than e. An argument @FILE is replaced by the lines
+of the file. Other bifurcations than those found in closed form may exist. The coefficient
+"critical" decides: of a flip, positive for a stable cycle of period two; of a Neimark-Sacker
+bifurcation, negative for a stable circle, if t, the trace, is between -2 and 2, not -1, not 0.
+"speed" is how fast the first parameter passes it: none takes place at 0.
 
 exit status: 0 done and checked, 1 a bifurcation that was asked for is not found,
              2 bad input, 3 the checker disagrees (a bug)
@@ -68,6 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
         of = Map.read(*options.equations).with_numbers(
             **{name: f"({value})" for name, value in options.set.items()}
         )
+        _ = of.jacobian, of.jacobian_at_rest
         forms = {kind: NormalForm(of, kind) for kind in _kinds(of, options)}
         names = _names(of, options)
     except ValueError as error:

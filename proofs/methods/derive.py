@@ -29,6 +29,13 @@ def read(text: str) -> Any:
     return parse_expr(text, local_dict={**known, **symbols})
 
 
+def is_real(expression: Any) -> bool:
+    """Whether an expression of real names has no imaginary unit, and nothing undefined."""
+    import sympy
+
+    return not expression.has(sympy.I, sympy.zoo, sympy.oo, sympy.nan)
+
+
 def vanishes(expression: Any) -> bool:
     """Whether sympy reduces an expression to 0: expanded angles, sin^2 = 1 - cos^2, numerators."""
     import sympy

@@ -25,6 +25,7 @@ from proofs.motion.impact import (
 from proofs.motion.system import System
 from proofs.trusted.numbers import Range
 
+_MOST_HALVINGS = 128  # of a time step: thinner sets of phases are as good as one phase
 _AGAIN = 16  # of the finest steps to a window: they may be longer for some of the launches
 
 
@@ -138,7 +139,8 @@ def steps_for(phases: Range) -> Fraction:
 
     At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
     """
-    return Fraction(1, 1 << (3 + (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2))
+    halvings = (1 / (phases[1] - phases[0])).__ceil__().bit_length() // 2
+    return Fraction(1, 1 << (3 + min(halvings, _MOST_HALVINGS)))
 
 
 def halves(part: Range) -> tuple[Range, Range]:

@@ -296,7 +296,7 @@ def last_positive(function: Callable[[int], float], most: int) -> int:
     above, below, moved = function(left), function(right), 0
     while right - left > 1 and above > 0:
         share = above / (above - below) if below < 0 else 0.5
-        k = min(max(left + round((right - left) * share), left + 1), right - 1)
+        k = min(max(left + round((right - left) * Fraction(share)), left + 1), right - 1)
         value = function(k)
         if value > 0:
             left, above, below = k, value, below / (1 + (moved > 0))

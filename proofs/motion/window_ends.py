@@ -136,8 +136,8 @@ def earlier(eta: Fraction, n: int) -> Fraction | None:
 
 def bracket(system: System, n: int, phase: Range, bits: int) -> Range:
     """Return a bracket of width 2^(1 - bits) of a solution of (16)."""
-    precision = bits + 60 + 2 * n.bit_length()
+    precision = 2 * bits + 60
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     orbit = turn(eta, n, Interval.pi(precision=precision))
-    ends = around((phase[0] + phase[1]) / 2, bits)
-    return _changes_sign(lambda x: defect(eta, nu, x.sincos(), orbit), ends, precision)
+    about = float((phase[0] + phase[1]) / 2)
+    return root(lambda x: defect(eta, nu, x.sincos(), orbit), about, bits)

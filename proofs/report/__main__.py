@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--quiet", action="store_true", help="print nothing")
     options = parser.parse_args(arguments)
     if not (options.out / "ledger.json").is_file():
-        parser.error(f"no {options.out}/ledger.json: python -m proofs writes it")
+        parser.error(f"no {options.out}/ledger.json: python -m proofs.ledger writes it")
     check_folder(parser, options.out)
     packages = missing()
     wanted = options.with_checker or options.pyodide is not None

@@ -61,13 +61,14 @@ def number(text: str) -> Fraction:
     return value
 
 
-def whole(what: str, most: int) -> Callable[[str], int]:
-    """Return what reads a whole number from 1 on for argparse."""
+def whole(what: str, most: int, least: int = 1) -> Callable[[str], int]:
+    """Return what reads a whole number for argparse."""
 
     def read(text: str) -> int:
-        if not text.isascii() or not text.isdigit() or not 1 <= int(text[:19]) <= most:
+        short = text.isascii() and text.isdigit() and len(text) < 20  # before it is read
+        if not (short and least <= int(text) <= most):
             raise argparse.ArgumentTypeError(
-                f"{what} is a whole number from 1 to {most}, not {text[:20]!r}"
+                f"{what} is a whole number from {least} to {most}, not {text[:20]!r}"
             )
         return int(text)
 

@@ -8,7 +8,6 @@ if __name__ == "__main__":
     launch("proofs.stress.__main__")
 
 import sys
-from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -16,7 +15,7 @@ from time import perf_counter
 
 import proofs.stress
 from proofs.benchmark.peers import Arithmetic
-from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.cli import Parser, heard, progress, share, whole
 from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
@@ -77,20 +76,12 @@ def _parser() -> Parser:
     names = [family.name for family in FAMILIES]
     add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
     many = f"how many, about (default {_CASES})"
-    add("--cases", type=_whole(1, 10**7), default=_CASES, metavar="N", help=many)
-    add("--seed", type=_whole(0, 10**18), default=1, metavar="N", help="of the draw (default 1)")
+    add("--cases", type=whole("cases", 10**7), default=_CASES, metavar="N", help=many)
+    draw = whole("a seed", 10**18, 0)
+    add("--seed", type=draw, default=1, metavar="N", help="of the draw (default 1)")
     add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
     share(parser, "--out", "--json", "--quiet")
     return parser
-
-
-def _whole(least: int, most: int) -> Callable[[str], int]:
-    def read(text: str) -> int:
-        if not (text.isascii() and text.isdigit() and least <= int(text[:20]) <= most):
-            raise ArgumentTypeError(f"a whole number from {least} to {most}, not {text!r}")
-        return int(text)
-
-    return read
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

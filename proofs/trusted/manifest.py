@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
 from proofs.trusted.numbers import show
-from proofs.trusted.paper import BEYOND, find
+from proofs.trusted.paper import BEYOND, GROUPS, find
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
@@ -68,6 +68,8 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
             "digest", "parameters", "made", "checked", "claims"
         )
         text = _beside(folder, name, entry)
+        if name.removesuffix(".json") not in {*GROUPS, *BEYOND}:
+            raise Rejected(f"{entry.path}: no command makes a file of this name")
         report = check(text, work)
         of = report.parameters
         if not isinstance(of, Parameters):

@@ -64,7 +64,7 @@ class Decision(NamedTuple):
 
     because: those that verify, refute or condition it. corrected: the strongest true statements
     nearby. margin: by how much a printed bound holds. missing: what is not proved, where nothing
-    is decided.
+    is decided. of: the numbers of the claim.
     """
 
     verdict: Verdict
@@ -73,11 +73,16 @@ class Decision(NamedTuple):
     margin: Fraction | None = None
     missing: str = ""
     quantities: Mapping[str, Range] = {}
+    of: Parameters | None = None
 
     @property
     def why(self) -> str:
-        """A line with the numbers."""
-        reasons = [each.brief.rstrip(".") for each in dict.fromkeys(self.because)]
+        """A line with the numbers; of witnesses at other oscillators it says which."""
+        reasons = []
+        for each in dict.fromkeys(self.because):
+            at, brief = each.place, each.brief.rstrip(".")
+            here = at is None or self.of is None or at.holds(self.of)
+            reasons.append(brief if here or str(at) in brief else f"at {at}: {brief}")
         spare = [] if self.margin is None else [f"margin {floor_text(self.margin)}"]
         return self.missing or "; ".join([*reasons, *spare])
 
@@ -171,7 +176,7 @@ class Row:
     def decide(self, of: Parameters, conclusions: Sequence[Conclusion]) -> Decision:
         """Decide the claim by what is proved; where it is not asked, tell what is true instead."""
         try:
-            decision = self.decide_by(of, Found(of, conclusions))
+            decision = self.decide_by(of, Found(of, conclusions))._replace(of=of)
         except Unproved as failure:  # a hypothesis of a theorem
             return undecided(str(failure))
         if self.is_asked(of):

@@ -14,8 +14,8 @@ from functools import cached_property
 from typing import Any
 
 from proofs.methods import derive
-from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.formulas import read_formulas, spelled
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.kernel.formulas import read_formulas, read_function, spelled
 from proofs.trusted.kernel.solutions import implicit_derivative
 
 Rows = list[list[str]]  # a matrix of formulas
@@ -68,6 +68,10 @@ class Map:
             for side in reversed(sides) if sides[1].isidentifier() else sides:
                 names += read_formulas(Reader(side)).variables
             equations.append(sides[0] if sides[1] == "0" else spelled(f"{sides[0]}-({sides[1]})"))
+        try:  # with names that the checker takes for variables
+            read_function("F", Reader({"variables": sorted({*names}), "values": equations}))
+        except Malformed as error:
+            raise ValueError(str(error).removeprefix("$.variables: ")) from None
         return cls(tuple(x for x in dict.fromkeys(names) if image_of(x) in names), tuple(equations))
 
     @cached_property
@@ -138,7 +142,7 @@ class Map:
 
     @cached_property
     def jacobian(self) -> Any:
-        """The Jacobian at any point and its image, as a matrix of sympy."""
+        """The Jacobian at any point and its image, as a matrix of sympy; ValueError if none is."""
         return self._jacobian([])
 
     @cached_property
@@ -157,12 +161,17 @@ class Map:
         import sympy
 
         def placed(text: str) -> Any:
-            return derive.simplest(derive.read(text).subs(places))
+            found = derive.simplest(derive.read(text).subs(places))
+            if not derive.is_real(found):
+                raise ValueError(f"nowhere a real number: {text[:60]}")
+            return found
 
-        here, there = (
-            sympy.Matrix([[placed(entry) for entry in row] for row in self.partials(names)])
-            for names in (self.state, self.images)
+        _, here, there = (
+            sympy.Matrix([[placed(entry) for entry in row] for row in rows])
+            for rows in ([[*self.equations]], *map(self.partials, (self.state, self.images)))
         )
+        if there.det() == 0:
+            raise ValueError(f"the equations do not determine {', '.join(self.images)}")
         return (-there.inv() * here).applyfunc(derive.simplest)
 
 

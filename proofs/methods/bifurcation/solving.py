@@ -29,7 +29,8 @@ def solve(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
     found: list[Solution] = []
     for each in _solved(equations, [sympy.Symbol(name) for name in names]):
         point = {str(name): value for name, value in each.items()}
-        if point not in found and not any(map(_has_roots, point.values())):
+        known = all(derive.is_real(x) and not _has_roots(x) for x in point.values())
+        if known and point not in found:
             found.append(point)
     if not found:
         raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
@@ -107,9 +108,12 @@ def coefficients(form: NormalForm, point: Solution, parameter: str) -> Solution:
         known |= _linear(equations, form.unknowns_of(order))
     last = {"critical": form.criticality, "speed": form.speed(parameter)}
     wanted = (*sorted(point), *form.unknowns)
-    return {name: known[name] for name in wanted} | {
+    found = {name: known[name] for name in wanted} | {
         name: derive.simplest(placed(text)) for name, text in last.items()
     }
+    if not all(map(derive.is_real, found.values())):
+        raise Undecided("a coefficient is not defined: the bifurcation is degenerate")
+    return found
 
 
 Polynomial = dict[tuple[int, ...], Any]  # coefficients, expressions of sympy, by exponents

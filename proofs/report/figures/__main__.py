@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-import argparse
-import sys
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.report.figures.__main__")
+
 from pathlib import Path
 
 from proofs.report.figures import figures, names
 from proofs.report.figures.figure import Certificates
-from proofs.shell.files import writing
+from proofs.shell.cli import Parser
+from proofs.shell.files import check_folder, writing
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Draw the figures asked for; return the exit status."""
-    parser = argparse.ArgumentParser("proofs.report.figures", description=__doc__)
+    example = "example:\n  python -m proofs.report.figures --only figure-2 --out runs\n"
+    parser = Parser("proofs.report.figures", __doc__, example)
     known = names()
     parser.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=", ".join(known))
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     options = parser.parse_args(arguments)
+    check_folder(parser, options.out)
     documents = Certificates(options.out)
     with writing(options.out / "figures") as put:
         for figure in figures():
             if not options.only or figure.name in options.only:
                 put(f"{figure.name}.svg", figure.svg(documents))
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

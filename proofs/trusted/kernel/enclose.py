@@ -16,7 +16,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
-PRECISIONS = (64, 128, 256, 512, 1024)
+PRECISIONS = (64, 128, 256, 512, 1024, 2048, 4096)
 _LARGEST = 256  # results beyond 2^256 are not followed
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message

@@ -211,7 +211,7 @@ class StayingSet(Conclusion):
 
     @property
     def latex(self) -> str:
-        if not self.full:
+        if not self.whole:
             return ""
         low, high = floor_text(self.expansion, 3), ceil_text(self.steepness[1], 3)
         size = self._slope

@@ -56,6 +56,14 @@ def same(expression, text):
     return derive.simplest(expression - derive.read(formula(text))) == 0
 
 
+def test_a_point_that_is_not_real_is_no_bifurcation():
+    """x1 = r + 1/x has the multiplier -1/x^2: 1 at x = i and -i, -1 at x = 1 and -1."""
+    line = "x1 = r + 1/x"
+    with pytest.raises(Undecided, match="no closed form"):
+        in_closed_form("fold", ("x", "r"), line)
+    assert {str(each["x"]) for each in in_closed_form("flip", ("x", "r"), line)} == {"1", "-1"}
+
+
 # -- published -------------------------------------------------------------------------------------
 
 

@@ -26,6 +26,7 @@ from proofs.motion.impact import (
     locate,
     march,
     narrowed,
+    time_range,
 )
 from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.motion.system import System
@@ -122,6 +123,15 @@ def test_precision_grows_where_it_must():
         assert all(part.transversal for part in parts)
         needed.append(max(part.flight.precision for part in parts))
     assert needed[0] == LEAST and needed == sorted(needed) and needed[-1] > needed[1] > LEAST
+
+
+def test_times_after_thin_phases_are_no_longer_than_a_file_takes():
+    low = Fraction("1.11")
+    phases = low, low + Fraction(1, 10**500)
+    (part,) = cover_by_impacts(PAPER, phases)
+    assert part.transversal and max(len(str(time)) for time in part.times) < 3000
+    early, late = time_range(part, phases)
+    assert part.window[0] <= early < late <= part.window[1]
 
 
 @pytest.mark.slow

@@ -6,7 +6,18 @@ from time import perf_counter
 
 import pytest
 
-from proofs import bifurcation, impact, orbits, period_doubling, resonance, single_impact
+from proofs import (
+    atlas,
+    bifurcation,
+    foundations,
+    impact,
+    orbits,
+    period_doubling,
+    resonance,
+    single,
+    single_impact,
+    soft,
+)
 from proofs.search import periodic
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
@@ -124,6 +135,11 @@ WHY = {  # what the line says
         ("--k 0.1 --q 200", "k^2 q is less than 2"),
         ("--rho 0", "rho is positive"),
     ],
+    atlas: [
+        ("--depth -1", "from 0 to 40"),
+        (f"--depth {'0' * 30}41", "from 0 to 40"),
+        (f"--jobs {'9' * 30}", "from 1 to 1000"),
+    ],
     resonance: [
         ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma 0.3", "physically impossible"),
         ("--nu 0 --epsilon 0.5 --phi 1 --gamma 0.3", "nu must not be 0"),
@@ -144,6 +160,12 @@ WHY = {  # what the line says
         ("'x1 = x^2 + c' --kind flip --near x=0", "one parameter"),
         ("'x1 = x^2 + c' --solve x", "2 names"),
         ("'x1 = x^2 + h'", "something else: h"),
+        *((f"'x1 = {text} + r'", "nowhere a real") for text in ("x/(r - r)", "sqrt(-1)*x")),
+        ("'x1 = log(r - r) + x'", "nowhere a real"),
+        ("'x1 = r/(sin(x)^2 + cos(x)^2 - 1)'", "nowhere a real"),
+        ("'x1 - x1 = x - r'", "do not determine x1"),
+        ("'(x1 - x)^2 = r'", "do not determine x1"),
+        *((f"'x1 = x + {name} - x^2'", "not a name for a variable") for name in "EINSe"),
         ("'x = 2'", "one or two variables"),
         ("'x1 = r*x*(1 - x)' --json /proc/none/x", "cannot write"),
         ("'x1 = r*x*(1 - x)' --out /proc/none", "cannot write"),
@@ -156,6 +178,15 @@ WHY = {  # what the line says
 )
 def test_the_line_says_why(command, arguments, why, capsys):
     assert why in refused(capsys, command, shlex.split(arguments))
+
+
+@pytest.mark.parametrize(
+    ("command", "claim"),
+    [(foundations, "M7"), (resonance, "R11"), (single, "P6"), (soft, "S21")],
+)
+def test_the_most_digits_that_can_be_asked_for_are_proved_and_checked(command, claim, tmp_path):
+    options = ["--only", claim, "--digits", "1000", "--quiet", "--out", str(tmp_path)]
+    assert command.main(options) == 0
 
 
 @pytest.mark.parametrize("text", NO_DIGITS, ids=[text[:10] for text in NO_DIGITS])

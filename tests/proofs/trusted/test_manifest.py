@@ -183,6 +183,19 @@ WRONG = {
 }
 
 
+def test_a_copy_under_another_name_is_no_file_that_a_command_makes(folder):
+    (folder / "copy.json").write_text((folder / FILE).read_text(encoding="utf-8"), encoding="utf-8")
+
+    def copied(document):
+        entry = json.dumps(document["files"][FILE])
+        entry = entry.replace("proofs.horseshoe", "proofs.copy").replace(FILE, "copy.json")
+        document["files"]["copy.json"] = json.loads(entry)
+
+    path = edited(folder, copied)
+    with pytest.raises(Rejected, match="no command makes"):
+        check_manifest(path.read_text(encoding="utf-8"), folder, DEFAULT)
+
+
 @pytest.mark.parametrize("name", WRONG)
 def test_a_changed_manifest_is_refused(folder, name, capsys):
     edit, message = WRONG[name]

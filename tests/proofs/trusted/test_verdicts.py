@@ -8,7 +8,7 @@ import pytest
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import between, covered, increasing
 from proofs.trusted.parameters import PAPER, Place
-from proofs.trusted.verdicts import Found, told
+from proofs.trusted.verdicts import Found, Verdict, decided, told
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,14 @@ def test_later_sentences_begin_with_a_capital_unless_with_a_symbol():
     )
     assert told([Said("a."), Said("a.")]) == "a."
     assert told([]) == ""
+
+
+def test_why_says_of_which_oscillator_a_witness_is_unless_it_is_the_claims():
+    here, other = PAPER.place, Place.plastic(F(1, 2), F(-1, 2))
+    because = Said("f'(1) is 2.", here), Said("f'(2) is 3.", other), Said("1 < 2.")
+    assert decided(Verdict.REFUTED, *because)._replace(of=PAPER).why == (
+        "f'(1) is 2; at (eta, nu) = (0.5, -0.5): f'(2) is 3; 1 < 2"
+    )
 
 
 @dataclass(frozen=True)

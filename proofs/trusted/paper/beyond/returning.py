@@ -59,10 +59,10 @@ class StickingMotion(Conclusion):
 
     @property
     def sentence(self) -> str:
-        between_them = f" at phases in {_named(self.cells)}," if self.cells else ""
+        between_them = f" at phases in {_named(self.cells)}" if self.cells else ""
         return (
             f"{self.brief}. It leaves the table at a phase in {between(self.arc.phase, 12)}, with "
-            f"impacts{between_them} the last one where the mass sticks until it leaves again. The "
+            f"impacts{between_them}, the last one where the mass sticks until it leaves again. The "
             "motion is superstable: a mass that sticks anywhere joins it exactly when it leaves, "
             "and so do those that make their next impact near one of these."
         )

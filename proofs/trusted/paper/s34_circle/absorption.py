@@ -129,13 +129,13 @@ class Absorption(Conclusion):
             if n in _TABLE
         )
         named = ", ".join(
-            f"{steps} from [{ceil_text(low)}, {floor_text(high)}]"
+            f"[{ceil_text(low)}, {floor_text(high)}] within {steps}"
             for (low, high), steps in self.within
             if high - low > _LENGTH_NAMED
         )
+        each = f" All phases, mod 2 pi, of these intervals do: {named}." if named else ""
         return (
-            f"{self.brief}; percentages by number of impacts, at least: {table}. The most impacts "
-            f"that it takes are, for every phase mod 2 pi of the longest intervals: {named}."
+            f"{self.brief}; percentages by number of impacts, at least: {table}.{each}"
             f"{self._others}"
         )
 

@@ -204,12 +204,15 @@ def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMot
 
 
 def _persists(verdict: Verdict) -> Decide:
-    """G7: how impacts are counted is open, as for the plastic orbit (claim G2). G12: an open set of
-    states is attracted by no 2-periodic orbit of F, if epsilon > 0.
+    """G7: how impacts are counted is open, as for the plastic orbit (claim G2), but where F has a
+    stable 2-periodic orbit. G12: an open set of states is attracted by none, if epsilon > 0.
     """
 
     def decide(of: Parameters, found: Found) -> Decision:
         proved = found.first(SuperstableMotion)
+        orbits = [each for each in found.all(StableCycle) if len(each.boxes) == 2]
+        if verdict is Verdict.CONDITIONAL and of.epsilon and orbits:
+            return decided(Verdict.VERIFIED, orbits[0], corrected=orbits[:1])
         if proved is not None and of.epsilon:
             return decided(verdict, proved, corrected=(proved, *found.elsewhere(StableCycle)))
         known = "; ".join(str(each.at) for each in found.elsewhere(SuperstableMotion))

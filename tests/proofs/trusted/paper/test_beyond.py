@@ -286,6 +286,7 @@ def arc(arrival, at=HERE):
 
 def test_a_motion_that_sticks_at_once_and_one_that_does_later():
     assert sticking_motion(arc(4), ()).brief.endswith("1 impact and one separation a period")
+    assert "with impacts, the last one where" in sticking_motion(arc(4), ()).sentence
     steps = affine("1.1", "1.3", "2.1", "2.3"), affine(2, "2.5", 4, 5)
     found = sticking_motion(arc("1.2"), steps)
     assert found.cells == (Phases(F("1.1"), F("1.3")), Phases(F(2), F("2.5")))

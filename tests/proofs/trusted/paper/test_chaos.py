@@ -223,6 +223,7 @@ def test_a_full_shift_needs_cells_apart_that_increase_over_the_interval():
         made(*touching)
     two = A_AND, B_AND
     assert made(*FULL, region=two).full and not made(*FULL, region=two).whole
+    assert made(*FULL).latex and not made(*FULL, region=two).latex  # images need not cover all
     short = (cell(*A, "1.32", "1.48"), cell(*B, "1.32", "1.4801"))
     assert made(*short, region=(Phases(F("1.31"), F("1.48")),)).whole is False
     assert not made(*GOLDEN).full and made(FULL[0]).orbit == (FULL[0].domain,)

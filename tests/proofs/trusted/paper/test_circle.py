@@ -90,6 +90,15 @@ def test_absorbed_cells_one_after_the_other():
     assert all(0 <= x - n < SMALL for x, n in zip(found.rest, [4, 3, 2, 1, 0, 0, 0], strict=True))
 
 
+def test_what_is_said_of_intervals_is_a_bound(derived):
+    """A file may bound the impacts of any of them as loosely as it likes, or of none."""
+    known = derived["absorption-1"]
+    long = next(phases for phases, _ in known.within if phases[1] - phases[0] > Fraction(1, 40))
+    loose, none = (replace(known, within=each).sentence for each in ((((long), 999),), ()))
+    assert loose.endswith("] within 999.") and "most" not in loose and "longest" not in loose
+    assert none.endswith("; " + loose.split(" All phases")[0].rpartition("; ")[2])
+
+
 def test_an_unknown_cell_is_never_absorbed_and_blocks_others():
     cells = [
         Cell((Fraction(0), Fraction(1))),

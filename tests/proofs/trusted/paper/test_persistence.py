@@ -247,6 +247,15 @@ def test_the_orbit_persists_if_a_landing_counts_once_and_not_for_the_map(claim, 
     assert low < exact(truth()[2]) < high
 
 
+@pytest.mark.parametrize("claim, verdict", [("G7", "VERIFIED"), ("G12", "REFUTED")])
+def test_where_f_has_such_an_orbit_g7_needs_no_condition(claim, verdict):
+    of, steps = replace(PAPER, epsilon=Fraction("0.29")), [x for _, x in evidence().proofs["G7"]]
+    found = find(claim).decide(of, steps)
+    assert found.verdict is Verdict(verdict)
+    three = replace(steps[1], boxes=(*steps[1].boxes, ((Fraction(3), Fraction(4)),) * 2))
+    assert find("G7").decide(of, [steps[0], three]).verdict is Verdict.CONDITIONAL
+
+
 def test_g8_is_simulated_and_rests_on_no_step():
     found = find("G8").decide(PAPER, [step for _, step in evidence().proofs["G7"]])
     assert found.verdict is Verdict.SIMULATED and found.theorem is None and found.witness is None

@@ -333,6 +333,20 @@ def test_verdicts(document):
     assert {claim.id for claim in check(json.dumps(document)).claims} == set(CLAIMS)
 
 
+@pytest.mark.parametrize(("eta", "nu"), [("0.237", "0.3"), ("0.6", "-0.9"), ("1e-30", "0.3")])
+def test_orbits_at_parameters_of_ones_own_stand_beside_the_papers_solutions(eta, nu):
+    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu), reach=None)
+    made = produce({"single": ("P4",)}, of, digits=20)
+    ((claim,), solutions) = (check(made.certificate).claims, steps_of_text(made.certificate))
+    assert claim.verdict is Verdict.CONDITIONAL and "at (eta, nu) = (0.2121, -0.2): " in claim.why
+    own = [each for each in solutions if Fraction(each["eta"]) == of.eta]
+    assert all(each["flight"] for each in own) and bool(own) is (eta != "1e-30")
+
+
+def steps_of_text(source):
+    return steps_of(json.loads(source), "single-solution")
+
+
 def verdict(claim, conclusions):
     return find(claim).decide(PAPER, conclusions).verdict
 
