@@ -290,7 +290,7 @@ def passes(view, rng):
     with flint.ctx.workprec(240):
         phase, speed = (ball(sum(ends) / 2) for ends in (arc.arrival, arc.speed))
         for count in range(80):
-            if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**8):
+            if view.epsilon * Fraction(float(speed)) < Fraction(1, 10**12):
                 return [*told, "it comes to rest"]
             gamma = (side * speed - ball(view.nu) * phase.cos()) / ball(view.eta)
             found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
