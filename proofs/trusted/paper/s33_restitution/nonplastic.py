@@ -167,8 +167,8 @@ ROWS = (
         "3.3, Figure 4",
         "thus we have a topological horseshoe",
         _AT + "F maps V1 and V2 across both of them, their left and right edges beyond the "
-        "outermost ones, a topological horseshoe: every sequence of 1 and 2 is followed by an orbit "
-        "of F.",
+        "outermost ones, a topological horseshoe: every sequence of 1 and 2 is followed by an "
+        "orbit of F.",
         lambda of, found: _full(replace(of, reach=None), found, edges_refute=True),
     ),
     Row(
