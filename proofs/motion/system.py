@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 
 @dataclass(frozen=True)
@@ -24,14 +25,14 @@ class System:
         """The sign of nu: flight means side * (scaled distance) > 0. side = -1 is p > 0."""
         return 1 if self.nu > 0 else -1
 
-    @property
+    @cached_property
     def separation_sine(self) -> Fraction | None:
         """The paper's sin(phi_s) = eta^2 / (nu (1 - eta^2)); None at eta = 1."""
         if self.eta == 1:
             return None
         return self.eta**2 / (self.nu * (1 - self.eta**2))
 
-    @property
+    @cached_property
     def sticking_arc(self) -> str:
         """ "none", "some" or "all": which phases stick after a plastic impact.
 

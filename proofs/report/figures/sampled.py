@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 
+from proofs.motion.candidate import next_impact as first_impact
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
 _HORIZON = 7000.0
+_STEPS = 8
 
 
 def image(system: System, phase: float) -> float | None:
@@ -33,9 +35,14 @@ def graph(system: System, first: float, last: float, count: int) -> list[tuple[f
 
 
 def preimage(system: System, target: float, first: float, last: float) -> float:
-    """Return the phase in [first, last], on which f increases, that f takes to the target."""
-    for _ in range(30):
-        middle = (first + last) / 2
-        below = (image(system, middle) or 0.0) < target
-        first, last = (middle, last) if below else (first, middle)
-    return (first + last) / 2
+    """Return the phase in [first, last], where f is steep, that f takes to the target: by Newton's
+    method, from the middle.
+    """
+    phase = (first + last) / 2
+    for _ in range(_STEPS):
+        found = first_impact(system, phase)
+        if found is None:
+            break
+        _, there, slope = found
+        phase = min(max(phase - (there - target) / slope, first), last)
+    return phase
