@@ -98,9 +98,9 @@ class Local:
         """Enclose the derivatives, by the chain rule."""
         points, product = self._points(q), [list(row) for row in self.source.matrix]
         for _ in range(self.power):
-            product = _multiply(jacobian(self.formula, points), product)
+            product = multiply(jacobian(self.formula, points), product)
             points = values(self.formula, points)
-        return _multiply(self.target.inverse, product)
+        return multiply(self.target.inverse, product)
 
     def on(self, box: Box) -> Values:
         """Enclose the map on a box of coordinates."""
@@ -111,7 +111,8 @@ class Local:
         return [dot(row, q) + c for row, c in pairs]
 
 
-def _multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:
+def multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """Return a product of matrices."""
     columns = list(zip(*b, strict=True))
     return [[dot(row, column) for column in columns] for row in a]
 

@@ -5,16 +5,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from intervals import Interval, Undecided
-from proofs.methods.formulas import Local, Values, dot, inverse, subdivide
-from proofs.methods.lemmas import Lemmas, Number, written
+from proofs.methods.cells import Region, function_of, invariant_cover
+from proofs.methods.formulas import (
+    Local,
+    Values,
+    dot,
+    inverse,
+    jacobian,
+    multiply,
+    subdivide,
+    values,
+)
+from proofs.methods.lemmas import Lemmas, Number, Sides, exact, written
+from proofs.methods.periodic import Orbit, periodic_orbits
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.covers import HSet
 from proofs.trusted.kernel.enclose import Box
+from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.numbers import Range
 
 _CUBE_SIDE = (Fraction(-1), Fraction(1))
+_BITS, _STEPS = 160, 6  # of Newton's method
+_PLACE, _RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of periodic points
 _ENTRIES = ((Fraction(0), Fraction(1)),)  # derivatives are compared as they are
 
 
@@ -62,6 +77,14 @@ class SymbolicLemmas(Lemmas):
         place = {"function": function, "power": str(power), "source": source, "target": target}
         return self.add("covers", {**place, "sign": "+" if way > 0 else "-", **trees})
 
+    def periodic_orbits(self, function: str, period: int, box: Sides) -> str:
+        """Add a step `periodic-orbits`, of the orbits that `periodic` finds in a box."""
+        formula, sides = self.function(function), exact(box)
+        cover = invariant_cover(function_of(formula), Region(tuple(Interval(*x) for x in sides)))
+        found = [_orbit(formula, each) for each in periodic_orbits(cover, period)]
+        witness = {"function": function, "period": str(period), "box": written(sides)}
+        return self.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": found})
+
     def graph(self, covers: Sequence[str]) -> str:
         """Add a step `graph`."""
         return self.add("graph", {"covers": list(covers)})
@@ -103,6 +126,26 @@ class SymbolicLemmas(Lemmas):
             relations.append({**relation, "tree": None, "matrices": matrices})
         forms = [texts(numbers)] * len({name for edge in self._edges(graph) for name in edge})
         return self.add("cone", {"graph": graph, "forms": forms, "relations": relations})
+
+
+def _orbit(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
+    """Return a point of an orbit to many digits, by Newton's method, as the rule reads it."""
+    point, matrix = [x.mid for x in orbit.points[0]], []
+    for _ in range(_STEPS):
+        x = [Interval(value, precision=_BITS) for value in point]
+        product: Any = [[int(i == j) for j in range(len(x))] for i in range(len(x))]
+        for _ in range(orbit.period):
+            x, product = values(formula, x), multiply(jacobian(formula, x), product)
+        closing = (
+            tuple(entry.mid - int(i == j) for j, entry in enumerate(row))
+            for i, row in enumerate(product)
+        )
+        matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(tuple(closing))]
+        missed = [after.mid - before for after, before in zip(x, point, strict=True)]
+        moved = (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
+        point = [round(x / _PLACE) * _PLACE for x in moved]
+    entries = [texts(row) for row in matrix]
+    return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
 
 
 def _beyond(value: Interval, way: int) -> bool:

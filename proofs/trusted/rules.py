@@ -28,6 +28,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "formula-value": "kernel.values.value",
         "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
+        "periodic-orbits": "kernel.periodic.periodic_orbits",
         "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",

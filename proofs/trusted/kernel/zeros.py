@@ -13,6 +13,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     Box,
+    Map,
     add,
     box_text,
     centre_of,
@@ -148,7 +149,7 @@ def read_matrix(reader: Reader, n: int) -> Rows:
 
 
 def require_zero(
-    function: Formulas,
+    function: Map,
     box: Box,
     matrix: Rows,
     *,
@@ -169,7 +170,7 @@ def require_zero(
 
 
 def _krawczyk(
-    function: Formulas,
+    function: Map,
     piece: Piece,
     centre: Sequence[Fraction],
     matrix: Rows,

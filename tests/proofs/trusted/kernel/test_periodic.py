@@ -1,0 +1,306 @@
+"""All periodic orbits of a map in a box: published and closed counts, and what must be refused."""
+
+import copy
+import json
+from fractions import Fraction
+from functools import cache
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from intervals import Undecided
+from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.kernel.arithmetic import Enclosure
+from proofs.trusted.kernel.contractor import Contractor, Empty
+from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.verify import Rejected, check, premises
+from tests.proofs.methods.test_henon import CYCLES
+from tests.proofs.trusted.kernel.lemma_examples import LOGISTIC, henon
+
+HENON = henon("7/5", "3/10"), (("-1.43", "1.43"), ("-0.43", "0.43"))
+CUBIC = (["x", "y"], ["y", "5*y - y**3 - x/5"]), (("-2.6", "2.6"), ("-2.6", "2.6"))
+SHIFT = LOGISTIC, (("-1/10", "11/10"),)
+PLACE = "$.steps.periodic-orbits-1"
+
+
+@cache
+def made(function, box, period):
+    file = SymbolicLemmas({"F": function})
+    file.periodic_orbits("F", period, box)
+    return render(file.document())
+
+
+def source(of, period):
+    (variables, values), box = of
+    return made(Frozen((tuple(variables), tuple(values))), box, period)
+
+
+class Frozen(tuple):
+    """A function that can be hashed."""
+
+    __slots__ = ()
+
+
+def counts(text):
+    (found,) = premises(text).known.values()
+    return dict(found.counts)
+
+
+def necklaces(symbols, period):
+    """How many cycles of this least period a full shift has (Moebius)."""
+    fixed = sum(
+        sympy.functions.combinatorial.numbers.mobius(period // d) * symbols**d
+        for d in sympy.divisors(period)
+    )
+    return int(fixed) // period
+
+
+# -- what is true ----------------------------------------------------------------------------------
+
+
+def of_galias(period):
+    """His cycles are those in Henon's quadrilateral; the other fixed point is outside."""
+    found = {d: CYCLES[d] + (d == 1) for d in sympy.divisors(period)}
+    return {d: n for d, n in found.items() if n}
+
+
+@pytest.mark.parametrize("period", [1, 2, 3, 4, 5, 6, 7, 8])
+def test_the_cycles_of_the_henon_map_are_as_many_as_published(period):
+    assert counts(source(HENON, period)) == of_galias(period)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("period", [10, 12, 14])
+def test_longer_cycles_of_the_henon_map(period):
+    assert counts(source(HENON, period)) == of_galias(period)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("period", [18, 20])
+def test_the_longest_cycles_of_the_henon_map(period):
+    from proofs.trusted.kernel.meter import metered
+
+    with metered(10**9):
+        assert counts(source(HENON, period)) == of_galias(period)
+
+
+@pytest.mark.parametrize(("of", "symbols"), [(SHIFT, 2), (CUBIC, 3)])
+@pytest.mark.parametrize("period", [1, 2, 3, 4])
+def test_full_shifts_have_as_many_cycles_as_there_are_necklaces(of, symbols, period):
+    assert counts(source(of, period)) == {d: necklaces(symbols, d) for d in sympy.divisors(period)}
+
+
+def test_three_variables():
+    of = (("x", "y", "z"), ("5*x*(1 - x)", "y/2 + z", "x/9 - z/3"))
+    box = (("-1/10", "11/10"), ("-1", "1"), ("-1", "1"))
+    assert counts(source((of, box), 3)) == {1: 2, 3: 2}
+
+
+def test_a_box_without_orbits_and_maps_that_are_not_polynomials():
+    assert counts(source((LOGISTIC, (("1/10", "7/10"),)), 1)) == {}
+    assert counts(source(((("x",), ("exp(-x)",)), (("0", "1"),)), 2)) == {1: 1}
+    of = ("x",), ("sqrt(x + 2)",)  # the root is not undone; 2 = sqrt 4
+    assert counts(source((of, (("-1", "3"),)), 3)) == {1: 1}
+
+
+def test_the_sentence():
+    assert check(source(SHIFT, 2)).sentences == (
+        "for F(x) = 5*x*(1 - x): the periodic orbits whose points all have x in [-0.1, 1.1], and "
+        "whose least period divides 2, are exactly these: 2 of least period 1, 1 of least period "
+        "2.",
+    )
+    assert check(source((LOGISTIC, (("1/10", "7/10"),)), 1)).sentences[0].endswith(": none.")
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(st.integers(-12, 12), min_size=2, max_size=4), st.sampled_from([1, 2, 3]))
+def test_periodic_points_of_polynomials_are_the_roots(coefficients, period):
+    x = sympy.Symbol("x")
+    f = sum(sympy.Rational(c, 8) * x**k for k, c in enumerate(coefficients))
+    iterate = x
+    for _ in range(period):
+        iterate = f.subs(x, iterate)
+    polynomial = sympy.Poly(iterate - x, x)
+    text = " + ".join(f"({c}/8)*x**{k}" if k else f"({c}/8)" for k, c in enumerate(coefficients))
+    try:
+        found = counts(source(((("x",), (text,)), (("-5/2", "3"),)), period))
+    except (Undecided, Rejected, ValueError):
+        return  # a fold, or a point at an end
+    roots = {root for root, _ in polynomial.intervals(eps=sympy.Rational(1, 10**12))}
+    inside = sum(n * d for d, n in found.items())
+    orbits = sum(
+        all(-2.5 <= y <= 3 for y in images(coefficients, float((low + high) / 2), period))
+        for low, high in roots
+    )
+    assert inside == orbits
+
+
+def images(coefficients, y, count):
+    for _ in range(count):
+        yield y
+        y = sum(c / 8 * y**k for k, c in enumerate(coefficients))
+
+
+# -- what must be refused --------------------------------------------------------------------------
+
+
+def refused(of, period, edit, message, error=Rejected):
+    document = json.loads(source(of, period))
+    edit(document["steps"]["periodic-orbits-1"]["witness"])
+    with pytest.raises(error, match=message):
+        check(json.dumps(document))
+
+
+@pytest.mark.parametrize("which", range(4))
+def test_an_orbit_that_is_left_out(which):
+    refused(HENON, 4, lambda w: w["orbits"].pop(which), "another periodic orbit")
+
+
+def test_an_orbit_that_is_none():
+    def moved(witness):
+        witness["orbits"][0]["point"][0] = "1/5"
+
+    refused(HENON, 4, moved, "Krawczyk")
+
+
+def test_an_orbit_twice_or_by_another_of_its_points():
+    refused(HENON, 4, lambda w: w["orbits"].append(w["orbits"][-1]), "different")
+
+    def turned(witness):
+        (x,) = map(Fraction, witness["orbits"][-1]["point"])
+        other = {**copy.deepcopy(witness["orbits"][-1]), "point": [str(5 * x * (1 - x))]}
+        witness["orbits"].append(other)
+
+    refused(SHIFT, 2, turned, "different")
+
+
+def test_a_fixed_point_as_a_cycle():
+    def longer(witness):
+        for orbit in witness["orbits"]:
+            slope = 5 - 10 * Fraction(orbit["point"][0])
+            orbit.update(period="2", matrix=[[str(1 / (slope**2 - 1))]])
+
+    refused(SHIFT, 1, lambda w: (w.update(period="2"), longer(w)), "different")
+
+
+@pytest.mark.parametrize(
+    ("fields", "message", "error"),
+    [
+        ({"period": "2"}, "must divide", Malformed),
+        ({"matrix": [["0", "0"], ["0", "0"]]}, "Krawczyk", Rejected),
+        ({"matrix": [["1"]]}, "", Malformed),
+        ({"point": ["1/2"]}, "", Malformed),
+        ({"period": "0"}, "integer from", Malformed),
+    ],
+)
+def test_false_parts_of_an_orbit(fields, message, error):
+    refused(HENON, 3, lambda w: w["orbits"][0].update(fields), message, error)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message", "error"),
+    [
+        ({"period": "12"}, "another periodic orbit", Rejected),
+        ({"period": "101"}, "integer from", Malformed),
+        ({"radius": "0"}, "positive", Malformed),
+        ({"radius": "-1"}, "positive", Malformed),
+        ({"radius": "1/2"}, "Krawczyk", Rejected),
+        ({"box": [["-1.43", "0.63"], ["-0.43", "0.43"]]}, "in the box", Rejected),
+        ({"box": [["-1.43", "1.43"]]}, "", Malformed),
+        ({"box": [["-1", "-1"], ["0", "1"]]}, "positive", Malformed),
+        ({"function": "G"}, "names no function", Malformed),
+    ],
+)
+def test_false_parts_of_the_rest(fields, message, error):
+    refused(HENON, 2, lambda w: w.update(fields), message, error)
+
+
+def test_another_function():
+    document = json.loads(source(HENON, 2))
+    document["functions"]["F"]["values"] = ["1 - 7/5*x**2 + y"]
+    with pytest.raises(Malformed, match="as many values"):
+        check(json.dumps(document))
+    document["functions"]["F"]["values"] = ["1 - 3/2*x**2 + y", "3/10*x"]
+    with pytest.raises(Rejected, match="Krawczyk"):
+        check(json.dumps(document))
+
+
+@pytest.mark.parametrize("value", ["x + x**2", "x"])
+def test_points_that_are_not_isolated_or_not_simple(value):
+    orbit = {"point": ["0"], "period": "1", "matrix": [["1"]]}
+    witness = {"function": "F", "period": "1", "box": [["-1", "2"]], "radius": "1/1000"}
+    document = json.loads(source(SHIFT, 1))
+    document["functions"]["F"] = {"variables": ["x"], "values": [value]}
+    for orbits, message in (([orbit], "Krawczyk"), ([], "another periodic orbit")):
+        document["steps"]["periodic-orbits-1"]["witness"] = {**witness, "orbits": orbits}
+        with pytest.raises(Rejected, match=message):
+            check(json.dumps(document))
+
+
+def test_a_fold_is_not_found():
+    with pytest.raises(Undecided):
+        source(((("x",), ("x + x**2",)), (("-1", "2"),)), 1)
+
+
+def test_the_search_counts_its_work():
+    document = json.loads(source(SHIFT, 1))
+    document["steps"]["periodic-orbits-1"]["witness"].update(period="90")
+    with pytest.raises((Rejected, Exhausted)):
+        check(json.dumps(document))
+
+
+# -- cuts ------------------------------------------------------------------------------------------
+
+FORMULAS = [
+    ("1 - 7/5*x**2 + y", "3/10*x"),
+    ("x*y", "x - y"),
+    ("x*x", "x + x - y"),
+    ("-x/(y + 3)", "y**2"),
+    ("(x - y)**2", "x**3"),
+    ("sqrt(x + 5)*sin(y)", "exp(x)/7"),
+    ("1/x", "log(y + 1)"),
+    ("y", "2"),
+]
+POINTS = st.fractions(-2, 2, max_denominator=64)
+
+
+@given(
+    st.sampled_from(FORMULAS), st.tuples(POINTS, POINTS), st.lists(POINTS, min_size=8, max_size=8)
+)
+def test_a_cut_loses_no_point_with_its_image(texts, point, widths):
+    formula = read_function("F", Reader({"variables": ["x", "y"], "values": list(texts)}))
+    exact = [Enclosure.of(x, x, 64) for x in point]
+    try:
+        image = formula.values(exact)
+    except ArithmeticError:
+        return
+    reach = [abs(each) for each in widths]
+    z = [Enclosure.of(x - a, x + b, 64) for x, a, b in zip(point, reach, reach[2:], strict=False)]
+    w = [
+        Enclosure(y.lo - int(a * 2**64), y.hi + int(b * 2**64), 64)
+        for y, a, b in zip(image, reach[4:], reach[6:], strict=False)
+    ]
+    left, hit = Contractor(formula, 64).cut(z, w)
+    for x, y in zip((*left, *hit), (*exact, *image), strict=True):
+        assert x.lo <= y.hi and y.lo <= x.hi
+    for x, y in zip((*left, *hit), (*z, *w), strict=True):
+        assert y.lo <= x.lo and x.hi <= y.hi
+
+
+def test_cuts_are_sharp():
+    """x in [-2, 2] with 1 - x^2 in [-3, -1/4 - 1/5]: |x| >= sqrt(1.45); with 3 x in [1, 2]."""
+    formula = read_function("F", Reader({"variables": ["x"], "values": ["1 - x**2", "3*x"]}))
+
+    def box(low, high):
+        return Enclosure.of(Fraction(low), Fraction(high), 64)
+
+    (x,), _ = Contractor(formula, 64).cut([box(0, 2)], [box(-3, "-0.45"), box(-9, 9)])
+    assert abs(float(x.range[0]) - 1.45**0.5) < 1e-15
+    (x,), _ = Contractor(formula, 64).cut([box(-2, 2)], [box(-3, 3), box(1, 2)])
+    assert [float(end) for end in x.range] == pytest.approx([1 / 3, 2 / 3], abs=1e-15)
+    with pytest.raises(Empty):
+        Contractor(formula, 64).cut([box(-2, 2)], [box(2, 3), box(-9, 9)])
