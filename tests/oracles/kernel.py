@@ -90,6 +90,59 @@ def unique_zero(view, rng):
     return [] if len(found) == 1 else [f"{len(found)} zeros are found"]
 
 
+def periodic_orbits(view, rng):
+    """The orbits that Newton's method finds from many places are as many, by least period."""
+    formula, found = view.function, []
+    with flint.ctx.workprec(BITS):
+        for start in sampled(view.box, rng, 150):
+            point = newton(_closing(formula, view.period), start)
+            orbit = [] if point is None else _orbit(formula, point, view.period)
+            if orbit and _inside(orbit, view.box) and not any(_meets(orbit, x) for x in found):
+                found.append(orbit)
+    counts = {}
+    for orbit in found:
+        period = next(k for k in range(1, view.period + 1) if _close(orbit[0], orbit[k]))
+        counts[period] = counts.get(period, 0) + 1
+    return [] if counts == dict(view.counts) else [f"orbits are found: {counts}"]
+
+
+def _closing(formula, period):
+    step = _plain(formula)
+
+    def function(point):
+        x, product = np.array(point), np.eye(len(point))
+        for _ in range(period):
+            if not np.all(np.abs(x) < 1e6):
+                return np.full(len(point), np.nan), np.eye(len(point))
+            x, slopes = step(x)
+            product = slopes @ product
+        return x - point, product - np.eye(len(point))
+
+    return function
+
+
+def _orbit(formula, point, period):
+    """The points from one on, and the first once more."""
+    points, step = [point], _plain(formula)
+    for _ in range(period):
+        points.append(step(points[-1])[0])
+    return points
+
+
+def _inside(orbit, box):
+    return all(
+        float(a) < x < float(b) for point in orbit for x, (a, b) in zip(point, box, strict=True)
+    )
+
+
+def _close(one, other):
+    return np.max(np.abs(one - other)) < 1e-7
+
+
+def _meets(orbit, other):
+    return any(_close(orbit[0], point) for point in other)
+
+
 def zero(view, rng):
     """A zero in the bracket, which signs show; no other in the interval, if that is said."""
     (low, high), (first, last) = view.bracket, view.interval
@@ -235,6 +288,7 @@ def _closed(edges, rng, most=2):
 JUDGES = {
     "Zero": zero,
     "UniqueZero": unique_zero,
+    "PeriodicOrbits": periodic_orbits,
     "HSet": h_set,
     "Covers": covers,
     "Graph": graph,

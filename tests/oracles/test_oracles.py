@@ -378,6 +378,11 @@ FALSE = {
         put("function", lambda old: f"({old})**2 + 1"),
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "PeriodicOrbits": [
+        put("counts", lambda old: (*old[:-1], (old[-1][0], old[-1][1] + 1))),
+        put("counts", lambda old: old[1:]),
+        put("box", lambda old: tuple((a, (a + b) / 2) for a, b in old)),
+    ],
     "HSet": [put("inverse", lambda old: tuple(tuple(2 * x for x in row) for row in old))],
     "Covers": [put("orientation", lambda old: -old), _local],
     "Graph": [_never_disjoint],

@@ -162,6 +162,16 @@ REJECTED = {
         "Krawczyk",
         changed("henon_fixed_points", set_in("unique-zero-1", matrix=[["1", "1"], ["1", "1"]])),
     ),
+    "orbit_left_out": (
+        "the periodic orbits of the Henon map but one",
+        "another periodic orbit",
+        changed("henon_orbits", lambda d: witness(d, "periodic-orbits-1")["orbits"].pop()),
+    ),
+    "orbit_of_another_map": (
+        "the periodic orbits of the Henon map at a = 1.4 for a = 1.41",
+        "Krawczyk",
+        changed("henon_orbits", formula("F", "1 - 141/100*x**2 + y", "3/10*x")),
+    ),
     "false_identity": (
         "the second time derivative of the gap given as the first",
         "differ",

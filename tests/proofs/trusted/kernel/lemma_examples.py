@@ -100,6 +100,13 @@ def circle():
     return file
 
 
+def henon_orbits():
+    """All periodic orbits of the Henon map with periods 1, 2, 3 and 6: it has none of period 3."""
+    file = SymbolicLemmas({"F": henon("7/5", "3/10")})
+    file.periodic_orbits("F", 6, [("-1.43", "1.43"), ("-0.43", "0.43")])
+    return file
+
+
 def henon_horseshoe():
     """The Henon map at a = 5, b = 0.3: a full horseshoe, conjugate to the two-sided shift."""
     file = SymbolicLemmas({"F": henon("5", "3/10")})
@@ -190,6 +197,7 @@ EXAMPLES = {
     "logistic": logistic,
     "henon_fixed_points": henon_fixed_points,
     "circle": circle,
+    "henon_orbits": henon_orbits,
     "henon_horseshoe": henon_horseshoe,
     "golden_mean": golden_mean,
     "second_iterate": second_iterate,
