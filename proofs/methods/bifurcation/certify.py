@@ -14,10 +14,12 @@ from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import Solution, coefficients, points
 from proofs.methods.formulas import dot, inverse, jacobian, values
 from proofs.methods.lemmas import Lemmas
-from proofs.trusted.certificate import Reader
+from proofs.trusted.certificate import Reader, render
 from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.numbers import Range
+from proofs.trusted.verify import Rejected, check
 
 _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
@@ -27,7 +29,21 @@ def prove_jacobian(file: Lemmas, of: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
     texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
     for entry in of.implicit(texts):
-        file.equal(entry, "0")
+        _confirm(file, file.equal(entry, "0"))
+
+
+def _confirm(file: Lemmas, name: str) -> None:
+    """Take a step back, and raise Undecided, where the checker does not derive it.
+
+    What sympy finds may rest on identities that the checker has not: exp(log(x)) = x, for one.
+    """
+    step = file.steps[name]
+    try:
+        check(render(Lemmas(steps={name: step}).document()))
+    except (Rejected, Exhausted) as failure:
+        del file.steps[name]
+        reason = str(failure).partition(": ")[2] or failure
+        raise Undecided(f"what sympy finds is not derived by the checker: {reason}") from None
 
 
 def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter: str) -> None:
@@ -35,13 +51,14 @@ def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter
     scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
     sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
     nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
-    file.solution(
+    name = file.solution(
         {name: derive.write(value) for name, value in found.items()},
         *(Equal(each, "0") for each in (*form.map.fixed, form.condition())),
         *(Series(each, "h", nought, nonzero) for each in sides),
         Equal(form.criticality, "critical"),
         Equal(form.speed(parameter), "speed"),
     )
+    _confirm(file, name)
 
 
 def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
@@ -54,11 +71,12 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solut
     for point in points(form, names):
         for each in _charts(form):
             try:
-                found.append(coefficients(each, point, parameter))
+                solution = coefficients(each, point, parameter)
+                prove_closed_form(file, each, solution, parameter)
             except Undecided as failure:
                 reason = failure
                 continue
-            prove_closed_form(file, each, found[-1], parameter)
+            found.append(solution)
             break
     if not found:
         raise reason
@@ -80,7 +98,7 @@ def _divisors(form: NormalForm, found: Solution) -> list[str]:
     factors = {
         factor
         for each in (*found.values(), *at_rest, *_partials(form, places))
-        for factor, _ in sympy.factor_list(sympy.denom(each))[1]
+        for factor in derive.factors(sympy.denom(each))
     }
     return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)
 
