@@ -597,7 +597,9 @@ def test_a_state_has_no_part_in_a_branch_beside_it(small, graphs):
 def test_g9_without_enough_growth_is_undecided():
     branch = Branch(AT, (F(1), F("1.1")), 4, F(24), (F(25),))
     weak = EntropyBound(AT, (branch,), 1, F("1.9"))
-    assert find("G9").decide(PAPER, [weak]).verdict is Verdict.UNDECIDED
+    undecided = find("G9").decide(PAPER, [weak])
+    assert undecided.verdict is Verdict.UNDECIDED
+    assert {*undecided.quantities} == {"entropy_lower_bound"}  # the entropy is more, see G17
     assert find("G9").decide(PAPER, []).verdict is Verdict.UNDECIDED
     nothing = find("G9").decide(PAPER, [replace(weak, growth=F(1))])  # "at least log 1"
     assert nothing == find("G9").decide(PAPER, [])
