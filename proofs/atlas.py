@@ -13,6 +13,7 @@ if __name__ == "__main__":
     launch("proofs.atlas")
 
 import json
+import sys
 from argparse import ArgumentTypeError, Namespace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -28,10 +29,12 @@ from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.atlas import DEEPEST, Region, unpacked
+from proofs.trusted.atlas import cell as derived
 from proofs.trusted.certificate import Malformed, box_to_json
 from proofs.trusted.numbers import Range
 from proofs.trusted.questions import QUESTIONS
 from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import Rejected
 
 FOLDER = Path("runs/atlas")
 _DEPTH, _CHUNK, _MOST_JOBS = 5, 16, 1000
@@ -76,6 +79,9 @@ def main(arguments: list[str] | None = None) -> int:
             return _make(parser, options, store)
     except (Held, Malformed) as failure:
         parser.error(str(failure))
+    except Rejected as failure:
+        say(f"{parser.prog}: {failure}", sys.stderr)
+        return 1
 
 
 def _parser() -> Parser:
@@ -208,6 +214,7 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
         parser.error("no cell of this atlas holds the point")
     path = None
     if cell.certificate is not None:
+        cell = derived(store.region, cell.key, unpacked(cell))  # whatever the store says of it
         path = options.out / f"cell-{cell.key.replace('/', '-')}.json"
         with writing(options.out) as put:
             put(path.name, unpacked(cell))

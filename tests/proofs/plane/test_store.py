@@ -71,6 +71,21 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     cell = json.loads(capsys.readouterr().out)
     assert cell["box"]["eta"] == ["2121/10000", "531/2500"] and cell["verdict"] == "VERIFIED"
     assert cell["certificate"] == str(path)
+    with closing(sqlite3.connect(tmp_path / NAME)) as store, store:
+        store.execute(
+            "UPDATE cells SET conclusion = 'all is well', verdict = 'REFUTED' "
+            "WHERE verdict = 'VERIFIED'"
+        )
+    assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 0
+    said = capsys.readouterr().out
+    assert "VERIFIED: At eta in [0.2121, 0.2124]" in said and "well" not in said
+    with closing(sqlite3.connect(tmp_path / NAME)) as store, store:
+        other = (
+            "SELECT certificate FROM cells AS o WHERE o.key != cells.key AND certificate NOT NULL"
+        )
+        store.execute(f"UPDATE cells SET certificate = ({other} LIMIT 1)")
+    assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 1
+    assert "about other parameters" in capsys.readouterr().err
 
 
 @pytest.mark.slow
