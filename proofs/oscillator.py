@@ -19,6 +19,7 @@ from html import escape
 
 from intervals import Undecided, decimal_bounds, fraction
 from intervals.exact import whole
+from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.image import Image, PossibleImages, image
 from proofs.motion.impact import HORIZON
 from proofs.motion.rebound import Rebound, rebound
@@ -27,8 +28,8 @@ from proofs.search.evidence import Evidence, Proof
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
-from proofs.shell.cli import LONGEST_FLIGHT, MOST_DIGITS
 from proofs.trusted.certificate import render
+from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range, show, show_range
@@ -144,8 +145,8 @@ class Oscillator:
         Raises Undecided where the map is not continuous on them, or nothing can be said.
         """
         ends, latest, digits = _phases(phases), _exact(horizon), _places(digits)
-        if not 0 < latest <= LONGEST_FLIGHT:
-            raise ValueError(f"a horizon is a positive number up to {LONGEST_FLIGHT}")
+        if not 0 < latest <= LATEST:
+            raise ValueError(f"a horizon is a positive number up to {LATEST}")
         if (gamma is None) != (self._epsilon is None):
             raise TypeError("epsilon, of the oscillator, and gamma, of the state, go together")
         if gamma is None or self._epsilon is None:

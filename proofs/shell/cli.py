@@ -31,6 +31,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from intervals import fraction
+from proofs.motion.digits import MOST_DIGITS
 from proofs.shell.screen import Arguments, columns
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
 _LARGEST = 10**_DIGITS
 _TELLING: ContextVar[Callable[[str], None] | None] = ContextVar("telling", default=None)
-LONGEST_FLIGHT = 10**6  # the checker looks no further
+_LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
 class Parser(Arguments):
@@ -75,16 +76,15 @@ def whole(what: str, most: int, least: int = 1) -> Callable[[str], int]:
     return read
 
 
-MOST_DIGITS = 1000
 digits = whole("digits", MOST_DIGITS)
 
 
 def horizon(text: str) -> Fraction:
     """Read the longest flight looked at, for argparse."""
     value = number(text)
-    if not 0 < value <= LONGEST_FLIGHT:
+    if not 0 < value <= _LONGEST_FLIGHT:
         raise argparse.ArgumentTypeError(
-            f"a horizon is a positive number up to {LONGEST_FLIGHT}, not {text!r}"
+            f"a horizon is a positive number up to {_LONGEST_FLIGHT}, not {text!r}"
         )
     return value
 
