@@ -240,7 +240,7 @@ def _ends(values: Ends) -> Range:
 def _phases(values: Ends) -> Range:
     low, high = _ends(values)
     if low < 0 or high > TURN:
-        raise ValueError(f"phases are in [0, 2 pi), not {show_range((low, high))}")
+        raise ValueError(f"phases are from 0 to {show(TURN)}, not {show_range((low, high))}")
     return low, high
 
 

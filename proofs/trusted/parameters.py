@@ -108,7 +108,7 @@ class Parameters:
             if low >= high:
                 raise ValueError(f"{name}: reversed or empty: {show(low)} >= {show(high)}")
             if low < 0 or high > TURN:
-                raise ValueError(f"{name}: {show_range((low, high))} leaves [0, 2 pi)")
+                raise ValueError(f"{name}: {show_range((low, high))} leaves [0, {show(TURN)}]")
         if self.left[0] < self.interval[0] or self.right[1] > self.interval[1]:
             raise ValueError("left and right intervals must lie in the interval I")
         for name in ("slopes", "ratios"):
