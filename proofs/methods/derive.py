@@ -1,32 +1,45 @@
 """Formulas in sympy, and back.
 
-A text is read as `formulas` says. What sympy finds is a candidate: the checker has a
-computation of its own. sympy is imported by what needs it.
+What sympy finds is a candidate: the checker has a computation of its own. sympy is imported by
+what needs it.
 """
 
 from __future__ import annotations
 
-import ast
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from math import lcm
+from types import MappingProxyType
 from typing import Any
 
-from proofs.trusted.kernel.formulas import spelled
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.enclose import ARITHMETIC
+from proofs.trusted.kernel.formulas import read_formulas, spelled
 
 
-def read(text: str) -> Any:
-    """Return a formula as a sympy expression."""
+class _Expressions:
+    """The operations of formulas on expressions of sympy."""
+
+    def apply(self, op: str, arguments: Sequence[Any], datum: Fraction) -> Any:
+        """Return op(arguments)."""
+        import sympy
+
+        if op == "number":
+            return sympy.Rational(datum.numerator, datum.denominator)
+        if op == "pi":
+            return sympy.pi
+        if op == "^":
+            return arguments[0] ** int(datum)
+        return (ARITHMETIC.get(op) or getattr(sympy, op))(*arguments)
+
+
+def read(text: str, places: Mapping[str, Any] = MappingProxyType({})) -> Any:
+    """Return a formula as a sympy expression, with others in the places of some variables."""
     import sympy
-    from sympy.parsing.sympy_parser import parse_expr
 
-    def at(function: Any, **places: Any) -> Any:
-        pairs = [(sympy.Symbol(name), place) for name, place in places.items()]
-        return sympy.sympify(function).subs(pairs, simultaneous=True)
-
-    known = {name: getattr(sympy, name) for name in ("sin", "cos", "sqrt", "exp", "log", "pi")}
-    known |= {"D": sympy.diff, "at": at}
-    names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
-    symbols = {name: sympy.Symbol(name) for name in names if name not in known}
-    return parse_expr(text, local_dict={**known, **symbols})
+    formula = read_formulas(Reader(text))
+    inputs = [places.get(name, sympy.Symbol(name)) for name in formula.variables]
+    return formula.tape.evaluate(formula.roots, _Expressions(), inputs)[0]
 
 
 def is_real(expression: Any) -> bool:

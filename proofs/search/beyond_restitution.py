@@ -100,7 +100,7 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     at = Place.restituting(system.eta, system.nu, epsilon)
     separation, arc = prove_arc(prover.plain)
     prover.known[separation] = arc
-    pushing, first = Pushing(system, arc.phase[0]), around(arc, _AROUND)
+    pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
         ((name, found),) = follow(prover, at, box, 1)

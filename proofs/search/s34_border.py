@@ -10,9 +10,8 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
-from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -21,7 +20,7 @@ from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 
-_GUARD = 10  # bits that the checker has beyond those of the search
+_SPARE = 20  # bits of enclosures beyond those of brackets
 _MOST = 60  # bounces
 _UNITS = 10**6
 
@@ -59,8 +58,8 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
     while high - low > 1:
         middle = (low + high) // 2
         try:
-            end = followed(prover.system, arc, box, Fraction(middle, _UNITS))
-        except (*FAILED, DomainError):
+            end = followed(arc, box, Fraction(middle, _UNITS))
+        except FAILED:
             break
         if isinstance(end, Cell):
             low, rests = middle, end
@@ -80,12 +79,12 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
     return proof
 
 
-def followed(system: System, arc: Separation, box: Box, epsilon: Fraction) -> Cell | list[Range]:
+def followed(arc: Separation, box: Box, epsilon: Fraction) -> Cell | list[Range]:
     """Follow bounces at one epsilon until they end: how they rest, or those before the mass passes
     phi_s; or Undecided.
     """
-    bits, bounces = bits_for(box[0]) - _GUARD, list[Range]()
-    pushing = Pushing(system, arc.phase[0], bits, 2 ** (bits - _GUARD))
+    bits, bounces = bits_for(box[0]), list[Range]()
+    pushing = Pushing(arc.at, arc.phase[0], bits, 2 ** (bits - _SPARE))
     phases, speeds = landed(arc, box, BITS)
     for _ in range(_MOST):
         kicks = epsilon * speeds[0], epsilon * speeds[1]
@@ -94,7 +93,6 @@ def followed(system: System, arc: Separation, box: Box, epsilon: Fraction) -> Ce
             return Cell((epsilon, epsilon), bounces, *ending)
         if pushing.flies(phases, kicks, arc.phase):
             return bounces
-        time, speeds = pushing.bounce(phases, kicks)
+        time, (phases, speeds) = pushing.bounce(phases, kicks)
         bounces.append(time)
-        phases = phases[0] + time[0], phases[1] + time[1]
     raise Undecided(f"{_MOST} bounces and no end")

@@ -12,7 +12,7 @@ from contextlib import suppress
 from fractions import Fraction
 from itertools import islice
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.covering import halves
 from proofs.motion.impact import HORIZON
@@ -96,7 +96,7 @@ def superstable_motion(
     """Prove that the motion from phi_s comes to rest, for as many epsilon as can be, or enough."""
     separation, arc = prove_arc(prover)
     box = around(arc, _SPREAD)
-    cells = _cells(Pushing(prover.system, arc.phase[0]), arc, box, enough)
+    cells = _cells(Pushing(arc.at, arc.phase[0]), arc, box, enough)
     return prover.derive("superstable-motion", witness(separation, box, cells))
 
 
@@ -113,7 +113,7 @@ def _cells(pushing: Pushing, arc: Separation, box: Box, enough: Fraction) -> lis
             try:
                 pushing.settle((done + step, done + step), phases, speeds)  # hopeless otherwise
                 cells += _halved(pushing, (done, done + step), phases, speeds, _HALVINGS)
-            except (Undecided, DomainError):
+            except Undecided:
                 break
             done += step
     if not cells:
@@ -127,7 +127,7 @@ def _halved(
     """Prove that bounces end for all epsilon of a range, in as many parts as it takes."""
     try:
         return [pushing.settle(epsilon, phases, speeds)]
-    except (Undecided, DomainError):
+    except Undecided:
         if halvings == 0:
             raise Undecided(f"epsilon near {float(epsilon[0]):.6g}") from None
     return [

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -36,7 +37,17 @@ CLAIMS = tuple(
         key=lambda claim: ("MHNGPSREA".index(claim[0]), int(claim[1:])),
     )
 )
-_LONGEST = ("circle", "dimension", "entropy", "nonplastic", "soft")  # begun before the others
+_LONGEST = (
+    "circle",
+    "entropy",
+    "soft",
+    "chaos",
+    "persistence",
+    "nonplastic",
+    "resonance",
+    "dimension",
+)  # begun before the others, in this order
+_DRAWING = ("matplotlib.pyplot", "proofs.report.html")
 EPILOG = """\
 Decides the paper's claims at its own numbers, group by group, and writes DIR/ledger.json, for each
 group a certificate, which the checker re-derives, and the report of it all, DIR/index.html and
@@ -269,6 +280,14 @@ def _in_order(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [first[claim] for claim in CLAIMS if claim in first]
 
 
+def _load_drawing() -> None:
+    """Import what draws while others prove; the processes that draw will be copies of this one."""
+    from proofs.report.build import missing
+
+    for name in () if missing() else _DRAWING:
+        import_module(name)
+
+
 def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     """Settle the files in processes of their own, as many at a time as there are processors.
 
@@ -280,6 +299,7 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
         futures = {pool.submit(settle_counting, job): job for job in in_turn}
         with progress() as tell:
             tell(f"0 of {len(todo)} groups of claims")
+            _load_drawing()
             for future in as_completed(futures):
                 job, found = futures[future], future.result()
                 if found.found != job.folder:

@@ -95,23 +95,21 @@ def _divisors(form: NormalForm, found: Solution) -> list[str]:
     """Return the factors of all denominators at a solution, but numbers."""
     import sympy
 
-    places = [(sympy.Symbol(name), value) for name, value in found.items()]
-    at_rest = [derive.simplest(derive.read(each).subs(places)) for each in form.map.equations]
+    at_rest = [derive.simplest(derive.read(each, found)) for each in form.map.equations]
     factors = {
         factor
-        for each in (*found.values(), *at_rest, *_partials(form, places))
+        for each in (*found.values(), *at_rest, *_partials(form, found))
         for factor in derive.factors(sympy.denom(each))
     }
     return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)
 
 
-def _partials(form: NormalForm, places: list[Any]) -> list[Any]:
+def _partials(form: NormalForm, point: Solution) -> list[Any]:
     """Return the derivatives of the equations at a solution."""
     names = (*form.map.state, *form.map.images)
     rows = form.map.partials(names)
-    rest = [(image, x) for image, x in zip(form.map.images, form.map.state, strict=True)]
-    found = (derive.read(entry).subs(rest).subs(places) for row in rows for entry in row)
-    return [derive.simplest(each) for each in found]
+    places = form.map.at_rest(point)
+    return [derive.simplest(derive.read(entry, places)) for row in rows for entry in row]
 
 
 # -- at exact parameters ---------------------------------------------------------------------------

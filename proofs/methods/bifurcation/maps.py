@@ -143,7 +143,7 @@ class Map:
     @cached_property
     def jacobian(self) -> Any:
         """The Jacobian at any point and its image, as a matrix of sympy; ValueError if none is."""
-        return self._jacobian([])
+        return self._jacobian({})
 
     @cached_property
     def jacobian_at_rest(self) -> Any:
@@ -152,16 +152,20 @@ class Map:
 
     def jacobian_at(self, point: Mapping[str, Any]) -> Any:
         """Return the Jacobian at a fixed point, given by expressions of sympy by name."""
+        return self._jacobian(self.at_rest(point))
+
+    def at_rest(self, point: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the expressions of a fixed point, by name, and the same for its image."""
         import sympy
 
-        pairs = [(sympy.Symbol(image_of(x)), sympy.Symbol(x)) for x in self.state]
-        return self._jacobian(pairs + [(sympy.Symbol(x), value) for x, value in point.items()])
+        images = {image_of(x): point.get(x, sympy.Symbol(x)) for x in self.state}
+        return {**point, **images}
 
-    def _jacobian(self, places: list[tuple[Any, Any]]) -> Any:
+    def _jacobian(self, places: Mapping[str, Any]) -> Any:
         import sympy
 
         def placed(text: str) -> Any:
-            found = derive.simplest(derive.read(text).subs(places))
+            found = derive.simplest(derive.read(text, places))
             if not derive.is_real(found):
                 raise ValueError(f"nowhere a real number: {text[:60]}")
             return found

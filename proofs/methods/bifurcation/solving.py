@@ -89,13 +89,10 @@ def _solvable(factor: Any, x: Any, unknowns: list[Any]) -> bool:
 
 def coefficients(form: NormalForm, point: Solution, parameter: str) -> Solution:
     """Return what the homological equations determine at a bifurcation; critical, and speed."""
-    import sympy
-
     known: Solution = dict(point)
 
     def placed(text: str) -> Any:
-        pairs = [(sympy.Symbol(name), value) for name, value in known.items()]
-        return derive.read(text).subs(pairs)
+        return derive.read(text, known)
 
     series = _taylor(form, placed)
     for order in range(1, form.order + 1):

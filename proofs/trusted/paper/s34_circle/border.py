@@ -11,12 +11,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s34_circle.bounces import bounced
+from proofs.trusted.paper.s34_circle.bounces import bounced, kicked
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import Parameters, Place
@@ -71,9 +70,7 @@ def passes_separation(context: Context, reader: Reader) -> Passes:
     time = arc.phase[0] - phases[1], arc.phase[1] - phases[0]
     if time[0] <= 0 or arc.at.eta[1] * time[1] > 3:
         raise Unproved("the last flight begins after phi_s, or is longer than its lemma allows")
-    motion = Motion(arc.at, phases, _BITS)
-    kick = Enclosure.of(epsilon * slow, epsilon * fast, _BITS) * motion.side
-    if motion.gap(motion.start()._replace(kick=kick), time).lo <= 0:
+    if kicked(arc.at, phases, (epsilon * slow, epsilon * fast), _BITS)(time, 0).lo <= 0:
         raise Unproved("the mass is not proved to be in flight at the separation phase")
     return Passes(arc, epsilon, len(times))
 

@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import partial
 
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion, brackets
+from proofs.trusted.flights import COVER_BITS, Gap, Motion, brackets
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
@@ -21,10 +21,17 @@ from proofs.trusted.parameters import Place
 State = tuple[Range, Range]  # phases and relative speeds of impacts
 
 
-def _push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
+def push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
     """Bound a from below and above."""
-    push: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
-    return push.range
+    acceleration: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
+    return acceleration.range
+
+
+def kicked(at: Place, phases: Range, kicks: Range, bits: int = COVER_BITS) -> Gap:
+    """Return the gap, by time and order, after launches with these relative velocities."""
+    motion = Motion(at, phases, bits)
+    kick = Enclosure.of(*kicks, bits) * motion.side
+    return partial(motion.gap, motion.start()._replace(kick=kick))
 
 
 def bounce(at: Place, phases: Range, kicks: Range, time: Range, bits: int = COVER_BITS) -> State:
@@ -45,12 +52,10 @@ def bounce(at: Place, phases: Range, kicks: Range, time: Range, bits: int = COVE
     """
     if time[0] <= 0 or at.eta[1] * time[1] > 3:
         raise Unproved("a bounce is longer than its lemma allows")
-    motion = Motion(at, phases, bits)
-    kick = Enclosure.of(*kicks, bits) * motion.side
-    gap_of = partial(motion.gap, motion.start()._replace(kick=kick))
+    gap_of = kicked(at, phases, kicks, bits)
     if not brackets(gap_of, time):
         raise Unproved("a bracket of an impact does not have the signs +, - at its ends")
-    strong, weak = _push(at, (phases[0], phases[1] + time[1]), bits)
+    strong, weak = push(at, (phases[0], phases[1] + time[1]), bits)
     if weak >= 0:
         raise Unproved("the table is not proved to push all through a bounce")
     (low, high), change = (-gap_of(time, 1)).range, (1 + strong / weak) / 2
@@ -84,7 +89,7 @@ def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: 
     (first, last), (epsilon, ratio) = phases, shrinking
     if rest <= last or not 0 < ratio < 1:
         raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
-    strong, weak = _push(at, (first, rest))
+    strong, weak = push(at, (first, rest))
     if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
         raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
     if last + 2 * kick / (-weak * (1 - ratio)) > rest:

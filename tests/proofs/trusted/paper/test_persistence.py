@@ -11,7 +11,6 @@ from functools import cache
 import pytest
 from mpmath import mp, mpf
 
-from proofs.motion.chatter import Pushing
 from proofs.motion.system import System
 from proofs.motion.transients import Summary, transients
 from proofs.report.figures import restitution
@@ -24,7 +23,6 @@ from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.cycles import StableCycle, stable_cycle
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound
-from proofs.trusted.paper.s34_circle.bounces import bounce
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER, Place
@@ -468,18 +466,6 @@ def test_a_bounce_that_leaves_the_arc_is_refused():
 def test_a_flight_with_a_first_piece_too_long_is_refused():
     with pytest.raises(Unproved, match="leave the table"):
         derive(edited(short(), (*FLIGHT, "times"), lambda times: times[-2:]))
-
-
-@pytest.mark.parametrize("width", ["0.001", "0.01", "0.03", "0.05"])
-def test_the_checker_takes_the_prover_s_bracket_of_a_wide_box_of_bounces(width):
-    reach = Fraction(width)
-    phases = Fraction("4.7") - reach, Fraction("4.7") + reach
-    kicks = Fraction("0.04") - reach / 5, Fraction("0.04") + reach / 5
-    pushing = Pushing(System(PAPER.eta, PAPER.nu), Fraction("6.0454"))
-    time, speeds = pushing.bounce(phases, kicks)
-    _, own = bounce(PAPER.place, phases, kicks, time)
-    for one, other in zip(speeds, own, strict=True):
-        assert abs(one - other) < Fraction(1, 10**6)
 
 
 @pytest.mark.parametrize(
