@@ -13,6 +13,7 @@ if __name__ == "__main__":
     launch("proofs.atlas")
 
 import json
+import sys
 from argparse import ArgumentTypeError, Namespace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -24,14 +25,16 @@ from proofs.plane.cost import Cost
 from proofs.plane.head import executor, run
 from proofs.plane.store import NAME, Held, Store, opened
 from proofs.report.build import INSTALL, missing
-from proofs.shell.cli import Parser, number, progress, share, whole
+from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.atlas import DEEPEST, Region, unpacked
-from proofs.trusted.certificate import Malformed
+from proofs.trusted.atlas import cell as derived
+from proofs.trusted.certificate import Malformed, box_to_json
 from proofs.trusted.numbers import Range
 from proofs.trusted.questions import QUESTIONS
 from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import Rejected
 
 FOLDER = Path("runs/atlas")
 _DEPTH, _CHUNK, _MOST_JOBS = 5, 16, 1000
@@ -63,7 +66,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     region = _region(parser, options)
+    if options.export and options.json:
+        parser.error("--export has no machine form: leave out --json")
     check_folder(parser, options.out)
+    check_targets(parser, options.json)
     try:
         with opened(options.out, region) as store:
             if options.cell:
@@ -73,6 +79,9 @@ def main(arguments: list[str] | None = None) -> int:
             return _make(parser, options, store)
     except (Held, Malformed) as failure:
         parser.error(str(failure))
+    except Rejected as failure:
+        say(f"{parser.prog}: {failure}", sys.stderr)
+        return 1
 
 
 def _parser() -> Parser:
@@ -95,11 +104,12 @@ def _parser() -> Parser:
         "--chunk", type=whole("--chunk", 10_000), default=_CHUNK, metavar="N", help=chunk
     )
     cell = "say what is proved in the cell that holds this point, and write its certificate"
-    parser.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
+    looking = parser.add_mutually_exclusive_group()
+    looking.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
     export = (
         "write the cells that there are to a Parquet file (pip install 'impact-proofs[parquet]')"
     )
-    parser.add_argument("--export", type=_parquet, metavar="FILE", help=export)
+    looking.add_argument("--export", type=_parquet, metavar="FILE", help=export)
     share(parser, "--out", "--json", "--quiet")
     parser.set_defaults(out=FOLDER)
     return parser
@@ -156,7 +166,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
             tell("pictures")
             _draw(options.out, store, made, spent)
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
-    if not options.quiet and options.json != "-":
+    if heard(options):
         for line in summary.lines(made, store.region):
             say(line)
         say(f"{done} cells looked at now; all of it: {options.out / NAME}")
@@ -202,13 +212,22 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
     cell = summary.at(store, *options.cell)
     if cell is None:
         parser.error("no cell of this atlas holds the point")
-    if not options.quiet:
+    path = None
+    if cell.certificate is not None:
+        cell = derived(store.region, cell.key, unpacked(cell))  # whatever the store says of it
+        path = options.out / f"cell-{cell.key.replace('/', '-')}.json"
+        with writing(options.out) as put:
+            put(path.name, unpacked(cell))
+    made = {
+        "cell": cell.key,
+        "box": box_to_json(store.region.box(cell.key)),
+        "verdict": cell.verdict,
+        "conclusion": cell.conclusion,
+        "certificate": None if path is None else str(path),
+    }
+    write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
+    if heard(options):
         say(f"{cell.verdict}: {cell.conclusion}")
-    if cell.certificate is None:
-        return 1
-    name = f"cell-{cell.key.replace('/', '-')}.json"
-    with writing(options.out) as put:
-        put(name, unpacked(cell))
-    if not options.quiet:
-        say(f"python -m proofs.check {options.out / name}")
-    return 0
+        if path is not None:
+            say(f"python -m proofs.check {path}")
+    return int(path is None)

@@ -45,8 +45,8 @@ of the file. Other bifurcations than those found in closed form may exist. The c
 bifurcation, negative for a stable circle, if t, the trace, is between -2 and 2, not -1, not 0.
 "speed" is how fast the first parameter passes it: none takes place at 0.
 
-exit status: 0 done and checked, 1 a bifurcation that was asked for is not found,
-             2 bad input, 3 the checker disagrees (a bug)
+exit status: 0 done and checked, 1 a bifurcation that was asked for is not found, or what sympy
+             finds is not derived by the checker, 2 bad input, 3 the checker disagrees (a bug)
 
 examples:
   python -m proofs.bifurcation "x1 = r*x*(1 - x)"
@@ -98,8 +98,8 @@ def _numbers(text: str) -> dict[str, Fraction]:
     found = {}
     for each in text.split(","):
         name, equals, value = each.partition("=")
-        if not equals or not name.strip().isidentifier():
-            raise ArgumentTypeError(f"NAME=NUMBER is expected, not {each[:30]!r}")
+        if not equals or not name.strip().isidentifier() or name.strip() in found:
+            raise ArgumentTypeError(f"NAME=NUMBER is expected, once a name, not {each[:30]!r}")
         found[name.strip()] = number(value.strip())
     return found
 
@@ -134,7 +134,11 @@ def _answer(
     file, missing = Lemmas(), list[str]()
     of = next(iter(forms.values())).map
     answer = _map_form(of)
-    prove_jacobian(file, of)
+    try:
+        prove_jacobian(file, of)
+    except Undecided as failure:
+        say(f"{parser.prog}: undecided: the Jacobian: {failure}", sys.stderr)
+        return 1
     with progress() as tell:
         for kind, form in forms.items():
             tell(kind)

@@ -133,7 +133,8 @@ def _phases(values: list[Fraction]) -> Range:
     """Return the interval of launch phases; ValueError if it is none, or not on the circle."""
     low, high = _ends("--phi", values, "phase", "phases")
     if low < 0 or high > TURN:
-        raise ValueError(f"phase outside the circle [0, 2 pi): {show(low if low < 0 else high)}")
+        beyond = show(low if low < 0 else high)
+        raise ValueError(f"phase outside the circle, 0 to {show(TURN)}: {beyond}")
     return low, high
 
 

@@ -12,12 +12,14 @@ in notebooks. What cannot be proved raises `intervals.Undecided`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
 
 from intervals import Undecided, decimal_bounds, fraction
+from intervals.exact import whole
+from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.image import Image, PossibleImages, image
 from proofs.motion.impact import HORIZON
 from proofs.motion.rebound import Rebound, rebound
@@ -27,6 +29,7 @@ from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
 from proofs.trusted.certificate import render
+from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range, show, show_range
@@ -141,7 +144,9 @@ class Oscillator:
 
         Raises Undecided where the map is not continuous on them, or nothing can be said.
         """
-        ends, latest = _phases(phases), _exact(horizon)
+        ends, latest, digits = _phases(phases), _exact(horizon), _places(digits)
+        if not 0 < latest <= LATEST:
+            raise ValueError(f"a horizon is a positive number up to {LATEST}")
         if (gamma is None) != (self._epsilon is None):
             raise TypeError("epsilon, of the oscillator, and gamma, of the state, go together")
         if gamma is None or self._epsilon is None:
@@ -172,7 +177,7 @@ class Oscillator:
         The sets are intervals of phases; with epsilon, times the interval of velocities gamma.
         Raises Undecided with the reason where that does not succeed.
         """
-        sets = _phases(left), _phases(right)
+        sets, digits = (_phases(left), _phases(right)), _places(digits)
         if (gamma is None) != (self._epsilon is None):
             raise TypeError("epsilon, of the oscillator, and gamma, of the sets, go together")
         try:
@@ -208,13 +213,21 @@ class Oscillator:
 def _exact(value: Exact) -> Fraction:
     """Return an exact number; a float raises with the hint to write a string."""
     if isinstance(value, float):
-        raise TypeError(f'{value!r} is a float, and not that decimal: write it as "{value!r}"')
+        plain = float(value)  # numpy's shows its type
+        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
     return fraction(value)
+
+
+def _places(digits: int) -> int:
+    """Return how many significant digits are asked for, as the commands take them."""
+    if whole(digits) is None or not 1 <= digits <= MOST_DIGITS:
+        raise ValueError(f"digits is a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
+    return digits
 
 
 def _ends(values: Ends) -> Range:
     """Return both ends of an interval, equal for a number."""
-    if isinstance(values, str) or not isinstance(values, Iterable):
+    if isinstance(values, str) or not isinstance(values, Sequence):
         return _exact(values), _exact(values)
     if len(values) != 2:
         raise ValueError(f"a number or two ends are expected, not {len(values)} numbers")
@@ -227,7 +240,7 @@ def _ends(values: Ends) -> Range:
 def _phases(values: Ends) -> Range:
     low, high = _ends(values)
     if low < 0 or high > TURN:
-        raise ValueError(f"phases are in [0, 2 pi), not {show_range((low, high))}")
+        raise ValueError(f"phases are from 0 to {show(TURN)}, not {show_range((low, high))}")
     return low, high
 
 

@@ -58,9 +58,9 @@ def test_numbers_are_those_of_the_ledger():
     bounds = [Fraction(quantities["G4"]["basin_fraction"][end]) for end in ("lower", "upper")]
     assert bounds[0] - Fraction(1, 10**5) < Fraction(share) / 100 <= bounds[0] <= bounds[1] < 1
     (largest,) = re.findall(r"yes for epsilon <= ([\d.]+),", README)
-    assert Fraction(largest) == Fraction(quantities["G7"]["epsilon_max"]["lower"])
+    assert Fraction(largest) == Fraction(quantities["G7"]["epsilon_proved_up_to"]["lower"])
     (window,) = re.findall(r"every epsilon in \[([\d.]+), ([\d.]+)\] \(G16\)", README)
-    ends = (quantities["G16"][f"epsilon_{end}"]["lower"] for end in ("min", "max"))
+    ends = (quantities["G16"][f"epsilon_proved_{end}"]["lower"] for end in ("from", "up_to"))
     assert tuple(map(Fraction, window)) == tuple(map(Fraction, ends))
     (entropy,) = re.findall(r"entropy >= ([\d.]+) \(G9\)", README)
     assert any(f">= {entropy}" in row["why"] for row in ROWS if row["id"] == "G9")

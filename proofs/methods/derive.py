@@ -95,6 +95,20 @@ def simplest(expression: Any) -> Any:
     return sympy.factor(expression)
 
 
+def factors(expression: Any) -> list[Any]:
+    """Return the factors of an expression that are no numbers, those of a polynomial irreducible.
+
+    sympy has none where x and exp(r*x) occur beside each other: then they are those written.
+    """
+    import sympy
+
+    try:
+        return [factor for factor, _ in sympy.factor_list(expression)[1]]
+    except sympy.PolynomialError:
+        powers = (factor.as_base_exp()[0] for factor in sympy.Mul.make_args(expression))
+        return [base for base in powers if not base.is_number]
+
+
 def write(expression: Any) -> str:
     """Write an expression of sympy as the checker reads it."""
     from sympy.printing.str import StrPrinter

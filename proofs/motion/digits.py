@@ -9,6 +9,7 @@ from typing import TypeVar
 from intervals.errors import DomainError, Undecided
 from proofs.trusted.numbers import Range, agree
 
+MOST_DIGITS = 1000  # that can be asked for
 _ATTEMPTS = 6
 _Answer = TypeVar("_Answer")
 

@@ -216,7 +216,7 @@ def periodic_orbit(prover: Prover, cells: Sequence[Range]) -> tuple[str, Staying
 
     f expands, so it maps each bracket over the next one.
     """
-    accuracy = Fraction(1, 10 ** max(6, prover.digits // 2))
+    accuracy = Fraction(1, 10 ** max(6, prover.digits + 1))
     phase = _newton(prover, cells, accuracy)
     brackets = []
     for _ in cells:

@@ -31,6 +31,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from intervals import fraction
+from proofs.motion.digits import MOST_DIGITS
 from proofs.shell.screen import Arguments, columns
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def whole(what: str, most: int, least: int = 1) -> Callable[[str], int]:
     return read
 
 
-digits = whole("digits", 1000)
+digits = whole("digits", MOST_DIGITS)
 
 
 def horizon(text: str) -> Fraction:

@@ -15,6 +15,7 @@ from intervals import decimal_bounds
 from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import SCHEMA, Reader, parameters_to_json, render, used_steps
+from proofs.trusted.manifest import BESIDE
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import BEYOND, GROUPS, find
 from proofs.trusted.parameters import Parameters
@@ -41,8 +42,8 @@ PROVERS: Mapping[str, str] = MappingProxyType(
 )
 FILES: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
     {group: {group: claims} for group, claims in GROUPS.items()}
-    | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": ("N1", "N2")}}
-    | {"explore": {group: BEYOND[group] for group in ("explore", "rebounding")}}
+    | {"horseshoe": {"horseshoe": GROUPS["horseshoe"], "nonplastic": BESIDE["horseshoe"]}}
+    | {"explore": {"explore": BEYOND["explore"], "rebounding": BESIDE["explore"]}}
     | {"curves": {"curves": BEYOND["curves"]}}
 )  # what each certificate is about, by group
 _SPARE = Fraction(1, 10**12)

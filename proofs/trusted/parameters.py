@@ -101,14 +101,14 @@ class Parameters:
             raise ValueError(f"eta must be positive, not {show(self.eta)}")
         if self.nu == 0:
             raise ValueError("nu must not be 0: the table would stand still")
+        if self.left[1] >= self.right[0]:
+            raise ValueError("left and right intervals overlap, or are in the wrong order")
         for name in ("left", "right", "interval"):
             low, high = getattr(self, name)
             if low >= high:
-                raise ValueError(f"{name} interval reversed or empty: {show(low)} >= {show(high)}")
+                raise ValueError(f"{name}: reversed or empty: {show(low)} >= {show(high)}")
             if low < 0 or high > TURN:
-                raise ValueError(f"{name} interval {show_range((low, high))} leaves [0, 2 pi)")
-        if self.left[1] >= self.right[0]:
-            raise ValueError("left and right intervals overlap, or are in the wrong order")
+                raise ValueError(f"{name}: {show_range((low, high))} leaves [0, {show(TURN)}]")
         if self.left[0] < self.interval[0] or self.right[1] > self.interval[1]:
             raise ValueError("left and right intervals must lie in the interval I")
         for name in ("slopes", "ratios"):

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -118,7 +119,14 @@ def test_what_is_not_proved_is_undecided():
         (lambda: RESTITUTING.slope("1.1"), TypeError, "plastic"),
         (lambda: Oscillator("0.2121", "-0.2", "1"), ValueError, "epsilon"),
         (lambda: Oscillator("0", "-0.2"), ValueError, "eta"),
-        (lambda: PLASTIC.horseshoe(RIGHT, LEFT), ValueError, "reversed"),
+        (lambda: PLASTIC.horseshoe(RIGHT, LEFT), ValueError, "wrong order"),
+        (lambda: Oscillator(np.float64(0.2), "-0.2"), TypeError, 'write it as "0.2"'),
+        (lambda: PLASTIC.image({"1.1", "1.15"}), TypeError, "not an int"),  # which is the first?
+        (lambda: PLASTIC.slope("1.13", digits=10**6), ValueError, "from 1 to 1000"),
+        (lambda: PLASTIC.slope("1.13", digits="30"), ValueError, "not '30'"),
+        (lambda: PLASTIC.horseshoe(LEFT, RIGHT, digits=0), ValueError, "not 0"),
+        (lambda: PLASTIC.first_impact("1.13", horizon=0), ValueError, "positive"),
+        (lambda: PLASTIC.first_impact("1.13", horizon="1e7"), ValueError, "up to 1000000"),
     ],
 )
 def test_bad_input_says_what_to_write(ask, error, hint):

@@ -14,9 +14,13 @@ from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import Solution, coefficients, points
 from proofs.methods.formulas import dot, inverse, jacobian, values
 from proofs.methods.lemmas import Lemmas
-from proofs.trusted.certificate import Reader
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_formulas
-from proofs.trusted.kernel.values import Equal, Series
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
+from proofs.trusted.kernel.solutions import solution
+from proofs.trusted.kernel.values import Equal, Series, equal
 from proofs.trusted.numbers import Range
 
 _SPARE_DIGITS = 12
@@ -27,7 +31,21 @@ def prove_jacobian(file: Lemmas, of: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
     texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
     for entry in of.implicit(texts):
-        file.equal(entry, "0")
+        _confirm(file, file.equal(entry, "0"))
+
+
+def _confirm(file: Lemmas, name: str) -> None:
+    """Take a step back, and raise Undecided, where the checker does not derive it.
+
+    What sympy finds may rest on identities that the checker has not: exp(log(x)) = x, for one.
+    """
+    rule = {"formula-equal": equal, "formula-solution": solution}[file.steps[name]["rule"]]
+    try:
+        with metered(DEFAULT):
+            rule(Context(), Reader(file.steps[name]["witness"]))
+    except (Unproved, Malformed, Exhausted) as failure:
+        del file.steps[name]
+        raise Undecided(f"what sympy finds is not derived by the checker: {failure}") from None
 
 
 def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter: str) -> None:
@@ -35,13 +53,14 @@ def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter
     scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
     sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
     nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
-    file.solution(
+    name = file.solution(
         {name: derive.write(value) for name, value in found.items()},
         *(Equal(each, "0") for each in (*form.map.fixed, form.condition())),
         *(Series(each, "h", nought, nonzero) for each in sides),
         Equal(form.criticality, "critical"),
         Equal(form.speed(parameter), "speed"),
     )
+    _confirm(file, name)
 
 
 def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
@@ -54,11 +73,12 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solut
     for point in points(form, names):
         for each in _charts(form):
             try:
-                found.append(coefficients(each, point, parameter))
+                known = coefficients(each, point, parameter)
+                prove_closed_form(file, each, known, parameter)
             except Undecided as failure:
                 reason = failure
                 continue
-            prove_closed_form(file, each, found[-1], parameter)
+            found.append(known)
             break
     if not found:
         raise reason
@@ -79,7 +99,7 @@ def _divisors(form: NormalForm, found: Solution) -> list[str]:
     factors = {
         factor
         for each in (*found.values(), *at_rest, *_partials(form, found))
-        for factor, _ in sympy.factor_list(sympy.denom(each))[1]
+        for factor in derive.factors(sympy.denom(each))
     }
     return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)
 

@@ -52,7 +52,7 @@ def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
     tops = [sympy.numer(derive.simplest(each)) for each in equations]
     for place, top in enumerate(tops):
         others = [*tops[:place], *tops[place + 1 :]]
-        factors = [f for f, _ in sympy.factor_list(top)[1] if f.has(*unknowns)] if top else []
+        factors = [f for f in derive.factors(top) if f.has(*unknowns)] if top else []
         factors = [f for f in factors if not isinstance(f, sympy.exp)]  # that is not 0
         choices = [(f, x) for f in factors for x in unknowns if _solvable(f, x, unknowns)]
         if factors and {f for f, _ in choices} == set(factors):

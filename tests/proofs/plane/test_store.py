@@ -11,6 +11,7 @@ import tracemalloc
 from concurrent.futures import Future
 from contextlib import closing
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -66,6 +67,25 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     (path,) = tmp_path.glob("cell-*.json")
     assert check([str(path)]) == 0
     assert "about a box of parameters" in capsys.readouterr().out
+    assert atlas.main([*out, "--cell", "0.2122", "-0.2001", "--json", "-"]) == 0
+    cell = json.loads(capsys.readouterr().out)
+    assert cell["box"]["eta"] == ["2121/10000", "531/2500"] and cell["verdict"] == "VERIFIED"
+    assert cell["certificate"] == str(path)
+    with closing(sqlite3.connect(tmp_path / NAME)) as store, store:
+        store.execute(
+            "UPDATE cells SET conclusion = 'all is well', verdict = 'REFUTED' "
+            "WHERE verdict = 'VERIFIED'"
+        )
+    assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 0
+    said = capsys.readouterr().out
+    assert "VERIFIED: At eta in [0.2121, 0.2124]" in said and "well" not in said
+    with closing(sqlite3.connect(tmp_path / NAME)) as store, store:
+        other = (
+            "SELECT certificate FROM cells AS o WHERE o.key != cells.key AND certificate NOT NULL"
+        )
+        store.execute(f"UPDATE cells SET certificate = ({other} LIMIT 1)")
+    assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 1
+    assert "about other parameters" in capsys.readouterr().err
 
 
 @pytest.mark.slow
@@ -356,6 +376,24 @@ def test_orbits_with_restitution(tmp_path, capsys):
     assert "another region" in capsys.readouterr().err
     assert atlas.main(["--out", str(tmp_path), "--cell", "0.6", "-0.75"]) == 0
     assert "epsilon = 0.3: there is exactly one stable" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ["--json", "NOWHERE/atlas.json"],
+        ["--export", "cells.parquet", "--json", "-"],
+        ["--export", "cells.parquet", "--cell", "0.2122", "-0.2"],
+    ],
+)
+def test_no_work_for_a_form_that_cannot_be_written(tmp_path, capsys, more, monkeypatch):
+    monkeypatch.setattr(atlas, "opened", None)
+    monkeypatch.setattr(atlas, "_parquet", Path)
+    (tmp_path / "file").touch()
+    more = [each.replace("NOWHERE", str(tmp_path / "file")) for each in more]
+    with pytest.raises(SystemExit) as left:
+        atlas.main([*SMALL, "--out", str(tmp_path / "out"), *more])
+    assert left.value.code == 2 and capsys.readouterr().err.count("\n") == 1
 
 
 def test_another_region_in_the_same_folder_is_refused(tmp_path, capsys):

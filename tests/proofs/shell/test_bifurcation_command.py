@@ -3,9 +3,11 @@
 import json
 
 import pytest
+import sympy
 
 from proofs import bifurcation
 from proofs.bifurcation import main
+from proofs.methods.bifurcation import certify
 from proofs.trusted.verify import Rejected, check
 
 LOGISTIC = "x1 = r*x*(1 - x)"
@@ -58,6 +60,31 @@ def test_equations_from_a_file(tmp_path, capsys):
 def test_what_is_not_found_is_said(capsys):
     assert main([*HENON, "--kind", "neimark_sacker"]) == 1
     assert "no closed form of x, y, a" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("equation", "said"),
+    [
+        ("x1 = r*x*exp(log(x))", "the Jacobian"),  # for sympy r*x^2
+        ("x1 = r*x*sqrt(1 - x)", "flip"),
+        ("x1 = sqrt(r)^2*x*(1 - x)", "flip"),
+        ("x1 = x*exp(r*(1 - x))", "flip"),  # whose factors are no polynomials
+    ],
+)
+def test_what_sympy_alone_knows_is_undecided(equation, said, capsys):
+    assert main([equation, "--kind", "flip"]) == 1
+    assert f"undecided: {said}: " in capsys.readouterr().err
+
+
+def test_a_closed_form_that_is_false_is_not_taken(monkeypatch):
+    """r = 3 + 1/1000 in place of 3."""
+    true = certify.coefficients
+
+    def false(*about):
+        return {**true(*about), "r": sympy.Rational(3001, 1000)}
+
+    monkeypatch.setattr(certify, "coefficients", false)
+    assert main([LOGISTIC, "--kind", "flip"]) == 1
 
 
 def test_no_bifurcation_near_a_guess(capsys, tmp_path):

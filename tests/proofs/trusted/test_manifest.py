@@ -183,13 +183,15 @@ WRONG = {
 }
 
 
-def test_a_copy_under_another_name_is_no_file_that_a_command_makes(folder):
-    (folder / "copy.json").write_text((folder / FILE).read_text(encoding="utf-8"), encoding="utf-8")
+@pytest.mark.parametrize("name", ["copy", "sets", "explore"])  # sets: of other claims
+def test_a_copy_under_another_name_is_no_file_that_a_command_makes(folder, name):
+    text = (folder / FILE).read_text(encoding="utf-8")
+    (folder / f"{name}.json").write_text(text, encoding="utf-8")
 
     def copied(document):
         entry = json.dumps(document["files"][FILE])
-        entry = entry.replace("proofs.horseshoe", "proofs.copy").replace(FILE, "copy.json")
-        document["files"]["copy.json"] = json.loads(entry)
+        entry = entry.replace("proofs.horseshoe", f"proofs.{name}").replace(FILE, f"{name}.json")
+        document["files"][f"{name}.json"] = json.loads(entry)
 
     path = edited(folder, copied)
     with pytest.raises(Rejected, match="no command makes"):

@@ -128,7 +128,7 @@ def _rests(of: Parameters, found: Found) -> Decision:
 def _chaotic(of: Parameters, found: Found) -> Decision:
     for shift in found.all(StayingSet):
         if not shift.orbit:
-            known = {"growth": shift.growth, "entropy": shift.entropy}
+            known = {"growth": shift.growth, "entropy_on_the_set": shift.entropy}
             return decided(Verdict.VERIFIED, shift, known=known)
     for graph in found.all(EntropyBound):
         if graph.growth > 1:

@@ -89,7 +89,7 @@ class CoveringShift(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        return {"entropy": self.entropy}
+        return {"entropy_lower_bound": self.entropy}
 
 
 def covering_shift(sheets: Sequence[Sheet]) -> CoveringShift:

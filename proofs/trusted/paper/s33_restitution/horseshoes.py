@@ -262,4 +262,4 @@ class HorseshoeFamily(Conclusion):
     @property
     def quantities(self) -> Mapping[str, Range]:
         most = self.at.sides[2][1]
-        return {"epsilon_max": (most, most)}
+        return {"epsilon_proved_up_to": (most, most)}

@@ -89,7 +89,7 @@ class TwoAttractors(Conclusion):
     @property
     def quantities(self) -> Mapping[str, Range]:
         low, high = self.at.sides[2]
-        return {"epsilon_min": (low, low), "epsilon_max": (high, high)}
+        return {"epsilon_proved_from": (low, low), "epsilon_proved_up_to": (high, high)}
 
 
 def _coexist(of: Parameters, found: Found) -> Decision:

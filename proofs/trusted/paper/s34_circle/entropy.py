@@ -207,7 +207,7 @@ class EntropyBound(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        return {"entropy": self.entropy}
+        return {"entropy_lower_bound": self.entropy}
 
 
 def entropy_bound(
@@ -296,7 +296,7 @@ def _entropy(of: Parameters, found: Found) -> Decision:
     """G9: by the greatest bound."""
     del of
     bounds = sorted(found.all(EntropyBound), key=lambda bound: bound.growth)
-    if not bounds:
+    if not bounds or bounds[-1].growth == 1:  # log 1 bounds nothing
         return undecided("no covering graph is proved")
     if bounds[-1].growth < 2:
         return undecided(f"{bounds[-1].brief}, only", bounds[-1].quantities)

@@ -101,7 +101,7 @@ class SuperstableMotion(Conclusion):
 
     @property
     def quantities(self) -> Mapping[str, Range]:
-        return {"epsilon_max": (self.largest, self.largest), **self.arc.quantities}
+        return {"epsilon_proved_up_to": (self.largest, self.largest), **self.arc.quantities}
 
 
 class Cell(NamedTuple):

@@ -70,7 +70,9 @@ def test_the_checker_concludes_what_the_prover_says():
 def test_what_is_said():
     decision = find("G16").decide(PAPER, proof())
     assert find("G16").own and decision.verdict.value == "VERIFIED"
-    (low, _), (_, high) = (decision.quantities[f"epsilon_{end}"] for end in ("min", "max"))
+    (low, _), (_, high) = (
+        decision.quantities[f"epsilon_proved_{end}"] for end in ("from", "up_to")
+    )
     assert low < Fraction("0.2895") and high > Fraction("0.2905")
     for words in ("continuously on epsilon", "2-periodic", "asymptotically stable", "F^2"):
         assert words in decision.theorem
@@ -103,7 +105,7 @@ def test_it_goes_nearly_to_the_fold_and_to_the_flip():
     with pytest.MonkeyPatch.context() as patch:
         found = proved(patch, s34_attractors._MOST)
     decision = find("G16").decide(PAPER, [step for _, step in found.proofs["G16"]])
-    low, high = (decision.quantities[f"epsilon_{end}"][0] for end in ("min", "max"))
+    low, high = (decision.quantities[f"epsilon_proved_{end}"][0] for end in ("from", "up_to"))
     assert Fraction("0.2863") < low < Fraction("0.2865")
     assert Fraction("0.2932") < high < Fraction("0.2944")
 

@@ -96,11 +96,18 @@ def test_the_printed_interval_holds_one_orbit_of_period_two(staying, stays):
     assert "one unstable periodic orbit of period 2" in found.why
     for words in ("shift on 2 symbols", "shift on 3 symbols", "connected in both directions"):
         assert words in found.theorem
-    known = (F("1.104775829127550847838252004"), F("1.316386182666309667088102998"))
-    bounds = [found.quantities[f"period_1_point_{i}"] for i in (1, 2, 3)]
-    assert all(low < x < high for x, (low, high) in zip(known, bounds, strict=False))
-    pair = [found.quantities[f"period_2_point_{i}"] for i in (1, 2)]
-    assert all(high - low < F(1, 10**14) for low, high in (*bounds, *pair))
+    known = {  # by mpmath, from equation (10)
+        "period_1_point_1": "1.10477582912755084783825200487426348966",
+        "period_1_point_2": "1.31638618266630966708810299847081679974",
+        "period_1_point_3": "1.48882469464981606860152919725370295827",
+        "period_2_point_1": "1.33751365213526555255158206000164860507",
+        "period_2_point_2": "1.45739910220552884807350634946930233791",
+    }
+    assert {name for name in found.quantities if "point" in name} == {*known}
+    bounds = [found.quantities[name] for name in known]  # to the 30 digits asked for
+    for digits, (low, high) in zip(known.values(), bounds, strict=True):
+        assert low < F(digits) < high and high - low < F(1, 10**29)
+    pair = bounds[3:]
     for (phase, _), (image, _) in ((bounds[2], bounds[2]), pair, pair[::-1]):
         assert true_map(phase)[1] == pytest.approx(float(image), abs=1e-12)
 
@@ -590,8 +597,12 @@ def test_a_state_has_no_part_in_a_branch_beside_it(small, graphs):
 def test_g9_without_enough_growth_is_undecided():
     branch = Branch(AT, (F(1), F("1.1")), 4, F(24), (F(25),))
     weak = EntropyBound(AT, (branch,), 1, F("1.9"))
-    assert find("G9").decide(PAPER, [weak]).verdict is Verdict.UNDECIDED
+    undecided = find("G9").decide(PAPER, [weak])
+    assert undecided.verdict is Verdict.UNDECIDED
+    assert {*undecided.quantities} == {"entropy_lower_bound"}  # the entropy is more, see G17
     assert find("G9").decide(PAPER, []).verdict is Verdict.UNDECIDED
+    nothing = find("G9").decide(PAPER, [replace(weak, growth=F(1))])  # "at least log 1"
+    assert nothing == find("G9").decide(PAPER, [])
 
 
 def test_no_windows_no_claim():
@@ -636,7 +647,7 @@ def test_the_whole_run():
     made_of = produce({"chaos": ["G9"]}, PAPER, digits=30)
     (row,) = made_of.lines
     assert row.verdict is Verdict.VERIFIED
-    assert row.quantities["entropy"][0] > F("1.757")
+    assert row.quantities["entropy_lower_bound"][0] > F("1.757")
     assert len(made_of.certificate) < 300_000
     (claim,) = check(made_of.certificate).claims
     assert claim.verdict is Verdict.VERIFIED
