@@ -120,10 +120,13 @@ def test_hulls_are_not_wider_than_the_values_on_the_edges(name, real, imag):
     if name in ("log", "recip") and abs(z).inf < Fraction(1, 4):
         return  # it changes too fast for the samples
     function = (lambda x: 1 / x) if name == "recip" else getattr(cmath, name)
-    steps = [k / 100 for k in range(101)]
-    (a, b), (c, d) = (map(float, ends) for ends in (real, imag))
-    edges = [complex(a + (b - a) * t, y) for t in steps for y in (c, d)]
-    edges += [complex(x, c + (d - c) * t) for t in steps for x in (a, b)]
+    xs, ys = (
+        [float(low + (high - low) * Fraction(k, 100)) for k in range(101)]
+        + [float(min(max(0, low), high))]
+        for low, high in (real, imag)
+    )
+    edges = [complex(x, y) for x in xs for y in map(float, imag)]
+    edges += [complex(x, y) for x in map(float, real) for y in ys]
     values = [function(edge) for edge in edges]
     for side, samples in (
         (found.real, [v.real for v in values]),
