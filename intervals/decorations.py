@@ -12,14 +12,11 @@ from enum import IntEnum
 from fractions import Fraction
 from math import inf
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from intervals.errors import DomainError
 from intervals.functions import DOMAINS, Domain
 from intervals.interval import Interval
-
-if TYPE_CHECKING:
-    from intervals.decorated import Decorated
 
 
 class Decoration(IntEnum):
@@ -33,10 +30,11 @@ class Decoration(IntEnum):
 
 
 ILL, TRV, DEF, DAC, COM = Decoration
+Set: TypeAlias = Any  # a Decorated, whose module imports this one
 End: TypeAlias = Fraction | float  # a float is an infinity
 Image: TypeAlias = tuple[End, End, Decoration]
 EMPTY: Image = (inf, -inf, TRV)
-_REALS = Domain(None, None, closed=True)
+REALS = Domain(None, None, closed=True)
 _STEPS = {"floor", "ceil", "trunc", "round_ties_to_even", "round_ties_to_away", "sign"}
 _BELOW = {"exp": 0, "exp2": 0, "exp10": 0, "expm1": -1, "sign": -1, "tanh": -1}  # limits at -oo
 _ABOVE = {"sign": 1, "tanh": 1}  # and at oo; others are infinite, but for atan
@@ -59,19 +57,19 @@ def _product(x: End, y: End) -> End:
     return x * y
 
 
-def products(x: Decorated, low: End, high: End) -> tuple[End, End]:
+def products(x: Set, low: End, high: End) -> tuple[End, End]:
     """Return the ends of the products of X and [low, high]."""
     corners = [_product(a, b) for a in (x.inf, x.sup) for b in (low, high)]
     return min(corners), max(corners)
 
 
-def fma(x: Decorated, y: Decorated, z: Decorated) -> Image:
+def fma(x: Set, y: Set, z: Set) -> Image:
     """Return the image of x y + z."""
     low, high = products(x, y.inf, y.sup)
     return total(low, z.inf), total(high, z.sup), COM
 
 
-def quotient(x: Decorated, y: Decorated) -> Image:
+def quotient(x: Set, y: Set) -> Image:
     """Return x / y as the hull of x (1/y) for y > 0 and of -x (1/-y) for y < 0."""
     ends: list[End] = []
     for z, v in ((x, y), (-x, -y)):
@@ -82,27 +80,27 @@ def quotient(x: Decorated, y: Decorated) -> Image:
     return (min(ends), max(ends), known) if ends else EMPTY
 
 
-def size(x: Decorated) -> Image:
+def size(x: Set) -> Image:
     """Return the image of |x|."""
     return max(Fraction(0), x.inf, -x.sup), max(-x.inf, x.sup), COM
 
 
-def _point(end: End, x: Decorated) -> Interval:
+def _point(end: End, x: Set) -> Interval:
     return Interval(Fraction(end), precision=x.precision)
 
 
-def named(name: str, x: Decorated) -> Image:
+def named(name: str, x: Set) -> Image:
     """Return the image under a function that is monotone on its domain."""
     end = Interval.pi(precision=x.precision) / 2 if name == "atan" else inf
     limits = _BELOW.get(name, -end), _ABOVE.get(name, end)
-    image = monotone(methodcaller(name), x, DOMAINS.get(name, _REALS), limits)
+    image = monotone(methodcaller(name), x, DOMAINS.get(name, REALS), limits)
     return _stairs(methodcaller(name), x, *image[:2]) if name in _STEPS else image
 
 
 def monotone(
     function: Callable[[Interval], Interval],
-    x: Decorated,
-    domain: Domain = _REALS,
+    x: Set,
+    domain: Domain = REALS,
     limits: tuple[Any, Any] = (-inf, inf),
 ) -> Image:
     """Return the image under a continuous monotone function, with its limits at open ends."""
@@ -121,7 +119,7 @@ def monotone(
     return bottom, top, COM if (low, high) == (x.inf, x.sup) and not any(holes) else TRV
 
 
-def _stairs(step: Callable[[Interval], Interval], x: Decorated, low: End, high: End) -> Image:
+def _stairs(step: Callable[[Interval], Interval], x: Set, low: End, high: End) -> Image:
     """Return the image [low, high] under a step function, which jumps at multiples of 1/2 only.
 
     So it is constant from an end of X, where it does not jump, on for a fourth of the end's last
@@ -135,7 +133,7 @@ def _stairs(step: Callable[[Interval], Interval], x: Decorated, low: End, high: 
     return low, high, COM if all(value == low for value in values) else DAC
 
 
-def circular(name: str, x: Decorated) -> Image:
+def circular(name: str, x: Set) -> Image:
     """Return the image under sin, cos or tan."""
     if not infinite(x.inf, x.sup):
         with suppress(DomainError):  # a pole
@@ -144,11 +142,11 @@ def circular(name: str, x: Decorated) -> Image:
     return (-inf, inf, TRV) if name == "tan" else (Fraction(-1), Fraction(1), DAC)
 
 
-def _hull(x: Decorated) -> Interval:
+def _hull(x: Set) -> Interval:
     return _point(x.inf, x).hull(_point(x.sup, x))
 
 
-def power(x: Decorated, y: Decorated) -> Image:
+def power(x: Set, y: Set) -> Image:
     """Return x^y for x > 0, and 0^y = 0 for y > 0: where Interval has no bounds, exp(y log x)."""
     known = COM if x.inf > 0 or x.inf == 0 < y.inf else TRV
     if known is COM and not infinite(x.sup, y.inf, y.sup):
@@ -160,7 +158,7 @@ def power(x: Decorated, y: Decorated) -> Image:
     return powers.inf, powers.sup, known
 
 
-def angle(y: Decorated, x: Decorated) -> Image:
+def angle(y: Set, x: Set) -> Image:
     """Return atan2, in halves of the circle where the box is not bounded or holds the origin."""
     if not any((y.inf, y.sup, x.inf, x.sup)):
         return EMPTY

@@ -56,6 +56,27 @@ def test_functions_contain_the_values_inside(name, real, imag, s, t, precision):
     assert holds(found, value)
 
 
+@pytest.mark.parametrize("name", [*(n for n in FUNCTIONS if n not in POLES), "recip"])
+@for_all(sides, sides, precisions, tries=30)
+def test_points_have_the_tightest_values_but_for_a_bit(name, real, imag, precision):
+    x, y = real[0], imag[0]
+    size = x * x + y * y
+    if not size or (name == "log" and abs(size - 1) < Fraction(1, 2)) or precision < 12:
+        return
+    found = getattr(box((x, x), (y, y), precision), name)()
+    with flint.ctx.workprec(1500):
+        z = acb(x, y)
+        value = 1 / z if name == "recip" else getattr(z, name)()
+    for side, ball in ((found.real, value.real), (found.imag, value.imag)):
+        low, high = oracle.ends(ball)
+        if low <= 0 <= high:
+            assert side.mag <= Fraction(1, 2**1000)
+            continue
+        below, above = oracle.round_down(low, precision), oracle.round_up(high, precision)
+        assert below - oracle.ulp(low, precision) <= side.inf <= low
+        assert high <= side.sup <= above + oracle.ulp(high, precision)
+
+
 OPERATIONS = {
     "+": lambda z, w: z + w,
     "-": lambda z, w: z - w,

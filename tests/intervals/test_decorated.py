@@ -174,6 +174,8 @@ def test_what_the_standard_says():
         (x.minimum(0).maximum(Fraction(-1, 2)), "[-1/2, 0]_com"),
         (Decorated(3).hypot(4).fma(2, 1), "[11]_com"),
         (x.rootn(3), "[-1, 1]_com"),
+        (Decorated(Interval(-32, 243)).rootn(5), "[-2, 3]_com"),
+        (Decorated("[-1, inf]").rootn(4), "[0, inf]_trv"),
         (2 ** Decorated(Interval(0, 3)), "[1, 8]_com"),
         (Decorated(4) ** Fraction(1, 2) - 1, "[1]"),
     ):
