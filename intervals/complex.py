@@ -87,22 +87,30 @@ class ComplexInterval:
 
     def contains(self, other: Number) -> bool:
         """Return whether the other box, or exact real number, lies in this one."""
-        return self._required(other).subset(self)
+        x, y = self._pair(other)
+        return self.real.contains(x) and self.imag.contains(y)
 
     def subset(self, other: Number) -> bool:
         """Return whether this box lies in the other."""
-        w = self._required(other)
-        return self.real.subset(w.real) and self.imag.subset(w.imag)
+        x, y = self._pair(other)
+        return self.real.subset(x) and self.imag.subset(y)
 
     def interior(self, other: Number) -> bool:
         """Return whether this box lies in the interior of the other."""
-        w = self._required(other)
-        return self.real.interior(w.real) and self.imag.interior(w.imag)
+        x, y = self._pair(other)
+        return self.real.interior(x) and self.imag.interior(y)
 
     def disjoint(self, other: Number) -> bool:
         """Return whether no number lies in both."""
-        w = self._required(other)
-        return self.real.disjoint(w.real) or self.imag.disjoint(w.imag)
+        x, y = self._pair(other)
+        return self.real.disjoint(x) or self.imag.disjoint(y)
+
+    def _pair(self, other: Number) -> tuple[Interval | Fraction | int, Interval | int]:
+        """Return the parts of the other, of a number without rounding: relations are exact."""
+        if isinstance(other, ComplexInterval):
+            return other.real, other.imag
+        self._required(other)
+        return other, 0
 
     def __eq__(self, other: object) -> bool:
         """Return equality as sets; with a number it raises TypeError, as for an Interval."""

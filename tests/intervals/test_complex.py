@@ -285,6 +285,11 @@ def test_sets():
     inner = box((1, 1), (1, 2))
     assert inner.interior(z) and inner.subset(z) and z.subset(z) and not z.interior(z)
     assert not box((0, 1), (1, 2)).interior(z) and not inner.hull(5).subset(z)
+    for number in (Fraction(1, 3), 2**70 + 1):  # which no box of 53 bits is
+        around = ComplexInterval(number)
+        assert around.contains(number) and not around.subset(number)
+        assert ComplexInterval(around.real.inf).disjoint(number)
+    assert ComplexInterval(3).subset(3) and not ComplexInterval(3, 1).subset(3)
     assert z.mid == (1, Fraction(3, 2)) and z.wid == 3 and abs(z).inf == 0
     assert abs(box((3, 3), (-4, 4))) == Interval(3, 5)
     assert z.conjugate() == box((0, 2), (-3, 0)) and len({z, box((0, 2), (0, 3)), w}) == 2
