@@ -3,29 +3,24 @@
 Every operation returns a box that contains op(z, w) for all z and w of its operands, at the larger
 precision p of theirs. Inside, more bits are computed with, and the ends are rounded outward at
 last: "the hull" below is the least box around all values, but for the last of its p bits.
-
-Principal values have their cut on the negative reals, which belong to the upper side, as in C:
-arg(-1) = pi. A box on both sides of the cut, or one that touches it from below, has values far
-apart, and raises DomainError; one that touches it from above does not.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from fractions import Fraction
 from functools import reduce
 from typing import TypeAlias
 
+from intervals.analytic import GUARD, Analytic
 from intervals.errors import DomainError
 from intervals.exact import Exact
 from intervals.interval import Interval
 
 Number: TypeAlias = "ComplexInterval | Interval | Fraction | int"
-_GUARD = 20  # bits beyond the precision
 
 
-class ComplexInterval:
+class ComplexInterval(Analytic):
     """The numbers x + i y with x in `real` and y in `imag`, which have one precision.
 
     ComplexInterval(Interval(1, 2), "0.2") is [1, 2] + 0.2 i; exact numbers and texts enter as in
@@ -56,11 +51,6 @@ class ComplexInterval:
     # -- the set -------------------------------------------------------------------------------
 
     @property
-    def precision(self) -> int:
-        """The precision in bits of both parts."""
-        return self.real.precision
-
-    @property
     def mid(self) -> tuple[Fraction, Fraction]:
         """The exact centre."""
         return self.real.mid, self.imag.mid
@@ -69,10 +59,6 @@ class ComplexInterval:
     def wid(self) -> Fraction:
         """The exact larger side."""
         return max(self.real.wid, self.imag.wid)
-
-    def with_precision(self, precision: int) -> ComplexInterval:
-        """Return an enclosure of this box at another precision."""
-        return ComplexInterval(self.real, self.imag, precision=precision)
 
     def hull(self, other: Number) -> ComplexInterval:
         """Return the smallest box that holds both."""
@@ -142,8 +128,8 @@ class ComplexInterval:
             raise TypeError(f"not a box, an interval or an exact number: {value!r}")
         return other
 
-    def _parts(self, bits: int) -> tuple[Interval, Interval]:
-        return self.real.with_precision(bits), self.imag.with_precision(bits)
+    def _box(self, real: Interval, imag: Interval, precision: int) -> ComplexInterval:
+        return ComplexInterval(real, imag, precision=precision)
 
     def __neg__(self) -> ComplexInterval:
         return ComplexInterval(-self.real, -self.imag)
@@ -186,7 +172,7 @@ class ComplexInterval:
         if w is None:
             return NotImplemented
         p = max(self.precision, w.precision)
-        z, w = self.with_precision(p + _GUARD), w.with_precision(p + _GUARD)
+        z, w = self.with_precision(p + GUARD), w.with_precision(p + GUARD)
         quotient, product = z * w.recip(), z * w.conjugate()
         square = w.real.sqr() + w.imag.sqr()
         common = quotient.intersection(
@@ -202,7 +188,7 @@ class ComplexInterval:
         """Return the hull of 1/z = (x - i y) / |z|^2; DomainError where 0 is in the box."""
         if self.real.contains_zero() and self.imag.contains_zero():
             raise DomainError("division by a box that contains 0")
-        (x, y), p = self._parts(2 * self.precision + _GUARD), self.precision
+        (x, y), p = self._parts(2 * self.precision + GUARD), self.precision
         return ComplexInterval(_over_square(x, y), -_over_square(y, x), precision=p)
 
     def sqr(self) -> ComplexInterval:
@@ -221,82 +207,9 @@ class ComplexInterval:
         half = (self ** (n // 2)).sqr()
         return half * self if n % 2 else half
 
-    # -- functions -----------------------------------------------------------------------------
-
     def __abs__(self) -> Interval:
         """Return the range of |z|."""
         return self.real.hypot(self.imag)
-
-    def arg(self) -> Interval:
-        """Return the range of the angles in (-pi, pi]; DomainError at 0 and across the cut."""
-        self._require_one_side("arg")
-        return self.imag.atan2(self.real)
-
-    def _require_one_side(self, name: str) -> None:
-        if self.real.inf < 0 and self.imag.inf < 0 <= self.imag.sup:
-            raise DomainError(f"{name} of a box on both sides of the cut, the negative reals")
-
-    def _of_parts(self, *functions: Callable[[Interval, Interval], Interval]) -> ComplexInterval:
-        """Return the box of two functions of x and y."""
-        x, y = self._parts(self.precision + _GUARD)
-        return ComplexInterval(*(f(x, y) for f in functions), precision=self.precision)
-
-    def log(self) -> ComplexInterval:
-        """Return log|z| + i arg z, the hull where |z| is not near 1; DomainError as for `arg`."""
-        self._require_one_side("log")
-        return self._of_parts(lambda x, y: x.hypot(y).log(), lambda x, y: y.atan2(x))
-
-    def sqrt(self) -> ComplexInterval:
-        """Return the hull of the roots with real part >= 0; DomainError across the cut.
-
-        Theorem. With r = |z|, Re sqrt(z) = sqrt((r + x) / 2) increases with x and with |y|. Im
-        sqrt(z), which is sqrt((r - x) / 2) with the sign of y, increases with y, decreases with x
-        where y > 0, increases with x where y < 0.
-        """
-        self._require_one_side("sqrt")
-        x, y = self._parts(2 * self.precision + _GUARD)
-        size = abs(y)
-        real = _root(x.inf, size.inf, x)[0].hull(_root(x.sup, size.sup, x)[0])
-        low = _root(x.inf if y.inf < 0 else x.sup, y.inf, x)[1]
-        imag = low.hull(_root(x.inf if y.sup >= 0 else x.sup, y.sup, x)[1])
-        return ComplexInterval(real, imag, precision=self.precision)
-
-    def exp(self) -> ComplexInterval:
-        """Return the hull of e^x cos y + i e^x sin y."""
-        return self._of_parts(lambda x, y: x.exp() * y.cos(), lambda x, y: x.exp() * y.sin())
-
-    def sin(self) -> ComplexInterval:
-        """Return the hull of sin x cosh y + i cos x sinh y."""
-        return self._of_parts(lambda x, y: x.sin() * y.cosh(), lambda x, y: x.cos() * y.sinh())
-
-    def cos(self) -> ComplexInterval:
-        """Return the hull of cos x cosh y - i sin x sinh y."""
-        return self._of_parts(lambda x, y: x.cos() * y.cosh(), lambda x, y: -x.sin() * y.sinh())
-
-    def sincos(self) -> tuple[ComplexInterval, ComplexInterval]:
-        """Return (sin z, cos z)."""
-        return self.sin(), self.cos()
-
-    def tan(self) -> ComplexInterval:
-        """Return sin z / cos z; DomainError where a pole is, or may be, inside."""
-        sin, cos = self.with_precision(self.precision + _GUARD).sincos()
-        return (sin / cos).with_precision(self.precision)
-
-    def _turned(self) -> ComplexInterval:
-        """Return i z."""
-        return ComplexInterval(-self.imag, self.real)
-
-    def sinh(self) -> ComplexInterval:
-        """Return the hull of sinh z = -i sin(i z)."""
-        return -self._turned().sin()._turned()
-
-    def cosh(self) -> ComplexInterval:
-        """Return the hull of cosh z = cos(i z)."""
-        return self._turned().cos()
-
-    def tanh(self) -> ComplexInterval:
-        """Return tanh z = -i tan(i z); DomainError where a pole is, or may be, inside."""
-        return -self._turned().tan()._turned()
 
     # -- text ----------------------------------------------------------------------------------
 
@@ -322,13 +235,3 @@ def _over_square(x: Interval, y: Interval) -> Interval:
     places += [(a, least) for a in (least, -least) if x.contains(a)]
     points = ((Interval(a, precision=x.precision), b) for a, b in places)
     return reduce(Interval.hull, (a / (a.sqr() + b * b) for a, b in points))
-
-
-def _root(x: Fraction, y: Fraction, like: Interval) -> tuple[Interval, Interval]:
-    """Return real and imaginary part of the root of one number, without cancellation."""
-    a, b = (Interval(q, precision=like.precision) for q in (x, y))
-    large = ((a.hypot(b) + abs(a)) / 2).sqrt()
-    if large.sup == 0:
-        return large, large
-    small = b / (2 * large)
-    return (large, small) if x >= 0 else (abs(small), -large if y < 0 else large)
