@@ -13,6 +13,9 @@ from intervals.exact import decimal_bounds, decimal_down, decimal_up, fraction
 
 if TYPE_CHECKING:
     from intervals.array import IntervalArray
+    from intervals.complex import ComplexInterval
+    from intervals.decorated import Decorated
+    from intervals.decorations import Decoration
     from intervals.functions import (
         acos,
         acosh,
@@ -56,6 +59,9 @@ if TYPE_CHECKING:
     pi, e = Interval.pi, Interval.e
 
 __all__ = [
+    "ComplexInterval",
+    "Decorated",
+    "Decoration",
     "DomainError",
     "Interval",
     "IntervalArray",
@@ -106,6 +112,9 @@ __all__ = [
 ]
 
 _HOMES = {
+    "ComplexInterval": "complex",
+    "Decorated": "decorated",
+    "Decoration": "decorations",
     "Interval": "interval",
     "IntervalArray": "array",
     "Jet": "jet",

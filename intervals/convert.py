@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mpmath.ctx_mp_python import _constant
 from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
 
+from intervals.complex import ComplexInterval
 from intervals.elementary.tightest import DOWN, UP, Raw
 from intervals.exact import decimal_down, decimal_up, fraction
 from intervals.interval import Interval, _make
@@ -31,6 +32,21 @@ def interval(value: Any, *, precision: int | None = None) -> Interval:
     middle, low, high = _parts(value)
     bits = precision or max(53, *(raw[3] for raw in (middle, low, high)))
     return _make(mpf_add(middle, low, bits, DOWN), mpf_add(middle, high, bits, UP), bits)
+
+
+def complex_interval(value: Any, *, precision: int | None = None) -> ComplexInterval:
+    """Enclose an mpc or complex interval of mpmath, an acb of python-flint, as `interval` does."""
+    if not any(hasattr(value, name) for name in ("_mpc_", "_mpci_", "complex_rad")):
+        raise TypeError(f"not an mpc, an iv.mpc or an acb: {value!r}")
+    parts = (interval(part, precision=precision) for part in (value.real, value.imag))
+    return ComplexInterval(*parts)
+
+
+def acb(z: ComplexInterval) -> flint.acb:
+    """Return a box of python-flint that contains z; a point is its own."""
+    import flint
+
+    return flint.acb(arb(z.real), arb(z.imag))
 
 
 def _parts(value: Any) -> tuple[Raw, Raw, Raw]:

@@ -6,7 +6,7 @@ from intervals import Interval, _engine
 
 ENGINES = {"flint": _engine.fastest(Interval), "mpmath": _engine.BY_MPMATH}
 BRIEF = {"exact", "functions", "relations", "sharing", "text"}
-LENGTHY = {"interval", "jet", "krawczyk", "newton", "search", "taylor"}
+LENGTHY = {"complex", "decorated", "interval", "jet", "krawczyk", "newton", "search", "taylor"}
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 import intervals
-from intervals import Interval, IntervalArray, linalg
+from intervals import ComplexInterval, Decorated, DomainError, Interval, IntervalArray, linalg
+from intervals.decorations import COM, TRV
+from intervals.functions import DOMAINS
 from intervals.unions import quotients
 from tests.intervals.test_numpy import same
 
@@ -102,6 +104,44 @@ def test_sums_of_products_by_subscripts():
     x = IntervalArray([[(1, 2), 3], [4, (-1, 5)]])
     assert same(np.einsum("ij->ji", x), x.T) and same(np.einsum("ii->i", x), np.diagonal(x))
     assert np.einsum("ij,jk->ik", x, x).contains(x @ x).all()
+
+
+def test_the_power_zero():
+    assert Interval(0) ** 0 == Interval(-1, 1) ** 0 == Interval(1)
+
+
+def test_division_of_complex_boxes():
+    """Around 3 + 4i: the least box, where the formula by the conjugate has twice the width."""
+    w = ComplexInterval(Interval(2, 4), Interval(3, 5))
+    corners = [Fraction(x, x * x + y * y) for x in (2, 4) for y in (3, 5)]
+    found = (1 / w).real
+    assert (found.inf, found.sup) == (Interval(min(corners)).inf, Interval(Fraction(1, 6)).sup)
+    plain = w.real / (w.real.sqr() + w.imag.sqr())
+    assert plain.wid > 2 * found.wid
+
+
+def test_complex_boxes_as_sets():
+    outer = ComplexInterval(Interval(1, 2), Interval(3, 4))
+    inner = ComplexInterval("1.5", Interval("3.25", "3.5"))
+    assert inner.interior(outer) and inner.subset(outer) and not outer.interior(outer)
+    assert outer.mid == (Fraction(3, 2), Fraction(7, 2))
+    size = abs(outer)
+    assert size.sqr().contains(10) and size.sqr().contains(20) and not size.contains("4.4722")
+
+
+def test_roots_across_the_cut():
+    point = Fraction(-242, 100)
+    with pytest.raises(DomainError, match="cut"):
+        ComplexInterval(Interval(point), Interval("-1e-30", "1e-30")).sqrt()
+    root = ComplexInterval(Interval(point), Interval(0, "1e-30")).sqrt()
+    assert root.wid < Fraction(1, 10**15) and root.imag.contains(Interval("2.42").sqrt())
+
+
+def test_the_domain_of_a_function():
+    assert DOMAINS["sqrt"][:2] == (0, None) and str(DOMAINS["log"]) == "(0, oo)"
+    inside, partly = (Decorated(Interval(low, 4)).sqrt() for low in (1, -1))
+    assert inside.decoration is COM and partly.decoration is TRV
+    assert partly.interval == Interval(0, 2)
 
 
 def test_each_row_names_a_test():
