@@ -68,13 +68,13 @@ def periodic_orbits(context: Context, reader: Reader) -> PeriodicOrbits:
     I - M is regular for all M = A_(p-1) ... A_0, A_i in an enclosure of F' on a box around its i-th
     one and that of a listed orbit.
 
-    Conclusion: the orbits listed are all the periodic orbits with all points in the box whose least
-    period divides p; theirs are the n.
+    Conclusion: the orbits listed, n the least period of each, are all the periodic orbits with all
+    points in the box whose least period divides p.
 
     Proof. By (1) the listed orbits are different, and n is the least period of each. Let x_0,
-    x_1, ... be another one as in the conclusion, x_0 a point with the least first coordinate. No
-    cut loses it, so it is in a tube that is left; let y_0, y_1, ... be the listed orbit there. By
-    the mean value theorem, row by row, x_(i+1) - y_(i+1) = A_i (x_i - y_i). Hence
+    x_1, ... be any orbit as in the conclusion, x_0 a point with the least first coordinate. No cut
+    loses it, so it is in a tube that is left; let y_0, y_1, ... be the listed orbit there. By the
+    mean value theorem, row by row, x_(i+1) - y_(i+1) = A_i (x_i - y_i). Hence
     (I - M) (x_0 - y_0) = 0 and x_0 = y_0. Source: Galias, Int. J. Bifurcation Chaos 11 (2001).
     """
     names = ("function", "period", "box", "radius", "orbits")
