@@ -92,17 +92,18 @@ def unique_zero(view, rng):
 
 def periodic_orbits(view, rng):
     """The orbits that Newton's method finds from many places are as many, by least period."""
-    formula, found = view.function, []
+    formula, found, counts = view.function, [], {}
+    near = [(max(low, Fraction(-2)), min(high, Fraction(2))) for low, high in view.box]
     with flint.ctx.workprec(BITS):
-        for start in sampled(view.box, rng, 150):
-            point = newton(_closing(formula, view.period), start)
-            orbit = [] if point is None else _orbit(formula, point, view.period)
-            if orbit and _inside(orbit, view.box) and not any(_meets(orbit, x) for x in found):
-                found.append(orbit)
-    counts = {}
-    for orbit in found:
-        period = next(k for k in range(1, view.period + 1) if _close(orbit[0], orbit[k]))
-        counts[period] = counts.get(period, 0) + 1
+        for period in (d for d in range(1, view.period + 1) if view.period % d == 0):
+            shorter = len(found)
+            for start in (*sampled(view.box, rng, 6), *sampled(near, rng, 12 * period)):
+                point = newton(_closing(formula, period), start)
+                orbit = [] if point is None else _orbit(formula, point, period)
+                if orbit and _inside(orbit, view.box) and not any(_meets(orbit, x) for x in found):
+                    found.append(orbit)
+            if len(found) > shorter:
+                counts[period] = len(found) - shorter
     return [] if counts == dict(view.counts) else [f"orbits are found: {counts}"]
 
 
