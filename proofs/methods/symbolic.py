@@ -142,8 +142,10 @@ def _orbit(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
         )
         matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(tuple(closing))]
         missed = [after.mid - before for after, before in zip(x, point, strict=True)]
-        moved = (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
+        last, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
         point = [round(x / _PLACE) * _PLACE for x in moved]
+        if point == last:
+            break
     entries = [texts(row) for row in matrix]
     return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
 

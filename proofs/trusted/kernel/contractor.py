@@ -19,7 +19,7 @@ class Empty(Exception):
 
 def meet(x: Enclosure, y: Enclosure) -> Enclosure:
     """Return what two enclosures have in common, or raise Empty."""
-    low, high = max(x.lo, y.lo), min(x.hi, y.hi)
+    low, high = x.lo if x.lo > y.lo else y.lo, x.hi if x.hi < y.hi else y.hi
     if low > high:
         raise Empty
     return Enclosure(low, high, x.bits)
@@ -68,38 +68,42 @@ class Contractor:
             if op == "variable":
                 left[int(datum)] = values[place]
             else:
-                _undo(values, values[place], op, arguments, datum)
+                self._undo(values, values[place], op, arguments, datum)
         return left, image
 
+    def _undo(
+        self,
+        values: dict[int, Enclosure],
+        t: Enclosure,
+        op: str,
+        arguments: Sequence[int],
+        datum: Fraction,
+    ) -> None:
+        """Cut the arguments of an operation whose value is in t, if they are no numbers."""
+        for one, other in zip(arguments, reversed(arguments), strict=True):
+            x = values[other]
+            if one in self._known:
+                continue
+            if op == "+":
+                known = t - x
+            elif op == "-":
+                known = t + x if one == arguments[0] else x - t
+            elif op == "*" and not has_zero(x):
+                known = t / x
+            elif op == "/" and one == arguments[0]:
+                known = t * x
+            elif op == "negative":
+                known = -t
+            elif op == "^" and datum == 2:
+                known = _roots(x, t)
+            else:
+                continue
+            values[one] = meet(values[one], known)
 
-def _undo(
-    values: dict[int, Enclosure], t: Enclosure, op: str, arguments: Sequence[int], datum: Fraction
-) -> None:
-    """Cut the arguments of an operation whose value is in t."""
-    a, b = arguments[0], arguments[-1]
-    if op == "+":
-        values[a] = meet(values[a], t - values[b])
-        values[b] = meet(values[b], t - values[a])
-    elif op == "-":
-        values[a] = meet(values[a], t + values[b])
-        values[b] = meet(values[b], values[a] - t)
-    elif op == "negative":
-        values[a] = meet(values[a], -t)
-    elif op == "*":
-        for one, other in ((a, b), (b, a)):
-            if not has_zero(values[other]):
-                values[one] = meet(values[one], t / values[other])
-    elif op == "/":
-        values[a] = meet(values[a], t * values[b])
-    elif op == "^" and datum == 2:
-        values[a] = _roots_in(values[a], meet(t, Enclosure(0, max(0, t.hi), t.bits)))
 
-
-def _roots_in(x: Enclosure, square: Enclosure) -> Enclosure:
-    """Return a part of x with all numbers in it that have their squares in `square`."""
-    root = sqrt(square)
+def _roots(x: Enclosure, square: Enclosure) -> Enclosure:
+    """Return what holds all numbers of x whose squares are in an enclosure."""
+    root = sqrt(meet(square, Enclosure(0, max(0, square.hi), square.bits)))
     if x.lo > -root.lo:
-        return meet(x, root)
-    if x.hi < root.lo:
-        return meet(x, -root)
-    return meet(x, Enclosure(-root.hi, root.hi, x.bits))
+        return root
+    return -root if x.hi < root.lo else root.hull(-root)
