@@ -24,7 +24,6 @@ from tests.proofs.trusted.kernel.lemma_examples import LOGISTIC, henon
 HENON = henon("7/5", "3/10"), (("-1.43", "1.43"), ("-0.43", "0.43"))
 CUBIC = (["x", "y"], ["y", "5*y - y**3 - x/5"]), (("-2.6", "2.6"), ("-2.6", "2.6"))
 SHIFT = LOGISTIC, (("-1/10", "11/10"),)
-PLACE = "$.steps.periodic-orbits-1"
 
 
 @cache
@@ -36,13 +35,7 @@ def made(function, box, period):
 
 def source(of, period):
     (variables, values), box = of
-    return made(Frozen((tuple(variables), tuple(values))), box, period)
-
-
-class Frozen(tuple):
-    """A function that can be hashed."""
-
-    __slots__ = ()
+    return made((tuple(variables), tuple(values)), box, period)
 
 
 def counts(text):
