@@ -155,13 +155,17 @@ def _regular(matrix: Matrix) -> bool:
     return True
 
 
+def _meets(x: Point, y: Point) -> bool:
+    return all(a.lo <= b.hi and b.lo <= a.hi for a, b in zip(x, y, strict=True))
+
+
 def _require_apart(points: Sequence[Point]) -> None:
     """Raise Unproved unless boxes, sorted by their first lower ends, are pairwise disjoint."""
     near: list[Point] = []
     for x in points:
         METER.get().spend(10 + 4 * len(near))
         near = [y for y in near if y[0].hi >= x[0].lo]
-        if any(all(a.lo <= b.hi and b.lo <= a.hi for a, b in zip(x, y, strict=True)) for y in near):
+        if any(_meets(x, y) for y in near):
             raise Unproved("two periodic points are not proved to be different")
         near.append(x)
 
@@ -242,13 +246,16 @@ class _Search:
         side = tube[0][0]
         first = bisect_left(self._listed, (side.lo - self._reach,))
         last = bisect_right(self._listed, (side.hi + 1,))
-        METER.get().spend(4 * (last - first) + 10)
+        METER.get().spend(8 * (last - first) + 10)
         for _, which, k in self._listed[first:last]:
             orbit = self._rounded[which]
+            if not _meets(tube[0], orbit[k]):
+                continue
+            METER.get().spend(4 * len(tube))
             turned = [orbit[(k + i) % len(orbit)] for i in range(len(tube))]
-            pairs = [list(zip(*both, strict=True)) for both in zip(tube, turned, strict=True)]
-            if all(x.lo <= y.hi and y.lo <= x.hi for both in pairs for x, y in both):
-                return self._holds_one([[x.hull(y) for x, y in both] for both in pairs])
+            if all(map(_meets, tube, turned)):
+                pairs = zip(tube, turned, strict=True)
+                return self._holds_one([list(map(Enclosure.hull, x, y)) for x, y in pairs])
         return False
 
     def _holds_one(self, tube: Tube) -> bool:
