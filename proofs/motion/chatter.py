@@ -131,7 +131,7 @@ class Pushing:
 
     def _seen(self, phase: float, kick: float) -> float:
         eta, nu = map(float, self.at.point)
-        side = 1 if nu > 0 else -1
+        side = self.at.side
         start = launch(side, eta, nu, phase)._replace(kick=side * kick)
         if (acceleration := launch_acceleration(start)) >= 0:
             raise Undecided("in floating point a bounce begins off the arc")

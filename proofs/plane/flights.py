@@ -50,8 +50,7 @@ class Flights:
 
     @cached_property
     def _start(self) -> Launch:
-        side = 1 if self.box.nu[0] > 0 else -1
-        return launch(side, self._eta, _array([self.box.nu]), _array([self.phases]))
+        return launch(self.box.side, self._eta, _array([self.box.nu]), _array([self.phases]))
 
     @property
     def _orders(self) -> list[int]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from intervals import Undecided
 from proofs.motion.many import float_gap, next_impacts
 from proofs.plane.settling import settles
-from proofs.plane.steps import Steps, corners, side
+from proofs.plane.steps import Steps, corners
 from proofs.search.portrait import FALLS, RISES, Seen, continues
 from proofs.search.shifts import Piece, expanding, families, symbols, with_spare
 from proofs.trusted.numbers import Range
@@ -82,7 +82,7 @@ def _holds(box: Place, sets: Sets) -> bool:
         sides = []
         for end in map(float, phases):
             times = target + math.tau * turns - end
-            below, above = float_gap(side(box), etas, nus, end, times).T
+            below, above = float_gap(box.side, etas, nus, end, times).T
             sides.append(-int((below < 0).all()) + int((above > 0).all()))
         if sorted(sides) != [-1, 1]:
             return False
@@ -96,13 +96,13 @@ def _number(count: int) -> str:
 def _seen(box: Place, count: int) -> list[Sets]:
     """Return so many sets that are seen at the centre, and seem to fit all over a box."""
     etas, nus = corners(box)
-    found = symbols(_pieces(side(box), etas[0], nus[0]))
+    found = symbols(_pieces(box.side, etas[0], nus[0]))
     grown = [family for family in families(found, count) if len(family) == count]
     pairs = [sets for family in grown for sets in with_spare(family)]
     if not pairs:
         return []
     points = np.array([[(a, b, (a + b) / 2) for a, b in sets] for sets in pairs], float)
-    flights = next_impacts(side(box), etas, nus, points[..., None], _FARTHEST)
+    flights = next_impacts(box.side, etas, nus, points[..., None], _FARTHEST)
     fits = []
     for phases, images, times in zip(pairs, flights.images, flights.times, strict=True):
         turns = np.floor(images[:, 2, 0] / math.tau)

@@ -17,7 +17,7 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.many import float_gap, next_impacts
 from proofs.motion.system import System
 from proofs.plane.flights import Flights, times_for
-from proofs.plane.steps import Steps, corners, side
+from proofs.plane.steps import Steps, corners
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -75,7 +75,7 @@ def _rehearse(box: Place) -> None:
     seen, (etas, nus), steep = _separations(box), corners(box), 1.0
     phases = (seen + _LATER)[None, :]
     for _ in range(_MOST_IMPACTS + 1):
-        _, images, slopes = next_impacts(side(box), etas, nus, phases, _FARTHEST)
+        _, images, slopes = next_impacts(box.side, etas, nus, phases, _FARTHEST)
         steep *= float(np.abs(slopes).max()) if len(phases) > 1 else 1.0
         low, high = float(images.min()), float(images.max())
         if not high - low < _APART:
@@ -88,7 +88,7 @@ def _rehearse(box: Place) -> None:
     last = target[1] + _MORE * (target[1] - float(seen.max()))
     if last > float(seen.min()):
         launches = np.maximum(last, seen + _LATER)
-        slopes = next_impacts(side(box), etas, nus, launches, _FARTHEST).slopes
+        slopes = next_impacts(box.side, etas, nus, launches, _FARTHEST).slopes
         if not steep * float(np.abs(slopes).max()) < 1:
             raise Undecided("motions from just after the separation do not come back closer")
 
@@ -200,7 +200,7 @@ def _target(box: Place, low: float, high: float) -> tuple[float | None, float] |
     low, high = low - math.tau * turns, high - math.tau * turns
     if low > float(start.max()):
         return None, high
-    heights = float_gap(side(box), etas, nus, low, seen - low)
+    heights = float_gap(box.side, etas, nus, low, seen - low)
     if low > 0 and (etas * (seen - low)).max() < _SHORT and (heights < 0).all():
         return low, high
     return None
@@ -231,7 +231,7 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
     phase = _rounded(float(seen.min()), float(seen.max()) + after)
     if phase[1] > TURN:
         raise Undecided("the mass leaves the table next to phase 0")
-    flown = next_impacts(side(made.box), etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
+    flown = next_impacts(made.box.side, etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
     flights = Flights(made.box, phase, separating=True)
@@ -258,7 +258,7 @@ def _cell(made: Steps, phases: Range) -> Cell:
     """Add what encloses f' on a cell (rule slope-range), f being monotone."""
     etas, nus = corners(made.box)
     ends = np.array([float(end) for end in phases])
-    seen = next_impacts(side(made.box), etas, nus, ends[:, None], _FARTHEST).times
+    seen = next_impacts(made.box.side, etas, nus, ends[:, None], _FARTHEST).times
     if not np.isfinite(seen).all():
         raise Undecided("an impact is not seen to be followed by another one")
     flight, times = made.impact(phases, float(seen.max()))
@@ -293,10 +293,10 @@ def stays_stable(box: Place) -> Steps:
 def _orbits(box: Place) -> Iterator[list[Range]]:
     """Yield cells around stable orbits that are seen at the centre and the corners of a box."""
     etas, nus = corners(box)
-    for cycle in islice(_cycles(side(box), etas[0], nus[0]), _TRIES):
+    for cycle in islice(_cycles(box.side, etas[0], nus[0]), _TRIES):
         phases = np.array([cycle] * len(etas)).T
         for _ in range(_CLOSER):
-            found = next_impacts(side(box), etas, nus, phases, _FARTHEST)
+            found = next_impacts(box.side, etas, nus, phases, _FARTHEST)
             before, phases = phases, _next_to(phases, np.roll(found.images, 1, axis=0))
             moved = float(np.abs(phases - before).max())
             if not moved > _NEAR:

@@ -67,8 +67,3 @@ def corners(box: Place) -> tuple[list[float], list[float]]:
     centre = (etas[0] + etas[1]) / 2, (nus[0] + nus[1]) / 2
     points: list[tuple[Fraction, Fraction]] = [centre, *product(etas, nus)]
     return [float(eta) for eta, _ in points], [float(nu) for _, nu in points]
-
-
-def side(box: Place) -> int:
-    """Return the sign of nu."""
-    return 1 if box.nu[0] > 0 else -1

@@ -119,7 +119,7 @@ class Motion:
     @property
     def side(self) -> int:
         """The sign of nu."""
-        return 1 if self.at.nu[0] > 0 else -1
+        return self.at.side
 
     @cached_property
     def eta(self) -> Enclosure:

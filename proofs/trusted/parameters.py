@@ -51,6 +51,11 @@ class Place:
             raise Unproved("one eta and one nu are expected")
         return eta, nu
 
+    @property
+    def side(self) -> int:
+        """The sign of nu."""
+        return 1 if self.nu[0] > 0 else -1
+
     def inside(self, other: Place) -> bool:
         """Whether these oscillators are among those of another box."""
         return all(map(within, self.sides, other.sides))

@@ -109,7 +109,7 @@ class Part:
     @property
     def side(self) -> int:
         """The sign of nu."""
-        return 1 if self.at.nu[0] > 0 else -1
+        return self.at.side
 
     @property
     def leans(self) -> bool:

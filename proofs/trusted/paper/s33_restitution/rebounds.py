@@ -129,9 +129,8 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     eta, nu, epsilon, phi, gamma = (
         Enclosure.of(*values, bits) for values in (*at.sides, phases, velocities)
     )
-    side = 1 if at.nu[0] > 0 else -1
-    start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
-    if (side * closing(start, gamma)).lo < 0:
+    start = launch_with_restitution(at.side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
+    if (at.side * closing(start, gamma)).lo < 0:
         raise Unproved("the states are not proved possible: the mass would come from the table")
 
     def gap_of(time: Range, order: int) -> Enclosure:
