@@ -97,9 +97,7 @@ class Local:
     def jacobian(self, q: Values) -> Matrix:
         """Enclose the derivatives, by the chain rule."""
         points, product = self._points(q), [list(row) for row in self.source.matrix]
-        for _ in range(self.power):
-            product = multiply(jacobian(self.formula, points), product)
-            points = values(self.formula, points)
+        _, product = followed(self.formula, points, product, self.power)
         return multiply(self.target.inverse, product)
 
     def on(self, box: Box) -> Values:
@@ -109,6 +107,13 @@ class Local:
     def _points(self, q: Values) -> Values:
         pairs = zip(self.source.matrix, self.source.centre, strict=True)
         return [dot(row, q) + c for row, c in pairs]
+
+
+def followed(formula: Formulas, x: Values, first: Any, power: int) -> tuple[Values, Any]:
+    """Enclose F^k(x), and the derivative of F^k there times a matrix (chain rule)."""
+    for _ in range(power):
+        x, first = values(formula, x), multiply(jacobian(formula, x), first)
+    return x, first
 
 
 def multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:

@@ -13,11 +13,9 @@ from proofs.methods.formulas import (
     Local,
     Values,
     dot,
+    followed,
     inverse,
-    jacobian,
-    multiply,
     subdivide,
-    values,
 )
 from proofs.methods.lemmas import Lemmas, Number, Sides, exact, written
 from proofs.methods.periodic import Orbit, periodic_orbits
@@ -133,9 +131,8 @@ def _orbit(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
     point, matrix = [x.mid for x in orbit.points[0]], []
     for _ in range(_STEPS):
         x = [Interval(value, precision=_BITS) for value in point]
-        product: Any = [[int(i == j) for j in range(len(x))] for i in range(len(x))]
-        for _ in range(orbit.period):
-            x, product = values(formula, x), multiply(jacobian(formula, x), product)
+        unit = [[int(i == j) for j in range(len(x))] for i in range(len(x))]
+        x, product = followed(formula, x, unit, orbit.period)
         closing = (
             tuple(entry.mid - int(i == j) for j, entry in enumerate(row))
             for i, row in enumerate(product)

@@ -22,6 +22,7 @@ from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.solutions import solution
 from proofs.trusted.kernel.values import Equal, Series, equal
 from proofs.trusted.numbers import Range
+from proofs.trusted.rules import Rule
 
 _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
@@ -31,15 +32,14 @@ def prove_jacobian(file: Lemmas, of: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
     texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
     for entry in of.implicit(texts):
-        _confirm(file, file.equal(entry, "0"))
+        _confirm(file, file.equal(entry, "0"), equal)
 
 
-def _confirm(file: Lemmas, name: str) -> None:
+def _confirm(file: Lemmas, name: str, rule: Rule) -> None:
     """Take a step back, and raise Undecided, where the checker does not derive it.
 
     What sympy finds may rest on identities that the checker has not: exp(log(x)) = x, for one.
     """
-    rule = {"formula-equal": equal, "formula-solution": solution}[file.steps[name]["rule"]]
     try:
         with metered(DEFAULT):
             rule(Context(), Reader(file.steps[name]["witness"]))
@@ -60,7 +60,7 @@ def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter
         Equal(form.criticality, "critical"),
         Equal(form.speed(parameter), "speed"),
     )
-    _confirm(file, name)
+    _confirm(file, name, solution)
 
 
 def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solution]:

@@ -14,7 +14,7 @@ Point = list[Enclosure]  # a box
 
 
 class Empty(Exception):
-    """Nothing is left."""
+    """Nothing is left: a proof. (Unproved is none, so `Enclosure.meet` does not serve.)"""
 
 
 def meet(x: Enclosure, y: Enclosure) -> Enclosure:

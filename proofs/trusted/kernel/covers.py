@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
@@ -13,6 +13,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     Box,
+    Map,
     Matrix,
     add,
     decide,
@@ -92,23 +93,32 @@ class LocalMap:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose f on a box of coordinates."""
-        points = self._points(x)
-        for _ in range(self.power):
-            points = self.map.values(points)
+        points = images(self.map, self._points(x), self.power + 1)[-1]
         moved = [p - rational(d, p.bits) for p, d in zip(points, self.target.centre, strict=True)]
         return [add(x[0] * 0, row, moved) for row in _rows(self.target.inverse, x)]
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose f' = B^-1 F'(x_(k-1)) ... F'(x_0) A (chain rule)."""
-        points, product = self._points(x), _rows(self.source.matrix, x)
-        for _ in range(self.power):
-            product = multiply(self.map.jacobian(points), product)
-            points = self.map.values(points)
+        points = images(self.map, self._points(x), self.power)
+        product = along(self.map, points, _rows(self.source.matrix, x))
         return multiply(_rows(self.target.inverse, x), product)
 
     def _points(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         rows = zip(self.source.centre, _rows(self.source.matrix, x), strict=True)
         return [add(rational(c, x[0].bits), row, x) for c, row in rows]
+
+
+def images(map_: Map, x: Sequence[Enclosure], count: int) -> list[list[Enclosure]]:
+    """Enclose x and its images, `count` in all."""
+    points = [list(x)]
+    while len(points) < count:
+        points.append(map_.values(points[-1]))
+    return points
+
+
+def along(map_: Map, points: Sequence[Sequence[Enclosure]], first: Matrix) -> Matrix:
+    """Enclose all products A_k ... A_1 A, A in `first`, A_i in F' on the i-th box of points."""
+    return reduce(lambda product, x: multiply(map_.jacobian(x), product), points, first)
 
 
 def multiply(a: Matrix, b: Matrix) -> Matrix:

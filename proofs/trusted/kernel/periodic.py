@@ -7,14 +7,14 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.contractor import Contractor, Empty, Point, has_zero, meet
-from proofs.trusted.kernel.covers import MAX_POWER, multiply
+from proofs.trusted.kernel.covers import MAX_POWER, along, images
 from proofs.trusted.kernel.enclose import (
     Box,
     Matrix,
@@ -105,21 +105,12 @@ def _orbit(function: Formulas, radius: Fraction, reader: Reader, period: int) ->
     point, matrix = point_of.numbers(n, n), read_matrix(matrix_of, n)
     box = tuple((x - radius, x + radius) for x in point)
     require_zero(_Closing(function, length), box, matrix)
-    return _images(function, enclosed(box, _FINE), length)
-
-
-def _images(function: Formulas, x: Sequence[Enclosure], count: int) -> Tube:
-    """Return x and its images, `count` in all."""
-    points = [list(x)]
-    while len(points) < count:
-        points.append(function.values(points[-1]))
-    return points
+    return images(function, enclosed(box, _FINE), length)
 
 
 def _derivative(function: Formulas, tube: Tube) -> Matrix:
     """Enclose all products A_(p-1) ... A_0, A_i in the enclosure of F' on the i-th box."""
-    first, *others = map(function.jacobian, tube)
-    return reduce(lambda product, slopes: multiply(slopes, product), others, first)
+    return along(function, tube[1:], function.jacobian(tube[0]))
 
 
 @dataclass(frozen=True)
@@ -130,11 +121,11 @@ class _Closing:
     power: int
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        after = _images(self.map, x, self.power + 1)[-1]
+        after = images(self.map, x, self.power + 1)[-1]
         return [a - b for a, b in zip(after, x, strict=True)]
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        return _less_one(_derivative(self.map, _images(self.map, x, self.power)))
+        return _less_one(_derivative(self.map, images(self.map, x, self.power)))
 
 
 def _less_one(matrix: Matrix) -> Matrix:
