@@ -124,7 +124,7 @@ def level(motion: Motion, time: Fraction) -> Range:
     """Enclose the gap at one time: by the ends of the phases where it is monotone in the phase."""
     now = motion.clock((time, time))
     whole: Dual = gap(motion.moving, now)
-    if whole.derivative.lo <= 0 <= whole.derivative.hi:
+    if whole.derivative.has_zero:
         return whole.value.range
     return hull([gap(end, now).range for end in motion.outer])
 

@@ -44,6 +44,11 @@ class Enclosure:
         unit = 1 << self.bits
         return Fraction(self.lo, unit), Fraction(self.hi, unit)
 
+    @property
+    def has_zero(self) -> bool:
+        """Whether 0 is in it."""
+        return self.lo <= 0 <= self.hi
+
     def _like(self, other: Enclosure | Fraction | int) -> Enclosure:
         if isinstance(other, Enclosure):
             if other.bits != self.bits:

@@ -111,7 +111,7 @@ class Complex:
 def _square(x: Enclosure) -> Enclosure:
     """Enclose the squares of real numbers."""
     ends = x.lo * x.lo, x.hi * x.hi
-    least = 0 if x.lo <= 0 <= x.hi else min(ends)
+    least = 0 if x.has_zero else min(ends)
     return Enclosure(least >> x.bits, -(-max(ends) >> x.bits), x.bits)
 
 

@@ -25,11 +25,6 @@ def meet(x: Enclosure, y: Enclosure) -> Enclosure:
     return Enclosure(low, high, x.bits)
 
 
-def has_zero(x: Enclosure) -> bool:
-    """Whether 0 is in an enclosure."""
-    return x.lo <= 0 <= x.hi
-
-
 class Contractor:
     """Cuts of boxes Z and W that lose no z in Z and w in W with w = F(z).
 
@@ -88,7 +83,7 @@ class Contractor:
                 known = t - x
             elif op == "-":
                 known = t + x if one == arguments[0] else x - t
-            elif op == "*" and not has_zero(x):
+            elif op == "*" and not x.has_zero:
                 known = t / x
             elif op == "/" and one == arguments[0]:
                 known = t * x

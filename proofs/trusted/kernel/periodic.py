@@ -13,7 +13,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.contractor import Contractor, Empty, Point, has_zero, meet
+from proofs.trusted.kernel.contractor import Contractor, Empty, Point, meet
 from proofs.trusted.kernel.covers import MAX_POWER, along, images
 from proofs.trusted.kernel.enclose import (
     Box,
@@ -137,7 +137,7 @@ def _regular(matrix: Matrix) -> bool:
     while matrix:
         pivot = max(range(len(matrix)), key=lambda i: abs(matrix[i][0].lo + matrix[i][0].hi))
         first, others = matrix[pivot], [row for i, row in enumerate(matrix) if i != pivot]
-        if has_zero(first[0]):
+        if first[0].has_zero:
             return False
         matrix = [
             [x - row[0] * y / first[0] for x, y in zip(row[1:], first[1:], strict=True)]

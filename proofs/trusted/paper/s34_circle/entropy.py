@@ -97,7 +97,7 @@ class Branch(Conclusion):
             raise Unproved("an impact before the time given is not excluded")
         window = after, max(self.ends)
         along = self.motion(phases).clock(window).mass_sin
-        if along.lo <= 0 <= along.hi:
+        if along.has_zero:
             raise Unproved("f' is not proved to have one sign on a branch")
         return window, -1 if along.lo > 0 else 1
 

@@ -127,7 +127,7 @@ def stretch(motion: Motion, time: Range) -> Fraction | None:
     """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
     sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
     along = sin / motion.eta * push
-    if along.lo <= 0 <= along.hi:
+    if along.has_zero:
         return None
     ratio: Enclosure = motion.gap_of(time, 1) / along
     return max(-ratio.range[0], ratio.range[1])

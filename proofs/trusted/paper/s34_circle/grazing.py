@@ -157,7 +157,7 @@ def graze(
 def _falling(motion: Motion, time: Range) -> bool:
     """Whether sin(eta t) < 0 on an interval of times; Unproved unless it has one sign there."""
     sin: Enclosure = motion.clock(time).mass_sin
-    if sin.lo <= 0 <= sin.hi:
+    if sin.has_zero:
         raise Unproved("f' is not proved to have one sign")
     return sin.hi < 0
 

@@ -198,7 +198,7 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     )
     if not low.value.hi < 0 < high.value.lo and not high.value.hi < 0 < low.value.lo:
         raise Unproved("the bracket is not proved to contain a solution of (16)")
-    if along.derivative.lo <= 0 <= along.derivative.hi:
+    if along.derivative.has_zero:
         raise Unproved("the bracket is not proved to contain one solution of (16) alone")
     motion = Motion(at, phase, bits)
     start, whole = motion.start(), pi(bits) * (2 * n)
