@@ -11,7 +11,6 @@ from proofs.trusted.flights import (
     FirstImpact,
     bracketed,
     lifted,
-    mean_values,
     phase_after,
     read_phases,
     transversal_step,
@@ -20,6 +19,7 @@ from proofs.trusted.flights import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.gaps import mean_values
 from proofs.trusted.numbers import (
     TURN,
     Phase,

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.equations import gap
-from proofs.trusted.flights import Motion, stays_up
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.gaps import stays_up
 from proofs.trusted.numbers import Range, hull
 
 BITS = 80

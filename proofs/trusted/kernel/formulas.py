@@ -20,9 +20,10 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, Matrix
+from proofs.trusted.kernel.enclose import Enclosures, Matrix, enclosed
 from proofs.trusted.kernel.expression import FUNCTIONS, Tape
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import Range
 
 MAX_VARIABLES = 30
 _MAX_LENGTH = 12_000
@@ -42,7 +43,8 @@ class Formulas:
     """Real functions of variables, on one tape; as a map, name(variables) = (F_1, ..., F_m).
 
     parts: the functions of which derivatives were taken; a derivative, as computed, is one only
-    where its function is defined, so they are evaluated together with the roots.
+    where its function is defined, so they are evaluated together with the roots. ranges: of
+    parameters, further variables on the tape: what is enclosed is enclosed for all their values.
     """
 
     variables: tuple[str, ...]
@@ -51,6 +53,12 @@ class Formulas:
     roots: tuple[int, ...]
     parts: tuple[int, ...]
     name: str = ""
+    ranges: tuple[Range, ...] = ()
+
+    @property
+    def size(self) -> int:
+        """The number of values."""
+        return len(self.roots)
 
     @property
     def definition(self) -> str:
@@ -65,17 +73,20 @@ class Formulas:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box."""
-        return self._enclose(self.roots, x)
+        return self.enclose(self.roots, x)
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the partial derivatives, a row a function, which are proved defined, too."""
         n = len(self.variables)
         partials = [self.tape.derivative(root, v) for root in self.roots for v in range(n)]
-        entries = self._enclose((*partials, *self.roots), x)
+        entries = self.enclose((*partials, *self.roots), x)
         return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
 
-    def _enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
-        return self.tape.evaluate((*roots, *self.parts), Enclosures(x[0].bits), x)[: len(roots)]
+    def enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose any roots of the tape on a box, the parts being proved defined there."""
+        bits = x[0].bits
+        inputs = (*x, *enclosed(self.ranges, bits)) if self.ranges else x
+        return self.tape.evaluate((*roots, *self.parts), Enclosures(bits), inputs)[: len(roots)]
 
 
 def read_formulas(*readers: Reader) -> Formulas:
@@ -173,7 +184,7 @@ class _Placer:
             case ast.Name(id="pi"):
                 place = self.tape.add("pi")
             case ast.Name(id=name):
-                place = self._variable(name)
+                place = self._named(name)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
                 place = self._folded("negative", inner(operand))
             case ast.BinOp(op=ast.Pow(), left=base, right=exponent):
@@ -204,6 +215,12 @@ class _Placer:
         return place
 
     def _variable(self, name: str | None) -> int:
+        place = self._named(name)
+        if self.tape.nodes[place].op != "variable":
+            raise Unproved(f"not a variable: {name!r}")
+        return place
+
+    def _named(self, name: str | None) -> int:
         if name not in self.places:
             raise Unproved(f"unknown variable {(name or '')[:30]!r}")
         return self.places[name]

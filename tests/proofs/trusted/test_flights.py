@@ -4,16 +4,9 @@ from fractions import Fraction as F
 
 import pytest
 
-from proofs.trusted.flights import (
-    brackets,
-    fall,
-    falls,
-    first_windows,
-    lifted,
-    open_windows,
-    stays_up,
-)
+from proofs.trusted.flights import lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.gaps import brackets, fall, falls, first_windows, open_windows, stays_up
 
 BITS = 64
 TURN = F("6.283185307179586476925286766559005768394338798750211641949889")

@@ -24,8 +24,6 @@ from proofs.trusted.equations import (
 from proofs.trusted.flights import (
     bits_for,
     bits_for_pieces,
-    brackets,
-    first_windows,
     lifted,
     read_phases,
     read_times,
@@ -34,6 +32,7 @@ from proofs.trusted.flights import (
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.gaps import brackets, first_windows
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Phases, Range, between, common, hull, show_range, within
 from proofs.trusted.parameters import Place

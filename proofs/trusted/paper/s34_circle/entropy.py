@@ -10,10 +10,11 @@ from functools import cache, cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, brackets, falls, lifted
+from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.gaps import brackets, falls
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,

@@ -8,11 +8,12 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import Motion, falls, lifted, whole_turns
+from proofs.trusted.flights import Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import sqrt
+from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.numbers import Phases, Range, between, increasing, show_range
 from proofs.trusted.paper.s34_circle.entropy import read_turn
 from proofs.trusted.parameters import Place

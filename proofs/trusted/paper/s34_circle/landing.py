@@ -14,7 +14,6 @@ from proofs.trusted.flights import (
     Motion,
     bits_for,
     bracketed,
-    first_windows,
     lifted,
     read_times,
     whole_turns,
@@ -22,6 +21,7 @@ from proofs.trusted.flights import (
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.numbers import (
     TURN,
     Phase,

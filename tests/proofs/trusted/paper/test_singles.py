@@ -12,8 +12,8 @@ import pytest
 from intervals import Undecided
 from proofs.plane.singles import SingleFlights, propose
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import first_windows
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.paper.beyond.singles import Part, StableSingles, parts
 from proofs.trusted.parameters import Place
 from proofs.trusted.verify import Rejected, check

@@ -1,0 +1,91 @@
+"""A gap and its first zero: how it stays positive, where it falls; for any flight.
+
+`gap_of(interval of times, order)` encloses a derivative of the gaps of some flights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.numbers import Range
+
+_HALVINGS = 4  # of a window, to prove that the gap falls
+_ZERO = Fraction(0)
+Gap = Callable[[Range, int], Enclosure]
+
+
+def stays_up(
+    gap_of: Gap, time: Range, least: Fraction | int, bend: Enclosure | None = None
+) -> bool:
+    """Whether gap > 0 on an interval of times, at whose ends it is `least` or more.
+
+    It is above its chord less w^2/8 max(0, sup gap''), w the width of the interval. `least` is in
+    the units of the enclosures of gap''. bend: one on a longer interval, if it is known.
+    """
+    if least <= 0:
+        return False
+    width = time[1] - time[0]
+    rise, square = 8 * least * width.denominator**2, width.numerator**2
+    known = bend is not None and rise > bend.hi * square
+    return known or rise > gap_of(time, 2).hi * square
+
+
+def brackets(gap_of: Gap, time: Range) -> bool:
+    """Whether gap > 0 at the lower end of an interval of times, gap < 0 at the upper one."""
+    low, high = (gap_of((end, end), 0) for end in time)
+    return low.lo > 0 > high.hi
+
+
+def mean_values(first: Range, last: Range, derivative: Range, width: Fraction) -> Range:
+    """Enclose a function on an interval, from its ends and the range of its derivative."""
+    down, up = min(derivative[0], _ZERO) * width, max(derivative[1], _ZERO) * width
+    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
+
+
+def fall(gap_of: Gap, time: Range) -> Enclosure:
+    """Enclose gap' on an interval of times: directly, and by the mean value theorem."""
+    direct = gap_of(time, 1)
+    first, last = (gap_of((end, end), 1).range for end in time)
+    low, high = mean_values(first, last, gap_of(time, 2).range, time[1] - time[0])
+    return direct.meet(Enclosure.of(low, high, direct.bits))
+
+
+def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
+    """Whether gap' < 0 on an interval of times, which may be halved again and again."""
+    if fall(gap_of, time).hi < 0:
+        return True
+    middle = (time[0] + time[1]) / 2
+    halves = (time[0], middle), (middle, time[1])
+    return halvings > 0 and all(falls(gap_of, half, halvings - 1) for half in halves)
+
+
+def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
+    """Return the runs of pieces [t_j, t_(j+1)] that do not stay up; gap < 0 must hold at t_n."""
+    windows: list[Range] = []
+    value, bend = gap_of((times[0], times[0]), 0), gap_of((times[0], times[-1]), 2)
+    for before, now in pairwise(times):
+        following = gap_of((now, now), 0)
+        if not stays_up(gap_of, (before, now), min(value.lo, following.lo), bend):
+            begin = windows.pop()[0] if windows and windows[-1][1] == before else before
+            windows.append((begin, now))
+        value = following
+    if value.hi >= 0:
+        raise Unproved("the gap is not proved negative at the last time")
+    return windows
+
+
+def first_windows(
+    gap_of: Gap, times: Sequence[Fraction], *orders: int
+) -> tuple[tuple[Range, ...], bool]:
+    """Return the windows of the first impact, and whether it is transversal: rule `first-impact`.
+
+    For an order k of `orders`: gap^(k) > 0 on [0, t_1], lower derivatives are >= 0 at launch.
+    """
+    if all(gap_of((_ZERO, times[0]), order).lo <= 0 for order in orders):
+        raise Unproved("the launches are not proved to leave the table")
+    windows = open_windows(gap_of, times)
+    single = len(windows) == 1 and windows[0][1] == times[-1]
+    return tuple(windows), single and falls(gap_of, windows[0], _HALVINGS)
