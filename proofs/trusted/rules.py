@@ -29,6 +29,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
         "periodic-orbits": "kernel.periodic.periodic_orbits",
+        "periodic-orbit": "kernel.cycle.periodic_orbit",
         "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",

@@ -107,9 +107,9 @@ def _premises(document: Reader) -> Context:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
     context = Context(subject_from_json(parameters_of))
     for name, each in functions_of.members():
-        from proofs.trusted.kernel.formulas import read_function  # that few files have
+        from proofs.trusted.kernel.maps import read_map  # that few files have
 
-        context.functions[name] = read_function(name, each)
+        context.functions[name] = read_map(name, each, context.functions)
     derive(context, steps_of)
     return context
 

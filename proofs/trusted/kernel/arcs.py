@@ -11,7 +11,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, box_text, read_box
-from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.zeros import Piece, Rows, read_matrix, require_zero
 from proofs.trusted.numbers import Range, show_range, within
 
@@ -26,7 +26,7 @@ class Arc(Conclusion):
     inside of pieces, with one value of it each, and the zero at that value.
     """
 
-    function: Formulas
+    function: Map
     axis: int
     pieces: tuple[Piece, ...]
     points: tuple[Box, ...] = ()
@@ -85,14 +85,14 @@ def arc(context: Context, reader: Reader) -> Arc:
         "function", "axis", "pieces", "points"
     )
     function = context.function(function_of)
-    if len(function.roots) + 1 != len(function.variables):
-        raise function_of.fail("one value less than variables is expected")
+    if function.size + 1 != len(function.variables) or function.circles:
+        raise function_of.fail("one value less than variables, and no angles, are expected")
     if axis_of.string() not in function.variables:
         raise axis_of.fail("a variable of the function is expected")
     return an_arc(function, function.variables.index(axis_of.string()), pieces_of, points_of)
 
 
-def an_arc(function: Formulas, axis: int, pieces_of: Reader, points_of: Reader) -> Arc:
+def an_arc(function: Map, axis: int, pieces_of: Reader, points_of: Reader) -> Arc:
     """Theorem. Let F have n values and n + 1 variables, one of them, x, the axis, y the others.
 
     Pieces: {box, slope, matrix C}, see `Piece`; points: {box, matrix C} with one value of x, slope
@@ -127,14 +127,14 @@ def an_arc(function: Formulas, axis: int, pieces_of: Reader, points_of: Reader) 
     return found
 
 
-def _read_piece(function: Formulas, axis: int, reader: Reader) -> tuple[Piece, Rows]:
+def _read_piece(function: Map, axis: int, reader: Reader) -> tuple[Piece, Rows]:
     box_of, slope_of, matrix_of = reader.fields("box", "slope", "matrix")
     n = len(function.variables)
     piece = Piece(read_box(box_of, n), slope_of.numbers(n, n))
     return piece, read_matrix(matrix_of, n - 1)
 
 
-def _read_point(function: Formulas, reader: Reader) -> tuple[Box, Rows]:
+def _read_point(function: Map, reader: Reader) -> tuple[Box, Rows]:
     box_of, matrix_of = reader.fields("box", "matrix")
     n = len(function.variables)
     return read_box(box_of, n), read_matrix(matrix_of, n - 1)

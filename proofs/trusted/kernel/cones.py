@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import product
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.covers import LocalMap, beyond, cube
+from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import (
     Box,
     Enclosures,
@@ -61,7 +61,8 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     a box R in [-1, 1]^n and bounds J on n^2 derivatives, row by row: on each leaf of `outside`, a
     subdivision of [-1, 1]^n, that is not in R, some |f_j| > 1; on each leaf of `tree`, which
     divides R, an enclosure of f' lies in J; on each leaf of `matrices`, which divides J,
-    D^T Q_M D - Q_N is positive definite for all matrices D.
+    D^T Q_M D - Q_N is positive definite for all matrices D. For a map with angles, on each leaf of
+    `outside` no other turns than those of the relation bring an image into M.
 
     Conclusion: each bi-infinite path is followed by exactly one full orbit x_(m+1) = G(x_m) of
     G = F^k. If all d_i > 0, each infinite path is followed by exactly one point.
@@ -98,13 +99,31 @@ def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:
     box, jacobian = read_box(box_of, n), read_box(jacobian_of, n * n)
     if not _inside(box, cube(n)):
         raise box_of.fail("the box leaves [-1, 1]^n")
+    lifted = replace(local, target=_unit(n))
     for leaf in leaves(outside, cube(n)):
         if not _inside(leaf, box):
             decide(local, leaf, lambda found: any(map(beyond, found)))
+        if local.turns:
+            decide(lifted, leaf, partial(_turns_so, local))
     for leaf in leaves(tree, box):
         if not any(_inside(entries, jacobian) for entries in tried(partial(_entries, local, leaf))):
             raise Unproved(f"the derivatives are not proved within bounds on {shown(leaf)}")
     return jacobian
+
+
+def _unit(n: int) -> HSet:
+    rows = tuple(tuple(Fraction(int(i == j)) for j in range(n)) for i in range(n))
+    return HSet((Fraction(0),) * n, rows, rows)
+
+
+def _turns_so(local: LocalMap, values: list[Enclosure]) -> bool:
+    """Whether angles in an enclosure can be in the target with these turns alone."""
+    for place, period in local.map.periods(values[0].bits).items():
+        low, high = local.target.span(place)
+        image, side = values[place], Enclosure.of(low, high, values[0].bits)
+        if (image - period).hi >= side.lo or (image + period).lo <= side.hi:
+            return False
+    return True
 
 
 def _entries(local: LocalMap, box: Box, bits: int) -> Box:

@@ -11,7 +11,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.parameters import Parameters, Place
 
 if TYPE_CHECKING:
-    from proofs.trusted.kernel.formulas import Formulas
+    from proofs.trusted.kernel.maps import Map
 
 C = TypeVar("C", bound=Conclusion)
 
@@ -21,7 +21,7 @@ class Context:
     """The premises of a step: the statement's numbers, the file's functions, the steps before."""
 
     parameters: Parameters | Place | None = None
-    functions: dict[str, Formulas] = field(default_factory=dict)
+    functions: dict[str, Map] = field(default_factory=dict)
     known: dict[str, Conclusion] = field(default_factory=dict)
 
     @property
@@ -43,7 +43,7 @@ class Context:
             raise Unproved("the rule is about plastic impacts, and the file is not")
         return self.oscillators
 
-    def function(self, name: Reader) -> Formulas:
+    def function(self, name: Reader) -> Map:
         """Return the function of that name."""
         if name.string() not in self.functions:
             raise name.fail(f"names no function: {name.string()[:40]!r}")

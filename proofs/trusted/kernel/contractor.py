@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Protocol
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Enclosures, sqrt
 from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 
 Point = list[Enclosure]  # a box
@@ -23,6 +26,35 @@ def meet(x: Enclosure, y: Enclosure) -> Enclosure:
     if low > high:
         raise Empty
     return Enclosure(low, high, x.bits)
+
+
+class Cutter(Protocol):
+    """Cuts of boxes Z and W that lose no z in Z and w in W with w = F(z)."""
+
+    def cut(self, z: Point, w: Point) -> tuple[Point, Point]:
+        """Return what is left of Z and W; Empty if nothing is."""
+
+
+@dataclass(frozen=True)
+class Images:
+    """Cuts of W by the image of Z, for any map."""
+
+    map: Map
+
+    def cut(self, z: Point, w: Point) -> tuple[Point, Point]:
+        """Return what is left of Z and W; all, where F is not proved defined on all of Z."""
+        try:
+            image = self.map.values(z)
+        except Unproved:
+            return z, w
+        return z, list(map(meet, image, w))
+
+
+def contractor(function: Map, bits: int) -> Cutter:
+    """Return the best cuts for a map: for a formula its operations are undone."""
+    if isinstance(function, Formulas) and not function.ranges:
+        return Contractor(function, bits)
+    return Images(function)
 
 
 class Contractor:

@@ -13,22 +13,24 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     Box,
-    Map,
+    Differentiable,
     Matrix,
     add,
     decide,
     enclosed,
     integer,
     leaves,
+    multiply,
     point_box,
     size,
 )
-from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show
 
 MAX_POWER = 100
 _MAX_DIMENSION = 6
+_MOST_TURNS = 10**6
 _SIDE = (Fraction(-1), Fraction(1))
 _SIGNS = {"+": 1, "-": -1}
 
@@ -43,11 +45,10 @@ class HSet(Conclusion):
     matrix: Rows
     inverse: Rows
 
-    @property
-    def span(self) -> Range:
-        """The least and the greatest first coordinate of its points."""
-        reach = sum(map(abs, self.matrix[0]))
-        return self.centre[0] - reach, self.centre[0] + reach
+    def span(self, axis: int = 0) -> Range:
+        """Return the least and the greatest of a coordinate of its points."""
+        reach = sum(map(abs, self.matrix[axis]))
+        return self.centre[axis] - reach, self.centre[axis] + reach
 
     @property
     def described(self) -> str:
@@ -84,16 +85,31 @@ def _dot(a: Sequence[Fraction], b: Sequence[Fraction]) -> Fraction:
 
 @dataclass(frozen=True)
 class LocalMap:
-    """f(q) = B^-1 (F^k(c + A q) - d): an iterate from c + A q to d + B q, in their coordinates."""
+    """f(q) = B^-1 (F^k(c + A q) - d): an iterate from c + A q to d + B q, in their coordinates.
 
-    map: Formulas
+    turns: for each angle of the map, in its order, how many periods are taken off F^k.
+    """
+
+    map: Map
     power: int
     source: HSet
     target: HSet
+    turns: tuple[int, ...] = ()
+
+    @property
+    def label(self) -> str:
+        """The iterate, and how many periods are taken off."""
+        name = self.map.name if self.power == 1 else f"the iterate {self.map.name}^{self.power}"
+        lifts = [
+            f"{self.map.variables[circle.place]} less {turns} periods"
+            for circle, turns in zip(self.map.circles, self.turns, strict=True)
+            if turns
+        ]
+        return f"{name} ({', '.join(lifts)})" if lifts else name
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose f on a box of coordinates."""
-        points = images(self.map, self._points(x), self.power + 1)[-1]
+        points = turned(self.map, images(self.map, self._points(x), self.power + 1)[-1], self.turns)
         moved = [p - rational(d, p.bits) for p, d in zip(points, self.target.centre, strict=True)]
         return [add(x[0] * 0, row, moved) for row in _rows(self.target.inverse, x)]
 
@@ -108,7 +124,15 @@ class LocalMap:
         return [add(rational(c, x[0].bits), row, x) for c, row in rows]
 
 
-def images(map_: Map, x: Sequence[Enclosure], count: int) -> list[list[Enclosure]]:
+def turned(map_: Map, x: Sequence[Enclosure], turns: Sequence[int]) -> list[Enclosure]:
+    """Enclose x less some periods of its angles."""
+    lifted = list(x)
+    for (place, period), count in zip(map_.periods(x[0].bits).items(), turns, strict=True):
+        lifted[place] = lifted[place] - period * count
+    return lifted
+
+
+def images(map_: Differentiable, x: Sequence[Enclosure], count: int) -> list[list[Enclosure]]:
     """Enclose x and its images, `count` in all."""
     points = [list(x)]
     while len(points) < count:
@@ -116,15 +140,9 @@ def images(map_: Map, x: Sequence[Enclosure], count: int) -> list[list[Enclosure
     return points
 
 
-def along(map_: Map, points: Sequence[Sequence[Enclosure]], first: Matrix) -> Matrix:
+def along(map_: Differentiable, points: Sequence[Sequence[Enclosure]], first: Matrix) -> Matrix:
     """Enclose all products A_k ... A_1 A, A in `first`, A_i in F' on the i-th box of points."""
     return reduce(lambda product, x: multiply(map_.jacobian(x), product), points, first)
-
-
-def multiply(a: Matrix, b: Matrix) -> Matrix:
-    """Enclose a product of matrices."""
-    columns = list(zip(*b, strict=True))
-    return [[add(a[0][0] * 0, row, column) for column in columns] for row in a]
 
 
 def _rows(matrix: Rows, x: Sequence[Enclosure]) -> Matrix:
@@ -139,16 +157,10 @@ class Covers(Conclusion):
     orientation: int
 
     @property
-    def map_name(self) -> str:
-        """The map, F or F^k."""
-        name, power = self.local.map.name, self.local.power
-        return name if power == 1 else f"the iterate {name}^{power}"
-
-    @property
     def sentence(self) -> str:
         """Return the statement."""
         return (
-            f"for {self.local.map.definition}: N => M under {self.map_name}, with N "
+            f"for {self.local.map.definition}: N => M under {self.local.label}, with N "
             f"{self.local.source.described}, and M {self.local.target.described}."
         )
 
@@ -175,12 +187,14 @@ def h_set(_: Context, reader: Reader) -> HSet:
 def covers(context: Context, reader: Reader) -> Covers:
     """Rule `covers`: {function, power k, source N, target M, sign, left, right, support}.
 
-    N = c + A [-1, 1]^n and M = d + B [-1, 1]^n are h-sets of which the first coordinate is
-    unstable; f(q) = B^-1 (F^k(c + A q) - d). Hypotheses, with the sign s = 1 or -1, on each leaf
-    of the trees: s f_1 < -1 on `left`, the face q_1 = -1; s f_1 > 1 on `right`, the face q_1 = 1;
-    on `support`, the whole [-1, 1]^n, either |f_1| > 1 or |f_j| < 1 for every j > 1.
+    For a map with angles also `turns`, an integer for each of them. N = c + A [-1, 1]^n and
+    M = d + B [-1, 1]^n are h-sets of which the first coordinate is unstable; f(q) =
+    B^-1 (F^k(c + A q) - p - d), p the turns times the periods. Hypotheses, with the sign s = 1 or
+    -1, on each leaf of the trees: s f_1 < -1 on `left`, the face q_1 = -1; s f_1 > 1 on `right`,
+    the face q_1 = 1; on `support`, the whole [-1, 1]^n, |f_1| > 1 or |f_j| < 1 for all j > 1.
 
-    Conclusion: N =F^k=> M in the sense of Zgliczynski and Gidea (2004, definition 6), of degree s.
+    Conclusion: N =F^k=> M in the sense of Zgliczynski and Gidea (2004, definition 6), of degree s,
+    the angles being lifted so.
 
     Proof. f is continuous on the cube. Let h_t shrink the coordinates f_j, j > 1, by 1 - 2t for
     t <= 1/2, then move f_1 along a segment to 2 s q_1. Up to t = 1/2 a point with |f_1| > 1 keeps
@@ -188,23 +202,36 @@ def covers(context: Context, reader: Reader) -> Covers:
     target within |q_1| <= 1. On the faces q_1 = -1, 1, h_1 stays beyond -1 and 1. At t = 1,
     h(q) = (2 s q_1, 0, ..., 0). That is the definition.
     """
-    function, power, source_of, target_of, sign, left, right, support = reader.fields(
-        "function", "power", "source", "target", "sign", "left", "right", "support"
-    )
+    names = ("function", "power", "source", "target", "sign", "left", "right", "support")
+    more = ("turns",) if reader.has("turns") else ()
+    fields = reader.fields(*names, *more)
+    function, power, source_of, target_of, sign, left, right, support, *_ = fields
     map_, k = context.function(function), integer(power, 1, MAX_POWER)
     source, target = context.step(source_of, HSet), context.step(target_of, HSet)
     n = len(map_.variables)
-    if not n == len(map_.roots) == len(source.centre) == len(target.centre):
+    if not n == map_.size == len(source.centre) == len(target.centre):
         raise function.fail("the function and the h-sets must have one dimension")
     if sign.string() not in _SIGNS:
         raise sign.fail('"+" or "-" is expected')
-    local, s = LocalMap(map_, k, source, target), _SIGNS[sign.string()]
+    turns, s = read_turns(map_, reader), _SIGNS[sign.string()]
+    local = LocalMap(map_, k, source, target, turns)
     for tree, face, way in ((left, -1, -s), (right, 1, s)):
         for leaf in leaves(tree, ((Fraction(face), Fraction(face)), *cube(n - 1))):
             decide(local, leaf, partial(_first_beyond, way))
     for leaf in leaves(support, cube(n)):
         decide(local, leaf, _clear_of_the_sides)
     return Covers(local, s)
+
+
+def read_turns(map_: Map, reader: Reader) -> tuple[int, ...]:
+    """Read the field `turns`, which is there if a map has angles: an integer for each of them."""
+    count = len(map_.circles)
+    if reader.has("turns") != (count > 0):
+        raise reader.fail("`turns` are for maps with angles, and needed there")
+    if not count:
+        return ()
+    turns = dict(reader.entries())["turns"].items(count, count)
+    return tuple(integer(each, -_MOST_TURNS, _MOST_TURNS) for each in turns)
 
 
 def cube(n: int) -> Box:

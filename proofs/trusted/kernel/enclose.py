@@ -116,7 +116,7 @@ def size(value: Fraction) -> int:
 Matrix = list[list[Enclosure]]
 
 
-class Map(Protocol):
+class Differentiable(Protocol):
     """A differentiable map on boxes: enclosures of its values and of its partial derivatives."""
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
@@ -151,7 +151,7 @@ def tried(compute: Callable[[int], T]) -> Iterator[T]:
             continue
 
 
-def attempts(map_: Map, box: Box) -> Iterator[list[Enclosure]]:
+def attempts(map_: Differentiable, box: Box) -> Iterator[list[Enclosure]]:
     """Enclose the map on a box in better and better ways, as long as the caller asks.
 
     At each precision the natural form, then its intersection with the mean value form: on a box
@@ -167,7 +167,7 @@ def attempts(map_: Map, box: Box) -> Iterator[list[Enclosure]]:
             continue
 
 
-def _mean_value_form(map_: Map, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
+def _mean_value_form(map_: Differentiable, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
     centre = centre_of(box)
     values = map_.values(enclosed(point_box(centre), x[0].bits))
     steps = [a - rational(m, a.bits) for a, m in zip(x, centre, strict=True)]
@@ -179,13 +179,19 @@ def add(value: Enclosure, row: Sequence[Enclosure], column: Sequence[Enclosure])
     return sum((a * b for a, b in zip(row, column, strict=True)), value)
 
 
-def decide(map_: Map, box: Box, holds: Callable[[list[Enclosure]], bool]) -> None:
+def multiply(a: Matrix, b: Matrix) -> Matrix:
+    """Enclose a product of matrices."""
+    columns = list(zip(*b, strict=True))
+    return [[add(a[0][0] * 0, row, column) for column in columns] for row in a]
+
+
+def decide(map_: Differentiable, box: Box, holds: Callable[[list[Enclosure]], bool]) -> None:
     """Prove that some enclosures of the map on the box have a property, or raise Unproved."""
     if not any(holds(values) for values in attempts(map_, box)):
         raise Unproved(f"not proved on {shown(box)}")
 
 
-def sign_on(map_: Map, box: Box) -> int:
+def sign_on(map_: Differentiable, box: Box) -> int:
     """Return the strict sign of a function on a box, or raise Unproved."""
     for (value,) in attempts(map_, box):
         if value.lo > 0 or value.hi < 0:

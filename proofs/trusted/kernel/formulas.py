@@ -17,6 +17,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
@@ -29,13 +30,21 @@ MAX_VARIABLES = 30
 _MAX_LENGTH = 12_000
 _MAX_DEPTH = 150
 _MAX_POWER = 1000
-_MAX_COMPONENTS = 20
-_WORDS = {*FUNCTIONS, "pi", "D", "at"}
+MAX_VALUES = 20
+WORDS = {*FUNCTIONS, "pi", "D", "at"}
 _TOKEN = re.compile(r"[0-9A-Za-z_]+|\*\*|[-+*/(),=]")
 _WORD = re.compile(r"[0-9]+|[A-Za-z][A-Za-z0-9_]*")
 _OPERATIONS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-_FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,19}")  # N1, A, M: h-sets
-_VARIABLE = re.compile(r"[a-z][a-z0-9_]{0,19}")
+FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,19}")  # N1, A, M: h-sets
+VARIABLE = re.compile(r"[a-z][a-z0-9_]{0,19}")
+
+
+class Circle(NamedTuple):
+    """An angle, by its place among the variables; its period, on the tape and as it is written."""
+
+    place: int
+    root: int
+    period: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +54,8 @@ class Formulas:
     parts: the functions of which derivatives were taken; a derivative, as computed, is one only
     where its function is defined, so they are evaluated together with the roots. ranges: of
     parameters, further variables on the tape: what is enclosed is enclosed for all their values.
+    circles: the angles among the variables, and their periods.
+    given: what parameters and periods are, in words.
     """
 
     variables: tuple[str, ...]
@@ -54,6 +65,8 @@ class Formulas:
     parts: tuple[int, ...]
     name: str = ""
     ranges: tuple[Range, ...] = ()
+    circles: tuple[Circle, ...] = ()
+    given: str = ""
 
     @property
     def size(self) -> int:
@@ -64,7 +77,7 @@ class Formulas:
     def definition(self) -> str:
         """Write F(x, ...) = ..."""
         text = self.texts[0] if len(self.texts) == 1 else f"({', '.join(self.texts)})"
-        return f"{self.name}({', '.join(self.variables)}) = {text}"
+        return f"{self.name}({', '.join(self.variables)}) = {text}{self.given}"
 
     def free(self) -> set[str]:
         """Return the variables on which the functions depend; others are substituted away."""
@@ -82,30 +95,44 @@ class Formulas:
         entries = self.enclose((*partials, *self.roots), x)
         return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
 
-    def enclose(self, roots: tuple[int, ...], x: Sequence[Enclosure]) -> list[Enclosure]:
-        """Enclose any roots of the tape on a box, the parts being proved defined there."""
+    def periods(self, bits: int) -> dict[int, Enclosure]:
+        """Enclose the periods of the angles, by their places among the variables."""
+        roots = tuple(circle.root for circle in self.circles)
+        values = self.tape.evaluate(roots, Enclosures(bits), ()) if roots else []
+        return {circle.place: x for circle, x in zip(self.circles, values, strict=True)}
+
+    def enclose(
+        self,
+        roots: tuple[int, ...],
+        x: Sequence[Enclosure],
+        parameters: Sequence[Enclosure] = (),
+    ) -> list[Enclosure]:
+        """Enclose any roots of the tape on a box, the parts being proved defined there.
+
+        parameters: their values, in place of all that their ranges allow.
+        """
         bits = x[0].bits
-        inputs = (*x, *enclosed(self.ranges, bits)) if self.ranges else x
+        inputs = (*x, *(parameters or enclosed(self.ranges, bits))) if self.ranges else x
         return self.tape.evaluate((*roots, *self.parts), Enclosures(bits), inputs)[: len(roots)]
 
 
 def read_formulas(*readers: Reader) -> Formulas:
     """Read texts; their variables are in the order of the alphabet, x where there are none."""
     names = {token for reader in readers for token in _tokens(reader) if token[0].isalpha()}
-    return _read(readers, tuple(sorted(names - _WORDS)) or ("x",))
+    return _read(readers, tuple(sorted(names - WORDS)) or ("x",))
 
 
 def read_function(name: str, reader: Reader) -> Formulas:
     """Read {"variables", "values"}; names cannot be mistaken for anything else in print."""
     variables_of, values_of = reader.fields("variables", "values")
-    if not _FUNCTION_NAME.fullmatch(name):
+    if not FUNCTION_NAME.fullmatch(name):
         raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
     variables = tuple(item.string() for item in variables_of.items(1, MAX_VARIABLES))
-    values = values_of.items(1, _MAX_COMPONENTS)
+    values = values_of.items(1, MAX_VALUES)
     names = {token for value in values for token in _tokens(value) if token[0].isalpha()}
-    bound = sorted(names - _WORDS - {*variables})  # names that are all substituted away
+    bound = sorted(names - WORDS - {*variables})  # names that are all substituted away
     for variable in (*variables, *bound):
-        if not _VARIABLE.fullmatch(variable) or variable in {*_WORDS, "e"}:
+        if not VARIABLE.fullmatch(variable) or variable in {*WORDS, "e"}:
             raise variables_of.fail(f"not a name for a variable: {variable[:30]!r}")
     if len(set(variables)) != len(variables):
         raise variables_of.fail("a variable is named twice")
@@ -120,7 +147,7 @@ def _read(readers: Sequence[Reader], variables: tuple[str, ...], name: str = "")
         raise readers[0].fail(f"more than {MAX_VARIABLES} variables")
     tape = Tape()
     places = {v: tape.add("variable", datum=Fraction(i)) for i, v in enumerate(variables)}
-    placer = _Placer(tape, places, [])
+    placer = Placer(tape, places, [])
     roots = tuple(placer.read(reader) for reader in readers)
     texts = tuple(reader.string() for reader in readers)
     return Formulas(variables, texts, tape, roots, tuple(dict.fromkeys(placer.parts)), name)
@@ -150,7 +177,7 @@ def _tokens(reader: Reader) -> list[str]:
 
 
 @dataclass
-class _Placer:
+class Placer:
     """Puts the syntax trees of texts on a tape.
 
     places: of the variables. parts: collects the functions of which derivatives are taken.

@@ -11,8 +11,9 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import MAX_POWER, Covers, HSet, disjoint
 from proofs.trusted.kernel.enclose import integer
+from proofs.trusted.kernel.maps import Map, same_state
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import ceil_text, floor_text, show
+from proofs.trusted.numbers import ceil_text, floor_text, hull, show
 
 _MAX_GROWTH = 10**30
 _LOG_BITS = 128
@@ -29,10 +30,23 @@ class Graph(Conclusion):
     @property
     def described(self) -> str:
         """The map, the sets and the relations."""
-        first = self.covers[0]
+        relations = [each.local for each in self.covers]
+        maps = "; ".join(dict.fromkeys(each.map.definition for each in relations))
         sets = "; ".join(f"N{i} is {node.described}" for i, node in enumerate(self.nodes, 1))
-        edges = ", ".join(f"N{i + 1} => N{j + 1}" for i, j in self.edges)
-        return f"for {first.local.map.definition}: {edges} under {first.map_name}, where {sets}"
+        arrows: dict[str, list[str]] = {}
+        for each, (i, j) in zip(relations, self.edges, strict=True):
+            arrows.setdefault(each.label, []).append(f"N{i + 1} => N{j + 1}")
+        edges = "; ".join(f"{', '.join(some)} under {label}" for label, some in arrows.items())
+        return f"for {maps}: {edges}, where {sets}"
+
+    @property
+    def map_name(self) -> str:
+        """The map of whose orbits it speaks: F, or, on each source, the map of its relations."""
+        pairs = zip(self.covers, self.edges, strict=True)
+        maps = {f"N{i + 1}": each.local.map.name for each, (i, _) in pairs}
+        if len({*maps.values()}) == 1:
+            return self.covers[0].local.map.name
+        return f"the map that is {', '.join(f'{name} on {node}' for node, name in maps.items())}"
 
     @property
     def sentence(self) -> str:
@@ -57,10 +71,9 @@ class Entropy(Conclusion):
         """Return the statement, with the bound as decimals."""
         steps = self.length * self.graph.covers[0].local.power
         low, high = (end / steps for end in log(Fraction(self.growth), _LOG_BITS).range)
-        name = self.graph.covers[0].local.map.name
         return (
-            f"{self.graph.described}; the topological entropy of {name} on a compact invariant "
-            f"set is at least log({self.growth})/{steps}, which lies in "
+            f"{self.graph.described}; the topological entropy of {self.graph.map_name} on a "
+            f"compact invariant set is at least log({self.growth})/{steps}, which lies in "
             f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
         )
 
@@ -68,11 +81,15 @@ class Entropy(Conclusion):
 def graph(context: Context, reader: Reader) -> Graph:
     """Rule `graph`: {covers}.
 
-    They are steps about one map G = F^k, each relation once. Hypothesis: the h-sets N_1, ..., N_r
-    that occur are pairwise disjoint. Conclusion: for each infinite path i_0, i_1, ... of relations
-    there is x in N_(i_0) with G^m(x) in N_(i_m) for all m; for each closed path of length p one
-    with G^p(x) = x too. The set K of all points that follow infinite paths is compact, G maps it
-    into itself, and the itinerary K -> {paths} is continuous, onto, and turns G into the shift.
+    They are steps about one map G = F^k, each relation once; or about several maps, those from one
+    set being about one, all with k = 1, with one state and the same angles: then G is on each set
+    the map of its relations. Hypotheses: the h-sets N_1, ..., N_r that occur are pairwise disjoint;
+    in each angle all of them together are shorter than its period, so that they are disjoint also
+    with angles taken modulo their periods, which G respects. Conclusion: for each infinite path
+    i_0, i_1, ... of relations there is x in N_(i_0) with G^m(x) in N_(i_m) for all m; for each
+    closed path of length p one with G^p(x) = x too. The set K of all points that follow
+    infinite paths is compact, G maps it into itself, and the itinerary K -> {paths} is continuous,
+    onto, and turns G into the shift.
 
     Proof. For finite and closed paths: Zgliczynski and Gidea, Covering relations for
     multidimensional dynamical systems, J. Differential Equations 202 (2004), theorem 9. Infinite
@@ -81,14 +98,19 @@ def graph(context: Context, reader: Reader) -> Graph:
     """
     (names,) = reader.fields("covers")
     steps = tuple(context.step(name, Covers) for name in names.items(least=1))
-    first = steps[0]
+    first, of_source = steps[0].local, dict[int, Map]()
     places: dict[int, int] = {}
     nodes: list[HSet] = []
     edges: dict[tuple[int, int], Covers] = {}
     for name, step in zip(names.items(), steps, strict=True):
-        if (step.local.map, step.local.power) != (first.local.map, first.local.power):
-            raise name.fail("a relation of another map")
-        ends = (step.local.source, step.local.target)
+        local = step.local
+        ends = (local.source, local.target)
+        if of_source.setdefault(id(ends[0]), local.map) != local.map:
+            raise name.fail("a relation of another map from the same set")
+        if local.power != first.power or (local.map != first.map and local.power > 1):
+            raise name.fail("a relation of another map or iterate")
+        if not same_state(local.map, first.map):
+            raise name.fail("a map with another state, or other angles")
         for node in ends:
             if id(node) not in places:
                 places[id(node)] = len(nodes)
@@ -98,13 +120,22 @@ def graph(context: Context, reader: Reader) -> Graph:
             raise name.fail("a relation twice")
         edges[edge] = step
     _require_disjoint(nodes)
+    _require_short(first.map, nodes)
     return Graph(tuple(edges.values()), tuple(nodes), tuple(edges))
+
+
+def _require_short(map_: Map, nodes: list[HSet]) -> None:
+    """Raise Unproved unless in each angle all h-sets together are shorter than its period."""
+    for place, period in map_.periods(_LOG_BITS).items():
+        low, high = hull([node.span(place) for node in nodes])
+        if high - low >= period.range[0]:
+            raise Unproved("h-sets that are not all within one period of an angle")
 
 
 def _require_disjoint(nodes: list[HSet]) -> None:
     """Raise Unproved unless any two are disjoint: by their first coordinates, or by `disjoint`."""
     near: list[tuple[Fraction, HSet]] = []
-    for low, high, i in sorted((*node.span, i) for i, node in enumerate(nodes)):
+    for low, high, i in sorted((*node.span(), i) for i, node in enumerate(nodes)):
         METER.get().spend(10 + len(near))
         near = [(end, node) for end, node in near if end >= low]
         if not all(disjoint(nodes[i], node) for _, node in near):

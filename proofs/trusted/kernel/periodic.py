@@ -13,8 +13,8 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.contractor import Contractor, Empty, Point, meet
-from proofs.trusted.kernel.covers import MAX_POWER, along, images
+from proofs.trusted.kernel.contractor import Cutter, Empty, Point, contractor, meet
+from proofs.trusted.kernel.covers import MAX_POWER, along, images, turned
 from proofs.trusted.kernel.enclose import (
     Box,
     Matrix,
@@ -24,7 +24,7 @@ from proofs.trusted.kernel.enclose import (
     read_box,
     shown,
 )
-from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.zeros import read_matrix, require_zero
 from proofs.trusted.numbers import within
@@ -41,7 +41,7 @@ Tube = list[Point]  # boxes around x_0, x_1 = F(x_0), ...
 class PeriodicOrbits(Conclusion):
     """How many periodic orbits a map has in a box, by least period, of those that divide one."""
 
-    function: Formulas
+    function: Map
     box: Box
     period: int
     counts: tuple[tuple[int, int], ...]
@@ -81,12 +81,12 @@ def periodic_orbits(context: Context, reader: Reader) -> PeriodicOrbits:
     function_of, period_of, box_of, radius_of, orbits_of = reader.fields(*names)
     function, period = context.function(function_of), integer(period_of, 1, MAX_POWER)
     n, radius = len(function.variables), radius_of.number()
-    if len(function.roots) != n:
-        raise function_of.fail("as many values as variables are expected")
+    if function.size != n or function.circles:
+        raise function_of.fail("as many values as variables, and no angles, are expected")
     box = read_box(box_of, n)
     if not all(low < high for low, high in box) or radius <= 0:
         raise box_of.fail("sides of a box, and the radius, must be positive")
-    orbits = [_orbit(function, radius, each, period) for each in orbits_of.items()]
+    orbits = [read_orbit(function, radius, each, period) for each in orbits_of.items()]
     points = sorted((x for each in orbits for x in each), key=lambda x: x[0].lo)
     if not all(within(x.range, side) for each in points for x, side in zip(each, box, strict=True)):
         raise Unproved("a periodic point is not proved to be in the box")
@@ -96,7 +96,7 @@ def periodic_orbits(context: Context, reader: Reader) -> PeriodicOrbits:
     return PeriodicOrbits(function, box, period, tuple(sorted(counts.items())))
 
 
-def _orbit(function: Formulas, radius: Fraction, reader: Reader, period: int) -> Tube:
+def read_orbit(function: Map, radius: Fraction, reader: Reader, period: int) -> Tube:
     """Prove a periodic orbit; return enclosures of its points."""
     point_of, length_of, matrix_of = reader.fields("point", "period", "matrix")
     n, length = len(function.variables), integer(length_of, 1, period)
@@ -104,31 +104,33 @@ def _orbit(function: Formulas, radius: Fraction, reader: Reader, period: int) ->
         raise length_of.fail("the period of an orbit must divide that of the rule")
     point, matrix = point_of.numbers(n, n), read_matrix(matrix_of, n)
     box = tuple((x - radius, x + radius) for x in point)
-    require_zero(_Closing(function, length), box, matrix)
+    require_zero(Closing(function, length), box, matrix)
     return images(function, enclosed(box, _FINE), length)
 
 
-def _derivative(function: Formulas, tube: Tube) -> Matrix:
+def derivative(function: Map, tube: Tube) -> Matrix:
     """Enclose all products A_(p-1) ... A_0, A_i in the enclosure of F' on the i-th box."""
     return along(function, tube[1:], function.jacobian(tube[0]))
 
 
 @dataclass(frozen=True)
-class _Closing:
-    """F^n(x) - x."""
+class Closing:
+    """F^n(x) - x, less some periods of the angles."""
 
-    map: Formulas
+    map: Map
     power: int
+    turns: tuple[int, ...] = ()
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        after = images(self.map, x, self.power + 1)[-1]
+        after = turned(self.map, images(self.map, x, self.power + 1)[-1], self.turns)
         return [a - b for a, b in zip(after, x, strict=True)]
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        return _less_one(_derivative(self.map, images(self.map, x, self.power)))
+        return less_one(derivative(self.map, images(self.map, x, self.power)))
 
 
-def _less_one(matrix: Matrix) -> Matrix:
+def less_one(matrix: Matrix) -> Matrix:
+    """Enclose a matrix less the unit matrix."""
     return [[x - int(i == j) for j, x in enumerate(row)] for i, row in enumerate(matrix)]
 
 
@@ -177,14 +179,14 @@ def _in_front(tube: Tube) -> None:
 class _Search:
     """The search for periodic orbits in a box that are not listed."""
 
-    function: Formulas
+    function: Map
     box: Box
     period: int
     orbits: Sequence[Tube]
 
     @cached_property
-    def _contractor(self) -> Contractor:
-        return Contractor(self.function, _BITS)
+    def _contractor(self) -> Cutter:
+        return contractor(self.function, _BITS)
 
     @cached_property
     def _listed(self) -> list[tuple[int, int, int]]:
@@ -252,7 +254,7 @@ class _Search:
     def _holds_one(self, tube: Tube) -> bool:
         """Whether a tube holds one orbit at most."""
         try:
-            return _regular(_less_one(_derivative(self.function, tube)))
+            return _regular(less_one(derivative(self.function, tube)))
         except Unproved:
             return False
 

@@ -13,7 +13,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     Box,
-    Map,
+    Differentiable,
     add,
     box_text,
     centre_of,
@@ -23,7 +23,8 @@ from proofs.trusted.kernel.enclose import (
     sign_on,
     tried,
 )
-from proofs.trusted.kernel.formulas import Formulas, read_formulas
+from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.numbers import Range, hull, show_range, within
 
@@ -53,7 +54,7 @@ class Zero(Conclusion):
 class UniqueZero(Conclusion):
     """F = (F_1, ..., F_n) has exactly one zero in a box."""
 
-    function: Formulas
+    function: Map
     box: Box
 
     @property
@@ -134,8 +135,8 @@ def unique_zero(context: Context, reader: Reader) -> UniqueZero:
     function_of, box_of, middle_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
     function = context.function(function_of)
     n = len(function.variables)
-    if len(function.roots) != n:
-        raise function_of.fail("as many values as variables are expected")
+    if function.size != n or function.circles:
+        raise function_of.fail("as many values as variables, and no angles, are expected")
     box, centre = read_box(box_of, n), middle_of.numbers(n, n)
     if not all(low <= m <= high for m, (low, high) in zip(centre, box, strict=True)):
         raise middle_of.fail("the centre is not in the box")
@@ -149,7 +150,7 @@ def read_matrix(reader: Reader, n: int) -> Rows:
 
 
 def require_zero(
-    function: Map,
+    function: Differentiable,
     box: Box,
     matrix: Rows,
     *,
@@ -170,7 +171,7 @@ def require_zero(
 
 
 def _krawczyk(
-    function: Map,
+    function: Differentiable,
     piece: Piece,
     centre: Sequence[Fraction],
     matrix: Rows,

@@ -11,8 +11,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.covers import multiply
-from proofs.trusted.kernel.enclose import Matrix, enclosed
+from proofs.trusted.kernel.enclose import Matrix, enclosed, multiply
 from proofs.trusted.numbers import Range, show_range, within
 from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
 from proofs.trusted.paper.s33_restitution.rectangles import meet

@@ -1,0 +1,386 @@
+"""Flights: maps to the first zero of a gap, for any motion that solves an equation.
+
+A function {variables x, time t, motion, gaps, values}, with `parameters` and `periods` as all maps
+may have them:
+
+- motion: a list of {name y, form, equation, start}. The form is a formula of x, t and the motions
+  before it; it is proved to be the solution of y^(n) = equation whose derivatives of the orders
+  0, ..., n - 1 at t = 0 are `start`, n in number. In the formulas y stands for it, D(y, t) for its
+  velocity. In an equation only y, D(y, t), ... of the orders below n occur, and neither divisors
+  nor roots nor logarithms of them, so that the solution is unique where the rest is defined.
+- gaps: formulas of x and t; the first is that of the impact, the others are those of other walls.
+- values: formulas of x and t, taken at the impact.
+
+The map takes x to the values at the first t > 0 at which the first gap is 0, and it is defined
+where all gaps are > 0 in between, and the others at the impact too.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.enclose import Matrix, add, enclosed
+from proofs.trusted.kernel.expression import Node, Tape
+from proofs.trusted.kernel.formulas import MAX_VALUES, MAX_VARIABLES, Circle, Formulas, Placer
+from proofs.trusted.kernel.gaps import stays_up
+from proofs.trusted.kernel.maps import optional, read_head, require_name, require_periods
+from proofs.trusted.kernel.normalform import NormalForms, plus
+from proofs.trusted.numbers import Range, between, show
+
+LATEST = Fraction(1024)
+_FIRST_STEP, _SHORTEST = Fraction(1, 4), Fraction(1, 2**30)
+_MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
+_REMEMBERED = 8  # windows of times, for boxes inside boxes
+
+
+class Gap(NamedTuple):
+    """A gap on the tape: its derivatives by the time, and the order of the first not 0 at launch.
+
+    order: 0 for a gap that is not 0 at launch.
+    """
+
+    orders: tuple[int, ...]
+    order: int
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
+
+    motions: what is printed of them.
+    """
+
+    formulas: Formulas
+    state: int
+    gaps: tuple[Gap, ...]
+    motions: tuple[str, ...]
+    _windows: list[tuple[list[Enclosure], Range]] = field(default_factory=list)
+    _last: list[tuple[list[Enclosure], Enclosure]] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """The map's."""
+        return self.formulas.name
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The state."""
+        return self.formulas.variables[: self.state]
+
+    @property
+    def size(self) -> int:
+        """The number of values."""
+        return len(self._values)
+
+    @property
+    def circles(self) -> tuple[Circle, ...]:
+        """The angles among the state."""
+        return self.formulas.circles
+
+    def periods(self, bits: int) -> dict[int, Enclosure]:
+        """Enclose the periods of the angles."""
+        return self.formulas.periods(bits)
+
+    @property
+    def _values(self) -> tuple[int, ...]:
+        return self.formulas.roots[len(self.gaps) :]
+
+    @property
+    def definition(self) -> str:
+        """Write F(x, ...) = ... at the first t > 0 where gap = 0, and what the motion is."""
+        time, count = self.formulas.variables[self.state], len(self.gaps)
+        first, *others = self.formulas.texts[:count]
+        values = ", ".join(self.formulas.texts[count:])
+        walls = f" and {', '.join(others)} > 0 from launch to it" if others else ""
+        motions = "; ".join(self.motions)
+        return (
+            f"{self.name}({', '.join(self.variables)}) = ({values}) at the first {time} > 0 where "
+            f"{first} = 0{walls}; {motions}{self.formulas.given}"
+        )
+
+    def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose the values on a box of states."""
+        return self.on(self._values, x, self.impact(x))
+
+    def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
+        t, n = self.impact(x), self.state
+        roots = (self.gaps[0].orders[0], *self._values)
+        wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
+        entries = self.on((*wanted, *roots), x, t)
+        (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
+        return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
+
+    def impact(self, x: Sequence[Enclosure]) -> Enclosure:
+        """Enclose the time of the impact, for all states in a box: see `_Search`."""
+        if not (self._last and _same(self._last[0][0], x)):
+            t = self._sharp(x, self._window(x))
+            self._last[:] = [(list(x), t)]
+        return self._last[0][1]
+
+    def _window(self, x: Sequence[Enclosure]) -> Range:
+        for box, window in self._windows:
+            if _within(x, box):
+                return window
+        window = _Search(self, self.gaps[0], x).fall()
+        for gap in self.gaps[1:]:
+            _Search(self, gap, x).up_to(window[1])
+        self._windows[:] = [(list(x), window), *self._windows[: _REMEMBERED - 1]]
+        return window
+
+    def _sharp(self, x: Sequence[Enclosure], window: Range) -> Enclosure:
+        """Enclose the only zero of the gap in a window where gap_t < 0 (Newton's operator).
+
+        For x in X, m its middle, s in T: gap(x, t) = 0 = gap(m, s) + gap_x (x - m) + gap_t (t - s)
+        with derivatives on X x {s} and X x T (mean value theorem).
+        """
+        bits, tape, gap = x[0].bits, self.formulas.tape, self.gaps[0]
+        t = Enclosure.of(*window, bits)
+        sides = [*x, *enclosed(self.formulas.ranges, bits)]
+        places = [*range(self.state), *range(self.state + 1, len(sides) + 1)]
+        slopes = tuple(tape.derivative(gap.orders[0], place) for place in places)
+        middle = [Enclosure(m := (a.lo + a.hi) >> 1, m, bits) for a in sides]
+        steps = [a - m for a, m in zip(sides, middle, strict=True)]
+        while True:
+            width = t.hi - t.lo
+            s = Enclosure(m := (t.lo + t.hi) >> 1, m, bits)
+            (fall,), row = self.on(gap.orders[1:2], x, t), self.on(slopes, x, s)
+            (value,) = self.on(gap.orders[:1], middle[: self.state], s, middle[self.state :])
+            if fall.hi >= 0:
+                raise Unproved(f"the impact is not proved transversal, {_place(x)}")
+            t = t.meet(s - add(value, row, steps) / fall)
+            if 2 * (t.hi - t.lo) >= width:
+                return t
+
+    def on(
+        self,
+        roots: Sequence[int],
+        x: Sequence[Enclosure],
+        t: Enclosure,
+        parameters: Sequence[Enclosure] = (),
+    ) -> list[Enclosure]:
+        """Enclose formulas on a box of states and times; parameters: instead of their ranges."""
+        return self.formulas.enclose(tuple(roots), [*x, t], parameters)
+
+
+def _same(one: Sequence[Enclosure], two: Sequence[Enclosure]) -> bool:
+    return one[0].bits == two[0].bits and _within(one, two) and _within(two, one)
+
+
+def _within(x: Sequence[Enclosure], box: Sequence[Enclosure]) -> bool:
+    """Whether a box of at least as many bits lies in another one."""
+    more = x[0].bits - box[0].bits
+    return more >= 0 and all(
+        b.lo << more <= a.lo and a.hi <= b.hi << more for a, b in zip(x, box, strict=True)
+    )
+
+
+@dataclass
+class _Search:
+    """Goes through the times after launch, for all states in a box at once.
+
+    Invariant: the gap is > 0 on (0, low]. A step to `high` keeps it by one of these.
+    1. The first derivative that is not 0 at launch has been > 0 from 0 to `high`, the lower ones
+       being 0 there.
+    2. gap > 0 at both ends, so much that gap'' cannot bring it to 0 (`stays_up`).
+    3. gap_t < 0 from a time at which gap > 0 on, up to one at which gap < 0: there the gap has its
+       first zero, by Bolzano's theorem, and only one.
+    """
+
+    flight: Flight
+    gap: Gap
+    x: Sequence[Enclosure]
+
+    def fall(self) -> Range:
+        """Return times low < high, gap > 0 on (0, low], gap_t < 0 between, gap(high) < 0."""
+        for low, high, falls in self._steps(LATEST):
+            if falls and self._at(high).hi < 0:
+                return low, high
+        raise Unproved(f"no impact is proved before the time {show(LATEST)}, {_place(self.x)}")
+
+    def up_to(self, end: Fraction) -> None:
+        """Raise Unproved unless the gap is proved > 0 on (0, end]."""
+        for _, _, falls in self._steps(end):
+            if falls:
+                raise Unproved(f"another gap is not proved > 0 until the impact, {_place(self.x)}")
+
+    def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, bool]]:
+        """Iterate over low < high, and whether the gap falls between; else gap > 0 on (0, high]."""
+        low, step, leaving = Fraction(0), _FIRST_STEP, self.gap.order > 0
+        least, falling = self._at(low).lo, None
+        if not leaving and least <= 0:
+            raise Unproved(f"a gap is not proved > 0 at launch, {_place(self.x)}")
+        while low < end:
+            high = min(low + step, end)
+            try:
+                after = self._at(high).lo
+                leaves = leaving and self._of((low, high), self.gap.order).lo > 0
+                stays = leaves or (
+                    falling is None and stays_up(self._of, (low, high), min(least, after))
+                )
+                falls = not stays and low > 0 and self._of((low, high), 1).hi < 0
+            except Unproved:  # a formula is not proved defined for so long a time
+                leaves = stays = falls = False
+            if not (stays or falls):
+                if step < _SHORTEST:
+                    why = f"the time {show(round(low, 6))}" if low else "the launch"
+                    raise Unproved(f"a graze is not excluded at {why}, {_place(self.x)}")
+                step /= 2
+                continue
+            falling = None if stays or after > 0 else low if falling is None else falling
+            yield low if falling is None else falling, high, falling is not None
+            low, step, least, leaving = high, 2 * step, after, leaves
+
+    def _of(self, time: Range, order: int) -> Enclosure:
+        t = Enclosure.of(*time, self.x[0].bits)
+        return self.flight.on(self.gap.orders[order : order + 1], self.x, t)[0]
+
+    def _at(self, time: Fraction) -> Enclosure:
+        return self._of((time, time), 0)
+
+
+def _place(x: Sequence[Enclosure]) -> str:
+    """Write a box for a message, its ends rounded outward."""
+    return f"for states in {' x '.join(between(each.range) for each in x)}"
+
+
+# -- reading ---------------------------------------------------------------------------------------
+
+
+def read_flight(name: str, reader: Reader) -> Flight:
+    """Read a flight; its forms are proved to solve its equations, its gaps to leave 0."""
+    more = optional(reader)
+    fields = reader.fields("variables", "time", "motion", "gaps", "values", *more)
+    head, (_, _, motion_of, gaps_of, values_of, *_) = read_head(name, reader), fields
+    placer, time = head.placer(), head.time[0]
+    motions = [_read_form(placer, time, each) for each in motion_of.items(1, _MOST_MOTIONS)]
+    orders = {motion.name: len(motion.start) for motion in motions}
+    for motion in motions:
+        _require_solution(placer, time, motion, orders)
+    gaps, values = gaps_of.items(1, _MOST_GAPS), values_of.items(1, MAX_VALUES)
+    formulas = head.formulas(name, placer, [*gaps, *values])
+    roots, count = formulas.roots, len(gaps)
+    require_periods(reader, formulas, roots[count:], roots[:count])
+    left = tuple(_gap(placer, time, *each) for each in zip(gaps, roots, strict=False))
+    said = tuple(motion.said(time) for motion in motions)
+    return Flight(formulas, len(head.state), left, said)
+
+
+class _Motion(NamedTuple):
+    """A motion as it is read, and the place of its form."""
+
+    name: str
+    form: int
+    equation: Reader
+    start: list[Reader]
+
+    def said(self, time: str) -> str:
+        """Write the equation and the start."""
+        n = len(self.start)
+        rates = [self.name, *(f"D({', '.join([self.name] + [time] * k)})" for k in range(1, n + 1))]
+        start = ", ".join(
+            f"{rate} = {each.string()}" for rate, each in zip(rates, self.start, strict=False)
+        )
+        return f"{rates[n]} = {self.equation.string()} with {start} at {time} = 0"
+
+
+def _read_form(placer: Placer, time: str, reader: Reader) -> _Motion:
+    name_of, form_of, equation, start_of = reader.fields("name", "form", "equation", "start")
+    name = name_of.string()
+    require_name(name_of, name)
+    if name in placer.places:
+        raise name_of.fail(f"a name that is there twice: {name!r}")
+    placer.places[name] = form = placer.read(form_of)
+    placer.parts.append(form)
+    return _Motion(name, form, equation, start_of.items(1, _MOST_ORDERS))
+
+
+def _require_solution(
+    placer: Placer, time: str, motion: _Motion, orders: Mapping[str, int]
+) -> None:
+    """Raise Malformed unless a form solves its equation and starts as it says.
+
+    Theorem. The right side is a smooth function of the unknowns, continuous in t, wherever it is
+    defined: so its solution is unique (Picard and Lindelof). The form is one: the normal forms of
+    both sides are the same, as are those of its derivatives at t = 0 and the start.
+    """
+    tape, equation = placer.tape, motion.equation
+    right = placer.read(equation)
+    _require_explicit(equation, ast.parse(equation.string(), mode="eval").body, time, orders)
+    if any(_may_fail(tape.nodes[place]) for place in tape.order((right,))):
+        placer.parts.append(right)
+    rate, clock = motion.form, placer.places[time]
+    for start_of in motion.start:
+        start = placer.read(start_of)
+        if clock in tape.order((start,)):
+            raise start_of.fail("a start does not depend on the time")
+        if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
+            raise start_of.fail(f"the form of {motion.name} is not proved to start so")
+        rate = tape.derivative(rate, int(tape.nodes[clock].datum))
+    if not _equal(tape, rate, right):
+        raise equation.fail(f"the form of {motion.name} is not proved to solve this equation")
+
+
+def _equal(tape: Tape, one: int, two: int) -> bool:
+    """Whether two functions have the same normal form: they agree where both are defined."""
+    forms = NormalForms(MAX_VARIABLES)
+    left, right = tape.evaluate((one, two), forms, forms.inputs())
+    return forms.is_zero(plus(left, right, -1))
+
+
+def _may_fail(node: Node) -> bool:
+    return node.op in ("/", "sqrt", "log") or (node.op == "^" and node.datum < 0)
+
+
+def _require_explicit(reader: Reader, node: ast.AST, time: str, orders: Mapping[str, int]) -> None:
+    """Raise Malformed unless the unknowns occur as y, D(y, t), ..., below their orders alone.
+
+    And not in divisors, roots, logarithms, so that the formula is smooth in them.
+    """
+
+    def unknown(part: ast.AST) -> bool:
+        return any(isinstance(each, ast.Name) and each.id in orders for each in ast.walk(part))
+
+    match node:
+        case ast.Call(func=ast.Name(id="D"), args=[ast.Name(id=name), *by]) if name in orders:
+            is_explicit = len(by) < orders[name] and all(
+                isinstance(each, ast.Name) and each.id == time for each in by
+            )
+        case ast.Call(func=ast.Name(id="sin" | "cos" | "exp"), args=[argument]):
+            return _require_explicit(reader, argument, time, orders)
+        case ast.Call():
+            is_explicit = not unknown(node)
+        case ast.BinOp(op=ast.Div(), left=left, right=right):
+            _require_explicit(reader, left, time, orders)
+            is_explicit = not unknown(right)
+        case ast.BinOp(op=ast.Pow(), left=base, right=exponent):
+            _require_explicit(reader, base, time, orders)
+            is_explicit = isinstance(exponent, ast.Constant) or not unknown(base)
+        case _:
+            for part in ast.iter_child_nodes(node):
+                _require_explicit(reader, part, time, orders)
+            return None
+    if not is_explicit:
+        raise reader.fail("unknowns of lower order alone, in no divisor, root or logarithm")
+    return None
+
+
+def _gap(placer: Placer, time: str, reader: Reader, root: int) -> Gap:
+    """Return a gap with its derivatives, up to the first that is not 0 at launch for all states."""
+    tape, clock = placer.tape, placer.places[time]
+    orders = [root]
+    while len(orders) < 3:
+        orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
+    for order in range(_MOST_ORDERS + 1):
+        if order == len(orders):
+            orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
+        start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
+        if not _equal(tape, start, tape.number(0)):
+            return Gap(tuple(orders), order)
+    raise reader.fail("the gap is 0 at launch, with all its first derivatives")
