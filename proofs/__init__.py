@@ -1,20 +1,28 @@
-"""Machine-checked verdicts on a paper about an oscillator that bounces on a vibrating table."""
+"""Theorems about impacting systems and maps, each with a certificate that others can check."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from proofs.map import Map
     from proofs.oscillator import Oscillator
+    from proofs.system import System
+    from proofs.theorem import Theorem
 
 __version__ = "0.1.0"
-__all__ = ["Oscillator"]
+__all__ = ["Map", "Oscillator", "System", "Theorem"]
 
 
 def __getattr__(name: str) -> Any:
     """Load the library when it is asked for: the checker imports this package, too."""
-    if name == "Oscillator":
-        from proofs.oscillator import Oscillator
+    if name in __all__:
+        from importlib import import_module
 
-        return Oscillator
+        return getattr(import_module(f"proofs.{name.lower()}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """List what is public, for completion."""
+    return [*__all__, "__version__"]

@@ -12,13 +12,13 @@ in notebooks. What cannot be proved raises `intervals.Undecided`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
 
-from intervals import Undecided, decimal_bounds, fraction
+from intervals import Undecided, decimal_bounds
 from intervals.exact import whole
+from proofs.map import Ends, Exact, ends_of, exact
 from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.image import Image, PossibleImages, image
 from proofs.motion.impact import HORIZON
@@ -28,18 +28,15 @@ from proofs.search.evidence import Evidence, Proof
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
+from proofs.theorem import Theorem
 from proofs.trusted.certificate import render
 from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range, show, show_range
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange
-from proofs.trusted.verdicts import told
 
-Exact = int | Fraction | str
-Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
 _SYMBOLS = {
     "dwell": r"t_s",
     "flight": r"t",
@@ -63,7 +60,7 @@ class Bounds:
     digits: int
 
     def __contains__(self, value: Exact) -> bool:
-        return self.lower <= _exact(value) <= self.upper
+        return self.lower <= exact(value) <= self.upper
 
     def __str__(self) -> str:
         """Write it in decimals, rounded outward."""
@@ -104,21 +101,6 @@ class Answer:
         return r"$\begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}$"
 
 
-@dataclass(frozen=True)
-class Theorem:
-    """What was proved, and a certificate that `python -m proofs.check` accepts."""
-
-    conclusion: Conclusion
-    certificate: str
-
-    def __str__(self) -> str:
-        """Return it in words, with all its hypotheses."""
-        return told([self.conclusion])
-
-    def _repr_html_(self) -> str:
-        return f"<p>{escape(str(self))}</p>"
-
-
 class Oscillator:
     """A mass on a spring above a vibrating table: eta = omega_n/omega, nu = -beta/p, epsilon.
 
@@ -127,8 +109,8 @@ class Oscillator:
     """
 
     def __init__(self, eta: Exact, nu: Exact, epsilon: Exact | None = None) -> None:
-        self._system = System(_exact(eta), _exact(nu))
-        self._epsilon = None if epsilon is None else _exact(epsilon)
+        self._system = System(exact(eta), exact(nu))
+        self._epsilon = None if epsilon is None else exact(epsilon)
         if self._epsilon is not None and not 0 <= self._epsilon < 1:
             raise ValueError(f"epsilon must be in [0, 1), not {epsilon}")
 
@@ -144,7 +126,7 @@ class Oscillator:
 
         Raises Undecided where the map is not continuous on them, or nothing can be said.
         """
-        ends, latest, digits = _phases(phases), _exact(horizon), _places(digits)
+        ends, latest, digits = _phases(phases), exact(horizon), _places(digits)
         if not 0 < latest <= LATEST:
             raise ValueError(f"a horizon is a positive number up to {LATEST}")
         if (gamma is None) != (self._epsilon is None):
@@ -154,7 +136,7 @@ class Oscillator:
             if isinstance(found, PossibleImages):
                 raise Undecided(f"{found.reason}: {len(found.images)} images are possible")
             return _answer(found, digits)
-        state = ends, _ends(gamma), self._epsilon
+        state = ends, ends_of(gamma), self._epsilon
         return _answer(rebound(self._system, *state, digits=digits, horizon=latest), digits)
 
     def first_impact(
@@ -183,7 +165,7 @@ class Oscillator:
         try:
             if gamma is None:
                 return self._plastic_horseshoe(*sets, digits)
-            return self._rectangles(*sets, _ends(gamma), digits)
+            return self._rectangles(*sets, ends_of(gamma), digits)
         except Unproved as failure:
             raise Undecided(str(failure)) from None
 
@@ -210,14 +192,6 @@ class Oscillator:
         return Parameters(eta, nu, *sets, (one, one), epsilon=self._epsilon, velocities=gamma)
 
 
-def _exact(value: Exact) -> Fraction:
-    """Return an exact number; a float raises with the hint to write a string."""
-    if isinstance(value, float):
-        plain = float(value)  # numpy's shows its type
-        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
-    return fraction(value)
-
-
 def _places(digits: int) -> int:
     """Return how many significant digits are asked for, as the commands take them."""
     if whole(digits) is None or not 1 <= digits <= MOST_DIGITS:
@@ -225,20 +199,8 @@ def _places(digits: int) -> int:
     return digits
 
 
-def _ends(values: Ends) -> Range:
-    """Return both ends of an interval, equal for a number."""
-    if isinstance(values, str) or not isinstance(values, Sequence):
-        return _exact(values), _exact(values)
-    if len(values) != 2:
-        raise ValueError(f"a number or two ends are expected, not {len(values)} numbers")
-    low, high = map(_exact, values)
-    if low > high:
-        raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
-    return low, high
-
-
 def _phases(values: Ends) -> Range:
-    low, high = _ends(values)
+    low, high = ends_of(values)
     if low < 0 or high > TURN:
         raise ValueError(f"phases are from 0 to {show(TURN)}, not {show_range((low, high))}")
     return low, high
@@ -265,4 +227,4 @@ def _certified(
     evidence = Evidence(steps, proofs)
     entries = [groups.decide(claim, of, evidence, digits)[1] for claim in proofs]
     *_, last = proofs.values()
-    return Theorem(last[-1][1], render(groups.certificate(of, steps, entries)))
+    return Theorem((last[-1][1],), render(groups.certificate(of, steps, entries)))

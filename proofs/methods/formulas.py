@@ -138,18 +138,20 @@ def inverse(matrix: Rows) -> Rows:
     return tuple(tuple(row[n:]) for row in rows)
 
 
-def subdivide(box: Box, decided: Callable[[Box], bool], scale: Box | None = None) -> Tree:
+def subdivide(
+    box: Box, decided: Callable[[Box], bool], scale: Box | None = None, most: int = _MOST_BOXES
+) -> Tree:
     """Return a tree whose leaves are all decided: undecided boxes are halved, longest side first.
 
     Sides are compared as parts of those of `scale`, the box itself where none is given. Raises
     Undecided if that does not end.
     """
-    left, units = [_MOST_BOXES], [high - low for low, high in scale or box]
+    left, units = [most], [high - low for low, high in scale or box]
 
     def divide(part: Box, depth: int) -> Tree:
         left[0] -= 1
         if left[0] < 0 or depth > _DEEPEST:
-            raise Undecided(f"{_MOST_BOXES} boxes, divided {_DEEPEST} times, do not suffice")
+            raise Undecided(f"{most} boxes, divided {_DEEPEST} times, do not suffice")
         try:
             if decided(part):
                 return None

@@ -27,7 +27,7 @@ from proofs.trusted.numbers import Range
 
 _CUBE_SIDE = (Fraction(-1), Fraction(1))
 _BITS, _STEPS = 160, 6  # of Newton's method
-_PLACE, _RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of periodic points
+_PLACE, RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of periodic points
 _ENTRIES = ((Fraction(0), Fraction(1)),)  # derivatives are compared as they are
 
 
@@ -79,9 +79,9 @@ class SymbolicLemmas(Lemmas):
         """Add a step `periodic-orbits`, of the orbits that `periodic` finds in a box."""
         formula, sides = self.function(function), exact(box)
         cover = invariant_cover(function_of(formula), Region(tuple(Interval(*x) for x in sides)))
-        found = [_orbit(formula, each) for each in periodic_orbits(cover, period)]
+        found = [orbit_witness(formula, each) for each in periodic_orbits(cover, period)]
         witness = {"function": function, "period": str(period), "box": written(sides)}
-        return self.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": found})
+        return self.add("periodic-orbits", {**witness, "radius": str(RADIUS), "orbits": found})
 
     def graph(self, covers: Sequence[str]) -> str:
         """Add a step `graph`."""
@@ -126,7 +126,7 @@ class SymbolicLemmas(Lemmas):
         return self.add("cone", {"graph": graph, "forms": forms, "relations": relations})
 
 
-def _orbit(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
+def orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
     """Return a point of an orbit to many digits, by Newton's method, as the rule reads it."""
     point, matrix = [x.mid for x in orbit.points[0]], []
     for _ in range(_STEPS):

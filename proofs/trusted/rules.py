@@ -30,6 +30,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "unique-zero": "kernel.zeros.unique_zero",
         "periodic-orbits": "kernel.periodic.periodic_orbits",
         "periodic-orbit": "kernel.cycle.periodic_orbit",
+        "image": "kernel.image.image",
         "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",

@@ -87,7 +87,7 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
         jacobian = _derivatives(step.local, relation, n)
         _, _, _, _, matrices = relation.fields("box", "outside", "jacobian", "tree", "matrices")
         for leaf in leaves(matrices, jacobian):
-            _check_cone(leaf, forms[i], forms[j])
+            check_cone(leaf, forms[i], forms[j])
     return Conjugacy(of, all(entry > 0 for form in forms for entry in form))
 
 
@@ -135,7 +135,7 @@ def _inside(one: Box, two: Box) -> bool:
     return all(map(within, one, two))
 
 
-def _check_cone(matrices: Box, before: Form, after: Form) -> None:
+def check_cone(matrices: Box, before: Form, after: Form) -> None:
     """Prove D^T Q_M D - Q_N positive definite for all D within bounds."""
     if not any(tried(lambda bits: positive_definite(_difference(matrices, before, after, bits)))):
         raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")

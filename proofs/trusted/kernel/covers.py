@@ -26,7 +26,7 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Range, show
+from proofs.trusted.numbers import Range, show, show_range
 
 MAX_POWER = 100
 _MAX_DIMENSION = 6
@@ -53,6 +53,8 @@ class HSet(Conclusion):
     @property
     def described(self) -> str:
         """What set it is."""
+        if len(self.centre) == 1:
+            return show_range(self.span())
         centre = ", ".join(map(show, self.centre))
         rows = ", ".join(f"({', '.join(map(show, row))})" for row in self.matrix)
         n = len(self.centre)

@@ -151,13 +151,15 @@ def tried(compute: Callable[[int], T]) -> Iterator[T]:
             continue
 
 
-def attempts(map_: Differentiable, box: Box) -> Iterator[list[Enclosure]]:
+def attempts(
+    map_: Differentiable, box: Box, precisions: Sequence[int] = PRECISIONS
+) -> Iterator[list[Enclosure]]:
     """Enclose the map on a box in better and better ways, as long as the caller asks.
 
     At each precision the natural form, then its intersection with the mean value form: on a box
     X that contains m, f(x) lies in f(m) + f'(X) (X - m). Both contain the values, so they meet.
     """
-    for bits in PRECISIONS:
+    for bits in precisions:
         x = enclosed(box, bits)
         try:
             values = map_.values(x)

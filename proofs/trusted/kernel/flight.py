@@ -76,7 +76,7 @@ class Flight:
     @property
     def size(self) -> int:
         """The number of values."""
-        return len(self._values)
+        return len(self.outcome)
 
     @property
     def circles(self) -> tuple[Circle, ...]:
@@ -88,7 +88,8 @@ class Flight:
         return self.formulas.periods(bits)
 
     @property
-    def _values(self) -> tuple[int, ...]:
+    def outcome(self) -> tuple[int, ...]:
+        """The values, on the tape."""
         return self.formulas.roots[len(self.gaps) :]
 
     @property
@@ -106,12 +107,12 @@ class Flight:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box of states."""
-        return self.on(self._values, x, self.impact(x))
+        return self.on(self.outcome, x, self.impact(x))
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
         t, n = self.impact(x), self.state
-        roots = (self.gaps[0].orders[0], *self._values)
+        roots = (self.gaps[0].orders[0], *self.outcome)
         wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
         entries = self.on((*wanted, *roots), x, t)
         (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))

@@ -1,0 +1,245 @@
+"""Your own map: `from proofs import Map`.
+
+>>> from proofs import Map
+>>> print(Map("r*x*(1 - x)", r="3.5").stable(box={"x": ("0", "1")})[0].brief.partition(": ")[2])
+exactly one periodic orbit of least period 4 that begins at ...
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from fractions import Fraction
+from typing import Any, Self
+
+from intervals import Undecided, fraction
+from proofs.methods.grammar import GrammarError, canonical, name, names
+from proofs.theorem import Theorem
+from proofs.trusted.certificate import Malformed, texts
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range, show
+
+Exact = int | Fraction | str
+Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
+Box = Mapping[str, Sequence[Exact]]  # by variables
+
+_DIGITS, _BITS = 12, 128  # of images
+_SEEDS = 120
+_SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
+
+
+class Map:
+    """A map given by a formula for each variable; Theorems about it come with certificates.
+
+    formulas: in textbook notation, in the order of the variables, which is that of the alphabet
+    unless `variables` says otherwise. parameters: exact numbers, or ranges (low, high): what is
+    proved then holds for all of them. periods: of those variables that are angles. Raises
+    ValueError, in a sentence, where that is no map; the methods raise `intervals.Undecided` where
+    nothing is proved.
+    """
+
+    def __init__(
+        self,
+        *formulas: str,
+        variables: Sequence[str] = (),
+        periods: Mapping[str, str] | None = None,
+        **parameters: Ends,
+    ) -> None:
+        values = [canonical(text) for text in formulas]
+        given = [name(each) for each in parameters]
+        free = sorted({each for text in values for each in names(text)} - {*given})
+        state = list(map(name, variables)) or free
+        if unknown := sorted({*free} - {*state}):
+            raise GrammarError(f"{unknown[0]} has no value: give {unknown[0]}=... to Map")
+        if len(state) != len(values):
+            raise GrammarError(
+                f"{len(values)} formulas for the variables {', '.join(state) or '(none)'}: as many "
+                "are expected; give numbers to parameters, as in Map('r*x', r='2')"
+            )
+        self._begin({"F": _function(state, values, parameters, periods or {})}, "F")
+
+    def _begin(self, functions: Mapping[str, Any], function: str) -> None:
+        from proofs.methods.derivation import Derivation
+
+        self.functions, self.function = dict(functions), function
+        self.box: dict[str, Sequence[Exact]] = {}
+        try:
+            self._kernel = Derivation(self.functions).map(function)
+        except Malformed as error:
+            raise GrammarError(str(error).partition(": ")[2]) from None
+
+    @classmethod
+    def _of(cls, functions: Mapping[str, Any], function: str, box: Box) -> Self:
+        made = cls.__new__(cls)
+        made._begin(functions, function)
+        made.box = dict(box)
+        return made
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables, in their order."""
+        return self._kernel.variables
+
+    def __repr__(self) -> str:
+        """Return the definition."""
+        return self._kernel.definition
+
+    # -- theorems ----------------------------------------------------------------------------------
+
+    def image(self, **state: Ends) -> Theorem:
+        """Enclose where the map takes a point, or a box: image(x="0.2", y=("0", "0.1"))."""
+        return self._image(self._derivation(), self.function, state)
+
+    def orbits(self, period: int = 1, box: Box | None = None) -> Theorem:
+        """Prove the periodic orbits of a least period that are found; there may be others.
+
+        `periodic_orbits` has all of them, for a formula.
+        """
+        cycles = self._cycles(period, box)
+        return self._proved(cycles, f"no orbit of the least period {period} is found and proved")
+
+    def stable(self, longest: int = 8, box: Box | None = None) -> Theorem:
+        """Prove the attracting periodic orbits, up to a period, that points at random come to."""
+        from proofs.methods.newton import attractors
+
+        cycles = attractors(self._sampled, self._sides(box), longest)
+        reason = f"no attracting orbit of a period up to {longest} is found and proved"
+        return self._proved(cycles, reason)
+
+    def horseshoe(self, box: Box | None = None, longest: int = 2) -> Theorem:
+        """Prove a full shift on two symbols, of the map or an iterate; sets are found.
+
+        longest: the last iterate that is looked at.
+        """
+        from proofs.methods.shifts import find_horseshoe
+
+        file, reason = self._derivation(), Undecided("nothing was looked at")
+        saddles: list[Any] = []
+        for power in range(1, longest + 1):
+            for cycle in self._cycles(power, box):
+                saddles += list(cycle.points) if cycle.is_saddle else []
+            try:
+                return _theorem(
+                    file, find_horseshoe(file, self.function, saddles, self._sides(box), power)
+                )
+            except Undecided as error:
+                reason = error
+        raise reason
+
+    def periodic_orbits(self, period: int, box: Box) -> Theorem:
+        """Prove which periodic orbits a formula has in a box, and that there are no others."""
+        from proofs.methods.newton import prove_all_orbits
+
+        file = self._derivation()
+        sides = self._sides(box)
+        return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
+
+    # -- what they share ---------------------------------------------------------------------------
+
+    @property
+    def _sampled(self) -> Any:
+        from proofs.methods.sampling import Sampled
+
+        return Sampled(self._kernel)
+
+    def _derivation(self) -> Any:
+        from proofs.methods.derivation import Derivation
+
+        return Derivation(self.functions)
+
+    def _proved(self, cycles: Sequence[Any], otherwise: str) -> Theorem:
+        """Return the theorem about those of some orbits that are proved."""
+        from proofs.methods.newton import prove_orbit
+
+        file, steps = self._derivation(), []
+        for cycle in cycles:
+            with suppress(Unproved):
+                steps.append(prove_orbit(file, self.function, cycle))
+        if not steps:
+            raise Undecided(otherwise)
+        return _theorem(file, steps)
+
+    def _cycles(self, period: int, box: Box | None) -> list[Any]:
+        from proofs.methods.newton import cycles, seeds
+
+        if not isinstance(period, int) or not 1 <= period <= 60:
+            raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
+        sampled = self._sampled
+        starts = seeds(sampled, self._sides(box), _SEEDS * period)
+        return cycles(sampled, period, starts)
+
+    def _sides(self, box: Box | None) -> list[Range]:
+        """Return a box where points are looked for: angles all around, others as given."""
+        sides = {**self.box, **(box or {})}
+        if unknown := sorted({*sides} - {*self.variables}):
+            raise ValueError(f"{unknown[0]} is none of the variables {', '.join(self.variables)}")
+        periods = self._kernel.periods(_BITS)
+        around = [
+            (Fraction(0), periods[i].range[1]) if i in periods else ends_of(_SIDE)
+            for i in range(len(self.variables))
+        ]
+        return [
+            ends_of(sides[each]) if each in sides else side
+            for each, side in zip(self.variables, around, strict=True)
+        ]
+
+    def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
+        from proofs.trusted.kernel.enclose import enclosed
+        from proofs.trusted.numbers import ceil_text, floor_text
+
+        if {*state} != {*self.variables}:
+            wanted = ", ".join(f"{each}=..." for each in self.variables)
+            raise ValueError(f"a value for each variable is expected: {wanted}")
+        box = [ends_of(state[each]) for each in self.variables]
+        try:
+            values = file.map(function).values(enclosed(tuple(box), _BITS))
+        except Unproved as error:
+            raise Undecided(str(error)) from None
+        bounds = [
+            [str(Fraction(floor_text(low, _DIGITS))), str(Fraction(ceil_text(high, _DIGITS)))]
+            for low, high in (value.range for value in values)
+        ]
+        witness = {"function": function, "box": list(map(texts, box)), "tree": None}
+        return _theorem(file, [file.add("image", {**witness, "bounds": bounds})])
+
+
+def _theorem(file: Any, steps: Sequence[str]) -> Theorem:
+    return Theorem(tuple(map(file.conclusion, steps)), file.certificate(*steps))
+
+
+def _function(
+    state: Sequence[str],
+    values: Sequence[str],
+    parameters: Mapping[str, Ends],
+    periods: Mapping[str, str],
+) -> dict[str, Any]:
+    """Return a formula as a certificate has it."""
+    return {"variables": list(state), **optional(parameters, periods), "values": list(values)}
+
+
+def optional(parameters: Mapping[str, Ends], periods: Mapping[str, str]) -> dict[str, Any]:
+    """Return the fields of a function for parameters and angles, where it has some."""
+    ranges = {each: texts(ends_of(ends)) for each, ends in parameters.items()}
+    angles = {each: canonical(period) for each, period in periods.items()}
+    fields = {"parameters": ranges, "periods": angles}
+    return {field: value for field, value in fields.items() if value}
+
+
+def ends_of(values: Ends) -> Range:
+    """Return both ends of an interval, equal for a number; exact, so no floats."""
+    if isinstance(values, str) or not isinstance(values, Sequence):
+        return exact(values), exact(values)
+    if len(values) != 2:
+        raise ValueError(f"a number or two ends are expected, not {len(values)} numbers")
+    low, high = map(exact, values)
+    if low > high:
+        raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
+    return low, high
+
+
+def exact(value: Exact) -> Fraction:
+    """Return an exact number; a float raises with the hint to write a text."""
+    if isinstance(value, float):
+        plain = float(value)  # numpy's shows its type
+        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
+    return fraction(value)

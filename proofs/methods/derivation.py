@@ -1,0 +1,73 @@
+"""A certificate in the making, from steps that the checker's own rules conclude."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from proofs.trusted.certificate import SCHEMA, Reader, render, used_steps
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.maps import Map, read_map
+from proofs.trusted.rules import find_rule
+
+
+@dataclass
+class Derivation:
+    """A certificate in the making: what a rule does not conclude from a witness is not added."""
+
+    functions: Mapping[str, Any]
+    steps: dict[str, Any] = field(default_factory=dict)
+    context: Context = field(default_factory=Context)
+
+    def __post_init__(self) -> None:
+        for name, function in self.functions.items():
+            each = Reader(function, f"$.functions.{name}")
+            self.context.functions[name] = read_map(name, each, self.context.functions)
+
+    def map(self, name: str) -> Map:
+        """Return a function as the checker reads it."""
+        return self.context.functions[name]
+
+    def add(self, rule: str, witness: Mapping[str, Any]) -> str:
+        """Add a step that its rule concludes, and return its name; raises Unproved otherwise."""
+        derive, number = find_rule(rule), 1 + sum(x["rule"] == rule for x in self.steps.values())
+        if derive is None:
+            raise ValueError(f"no rule {rule}")
+        name = f"{rule}-{number}"
+        self.context.known[name] = derive(self.context, Reader(dict(witness)))
+        self.steps[name] = {"rule": rule, "witness": dict(witness)}
+        return name
+
+    def forget(self, names: set[str]) -> None:
+        """Take steps out again, on which no other one rests."""
+        for name in names:
+            del self.steps[name], self.context.known[name]
+
+    def conclusion(self, name: str) -> Conclusion:
+        """Return what a step concludes."""
+        return self.context.known[name]
+
+    def certificate(self, *claims: str) -> str:
+        """Return the text of a certificate of some steps, with what they need."""
+        needed = used_steps(Reader(self.steps), {*claims})
+        functions = _needed(self.functions, needed)
+        return render(
+            {
+                "schema": SCHEMA,
+                "parameters": None,
+                "functions": functions,
+                "steps": {name: step for name, step in self.steps.items() if name in needed},
+                "claims": list(claims),
+            }
+        )
+
+
+def _needed(functions: Mapping[str, Any], names: set[str]) -> dict[str, Any]:
+    """Return the functions that are named, and those of which these are composed."""
+    needed = set(names)
+    for name, each in reversed([*functions.items()]):
+        if name in needed:
+            needed.update(each.get("maps", ()))
+    return {name: each for name, each in functions.items() if name in needed}

@@ -1,0 +1,177 @@
+"""Formulas as people type them, and as the checker reads them: one grammar for all of a user's own.
+
+Numbers are decimals or integers and exact; ^ and ** are powers; y' and y'' are derivatives by the
+time; sin, cos, exp, log, sqrt, and tan, sinh, cosh, tanh in terms of these. Every failure is a
+GrammarError that says where, and what would be accepted.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.expression import FUNCTIONS
+from proofs.trusted.kernel.formulas import read_formulas, spelled
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![A-Za-z_.])"
+    r"|(?P<name>[A-Za-z_]\w*)(?P<primes>'*)|(?P<op>\*\*|[-+*/^(),=]))"
+)
+_DERIVED = {
+    "tan": "sin({0})/cos({0})",
+    "sinh": "(exp({0}) - exp(-({0})))/2",
+    "cosh": "(exp({0}) + exp(-({0})))/2",
+    "tanh": "1 - 2/(exp(2*({0})) + 1)",
+}
+_OTHERS = {
+    "abs": "it is not smooth; give each of the two cases as a map, or as a gap, of its own",
+    "ln": "write log",
+    "arctan": "it is none of the functions that are proved here",
+    "atan": "it is none of the functions that are proved here",
+    "mod": "give the period of the variable in `periods`",
+}
+_KNOWN = (*FUNCTIONS, *_DERIVED)
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,11}")
+
+
+class GrammarError(ValueError):
+    """A text is no formula; the message is one sentence."""
+
+
+def canonical(text: str, time: str = "") -> str:
+    """Return a formula as the checker reads it; time: what y' is the derivative by."""
+    if not isinstance(text, str):
+        plain = f'; write it as a text, "{text}"' if isinstance(text, float) else ""
+        raise GrammarError(f"a formula is a text, not {text!r}{plain}")
+    python = " ".join(_python(text, time))
+    try:
+        tree = ast.parse(python, mode="eval").body
+    except SyntaxError:
+        raise GrammarError(f"not a formula: {_short(text)}") from None
+    typed = spelled(ast.unparse(_rewritten(tree, text)))
+    try:
+        read_formulas(Reader(typed))
+    except ValueError as error:
+        raise GrammarError(f"{str(error).removeprefix('$: ')}, in {_short(text)}") from None
+    return typed
+
+
+def name(text: str) -> str:
+    """Return a variable's name; GrammarError where it is none."""
+    if not _NAME.fullmatch(text) or text in (*_KNOWN, *_OTHERS, "pi", "at"):
+        raise GrammarError(
+            f"{text[:30]!r} is no name for a variable: small letters, digits and _, 12 at the most"
+        )
+    return text
+
+
+def names(text: str) -> list[str]:
+    """Return the names in a formula as the checker reads it, in the order in which they occur."""
+    found = re.findall(r"[A-Za-z]\w*", text)
+    return [each for each in dict.fromkeys(found) if each not in {*FUNCTIONS, "pi", "D", "at"}]
+
+
+def _short(text: str) -> str:
+    return repr(text if len(text) <= 60 else text[:57] + "...")
+
+
+def _python(text: str, time: str) -> Iterator[str]:
+    """Yield the tokens as Python has them; decimals become quotients in brackets."""
+    place, before = 0, ""
+    text = text.rstrip()
+    while place < len(text):
+        match = _TOKEN.match(text, place)
+        if match is None:
+            raise GrammarError(f"{_at(text, place)}: this is in no formula")
+        number, word, primes, op = match.group("number", "name", "primes", "op")
+        if before in ("number", "name", ")") and (number or word or op == "("):
+            raise GrammarError(f"{_at(text, place)}: write * for a product")
+        if number:
+            value = Fraction(number)
+            yield str(value) if value.denominator == 1 else f"({value})"
+        elif word:
+            yield _derivative(word, len(primes), time) if primes else word
+        else:
+            if op == "=":
+                raise GrammarError(f"{_at(text, place)}: a formula, no equation, is expected")
+            yield "**" if op == "^" else op
+        is_call = bool(word) and text[match.end() : match.end() + 1] == "("
+        if is_call and word not in _KNOWN:
+            hint = _OTHERS.get(word, f"write * for a product; functions are {', '.join(_KNOWN)}")
+            raise GrammarError(f"{_at(text, place)}: {hint}")
+        before = "" if is_call else "number" if number else "name" if word else op
+        place = match.end()
+    if not before:
+        raise GrammarError("an empty formula")
+
+
+def _derivative(word: str, order: int, time: str) -> str:
+    if not time:
+        raise GrammarError(f"{word}{chr(39) * order} has no meaning here: there is no time")
+    return f"D({', '.join([word] + [time] * order)})"
+
+
+def _at(text: str, place: int) -> str:
+    rest = text[place:].lstrip()
+    return f"character {len(text) - len(rest) + 1} of {_short(text)}, {_short(rest[:12])}"
+
+
+def _rewritten(tree: ast.expr, text: str) -> ast.expr:
+    """Put what the checker knows in the place of other functions and of exponents."""
+
+    class Rewriting(ast.NodeTransformer):
+        def visit_Call(self, node: ast.Call) -> ast.AST:
+            self.generic_visit(node)
+            if isinstance(node.func, ast.Name) and node.func.id in _DERIVED:
+                if len(node.args) != 1:
+                    raise GrammarError(f"{node.func.id} takes one number, in {_short(text)}")
+                return _parsed(_DERIVED[node.func.id].format(ast.unparse(node.args[0])))
+            return node
+
+        def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+            self.generic_visit(node)
+            return _power(node, text) if isinstance(node.op, ast.Pow) else node
+
+        def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
+            self.generic_visit(node)
+            return node.operand if isinstance(node.op, ast.UAdd) else node
+
+    rewritten: ast.expr = Rewriting().visit(tree)
+    return rewritten
+
+
+def _power(node: ast.BinOp, text: str) -> ast.expr:
+    """Return a power with an integer exponent other than 0, or with roots."""
+    value = _number(node.right)
+    if value is None:
+        raise GrammarError(f"an exponent is a number; write exp(b*log(a)), in {_short(text)}")
+    base = ast.unparse(node.left)
+    if value.denominator > 2:
+        raise GrammarError(f"an exponent is a multiple of 1/2, in {_short(text)}")
+    if value == 0:
+        return _parsed("1")
+    whole = int(value - Fraction(1, 2)) if value.denominator == 2 else int(value)
+    root = f"sqrt({base})" if value.denominator == 2 else ""
+    factors = [f"({base})**{whole}" if whole != 1 else f"({base})"] if whole else []
+    return _parsed("*".join([*factors, *([root] if root else [])]))
+
+
+def _number(node: ast.expr) -> Fraction | None:
+    """Return what a formula of numbers alone is."""
+    match node:
+        case ast.Constant(value=int(integer)):
+            return Fraction(integer)
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            value = _number(operand)
+            return None if value is None else -value
+        case ast.BinOp(left=left, right=right, op=ast.Div()):
+            one, two = _number(left), _number(right)
+            return one / two if one is not None and two else None
+    return None
+
+
+def _parsed(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body

@@ -1,0 +1,189 @@
+"""Periodic orbits of any map: found by Newton's method in floating point, concluded by a rule."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from intervals import Interval, Undecided
+from proofs.methods.cells import Region, function_of, invariant_cover
+from proofs.methods.derivation import Derivation
+from proofs.methods.periodic import periodic_orbits
+from proofs.methods.sampling import Floats, Sampled
+from proofs.methods.symbolic import RADIUS, orbit_witness
+from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.numbers import Range
+
+_FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
+_STEPS, _NEAR = 12, 1e-9  # of Newton's method
+_RADII = ("1/1000000000", "1/10000000", "1/100000")  # of boxes around periodic points
+
+
+class Cycle(NamedTuple):
+    """A periodic orbit in floating point: its points, a row each, and (F^n)' at the first."""
+
+    points: Floats
+    derivative: Floats
+
+    @property
+    def multipliers(self) -> Floats:
+        """The absolute values of the multipliers, in increasing order."""
+        return np.asarray(np.sort(np.abs(np.linalg.eigvals(self.derivative))))
+
+    @property
+    def is_saddle(self) -> bool:
+        """Whether it has one unstable direction, and no other is neutral."""
+        sizes = self.multipliers
+        return bool(sizes[-1] > 1.05 and (len(sizes) == 1 or sizes[-2] < 0.95))
+
+
+def cycles(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
+    """Return the periodic orbits of a least period to which Newton's method leads.
+
+    starts: of the shape (variables, points).
+    """
+    n = len(starts)
+    x, units = starts.copy(), 1e-6 * np.eye(n)
+    with np.errstate(all="ignore"):
+        for _ in range(_STEPS):
+            moved = [x + s * u[:, None] for u in units for s in (1, -1)]
+            ends = iterated(sampled, np.concatenate([x, *moved], axis=1), period)
+            image, *others = np.split(ends, 2 * n + 1, axis=1)
+            columns = [(a - b) / 2e-6 for a, b in zip(others[::2], others[1::2], strict=True)]
+            matrix = np.moveaxis(np.array(columns), 2, 0).swapaxes(1, 2) - np.eye(n)
+            missed = (image - x).T
+            step = _solved(matrix, missed - whole_periods(sampled, missed)).T
+            x = x - step
+        good = (np.abs(step) < _NEAR * (1 + np.abs(x))).all(axis=0) & np.isfinite(x).all(axis=0)
+    return _distinct(sampled, period, x[:, good])
+
+
+def _solved(matrices: Floats, right: Floats) -> Floats:
+    finite = np.isfinite(matrices).all(axis=(1, 2)) & np.isfinite(right).all(axis=1)
+    regular = np.array(finite)
+    regular[finite] = np.abs(np.linalg.det(matrices[finite])) > 1e-12
+    result = np.full(right.shape, np.nan)
+    result[regular] = np.linalg.solve(matrices[regular], right[regular][..., None])[..., 0]
+    return result
+
+
+def iterated(sampled: Sampled, x: Floats, count: int) -> Floats:
+    """Return the images of points under an iterate."""
+    for _ in range(count):
+        x = sampled(x)
+    return x
+
+
+def _distinct(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
+    """Return each orbit once, from its first point in lexicographic order."""
+    found: list[Cycle] = []
+    seen: list[Floats] = []
+    for start in sampled.reduced(starts).T:
+        if any(distance(sampled, start, point) < 1e-6 for point in seen):
+            continue
+        points = [start]
+        while len(points) < period:
+            points.append(sampled.reduced(sampled(points[-1][:, None]))[:, 0])
+        if not np.isfinite(points).all() or any(
+            distance(sampled, points[0], points[k]) < 1e-6 for k in range(1, period)
+        ):
+            continue
+        seen += points
+        first = min(range(period), key=lambda k: tuple(np.round(points[k], 6)))
+        turned = np.array(points[first:] + points[:first])
+        found.append(Cycle(turned, along_orbit(sampled, turned)))
+    return sorted(found, key=lambda cycle: tuple(cycle.points[0]))
+
+
+def distance(sampled: Sampled, x: Floats, y: Floats) -> float:
+    """Return how far two points are apart, angles being taken modulo their periods."""
+    gap = x - y - whole_periods(sampled, x - y)
+    return float(np.abs(gap).max() / (1 + np.abs(y).max()))
+
+
+def along_orbit(sampled: Sampled, points: Floats) -> Floats:
+    """Return the product of the derivatives along an orbit."""
+    product_ = np.eye(points.shape[1])
+    for point in points:
+        product_ = sampled.jacobian(point) @ product_
+    return product_
+
+
+def whole_periods(sampled: Sampled, apart: Floats) -> Floats:
+    """Return the whole periods next to differences of points, a row each; 0 without a period."""
+    turns = np.where(np.isfinite(sampled.periods), np.round(apart / sampled.periods), 0)
+    return np.asarray(turns * np.where(np.isfinite(sampled.periods), sampled.periods, 0))
+
+
+def seeds(sampled: Sampled, box: Sequence[Range], count: int, steps: int = 20) -> Floats:
+    """Return points at random in a box, and where the map takes them in some steps."""
+    rng = np.random.default_rng(len(box))
+    low, high = np.array(box, float).T
+    x = low[:, None] + (high - low)[:, None] * rng.random((len(box), count))
+    return np.concatenate([x, _settled(sampled, x, steps)], axis=1)
+
+
+def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
+    """Return where points are after some steps, those that stay finite."""
+    for _ in range(steps):
+        x = sampled.reduced(sampled(x))
+        x = x[:, np.isfinite(x).all(axis=0) & (np.abs(x) < _FAR).all(axis=0)]
+    return x
+
+
+def attractors(sampled: Sampled, box: Sequence[Range], longest: int) -> list[Cycle]:
+    """Return the attracting periodic orbits, up to a period, that points of a box come to."""
+    x = seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
+    found: list[Cycle] = []
+    after = x
+    for period in range(1, longest + 1):
+        after = sampled(after)
+        apart = after - x - whole_periods(sampled, (after - x).T).T
+        near = (np.abs(apart) < _CLOSE * (1 + np.abs(x))).all(axis=0)
+        found += [each for each in cycles(sampled, period, x[:, near]) if each.multipliers[-1] < 1]
+        x, after = x[:, ~near], after[:, ~near]
+    return found
+
+
+def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence[Range]) -> str:
+    """Add a step `periodic-orbits`: all orbits of a formula in a box whose period divides one."""
+    formula = file.map(function)
+    if not isinstance(formula, Formulas) or formula.circles or formula.ranges:
+        raise Undecided("all orbits are found for formulas without angles and ranges alone")
+    sides = tuple(Interval(*side) for side in box)
+    cover = invariant_cover(function_of(formula), Region(sides))
+    orbits = [orbit_witness(formula, each) for each in periodic_orbits(cover, period)]
+    witness = {"function": function, "period": str(period), "box": [texts(side) for side in box]}
+    return file.add("periodic-orbits", {**witness, "radius": str(RADIUS), "orbits": orbits})
+
+
+def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
+    """Add a step `periodic-orbit` about an orbit; raises Unproved where that is not concluded."""
+    map_, n = file.map(function), len(cycle.points)
+    sampled = Sampled(map_)
+    matrix = np.linalg.inv(cycle.derivative - np.eye(len(map_.variables)))
+    witness: dict[str, Any] = {"function": function, "period": str(n)}
+    if map_.circles:
+        end = iterated(sampled, cycle.points[:1].T, n)[:, 0] - cycle.points[0]
+        turns = np.round(end / sampled.periods)
+        witness["turns"] = [str(int(turns[circle.place])) for circle in map_.circles]
+    for radius in map(Fraction, _RADII):
+        box = [_around(float(x), radius) for x in cycle.points[0]]
+        entries = [[str(Fraction(f"{entry:.10g}")) for entry in row] for row in matrix]
+        try:
+            return file.add(
+                "periodic-orbit", {**witness, "box": list(map(texts, box)), "matrix": entries}
+            )
+        except Unproved as error:
+            reason = error
+    raise reason
+
+
+def _around(x: float, radius: Fraction) -> Range:
+    middle = round(Fraction(x) / radius) * radius
+    return middle - 2 * radius, middle + 2 * radius

@@ -1,0 +1,151 @@
+"""A map of the checker in floating point, for many points at once: candidates, never proofs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.maps import Composition, Map
+
+Floats = NDArray[np.float64]
+Function = Callable[..., Sequence[Any]]
+
+_BITS = 64  # of periods
+_STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
+_HALVINGS, _NEWTON = 8, 4
+
+_OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
+
+
+def compiled(tape: Tape, roots: Sequence[int]) -> Function:
+    """Return the roots as a function of arrays: each operation of the tape in a line."""
+    lines = ["def function(*x):"]
+    for place in tape.order(tuple(roots)):
+        op, arguments, datum = tape.nodes[place]
+        names = [f"v{i}" for i in arguments]
+        if op == "variable":
+            value = f"x[{int(datum)}]"
+        elif op == "number":
+            value = repr(float(datum))
+        elif op == "pi":
+            value = "np.pi"
+        elif op == "^":
+            value = f"{names[0]}**{float(datum)}" if datum < 0 else f"{names[0]}**{int(datum)}"
+        else:
+            value = _OPERATORS.get(op, f"np.{op}({{}})").format(*names)
+        lines.append(f"    v{place} = {value}")
+    lines.append(f"    return [{', '.join(f'v{root}' for root in roots)}]")
+    scope: dict[str, Any] = {"np": np}
+    exec("\n".join(lines), scope)  # a text of our own, from nodes of known operations
+    function: Function = scope["function"]
+    return function
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A map on arrays of points, of the shape (n, points); nan where it is not defined.
+
+    A point of a parameter in a range is its middle.
+    """
+
+    map: Map
+
+    def __call__(self, x: Floats) -> Floats:
+        """Return the images; angles are not reduced."""
+        with np.errstate(all="ignore"):
+            return self._images(self.map, x)
+
+    @cached_property
+    def periods(self) -> Floats:
+        """The period of each variable, inf for one that is no angle."""
+        known = self.map.periods(_BITS)
+        return np.array(
+            [
+                float(sum(known[i].range) / 2) if i in known else np.inf
+                for i in range(len(self.map.variables))
+            ]
+        )
+
+    def reduced(self, x: Floats) -> Floats:
+        """Return points with their angles between 0 and their periods."""
+        return x - self.turns(x) * np.where(np.isfinite(self.periods), self.periods, 0)[:, None]
+
+    def turns(self, x: Floats) -> Floats:
+        """Return the whole periods in the angles of points."""
+        return np.floor(x / self.periods[:, None])
+
+    def jacobian(self, x: Floats) -> Floats:
+        """Return the derivatives at one point, by differences."""
+        steps = 1e-6 * np.eye(len(x))
+        ends = self(np.concatenate([x[:, None] + steps, x[:, None] - steps], axis=1))
+        return np.asarray((ends[:, : len(x)] - ends[:, len(x) :]) / 2e-6)
+
+    def _images(self, map_: Map, x: Floats) -> Floats:
+        if isinstance(map_, Composition):
+            for each in map_.maps:
+                x = self._images(each, x)
+            return x
+        if isinstance(map_, Flight):
+            time = self.times(map_, x)
+            return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+        if isinstance(map_, Formulas):
+            return self._evaluated(map_, map_.roots, [*x])
+        raise TypeError(f"no way to sample a {type(map_).__name__}")
+
+    def times(self, flight: Flight, x: Floats) -> Floats:
+        """Return the times of the first impacts, nan where there is none, or another gap is first.
+
+        Gaps are looked at in small steps: what touches between two of them is missed.
+        """
+        count = len(flight.gaps)
+        gaps = self._function(flight.formulas, flight.formulas.roots[:count])
+
+        def gap(t: Floats, at: Any = slice(None)) -> Floats:
+            return np.array([np.broadcast_to(g, np.shape(t)) for g in gaps(*x[:, at], t)])
+
+        soon, hit = np.full(x.shape[1], _STEP / 1024), np.full(x.shape[1], np.nan)
+        waiting = np.flatnonzero(np.isfinite(x).all(axis=0) & (gap(soon) > 0).all(axis=0))
+        steps, now = _STEP * np.arange(1, _TOGETHER + 1), 0.0
+        while len(waiting) and now < _LONGEST:
+            times = np.broadcast_to((now + steps)[:, None], (_TOGETHER, len(waiting)))
+            below = gap(times, waiting) <= 0
+            stops = below.any(axis=0)
+            first = stops.argmax(axis=0)
+            stopped = stops.any(axis=0)
+            own = below[0, first, np.arange(len(waiting))]
+            hit[waiting[stopped & own]] = now + steps[first[stopped & own]]
+            waiting, now = waiting[~stopped], now + _TOGETHER * _STEP
+        low, high = np.maximum(hit - _STEP, _STEP / 1024), hit
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            inside = (gap(middle) > 0).all(axis=0)
+            low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+        slope = self._function(flight.formulas, flight.gaps[0].orders[:2])
+        for _ in range(_NEWTON):
+            value, rate = slope(*x, high)
+            high = high - value / rate
+        return np.where((low <= high + _STEP) & (high <= low + 2 * _STEP), high, np.nan)
+
+    def _evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
+        values = self._function(formulas, tuple(roots))(*x)
+        return np.array([np.broadcast_to(value, np.shape(x[0])) for value in values])
+
+    def _function(self, formulas: Formulas, roots: Sequence[int]) -> Function:
+        key = (id(formulas), tuple(roots))
+        if key not in self._compiled:
+            parameters = [float(sum(ends) / 2) for ends in formulas.ranges]
+            function = compiled(formulas.tape, roots)
+            self._compiled[key] = lambda *x: function(*x, *parameters)
+        return self._compiled[key]
+
+    @cached_property
+    def _compiled(self) -> dict[tuple[int, tuple[int, ...]], Function]:
+        return {}
