@@ -74,7 +74,7 @@ def main(arguments: list[str] | None = None) -> int:
         names = _names(of, options)
     except ValueError as error:
         parser.error(str(error))
-    with answering(parser, options, f"{', '.join(of.state)}: {', '.join(forms)}"):
+    with answering(parser, options):
         return _answer(parser, options, forms, names)
 
 

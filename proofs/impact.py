@@ -58,8 +58,7 @@ def main(arguments: list[str] | None = None) -> int:
         _check_restitution(options)
     except ValueError as error:
         parser.error(str(error))
-    what = "phase velocity DF" if options.gamma else "phase slope"
-    with answering(parser, options, f"flight {what}, {options.digits} digits"):
+    with answering(parser, options):
         return _answer(parser, system, phases, options)
 
 

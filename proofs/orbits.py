@@ -72,10 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
         of = _parameters(options)
     except ValueError as error:
         parser.error(str(error))
-    names = ("word", "period", "cycles")
-    asked = next(f"{name} {x}" for name in names if (x := getattr(options, name)))
-    asked += ", binary64" if options.fast else f", {options.digits} digits"
-    with answering(parser, options, asked, options.csv):
+    with answering(parser, options, options.csv):
         return _answer(parser, of, options)
 
 

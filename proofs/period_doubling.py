@@ -80,8 +80,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("q plays no part without --k")
     if options.k**2 * options.q >= 2:
         parser.error("k^2 q is less than 2, else the mass does not rest on the table")
-    asked = f"m = {options.m}, epsilon = {show(options.epsilon)}, {options.digits} digits"
-    with answering(parser, options, asked):
+    with answering(parser, options):
         try:
             answer = answer_for(options)
         except Undecided as failure:

@@ -61,8 +61,7 @@ def next_impact(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     if not 0 <= options.phi <= TURN:
         parser.error(f"phase outside the circle, 0 to {show(TURN)}: {show(options.phi)}")
-    asked = f"the next impact and the limit phase, {options.digits} digits"
-    with answering(parser, options, asked):
+    with answering(parser, options):
         return _answer(parser, options)
 
 

@@ -53,8 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
         system = System(options.eta, options.nu)
     except ValueError as error:
         parser.error(str(error))
-    asked = "all n" if options.n is None else f"n = {options.n}"
-    with answering(parser, options, f"{asked}, {options.digits} digits"):
+    with answering(parser, options):
         return _answer(parser, system, options)
 
 

@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from intervals import Undecided
 from proofs.report.figures import figures, names
 from proofs.report.page import Line
 from proofs.shell import manifest
-from proofs.shell.cli import Parser, counting, heard, progress, share
+from proofs.shell.cli import Parser, heard, progress, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -36,9 +36,6 @@ from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, check, premises
-
-if TYPE_CHECKING:
-    from proofs.shell.counting import Counts
 
 REPORTS, RUNS = Path("reports"), Path("runs")  # where the paper's results go, and all others
 PLACES = 30
@@ -142,7 +139,7 @@ def _run(
 ) -> int:
     """Prove the claims, write, print and check; return the exit status."""
     began, file, chosen = perf_counter(), options.file, more.chosen(options)
-    with counting(options.stats) as counts, progress() as tell:
+    with progress() as tell:
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **chosen)
         if more.seen is not None:
             tell("the circle in floating point")
@@ -152,7 +149,7 @@ def _run(
     with refusing(parser, options.out):
         write(options.out, file, made)
         write_files(options.out / "figures", drawn)
-    return finish(parser, options, made, file, seconds=seconds, counts=counts)
+    return finish(parser, options, made, file, seconds=seconds)
 
 
 def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
@@ -167,7 +164,7 @@ def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
-    names = "--only", "--digits", "--out", "--json", "--quiet", "--stats"
+    names = "--only", "--digits", "--out", "--json", "--quiet"
     share(parser, *names, places=PLACES, claims=claims)
     parser.set_defaults(digits=None)
 
@@ -210,14 +207,8 @@ def write(folder: Path, name: str, made: Made) -> None:
         put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
 
 
-def finish(
-    parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float, counts: Counts
-) -> int:
-    """Print what was decided, have it checked, and return the exit status.
-
-    counts: of what was evaluated up to here; with what the check evaluates they are printed, if
-    that is asked for.
-    """
+def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float) -> int:
+    """Print what was decided, have it checked, and return the exit status."""
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
         print_lines(made.lines, options.digits or PLACES)
@@ -225,14 +216,8 @@ def finish(
         say(f"all of it: {options.out}/{file}.md")
         summary = tally((line.verdict, not line.words) for line in made.lines)
         say(f"{summary}; proved in {seconds * 1000:.0f} ms")
-    with counting(options.stats) as checking:
-        path = options.out / f"{file}.json"
-        accepted = options.no_check or _checked(path, quiet=not heard(options))
-    if options.stats:
-        from proofs.shell.counting import show as show_counts
-
-        show_counts(counts + checking, [row.id for row in made.lines], quiet=not heard(options))
-    if not accepted:
+    path = options.out / f"{file}.json"
+    if not (options.no_check or _checked(path, quiet=not heard(options))):
         return 3
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
