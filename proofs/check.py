@@ -49,17 +49,17 @@ exit status: 0 every claim in every file is decided as stated (SIMULATED is no p
              2 a file cannot be read or is no certificate
 
 examples:
-  python -m proofs.check reports/horseshoe.json
-  python -m proofs.horseshoe --json - | python -m proofs.check -
-  python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
-  python -m proofs.check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
-  python -m proofs.check --rules                  what may be inferred, and from what
+  python -m proofs check reports/horseshoe.json
+  python -m proofs horseshoe --json - | python -m proofs check -
+  python -m proofs check reports/MANIFEST.json    every file listed there, against what is listed
+  python -m proofs check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
+  python -m proofs check --rules                  what may be inferred, and from what
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Check the files named on the command line; return the exit status."""
-    parser = Arguments("proofs.check", __doc__, EPILOG)
+    parser = Arguments("proofs check", __doc__, EPILOG)
     files = "a certificate, or MANIFEST.json or ledger.json beside those; - for one piped in"
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")

@@ -106,7 +106,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Theorem:
-    """What was proved, and a certificate that `python -m proofs.check` accepts."""
+    """What was proved, and a certificate that `python -m proofs check` accepts."""
 
     conclusion: Conclusion
     certificate: str

@@ -27,11 +27,11 @@ from proofs.shell.screen import say
 SUBJECTS = ("all", "horseshoe", "limit", "precision", "ledger", "claims", "library", "intervals")
 EXAMPLES = """
 examples:
-  python -m proofs.benchmark
-  python -m proofs.benchmark --full --out reports
-  python -m proofs.benchmark intervals --codac-python ~/codac/bin/python
-  python -m proofs.benchmark claims --smallest
-  python -m proofs.benchmark precision --out diagrams --json precision.json
+  python -m proofs benchmark
+  python -m proofs benchmark --full --out reports
+  python -m proofs benchmark intervals --codac-python ~/codac/bin/python
+  python -m proofs benchmark claims --smallest
+  python -m proofs benchmark precision --out diagrams --json precision.json
 
 all: horseshoe, library, ledger and precision.
 horseshoe: the main job beside bare imports and a script in python-flint; its bounds of f', and its
@@ -74,7 +74,7 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
 
 
 def _parser() -> Parser:
-    parser = Parser("proofs.benchmark", proofs.benchmark.__doc__, EXAMPLES)
+    parser = Parser("proofs benchmark", proofs.benchmark.__doc__, EXAMPLES)
     add = parser.add_argument
     parser.usage = "%(prog)s [SUBJECT] [OPTION ...]"
     what = f"one of {', '.join(SUBJECTS)} (default: all)"

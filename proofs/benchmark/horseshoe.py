@@ -103,7 +103,7 @@ def limits(mode: str, tell: Tell) -> Section:
     memory = max(one[0].megabytes for one in runs)
     rows.append(Row("plastic claims, memory [MB]", f"{memory:.0f}", "< 120", memory < 120))
     about = (
-        "Whole processes of `python -m proofs.horseshoe` beside bare imports, and beside a plain "
+        "Whole processes of `python -m proofs horseshoe` beside bare imports, and beside a plain "
         "script that decides the same claims in python-flint, without certificate, report or "
         "check. `python -X importtime` and cProfile tell where the time goes."
     )
@@ -119,7 +119,8 @@ def ledger(mode: str, tell: Tell) -> Section:
         claims = ["-m", "proofs", "ledger", *out]
         digits = [
             "-m",
-            "proofs.dimension",
+            "proofs",
+            "dimension",
             "--only",
             "H13",
             "--digits",
@@ -164,7 +165,8 @@ def claims(mode: str, tell: Tell) -> Section:
         for digits, within in ((10, 5), (30, 5), (100, 20), (200, None)):
             prove = [
                 "-m",
-                "proofs.dimension",
+                "proofs",
+                "dimension",
                 "--only",
                 "H13",
                 "--digits",

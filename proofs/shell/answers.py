@@ -52,7 +52,7 @@ def answering(
 
 def machine_text(parser: Parser, answer: Answer) -> str:
     """Return the machine form, with the schema of the command's answers."""
-    schema = f"impact-proofs.{parser.prog.rpartition('.')[2]}/1"
+    schema = f"impact-proofs.{parser.prog.rpartition(' ')[2]}/1"
     return json.dumps({"schema": schema, **answer}, indent=1) + "\n"
 
 

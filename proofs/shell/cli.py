@@ -1,8 +1,8 @@
 """What the command lines share: options, exact numbers, one-line errors, progress.
 
-A command is a module `proofs.<name>`, or a package with a `__main__`, whose docstring begins with
-the line that the list of commands shows, and which has `main(arguments=None)` that returns the
-exit status. It begins, before its imports, with
+A command is a row of `proofs.commands.groups`; or a module `proofs.<name>`, or a package with a
+`__main__`, whose docstring begins with the line that the list of commands shows, and which has
+`main(arguments=None)` that returns the exit status. It begins, before its imports, with
 
     if __name__ == "__main__":
         from proofs.shell.entry import launch

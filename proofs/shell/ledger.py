@@ -52,15 +52,15 @@ again, unless --fresh or --digits ask for it; which prover wrote it does not mat
 `reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
 copied. Where nothing has changed since the last time, neither a certificate nor a page nor this
 program (your cache has the digests, DIR has not), what was found then is printed, and nothing is
-checked again; `python -m proofs.check DIR/MANIFEST.json` always checks.
+checked again; `python -m proofs check DIR/MANIFEST.json` always checks.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
 
 examples:
-  python -m proofs.ledger
-  python -m proofs.ledger --only G2 H13 --fresh
-  python -m proofs.ledger --json - --quiet > ledger.json
+  python -m proofs ledger
+  python -m proofs ledger --only G2 H13 --fresh
+  python -m proofs ledger --json - --quiet > ledger.json
 """
 
 
@@ -156,7 +156,7 @@ def _there(job: Job, folder: Path) -> tuple[str, Report] | None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Settle the claims asked for; return the exit status."""
-    parser = Parser("proofs.ledger", __doc__, EPILOG)
+    parser = Parser("proofs ledger", __doc__, EPILOG)
     runner.add_outputs(parser, CLAIMS)
     parser.add_argument("--fresh", action="store_true", help="prove again what is there already")
     options = parser.parse_args(arguments)
@@ -203,7 +203,7 @@ def _unchanged(folder: Path, asked: Iterable[str]) -> tuple[str, set[str], list[
             return None
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    again = f"python -m proofs.check {folder}/{manifest.NAME} checks it again"
+    again = f"python -m proofs check {folder}/{manifest.NAME} checks it again"
     return text, pages, [f"{folder}: nothing has changed since it was checked; {again}"]
 
 

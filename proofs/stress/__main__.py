@@ -30,10 +30,10 @@ _SHRUNK = 3  # failures of a run that are made smaller
 
 EXAMPLES = """
 examples:
-  python -m proofs.stress
-  python -m proofs.stress --family grazing tangent --cases 500 --seed 7
-  python -m proofs.stress --cases 10000 --out reports
-  python -m proofs.stress --family functions --json - > functions.json
+  python -m proofs stress
+  python -m proofs stress --family grazing tangent --cases 500 --seed 7
+  python -m proofs stress --cases 10000 --out reports
+  python -m proofs stress --family functions --json - > functions.json
 
 The same seed draws the same cases. With --out the report is written as stress.md, stress.json and,
 where matplotlib is installed, stress.svg. The first failures are made smaller before they are
@@ -71,7 +71,7 @@ def _alike(one: Judgement, by: Arithmetic, other: Case) -> bool:
 
 def _parser() -> Parser:
     listed = "".join(f"  {family.name:14} {family.about}\n" for family in FAMILIES)
-    parser = Parser("proofs.stress", proofs.stress.__doc__, EXAMPLES + listed + EXIT)
+    parser = Parser("proofs stress", proofs.stress.__doc__, EXAMPLES + listed + EXIT)
     add = parser.add_argument
     names = [family.name for family in FAMILIES]
     add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
