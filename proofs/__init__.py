@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.machinery import PathFinder
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -18,3 +20,18 @@ def __getattr__(name: str) -> Any:
 
         return Oscillator
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def _check_neighbour() -> None:
+    """Raise ImportError where `intervals` is another distribution's: there is one of that name."""
+    found = PathFinder.find_spec("intervals")
+    origin = Path(found.origin or "") if found else None
+    if origin and not (origin.is_file() and b"IntervalArray" in origin.read_bytes()):
+        raise ImportError(
+            f"{origin} is not impact-proofs' own package intervals: pip uninstall intervals, "
+            "then pip install --force-reinstall impact-proofs",
+            name=__name__,
+        )
+
+
+_check_neighbour()

@@ -85,7 +85,7 @@ def run(group: Group, arguments: list[str] | None = None) -> int:
     if unknown:
         parser.error(refusal(unknown, group.heeded))
     if options.figure and find_spec("matplotlib") is None:
-        parser.error("--figure needs matplotlib: pip install matplotlib")
+        parser.error("--figure needs matplotlib: pip install 'impact-proofs[report]'")
     try:
         of = parameters(options, group.heeded, beyond=file in BEYOND)
     except ValueError as error:
