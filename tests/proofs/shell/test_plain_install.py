@@ -12,7 +12,7 @@ OPTIONAL = {  # of pyproject.toml
     "report": ("jinja2", "latex2mathml", "markupsafe", "matplotlib"),
     "cluster": ("dask", "distributed"),
     "parquet": ("pyarrow",),
-    "benchmark": ("flint", "pyperf", "scipy"),
+    "benchmark": ("flint", "scipy"),
 }
 WITHOUT = """
 import runpy, sys
