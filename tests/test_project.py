@@ -103,3 +103,15 @@ def test_another_distribution_s_intervals_is_a_line(module, text, tmp_path):
     else:
         assert done.returncode == 1 and done.stderr.count("\n") == 1
         assert "own package intervals: pip uninstall intervals" in done.stderr
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="files are counted by git")
+def test_budgets_are_kept():
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.budgets"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
