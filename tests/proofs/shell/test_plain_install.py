@@ -12,7 +12,8 @@ OPTIONAL = {  # of pyproject.toml
     "report": ("jinja2", "latex2mathml", "markupsafe", "matplotlib"),
     "cluster": ("dask", "distributed"),
     "parquet": ("pyarrow",),
-    "benchmark": ("flint", "scipy"),
+    "benchmark": ("scipy",),
+    "fast": ("flint",),
 }
 WITHOUT = """
 import runpy, sys
@@ -29,6 +30,7 @@ COMMANDS = {  # arguments, the status, the extra that a line names
     "dask": (["atlas", *BOX, "--executor", "dask:"], 2, "cluster"),
     "explore": (["explore", "--eta", "0.25", "--nu", "-0.3", "--only", "X1"], 0, None),
     "curves": (["curves", "--epsilon", "0", "--only", "C1"], 0, None),
+    "stress": (["stress", "--cases", "3"], 1, "fast"),
     "bifurcation": (["bifurcation", "x1 = r*x*(1 - x)"], 0, None),
 }
 
@@ -42,7 +44,7 @@ def without(packages, module, arguments):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_plain_install_runs_what_the_readme_says(name, tmp_path):
     arguments, status, extra = COMMANDS[name]
-    out = [] if name in ("list", "bifurcation") else ["--out", str(tmp_path)]
+    out = [] if name in ("list", "bifurcation", "stress") else ["--out", str(tmp_path)]
     done = without(sum(OPTIONAL.values(), ()), "proofs", [*arguments, *out])
     said = done.stdout + done.stderr
     assert done.returncode == status and "Traceback" not in said, said
