@@ -21,7 +21,7 @@ BUDGETS = {
     "proofs/search, proofs/motion": 10_100,
     "proofs/shell": 1_600,
     "proofs/benchmark": 1_800,
-    "proofs/stress": 1_500,
+    "proofs/stress": 1_400,
     "tests": 46_300,
     "loose modules": 13,  # of the package proofs
     "tracked files": 900,
