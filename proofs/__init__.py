@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.machinery import PathFinder
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -26,3 +28,18 @@ def __getattr__(name: str) -> Any:
 def __dir__() -> list[str]:
     """List what is public, for completion."""
     return [*__all__, "__version__"]
+
+
+def _check_neighbour() -> None:
+    """Raise ImportError where `intervals` is another distribution's: there is one of that name."""
+    found = PathFinder.find_spec("intervals")
+    origin = Path(found.origin or "") if found else None
+    if origin and not (origin.is_file() and b"IntervalArray" in origin.read_bytes()):
+        raise ImportError(
+            f"{origin} is not impact-proofs' own package intervals: pip uninstall intervals, "
+            "then pip install --force-reinstall impact-proofs",
+            name=__name__,
+        )
+
+
+_check_neighbour()

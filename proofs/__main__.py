@@ -1,7 +1,7 @@
 """All commands, and the way to each: `impact-proofs COMMAND`, or `python -m proofs COMMAND`.
 
-A command is what has a line with `__main__` in this folder, or in a `__main__.py` below it; the
-first paragraph of its docstring says what it does.
+A command is a group of claims of `proofs.commands.groups`; or what has a line with `__main__` in
+this folder, or in a `__main__.py` below it. The first paragraph of its text says what it does.
 """
 
 from __future__ import annotations
@@ -22,23 +22,32 @@ from proofs.shell.screen import flowing, say
 
 _ROOT = Path(__file__).parent
 _USAGE = """\
-usage: impact-proofs COMMAND [OPTION ...]     or: python -m proofs.COMMAND [OPTION ...]
+usage: impact-proofs COMMAND [OPTION ...]     or: python -m proofs COMMAND [OPTION ...]
 
 Verdicts on a paper about chaos in an impact oscillator, each with a certificate. `COMMAND --help`
 has its options and examples; options without a command go to `ledger`.
 """
 
 
-def commands() -> dict[str, str]:
-    """Return for each command its line in the list."""
-    found = {}
+def modules() -> dict[str, str]:
+    """Return for each command that is a module of its own what it says of itself."""
+    texts = {}
     for file in sorted([*_ROOT.glob("*.py"), *_ROOT.glob("*/__main__.py")]):
         source = file.read_text(encoding="utf-8")
         if 'if __name__ == "__main__":' in source and file != Path(__file__):
             name = file.stem if file.parent == _ROOT else file.parent.name
-            about = ast.get_docstring(ast.parse(source)) or ""
-            found[name] = " ".join(about.partition("\n\n")[0].split())
-    return found
+            texts[name] = ast.get_docstring(ast.parse(source)) or ""
+    return texts
+
+
+def commands() -> dict[str, str]:
+    """Return for each command its line in the list."""
+    from proofs.commands.groups import GROUPS
+
+    texts = modules() | {name: group.about for name, group in GROUPS.items()}
+    return {
+        name: " ".join(text.partition("\n\n")[0].split()) for name, text in sorted(texts.items())
+    }
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -54,13 +63,17 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     if first.startswith("-"):
         first, rest = "ledger", [first, *rest]
-    known = commands()
-    if first not in known:
-        near = get_close_matches(first, known, 1)
-        hint = f"; is it {near[0]}?" if near else ", see --help"
-        say(f"python -m proofs: there is no command {first[:40]!r}{hint}", sys.stderr)
-        return USAGE_ERROR
-    return run_command(f"proofs.{first}", rest)
+    if first in modules():  # before the table: the checker needs nothing but Python
+        return run_command(f"proofs.{first}", rest)
+    from proofs.commands.groups import GROUPS
+    from proofs.shell.runner import run
+
+    if first in GROUPS:
+        return run(GROUPS[first], rest)
+    near = get_close_matches(first, commands(), 1)
+    hint = f"; is it {near[0]}?" if near else ", see --help"
+    say(f"python -m proofs: there is no command {first[:40]!r}{hint}", sys.stderr)
+    return USAGE_ERROR
 
 
 def script() -> None:

@@ -51,13 +51,13 @@ machine (pip install 'impact-proofs[cluster]').
 exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
 
 examples:
-  python -m proofs.atlas --eta 0.2112 0.2136 --nu -0.202 -0.198 --ask horseshoe
-  python -m proofs.atlas --eta 0.2 0.22 --nu -0.22 -0.2 --ask attractor --depth 6 --jobs 2
-  python -m proofs.atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
-  python -m proofs.atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
-  python -m proofs.atlas --out runs/atlas --cell 0.2121 -0.2
-  python -m proofs.atlas --out runs/atlas --export cells.parquet
-  python -m proofs.check runs/atlas/atlas.sqlite
+  python -m proofs atlas --eta 0.2112 0.2136 --nu -0.202 -0.198 --ask horseshoe
+  python -m proofs atlas --eta 0.2 0.22 --nu -0.22 -0.2 --ask attractor --depth 6 --jobs 2
+  python -m proofs atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
+  python -m proofs atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
+  python -m proofs atlas --out runs/atlas --cell 0.2121 -0.2
+  python -m proofs atlas --out runs/atlas --export cells.parquet
+  python -m proofs check runs/atlas/atlas.sqlite
 """
 
 
@@ -85,7 +85,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    parser = Parser("proofs.atlas", __doc__, EPILOG)
+    parser = Parser("proofs atlas", __doc__, EPILOG)
     parser.add_argument("--eta", type=number, nargs=2, metavar=("A", "B"), help="frequency ratios")
     parser.add_argument("--nu", type=number, nargs=2, metavar=("A", "B"), help="amplitudes -beta/p")
     restitution = "coefficient of restitution, one or a range; without it impacts are plastic"
@@ -229,5 +229,5 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
     if heard(options):
         say(f"{cell.verdict}: {cell.conclusion}")
         if path is not None:
-            say(f"python -m proofs.check {path}")
+            say(f"python -m proofs check {path}")
     return int(path is None)

@@ -49,13 +49,13 @@ exit status: 0 done and checked, 1 a bifurcation that was asked for is not found
              finds is not derived by the checker, 2 bad input, 3 the checker disagrees (a bug)
 
 examples:
-  python -m proofs.bifurcation "x1 = r*x*(1 - x)"
-  python -m proofs.bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip
-  python -m proofs.bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip \\
+  python -m proofs bifurcation "x1 = r*x*(1 - x)"
+  python -m proofs bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip
+  python -m proofs bifurcation "x1 = 1 - a*x^2 + y" "y1 = b*x" --kind flip \\
          --set b=0.3 --near x=1,y=0.3,a=0.4 --digits 50
-  python -m proofs.bifurcation "phi1 = phi + v - 2*pi*n" "v1 = alpha*v - g*cos(phi1)" \\
+  python -m proofs bifurcation "phi1 = phi + v - 2*pi*n" "v1 = alpha*v - g*cos(phi1)" \\
          --kind flip --solve v,g,n                       the bouncing ball
-  python -m proofs.bifurcation "x1 = r*x*(1 - y)" "y1 = x" --kind neimark_sacker --out lemmas
+  python -m proofs bifurcation "x1 = r*x*(1 - y)" "y1 = x" --kind neimark_sacker --out lemmas
 """
 
 
@@ -74,12 +74,12 @@ def main(arguments: list[str] | None = None) -> int:
         names = _names(of, options)
     except ValueError as error:
         parser.error(str(error))
-    with answering(parser, options, f"{', '.join(of.state)}: {', '.join(forms)}"):
+    with answering(parser, options):
         return _answer(parser, options, forms, names)
 
 
 def _parser() -> Parser:
-    parser = Parser("proofs.bifurcation", __doc__, EPILOG)
+    parser = Parser("proofs bifurcation", __doc__, EPILOG)
     parser.fromfile_prefix_chars = "@"
     add = parser.add_argument
     add("equations", nargs="+", metavar="EQUATION", help='such as "x1 = r*x*(1 - x)"')

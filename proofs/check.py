@@ -49,22 +49,21 @@ exit status: 0 every claim in every file is decided as stated (SIMULATED is no p
              2 a file cannot be read or is no certificate
 
 examples:
-  python -m proofs.check reports/horseshoe.json
-  python -m proofs.horseshoe --json - | python -m proofs.check -
-  python -m proofs.check reports/MANIFEST.json    every file listed there, against what is listed
-  python -m proofs.check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
-  python -m proofs.check --rules                  what may be inferred, and from what
+  python -m proofs check reports/horseshoe.json
+  python -m proofs horseshoe --json - | python -m proofs check -
+  python -m proofs check reports/MANIFEST.json    every file listed there, against what is listed
+  python -m proofs check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
+  python -m proofs check --rules                  what may be inferred, and from what
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Check the files named on the command line; return the exit status."""
-    parser = Arguments("proofs.check", __doc__, EPILOG)
+    parser = Arguments("proofs check", __doc__, EPILOG)
     files = "a certificate, or MANIFEST.json or ledger.json beside those; - for one piped in"
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
-    parser.add_argument("--stats", action="store_true", help="count what is evaluated")
     help_text = f"how much work a file may take (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     jobs = "processes that check the cells of an atlas (default 1)"
@@ -76,10 +75,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(fitted(specification(), sys.stdout), end="")
     elif not options.files:
         parser.error("no file to check")
-    examine: Callable[[Path, int, bool], int] = check_counting
-    if not options.stats:
-        examine = partial(check_file, jobs=options.jobs)
-    checks = (examine(path, options.work, options.quiet) for path in options.files)
+    checks = (check_file(path, options.work, options.quiet, options.jobs) for path in options.files)
     return max(checks, default=0)
 
 
@@ -90,27 +86,11 @@ def _work(text: str) -> int:
     return int(text[:19])
 
 
-def check_counting(path: Path, work: int, is_quiet: bool) -> int:
-    """Check one file, and print what that evaluates; return its exit status."""
-    from proofs.shell.counting import counted, show
-
-    with counted() as counts:
-        status = check_file(path, work, is_quiet)
-    if status < 2:
-        show(counts, [printable(path)], quiet=is_quiet)
-    return status
-
-
-def printable(path: Path) -> str:
-    """Return the name of a file as a terminal may show it."""
-    if path == PIPED:
-        return "standard input"
-    return str(path) if str(path).isprintable() else ascii(str(path))
-
-
 def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: int = 1) -> int:
     """Check one file, print a line a claim; return its exit status."""
-    name = printable(path)
+    name = "standard input" if path == PIPED else str(path)
+    if not name.isprintable():
+        name = ascii(name)
     try:
         if path != PIPED and _is_store(path):
             said, is_open = _check_store(path, name, work, jobs)

@@ -41,10 +41,10 @@ exit status: 0 certified, 1 only a set of possible images, undecided, or no impa
              horizon, 2 bad input
 
 examples:
-  python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11
-  python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11 1.15 --json -
-  python -m proofs.impact --eta 2/3 --nu 0.9 --phi 0.5 --digits 100
-  python -m proofs.impact --eta 0.2121 --nu -0.2 --phi 1.11 --epsilon 0.01 --gamma -0.3
+  python -m proofs impact --eta 0.2121 --nu -0.2 --phi 1.11
+  python -m proofs impact --eta 0.2121 --nu -0.2 --phi 1.11 1.15 --json -
+  python -m proofs impact --eta 2/3 --nu 0.9 --phi 0.5 --digits 100
+  python -m proofs impact --eta 0.2121 --nu -0.2 --phi 1.11 --epsilon 0.01 --gamma -0.3
 """
 
 
@@ -58,8 +58,7 @@ def main(arguments: list[str] | None = None) -> int:
         _check_restitution(options)
     except ValueError as error:
         parser.error(str(error))
-    what = "phase velocity DF" if options.gamma else "phase slope"
-    with answering(parser, options, f"flight {what}, {options.digits} digits"):
+    with answering(parser, options):
         return _answer(parser, system, phases, options)
 
 
@@ -82,7 +81,7 @@ def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -
 
 
 def _parser() -> Parser:
-    parser = Parser("proofs.impact", __doc__, EPILOG)
+    parser = Parser("proofs impact", __doc__, EPILOG)
     add = parser.add_argument
     add("--eta", type=number, required=True, help="omega_n / omega > 0")
     add("--nu", type=number, required=True, help="-beta / p, not 0: negative for a table below")

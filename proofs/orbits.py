@@ -55,12 +55,12 @@ exit status: 0 all points are proved and enclosed, 1 undecided: the horseshoe is
              2 bad input
 
 examples:
-  python -m proofs.orbits --period 3
-  python -m proofs.orbits --word 0010 --digits 50
-  python -m proofs.orbits --cycles 20 --fast --csv orbits.csv
-  python -m proofs.orbits --eta 0.103 --nu 0.541 --period 2     the sets are found there
-  python -m proofs.orbits --period 12 --csv orbits.csv
-  python -m proofs.orbits --period 16 --fast --json - > orbits.json
+  python -m proofs orbits --period 3
+  python -m proofs orbits --word 0010 --digits 50
+  python -m proofs orbits --cycles 20 --fast --csv orbits.csv
+  python -m proofs orbits --eta 0.103 --nu 0.541 --period 2     the sets are found there
+  python -m proofs orbits --period 12 --csv orbits.csv
+  python -m proofs orbits --period 16 --fast --json - > orbits.json
 """
 
 
@@ -72,10 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
         of = _parameters(options)
     except ValueError as error:
         parser.error(str(error))
-    names = ("word", "period", "cycles")
-    asked = next(f"{name} {x}" for name in names if (x := getattr(options, name)))
-    asked += ", binary64" if options.fast else f", {options.digits} digits"
-    with answering(parser, options, asked, options.csv):
+    with answering(parser, options, options.csv):
         return _answer(parser, of, options)
 
 
@@ -132,7 +129,7 @@ def _escape(of: ImpactMap, options: Namespace, places: int | None, shown: int) -
 
 
 def _parser() -> Parser:
-    parser = Parser("proofs.orbits", __doc__, EPILOG)
+    parser = Parser("proofs orbits", __doc__, EPILOG)
     which = parser.add_mutually_exclusive_group(required=True)
     add, period = which.add_argument, whole("a period", _LONGEST_PERIOD)
     add("--period", type=period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}")

@@ -9,7 +9,7 @@ height_least, which is negative exactly for epsilon > epsilon_least; at rho_graz
 psi|. Orbits of period 2 with phases 2 h apart are at rho^2 = rho_flip^2 + rise h^2 + O(h^4). For K
 = 0 cubic is the coefficient of h -> h - 2 cubic h^3 on the centre manifold, the second iterate, and
 for plastic impacts f2_psi_rho and f2_psi_psi_psi are its derivatives. Proofs: claims S18, S22, S23
-of `python -m proofs.soft`.
+of `python -m proofs soft`.
 """
 
 from __future__ import annotations
@@ -52,16 +52,16 @@ on the curve that begins at the flip, where their phases are less than 3 apart.
 exit status: 0 certified, 1 something is undecided (null in the machine form), 2 bad input
 
 examples:
-  python -m proofs.period_doubling
-  python -m proofs.period_doubling --m 3 --epsilon 0.2 --follow
-  python -m proofs.period_doubling --epsilon 0.3 --k 0.1 --q 2 --rho 5 5.4
-  python -m proofs.period_doubling --json - --digits 50
+  python -m proofs period_doubling
+  python -m proofs period_doubling --m 3 --epsilon 0.2 --follow
+  python -m proofs period_doubling --epsilon 0.3 --k 0.1 --q 2 --rho 5 5.4
+  python -m proofs period_doubling --json - --digits 50
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Print the bifurcations, and motions at rho; return the exit status."""
-    parser = Parser("proofs.period_doubling", __doc__, EPILOG)
+    parser = Parser("proofs period_doubling", __doc__, EPILOG)
     add = parser.add_argument
     periods = "table periods between impacts, m >= 1 (default 1)"
     add("--m", type=whole("m", 10**9), default=1, help=periods)
@@ -80,8 +80,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("q plays no part without --k")
     if options.k**2 * options.q >= 2:
         parser.error("k^2 q is less than 2, else the mass does not rest on the table")
-    asked = f"m = {options.m}, epsilon = {show(options.epsilon)}, {options.digits} digits"
-    with answering(parser, options, asked):
+    with answering(parser, options):
         try:
             answer = answer_for(options)
         except Undecided as failure:

@@ -1,11 +1,6 @@
-"""Section 6, resonance: the map in closed form, every formula derived, and what the paper missed.
+"""Section 6, resonance: the claims, or the next impact after a state that is given.
 
-Without options this proves the claims R1 to R13, and E1. With NU, EPSILON, PHI and GAMMA, exact
-numbers, it prints bounds on the next impact after one at phase PHI with the velocity GAMMA = v /
-(omega_n p): its phase (mod 2 pi), its velocity, and the limit phase that all further impacts tend
-to:
-
-  python -m proofs.resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3 [--digits 30] [--json -]
+See `proofs.commands.groups`.
 """
 
 from __future__ import annotations
@@ -19,6 +14,7 @@ import sys
 from argparse import Namespace
 
 from intervals import Undecided
+from proofs.commands.groups import GROUPS
 from proofs.motion.resonant import Motion, motion
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number
@@ -35,9 +31,9 @@ null in the machine form.
 exit status: 0 certified, 1 undecided, 2 bad input
 
 examples:
-  python -m proofs.resonance
-  python -m proofs.resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3
-  python -m proofs.resonance --nu 3/2 --epsilon 0.9 --phi 2 --gamma 1 --digits 50 --json -
+  python -m proofs resonance
+  python -m proofs resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3
+  python -m proofs resonance --nu 3/2 --epsilon 0.9 --phi 2 --gamma 1 --digits 50 --json -
 """
 
 
@@ -46,12 +42,12 @@ def main(arguments: list[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else arguments
     if any(option.partition("=")[0] in _STATE for option in given):
         return next_impact(given)
-    return run("resonance", given, __doc__)
+    return run(GROUPS["resonance"], given)
 
 
 def next_impact(arguments: list[str]) -> int:
     """Print the next impact and the limit phase; return the exit status."""
-    parser = Parser("proofs.resonance", __doc__, EPILOG)
+    parser = Parser("proofs resonance", GROUPS["resonance"].about, EPILOG)
     add = parser.add_argument
     add("--nu", type=number, required=True, help="amplitude -beta/p, not 0")
     add("--epsilon", type=number, required=True, help="coefficient of restitution, from 0 to 1")
@@ -61,8 +57,7 @@ def next_impact(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     if not 0 <= options.phi <= TURN:
         parser.error(f"phase outside the circle, 0 to {show(TURN)}: {show(options.phi)}")
-    asked = f"the next impact and the limit phase, {options.digits} digits"
-    with answering(parser, options, asked):
+    with answering(parser, options):
         return _answer(parser, options)
 
 

@@ -32,16 +32,16 @@ lists the N at which the solutions are two or none, at a saddle-node or next to 
 exit status: 0 all is decided, 1 something is not, 2 bad input
 
 examples:
-  python -m proofs.single_impact --eta 0.237 --nu 0.3
-  python -m proofs.single_impact --eta 0.2121 --nu -0.2 --n 4 --digits 50
-  python -m proofs.single_impact --eta 2/3 --nu -0.9 --most 20 --json -
+  python -m proofs single_impact --eta 0.237 --nu 0.3
+  python -m proofs single_impact --eta 0.2121 --nu -0.2 --n 4 --digits 50
+  python -m proofs single_impact --eta 2/3 --nu -0.9 --most 20 --json -
 """
 _PERIODS = whole("N", 10**6)
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Print the solutions; return the exit status."""
-    parser = Parser("proofs.single_impact", __doc__, EPILOG)
+    parser = Parser("proofs single_impact", __doc__, EPILOG)
     add = parser.add_argument
     add("--eta", type=number, required=True, help="omega_n / omega > 0")
     add("--nu", type=number, required=True, help="-beta / p, not 0: negative for a table below")
@@ -53,8 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
         system = System(options.eta, options.nu)
     except ValueError as error:
         parser.error(str(error))
-    asked = "all n" if options.n is None else f"n = {options.n}"
-    with answering(parser, options, f"{asked}, {options.digits} digits"):
+    with answering(parser, options):
         return _answer(parser, system, options)
 
 

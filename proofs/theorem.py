@@ -14,7 +14,7 @@ from proofs.trusted.verdicts import told
 
 @dataclass(frozen=True)
 class Theorem:
-    """Conclusions of the checker's rules, and a certificate that `python -m proofs.check` accepts.
+    """Conclusions of the checker's rules, and a certificate that `python -m proofs check` accepts.
 
     Printing it says them with all their hypotheses; nothing else is claimed.
     """

@@ -1,5 +1,6 @@
 """The project's own promises: import boundaries, a typed package, a version told once."""
 
+import os
 import subprocess
 import sys
 from graphlib import TopologicalSorter
@@ -81,3 +82,36 @@ def test_what_is_long_is_no_part_of_the_quick_run_and_cases_between_are_none():
     name = "test_two_basins_of_a_quadratic_map"
     assert collected("not slow", name) == [f"{name}[0]", f"{name}[2]"]
     assert collected("not long", name) == [f"{name}[{seed}]" for seed in range(3)]
+
+
+@pytest.mark.parametrize("module", ["proofs", "proofs.horseshoe", "proofs.check"])
+@pytest.mark.parametrize("text", [None, "", "class Interval: ..."])
+def test_another_distribution_s_intervals_is_a_line(module, text, tmp_path):
+    (tmp_path / "intervals").mkdir()
+    if text is not None:  # else a folder without __init__, which Python takes for a package
+        (tmp_path / "intervals" / "__init__.py").write_text(text)
+    done = subprocess.run(
+        [sys.executable, "-m", module, "--version"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        check=False,
+    )
+    if text is None:  # a package with __init__ comes before such a folder
+        assert done.returncode == 0 and "impact-proofs" in done.stdout
+    else:
+        assert done.returncode == 1 and done.stderr.count("\n") == 1
+        assert "own package intervals: pip uninstall intervals" in done.stderr
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="files are counted by git")
+def test_budgets_are_kept():
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.budgets"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr

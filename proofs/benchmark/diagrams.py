@@ -1,4 +1,4 @@
-"""Work-precision diagrams: error, digits or size on one axis, time on the other, logarithmic.
+"""Work-precision diagrams: error or digits on one axis, time on the other, logarithmic.
 
 A library has the same colour and mark in all of them: ours are shades of blue.
 """
@@ -25,7 +25,6 @@ _OTHERS = {  # by the end of their names
     IV: ("#31a354", "^"),
     CODAC: ("#de2d26", "D"),
     "algorithm A.1": ("#8c6d31", "v"),
-    "steps that pass no zero": ("#636363", "*"),
     "RK45": ("#756bb1", "P"),
     "DOP853": ("#c51b8a", "X"),
 }
@@ -35,15 +34,15 @@ _OTHERS = {  # by the end of their names
 class Diagram:
     """Curves that belong together, the name of their file, their title, and what is across.
 
-    `against` says which that is: the error; its digits, -log10 of it; or the size of the work.
-    Errors up to `least` are not drawn; if `certified`, neither are curves that prove nothing.
+    `against` says which that is: the error, or its digits, -log10 of it. Errors up to `least` are
+    not drawn; if `certified`, neither are curves that prove nothing.
     panels: each form, the first part of the name of a way, has a panel of its own.
     """
 
     name: str
     title: str
     across: str = "error"
-    against: Literal["error", "digits", "size"] = "error"
+    against: Literal["error", "digits"] = "error"
     curves: list[Curve] = field(default_factory=list)
     least: float = 0.0
     certified: bool = False
@@ -52,8 +51,6 @@ class Diagram:
     def place(self, point: Point) -> float:
         """Return the place of a point on the horizontal axis; 0 is none."""
         error = abs(point.error or 0.0)
-        if self.against == "size" and point.seconds:
-            return point.size
         if error <= self.least:
             return 0.0
         return error if self.against == "error" else -log10(error)
@@ -113,7 +110,6 @@ def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist
             (known[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
         for x, p in points:
             axes.plot([x, x], [min(p.seconds), max(p.seconds)], color=colour, lw=0.6)
-            axes.annotate(p.note, (x, min(p.seconds)), size=7)
     return known
 
 

@@ -1,4 +1,4 @@
-"""Whole processes: the main job against its limits, and the commands of all claims, cold."""
+"""Whole processes, cold: the main job against its limits, and the ledger."""
 
 from __future__ import annotations
 
@@ -20,11 +20,8 @@ from proofs.shell.entry import run_process
 from proofs.shell.groups import row_of
 from proofs.trusted.paper import GROUPS
 
-CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")  # that the script in flint decides too
+CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6")  # that the script in flint decides too
 _PAIRS = {"smallest": 1, "quick": 7, "full": 31}
-_RUNS = {"smallest": 1, "quick": 3, "full": 7}
-_WITHIN = {"nonplastic": 3.0, "dimension": 15.0, "circle": 60.0}  # seconds
-_MOST_MEMORY = 500  # MB
 # Started by a process as small as this one, a job's peak memory is its own.
 _LAUNCHER = """
 import json, os, sys, time
@@ -103,7 +100,7 @@ def limits(mode: str, tell: Tell) -> Section:
     memory = max(one[0].megabytes for one in runs)
     rows.append(Row("plastic claims, memory [MB]", f"{memory:.0f}", "< 120", memory < 120))
     about = (
-        "Whole processes of `python -m proofs.horseshoe` beside bare imports, and beside a plain "
+        "Whole processes of `python -m proofs horseshoe` beside bare imports, and beside a plain "
         "script that decides the same claims in python-flint, without certificate, report or "
         "check. `python -X importtime` and cProfile tell where the time goes."
     )
@@ -113,22 +110,15 @@ def limits(mode: str, tell: Tell) -> Section:
 def ledger(mode: str, tell: Tell) -> Section:
     """Measure the whole ledger, made anew and with nothing changed, and 30 digits of H13."""
     tell("the ledger")
+    papers = [claim for ids in GROUPS.values() for claim in ids if not row_of(claim).own]
     counts = {"smallest": 1, "quick": 1, "full": 3}
     with scratch() as folder:
         out = ["--out", str(folder / "ledger")]
         claims = ["-m", "proofs", "ledger", *out]
-        digits = [
-            "-m",
-            "proofs.dimension",
-            "--only",
-            "H13",
-            "--digits",
-            "30",
-            *out[:1],
-            str(folder),
-        ]
+        digits = ["-m", "proofs", "dimension", "--only", "H13", "--digits", "30"]
+        digits += ["--out", str(folder)]
         jobs: list[tuple[str, list[str], float]] = [
-            ("the paper's claims, made anew", [*claims, "--fresh", "--only", *_papers()], 10),
+            ("the paper's claims, made anew", [*claims, "--fresh", "--only", *papers], 10),
             ("all claims, everything made anew", [*claims, "--fresh"], 10),
             ("all claims, nothing changed", claims, 2),
             ("two dimensions, 30 digits, found and checked", digits, 1),
@@ -138,55 +128,8 @@ def ledger(mode: str, tell: Tell) -> Section:
     return Section("The ledger", "Whole processes, with the check of all certificates.", rows)
 
 
-def _papers() -> list[str]:
-    """Return the ids of the paper's own claims."""
-    return [claim for ids in GROUPS.values() for claim in ids if not row_of(claim).own]
-
-
 def _within(name: str, job: Sequence[str], most: float, runs: int) -> Row:
     seconds = [process(job).seconds for _ in range(runs)]
     row = Row(f"{name} [s]", spread(seconds), f"< {most:g}", median(seconds) < most)
     row.samples = {"seconds": seconds}
     return row
-
-
-def claims(mode: str, tell: Tell) -> Section:
-    """Measure the command of each group of claims, its check alone, and that of the orbits."""
-    commands: dict[str, tuple[list[str], float | None]] = {}
-    rows = []
-    with scratch() as folder:
-        for group in ("horseshoe", *GROUPS):
-            prove = ["-m", f"proofs.{group}", "--out", str(folder)]
-            commands[f"{group}, proved and checked"] = prove, _WITHIN.get(group)
-            check = ["-S", "-O", "-m", "proofs.check", f"{folder}/{group}.json"]
-            commands[f"the check of {group}"] = check, 5.0 if group == "nonplastic" else None
-        within: float | None
-        for digits, within in ((10, 5), (30, 5), (100, 20), (200, None)):
-            prove = [
-                "-m",
-                "proofs.dimension",
-                "--only",
-                "H13",
-                "--digits",
-                str(digits),
-                "--out",
-                str(folder),
-            ]
-            commands[f"dimension, {digits} digits"] = prove, within
-        for period, digits, at_most in ((4, 25, None), (8, 25, None), (12, 15, 10), (12, 25, 60)):
-            find = ["-m", "proofs.orbits", "--period", str(period), "--digits", str(digits)]
-            commands[f"{2**period} words of length {period}, {digits} digits"] = find, at_most
-        for name, (command, within) in commands.items():
-            tell(name)
-            runs = [process(command) for _ in range(_RUNS[mode])]
-            seconds, memory = [one.seconds for one in runs], max(one.megabytes for one in runs)
-            target = f"< {_MOST_MEMORY} MB" + (f", < {within:g} s" if within else "")
-            reached = memory < _MOST_MEMORY and (within is None or median(seconds) < within)
-            row = Row(f"{name} [s]", f"{spread(seconds)}, {memory:.0f} MB", target, reached)
-            row.samples = {"seconds": seconds, "megabytes": memory}
-            rows.append(row)
-    about = (
-        "The command of each group of claims, a whole process with its check, and the check alone. "
-        "Then time against digits of the dimensions and against the period of the orbits."
-    )
-    return Section("The groups of claims", about, rows)

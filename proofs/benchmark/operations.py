@@ -1,113 +1,131 @@
-"""Single operations of IntervalArray and Interval beside python-flint, mpmath.iv and codac.
-
-    python -m proofs.benchmark.operations --only sin exp --length 1000000 -o sin.json
-
-By pyperf, whose options hold, each in processes of its own (codac changes their rounding mode):
-seconds an element of wide intervals, x in [-10, 10], y in [1, 4], u in [-1, 1]. `pyperf compare_to`
-and `pyperf stats` tell more of what -o writes.
-"""
+"""Single operations of Interval and short IntervalArrays beside python-flint and mpmath.iv."""
 
 from __future__ import annotations
 
-import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
-from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, arithmetic, installed
+from intervals import Interval, IntervalArray
+from intervals._engine import by_mpmath, fastest, use
+from proofs.benchmark.measure import Row, Tell, in_turn, ratio_row
+from proofs.benchmark.page import Section
+from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic, libraries
 
 ARRAY = "IntervalArray"
-_SELF = "proofs.benchmark.operations"
-_MODULES = {ARRAY: "intervals", OURS: "intervals", FLINT: "flint", IV: "mpmath", CODAC: "codac"}
-_OPERANDS = {
-    **dict.fromkeys(("+", "-", "*", "/", "atan2", "hypot"), ("x", "y")),
-    **dict.fromkeys(("sqr", "exp", "sin", "cos", "sincos", "atan", "sinh", "cosh", "tanh"), ("x",)),
-    **dict.fromkeys(("sqrt", "cbrt", "log"), ("y",)),
-    **dict.fromkeys(("tan", "asin", "acos"), ("u",)),
-    **{"pow": ("y", "x"), "sum": ("x",), "@": ("x", "y")},
+_ROUNDS = {"smallest": 1, "quick": 9, "full": 31}
+_LENGTH = 300
+_CALLS = 30  # of an array, whose first calls are the dearest
+_TEXTS = {  # x in [-10, 10], y in [1, 4]
+    **{"+": "x + y", "*": "x * y", "hypot": "x.hypot(y)"},
+    **{"sin": "x.sin()", "exp": "x.exp()", "log": "y.log()"},
 }
-_HYPOT = "(x * x + y * y)"
-_OWN = {  # what they write neither as methods nor (mpmath.iv, codac) as functions; "": they lack it
-    FLINT: {"sqr": "x * x", "cbrt": "y.root(3)", "sincos": "x.sin_cos()", "pow": "y ** x"}
-    | {"hypot": f"{_HYPOT}.sqrt()", "atan2": "atan2(x, y)"},
-    IV: {"sqr": "x * x", "sincos": "cos_sin(x)", "atan": "atan2(x, one)", "pow": "y ** x"}
-    | {"hypot": f"sqrt{_HYPOT}"}
-    | dict.fromkeys(("cbrt", "asin", "acos", "sinh", "cosh", "tanh"), ""),
-    CODAC: {"cbrt": "root(y, 3)", "sincos": "(sin(x), cos(x))", "hypot": f"sqrt{_HYPOT}"}
-    | dict.fromkeys(("acos", "sinh"), ""),
-}
-_WHOLE = {  # of all elements
-    "sum": {ARRAY: "x.sum()", FLINT: "sum(x)", IV: "fsum(x)", CODAC: "sum(x)"},
-    "@": {ARRAY: "square(x) @ square(y)", FLINT: "square(x) * square(y)"},
-}
+_IV = {"hypot": "sqrt(x * x + y * y)", "sin": "sin(x)", "exp": "exp(x)", "log": "log(y)"}
 
 
 def statement(name: str, library: str) -> str:
-    """Return what a library does with its x, y and u, lists or an array each; "" if it lacks it."""
-    if name in _WHOLE:
-        return _WHOLE[name].get(library, "")
-    first, *others = _OPERANDS[name]
-    text = f"{first}.{name}({', '.join(others)})"
-    if library in (IV, CODAC):
-        text = f"{name}({', '.join([first, *others])})"
-    text = f"x {name} y" if name in "+-*/" else _OWN.get(library, {}).get(name, text)
-    return f"[{text} for x, y, u in zip(x, y, u)]" if text and library != ARRAY else text
+    """Return what a library does with its x and y, lists or an array each."""
+    text = _IV.get(name, _TEXTS[name]) if library == IV else _TEXTS[name]
+    return text if library == ARRAY else f"[{text} for x, y in zip(x, y)]"
 
 
 def operands(library: str, bits: int, length: int) -> dict[str, Any]:
-    """Return so many intervals for x, y and u, the same in all libraries, and their functions."""
-    random, width, side = Random(length), 2.0**-6, round(length**0.5)
+    """Return so many intervals for x and y, the same in all libraries, and their functions."""
+    random, width = Random(length), 2.0**-6
     lower, upper = dict[str, list[float]](), dict[str, list[float]]()
-    for name, ends in {"x": (-10, 10 - width), "y": (1, 4), "u": (-1, 1 - width)}.items():
+    for name, ends in {"x": (-10, 10 - width), "y": (1, 4)}.items():
         lower[name] = [random.uniform(*ends) for _ in range(length)]
         upper[name] = [x + width * random.random() for x in lower[name]]
     if library == ARRAY:
-        from intervals import IntervalArray
-
-        arrays = {name: IntervalArray.from_floats(lower[name], upper[name]) for name in lower}
-        return {**arrays, "square": lambda x: x.reshape(side, side)}
-    of, known = arithmetic(library, bits), dict[str, Any]()
+        return {name: IntervalArray.from_floats(lower[name], upper[name]) for name in lower}
+    of, functions = arithmetic(library, bits), dict[str, Any]()
     if library == FLINT:
         import flint
 
         flint.ctx.prec = bits
-        known = {"square": lambda x: flint.arb_mat(side, side, x), "atan2": flint.arb.atan2}
     elif library == IV:
-        known = {name: getattr(of.point(1).ctx, name) for name in dir(of.point(1).ctx)}
-    elif library == CODAC:
-        import codac  # type: ignore[import-not-found, unused-ignore]
-
-        known = vars(codac)
-    return known | {name: list(map(of.number, lower[name], upper[name])) for name in lower}
+        functions = {name: getattr(of.point(1).ctx, name) for name in ("sqrt", "sin", "exp", "log")}
+    return functions | {name: list(map(of.number, lower[name], upper[name])) for name in lower}
 
 
-def main() -> None:
-    """Measure what the command line asks for."""
-    try:
-        import pyperf  # type: ignore[import-not-found, unused-ignore]
-    except ImportError:
-        sys.exit(f"python -m {_SELF} needs pyperf: pip install pyperf")
+class _Pair(NamedTuple):
+    """One operation by two libraries, and how many times as long as theirs ours should take."""
 
-    def forward(command: list[str], arguments: Any) -> None:
-        command += ["--only", *arguments.only, "--libraries", *arguments.libraries]
-        command += [f"--bits={arguments.bits}", f"--length={arguments.length}"]
+    ours: str
+    theirs: str
+    name: str
+    bits: int
+    most: float | None = None
+    length: int = _LENGTH
+    at_ends: bool = False  # they do it at both ends, each a point
 
-    runner = pyperf.Runner(program_args=("-m", _SELF), add_cmdline_args=forward)
-    here = [name for name, module in _MODULES.items() if installed(module)]
-    add = runner.argparser.add_argument
-    add("--only", nargs="+", choices=_OPERANDS, default=list(_OPERANDS), help="operations")
-    add("--libraries", nargs="+", choices=_MODULES, default=here, help="default: all here")
-    add("--bits", type=int, default=53, help="of the precision; IntervalArray and codac have 53")
-    add("--length", type=int, default=10_000, help="elements; at most 100 of mpmath.iv")
-    arguments = runner.parse_args()
-    for name in arguments.only:
-        for library in arguments.libraries:
-            length = min(arguments.length, 100) if library == IV else arguments.length
-            given = f"{_SELF}.operands({library!r}, {arguments.bits}, {length})"
-            setup = f"import {_SELF}\nglobals().update({given})"
-            steps = round(length**1.5) if name == "@" else length
-            if text := statement(name, library):
-                runner.timeit(f"{name}, {library}", text, setup, inner_loops=steps, globals={})
+    def __str__(self) -> str:
+        size = f", length {self.length}" if self.ours == ARRAY else f", {self.bits} bits"
+        theirs = f"{self.theirs} at both ends" if self.at_ends else self.theirs
+        without = " without python-flint" if self.theirs == IV else ""
+        return f"{self.name}{size}: {self.ours}{without} / {theirs}"
 
 
-if __name__ == "__main__":
-    main()
+def _pairs() -> Iterator[_Pair]:
+    # first without python-flint, which changes the slots of Interval when it comes to be used
+    for name, bits in (("log", 333), ("hypot", 333), ("sin", 3333), ("hypot", 3333)):
+        yield _Pair(OURS, IV, name, bits, 1.0, length=30)
+    if FLINT in libraries():
+        for name, share in {"+": 0.15, "sin": 0.06, "exp": 0.06, "log": 0.06}.items():
+            yield _Pair(OURS, FLINT, name, 333, 1 / share)
+        for name in ("exp", "log"):  # increasing: the ends' images are the image's ends
+            yield _Pair(OURS, FLINT, name, 333, 1 / 0.4, at_ends=True)
+        for name in ("+", "*", "sin", "exp"):
+            for length in (1, 10, 100):
+                yield _Pair(ARRAY, FLINT, name, 53, length=length)
+
+
+def measure(mode: str, tell: Tell) -> Section:
+    """Measure all pairs, python-flint computing for `Interval` but beside mpmath.iv."""
+    tell("single operations")
+    rows = [_row(pair, _ROUNDS[mode]) for pair in _pairs()]
+    about = (
+        "The same operation on the same operands, intervals 2^-6 / 3 wide with ends of full "
+        "precision: how many times as long ours takes as one ball, or as the balls of both ends, "
+        "or as mpmath.iv. Ours are two ends, each rounded to the precision, and one Python object."
+    )
+    return Section("Single operations", about, rows)
+
+
+def _row(pair: _Pair, rounds: int) -> Row:
+    with ExitStack() as stack:
+        stack.enter_context(by_mpmath(Interval))
+        if pair.theirs == FLINT:
+            import flint
+
+            stack.enter_context(flint.ctx.workprec(pair.bits))
+            use(Interval, fastest(Interval))
+        ours, theirs = (_task(pair, library) for library in pair[:2])
+        above, below = in_turn([ours, theirs], rounds)
+        return ratio_row(str(pair), above, below, pair.most)
+
+
+def _task(pair: _Pair, library: str) -> Callable[[], list[Any]]:
+    """Return what does the operation on all operands, often where they are few; what it returns is
+    what it found, at both ends one after the other.
+    """
+    known = operands(library, pair.bits, pair.length)
+    lists = {name: known[name] for name in "xy"}
+    third = {name: x / 3 if library == ARRAY else [e / 3 for e in x] for name, x in lists.items()}
+    given = [third]
+    if library == FLINT and pair.at_ends:
+        given = [
+            {name: [getattr(ball, end)() for ball in x] for name, x in third.items()}
+            for end in ("lower", "upper")
+        ]
+    code = compile(statement(pair.name, library), pair.name, "eval")
+    scopes = [known | some for some in given]
+    calls = _CALLS if pair.ours == ARRAY else 1
+
+    def run() -> list[Any]:
+        for _ in range(calls - 1):
+            eval(code, scopes[0])
+        return [eval(code, scope) for scope in scopes]
+
+    return run

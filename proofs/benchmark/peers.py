@@ -18,7 +18,7 @@ from typing import Any
 from intervals import Interval, Jet
 from proofs.trusted.equations import registered_sincos
 
-OURS, FLINT, IV, CODAC, MP = "Interval", "python-flint", "mpmath.iv", "codac", "mpmath"
+OURS, FLINT, IV, CODAC = "Interval", "python-flint", "mpmath.iv", "codac"
 PEERS = (FLINT, IV, CODAC)
 Range = tuple[Fraction, Fraction]
 End = Fraction | float | int
@@ -58,7 +58,7 @@ class Arithmetic:
 @cache
 def arithmetic(library: str, bits: int) -> Arithmetic:
     """Return the numbers of a library; ImportError if it is absent."""
-    return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac, MP: _mp}[library](bits)
+    return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac}[library](bits)
 
 
 def installed(module: str) -> bool:
@@ -160,35 +160,6 @@ def _codac(bits: int) -> Arithmetic:
         middle=lambda x: codac.Interval(x.mid()),
         positive=lambda x: bool(x.lb() > 0),
         call=lambda function, x: getattr(codac, function)(x),
-    )
-
-
-def _mp(bits: int) -> Arithmetic:
-    """Return mpmath: candidates, a quarter of whose bits are believed, and never a proof."""
-    from mpmath import mp
-
-    context = mp.clone()
-
-    def number(low: End, high: End) -> Any:
-        middle = (Fraction(low) + Fraction(high)) / 2
-        return context.mpf(middle.numerator) / middle.denominator
-
-    def ends(x: Any) -> Range:
-        if not context.isfinite(x):
-            raise ArithmeticError("not a finite number")
-        middle = _signed(*x._mpf_)
-        spread = abs(middle) / 2 ** (context.prec // 4)  # 90 digits at 1200 bits
-        return middle - spread, middle + spread
-
-    return Arithmetic(
-        MP,
-        bits,
-        number=number,
-        ends=ends,
-        middle=lambda x: x,
-        positive=lambda x: ends(x)[0] > 0,
-        call=lambda function, x: getattr(context, function)(x),
-        precision=context.workprec,
     )
 
 

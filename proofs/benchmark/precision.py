@@ -1,4 +1,4 @@
-"""Time against error: slope bounds, flights, dimensions, orbits, checks.
+"""Time against error: slope bounds and flights.
 
 Each curve is one way to do one work at growing cost; orders are least-squares fits. Ours and
 those of peers run in turn, and ratios are of samples taken side by side. An enclosure that
@@ -9,32 +9,29 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from pathlib import Path
 from typing import NamedTuple
 
 from proofs.benchmark import tasks
 from proofs.benchmark.codac_server import Bounds, codac
 from proofs.benchmark.curves import Budget, Curve, beside, sweep
 from proofs.benchmark.diagrams import Diagram
-from proofs.benchmark.measure import Row, Tell, spread, version_of
+from proofs.benchmark.measure import Row, Tell, version_of
 from proofs.benchmark.page import Section
 from proofs.benchmark.peers import CODAC, FLINT, IV, installed, libraries
-from proofs.trusted.paper import GROUPS
 
 
 class Plan(NamedTuple):
     """How much is measured: sizes grow until one run takes longer than the budget's limit."""
 
     many: Budget  # of forms and points
-    long: Budget  # of whole proofs
     stride: int  # of the powers of 2 that are numbers of boxes
     orders: Sequence[int]  # of the forms at 50 digits and more
 
 
 PLANS = {
-    "smallest": Plan(Budget(1, 0.01), Budget(1, 0.01), 2, ()),
-    "quick": Plan(Budget(2, 0.1), Budget(1, 4.0), 2, (4,)),
-    "full": Plan(Budget(5, 0.1), Budget(3, 20.0), 1, (0, 1, 2, 3, 4)),
+    "smallest": Plan(Budget(1, 0.01), 2, ()),
+    "quick": Plan(Budget(2, 0.1), 2, (4,)),
+    "full": Plan(Budget(5, 0.1), 1, (0, 1, 2, 3, 4)),
 }
 ARRAY = "IntervalArray"
 _FORMS = ("natural", "mean value", "Taylor 2", "Taylor 3", "Taylor 4")
@@ -51,7 +48,7 @@ def section(about: str, works: Sequence[Sequence[Curve]], *diagrams: Diagram) ->
     return Section(diagrams[0].title, about, rows, diagrams)
 
 
-def measure(mode: str, python: str, reports: Path, tell: Tell) -> Iterator[Section]:
+def measure(mode: str, python: str, tell: Tell) -> Iterator[Section]:
     """Measure everything; codac in a process of the interpreter `python`."""
     plan = PLANS[mode]
     with codac(python) as server:
@@ -59,19 +56,13 @@ def measure(mode: str, python: str, reports: Path, tell: Tell) -> Iterator[Secti
         for digits in (None, 30, 50, 100, 300) if plan.orders else (None, 30):
             tell(f"slope bounds, {digits or 'binary64'}")
             yield _slopes(plan, digits, server[1] if server else None)
-    yield from of_main_job(mode, tell)
+    yield of_main_job(mode, tell)
     tell("flights")
     yield _flights(plan)
-    tell("periodic points")
-    yield _orbits(plan)
-    tell("dimensions")
-    yield _dimensions(plan)
-    tell("checks")
-    yield checks(plan, reports)
 
 
-def of_main_job(mode: str, tell: Tell) -> Iterator[Section]:
-    """Measure the bounds of f' that the main job rests on, and the kernel under them."""
+def of_main_job(mode: str, tell: Tell) -> Section:
+    """Measure the bounds of f' that the main job rests on."""
     plan = PLANS[mode]
     tell("slope bounds by monotonicity")
     of = partial(Curve, "f' on I0 and I1, f'' > 0", unit="digits", sizes=_DIGITS)
@@ -79,22 +70,11 @@ def of_main_job(mode: str, tell: Tell) -> Iterator[Section]:
     ways.append(of("the main job's, witness kept", run=tasks.main_job_slopes))
     title = "Slope bounds by monotonicity, where f'' > 0"
     across = "digits: -log10 of what the bounds of f' miss its extremes by"
-    yield section(
+    return section(
         "f'' > 0 is proved on 8 boxes of each interval to 53 bits; then f' at the two ends, to so "
         "many digits, is all. What the main job calls is given nothing and keeps the witness.",
         [sweep(ways, plan.many)],
         Diagram("slopes-monotone", title, across, "digits"),
-    )
-    tell("the kernel")
-    sizes = [2.0**k for k in range(0, 13, plan.stride)]
-    of = partial(Curve, "no earlier impact on I0 and I1", unit="boxes", sizes=sizes)
-    ways = [of(ARRAY, run=tasks.excluded_at_once)]
-    ways += [of(name, run=partial(tasks.excluded, name)) for name in libraries()[1:]]
-    yield section(
-        "The kernel of all covers: gap > 0 at each time of a grid and on each piece between, over "
-        "each box; sine and cosine and the comparisons are included.",
-        [sweep(ways, plan.many)],
-        Diagram("kernel", "The kernel in binary64: earlier impacts excluded", "boxes", "size"),
     )
 
 
@@ -140,8 +120,7 @@ def _flights(plan: Plan) -> Section:
     steps, tolerances = [10.0**-k for k in range(1, 7)], [10.0**-k for k in range(3, 14, 2)]
     march = guess("algorithm A.1", unit="step", sizes=steps, run=tasks.marches, least=0.8)
     march.against = "error"
-    floats = "floating point, steps that pass no zero"
-    others = [march, guess(floats, unit="run", sizes=(1,), run=tasks.floats)]
+    others = [march]
     for method in ("RK45", "DOP853") if installed("scipy") else ():
         name, run = f"scipy solve_ivp, {method}", partial(tasks.solved, method)
         others.append(guess(name, unit="tolerance", sizes=tolerances, run=run))
@@ -155,58 +134,6 @@ def _flights(plan: Plan) -> Section:
         Diagram("flights", title, error, least=1e-40),
         Diagram("flights-digits", f"{title}, certified", _WIDTH, "digits", certified=True),
     )
-
-
-def _orbits(plan: Plan) -> Section:
-    words = [2.0**n for n in range(1, 15)]
-    of = partial(Curve, "all periodic points of a period", unit="words", sizes=words)
-    ways = [
-        of("binary64", run=partial(tasks.orbits, None)),
-        of("25 digits", run=partial(tasks.orbits, 25)),
-    ]
-    return section(
-        "Each word of 0 and 1 has one periodic point, which is enclosed. There are 2^n words of "
-        "length n, and the errors stay those of the arithmetic.",
-        [sweep(ways, plan.many)],
-        Diagram("orbits", "All periodic points of a period", "words: 2^period", "size"),
-    )
-
-
-def _dimensions(plan: Plan) -> Section:
-    way = Curve("both dimensions (H13)", "proofs.dimension", "digits", (5, 10, 20, 30, 50, 100))
-    way.run = tasks.dimensions
-    return section(
-        "The command that proves claim H13, without its check, to so many digits: the true "
-        "dimensions of two repellers. No peer has this.",
-        [sweep([way], plan.long)],
-        Diagram("dimensions", "Two Hausdorff dimensions", _WIDTH, "digits"),
-    )
-
-
-def checks(plan: Plan, folder: Path) -> Section:
-    """Measure the check of the certificates of a folder."""
-    files = [folder / f"{group}.json" for group in ("horseshoe", *GROUPS)]
-    files = [path for path in files if path.exists()]
-    sizes = {path.stat().st_size / 1000: path for path in files}
-    curve = Curve("check", "certificates", "kB", sorted(sizes), against="", proved=False)
-    curve.run = lambda size: tasks.checked(sizes[size])
-    sweep([curve], plan.long)
-    curve.points = [point._replace(note=sizes[point.size].stem) for point in curve.points]
-    rows = [
-        Row(
-            f"check of {p.note}.json [s]", f"{spread(p.seconds)}, {p.size:.0f} kB, status {p.error}"
-        )
-        for p in curve.points
-    ]
-    for row, point in zip(rows, curve.points, strict=True):
-        row.target, row.reached = "status 0", point.error == 0
-    title, across = "The check of certificates", "size of the certificate [kB]"
-    about = (
-        "The independent checker on certificates that are there, read and checked in this process. "
-        "It decides; there is no error to show, so the size is shown."
-    )
-    none = [Row("check", "no certificates there: see --reports")]
-    return Section(title, about, rows or none, [Diagram("checks", title, across, "size", [curve])])
 
 
 def _peers(codac_version: str) -> Section:

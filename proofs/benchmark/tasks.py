@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import math
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
-from contextlib import redirect_stdout
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from io import StringIO
-from itertools import pairwise
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -22,16 +14,7 @@ import numpy as np
 from intervals import IntervalArray, Undecided
 from intervals.taylor import polynomial_range
 from proofs.benchmark.peers import OURS, Range, arithmetic
-from proofs.benchmark.slopes import (
-    ETA,
-    MONOTONE,
-    NU,
-    Work,
-    bounds,
-    coefficients,
-    exclude,
-    first_impact,
-)  # fmt: skip
+from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, coefficients, first_impact
 from proofs.motion import candidate, kernel
 from proofs.motion.covering import cover_by_impacts
 from proofs.motion.image import Image, image
@@ -39,7 +22,6 @@ from proofs.motion.impact import HORIZON, locate
 from proofs.motion.marching import march
 from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.motion.system import System
-from proofs.shell.entry import run_process
 
 SYSTEM = System(ETA, NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
@@ -132,21 +114,6 @@ def _launches(given: Work) -> kernel.Launches:
     return kernel.Launches(SYSTEM, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
 
 
-def excluded_at_once(boxes: float) -> float:
-    """Exclude all earlier impacts, in arrays; that has no error."""
-    for one in works(int(boxes)):
-        kernel.exclude_impacts(_launches(one), one.grid)
-    return 0.0
-
-
-def excluded(library: str, boxes: float) -> float:
-    """Exclude the same, box by box in a library."""
-    of = arithmetic(library, _SIGN_BITS)
-    for one in works(int(boxes)):
-        exclude(of, [of.number(*ends) for ends in pairwise(one.cuts)], one.grid)
-    return 0.0
-
-
 def extremes(_: float) -> float:
     """Bound f' by monotonicity, in binary64."""
     found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
@@ -209,12 +176,6 @@ def marches(step: float) -> float:
     return deviation([march(SYSTEM, float(phase), step) for phase in PHASES])
 
 
-def floats(_: float) -> float:
-    """Search in floating point, by steps that pass no zero."""
-    found = [candidate.next_impact(SYSTEM, float(phase)) for phase in PHASES]
-    return deviation([one and one[0] for one in found])
-
-
 def solved(method: str, tolerance: float) -> float:
     """Simulate as one would with scipy: the mass as an ODE, the table as an event."""
     from scipy.integrate import solve_ivp  # type: ignore[import, unused-ignore]
@@ -234,56 +195,3 @@ def solved(method: str, tolerance: float) -> float:
         events = [t for t in found.t_events[0] if t > 0.25]  # before is the launch itself
         times.append(float(events[0]) if events else None)
     return deviation(times)
-
-
-# -- whole proofs ----------------------------------------------------------------------------------
-
-
-def dimensions(digits: float) -> float:
-    """Run the command that proves both Hausdorff dimensions to so many digits."""
-    with TemporaryDirectory() as folder:
-        options = [
-            "--only",
-            "H13",
-            "--digits",
-            str(int(digits)),
-            "--no-check",
-            "--out",
-            folder,
-            "--json",
-            "-",
-        ]
-        command = [sys.executable, "-m", "proofs.dimension", *options]
-        done = run_process(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    done.check_returncode()
-    quantities = json.loads(done.stdout)["claims"][0]["quantities"]
-    both = [quantities[name] for name in ("dimension", "dimension_of_I")]
-    return float(max(Fraction(one["upper"]) - Fraction(one["lower"]) for one in both))
-
-
-def orbits(digits: int | None, words: float) -> float:
-    """Enclose all periodic points of a period, by the number of words, of a proved horseshoe."""
-    from proofs.methods.orbits import periodic_points
-    from proofs.methods.words import Words
-
-    points = periodic_points(_horseshoe(), Words.of_length(int(words).bit_length() - 1), digits)
-    return float(max(one.point[1] - one.point[0] for one in points))
-
-
-@cache
-def _horseshoe() -> Any:
-    from proofs import orbits
-    from proofs.search.periodic import horseshoe
-    from proofs.trusted.parameters import PAPER
-
-    whole, least = (orbits.LEFT[0], orbits.RIGHT[1]), (Fraction(1), Fraction(1))
-    sets = replace(PAPER, left=orbits.LEFT, right=orbits.RIGHT, interval=whole)
-    return horseshoe(replace(sets, slopes=least, ratios=None, printed_s0=None))
-
-
-def checked(certificate: Path) -> float:
-    """Check a certificate in this process; its error is the exit status."""
-    from proofs import check
-
-    with redirect_stdout(StringIO()):
-        return check.main([str(certificate)])

@@ -42,17 +42,17 @@ exit status: 0 coqc accepts all, and the axioms are those named; 1 Coq is missin
              3 coqc refuses what the checker accepts, or there are other axioms: a bug
 
 examples:
-  python -m proofs.formal reports/horseshoe.json
-  python -m proofs.formal reports/horseshoe.json --floats --out coq
-  python -m proofs.horseshoe --nu -0.201 --out mine && python -m proofs.formal mine/horseshoe.json
+  python -m proofs formal reports/horseshoe.json
+  python -m proofs formal reports/horseshoe.json --floats --out coq
+  python -m proofs horseshoe --nu -0.201 --out mine && python -m proofs formal mine/horseshoe.json
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Write the files of a certificate and run coqc on them; return the exit status."""
-    parser = Parser("proofs.formal", __doc__, EPILOG)
+    parser = Parser("proofs formal", __doc__, EPILOG)
     add = parser.add_argument
-    add("certificate", metavar="CERTIFICATE", type=Path, help="of python -m proofs.horseshoe")
+    add("certificate", metavar="CERTIFICATE", type=Path, help="of python -m proofs horseshoe")
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
     add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
     share(parser, "--json")

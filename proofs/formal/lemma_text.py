@@ -7,7 +7,7 @@ Module Integers := SpecificFloat StdZRadix2.
 Module Exact := Tactic.IntervalTactic Integers.
 Import Tactic Exact."""
 
-HEAD = """(* Written by python -m proofs.formal from {source}.
+HEAD = """(* Written by python -m proofs formal from {source}.
    Not trusted: coqc proves every line. To be read: Impact.v, and the theorems stated here. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.

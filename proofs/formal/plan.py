@@ -70,7 +70,7 @@ def plan(source: str) -> Plan:
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
     if not isinstance(of, Parameters) or not claims:
-        raise Malformed("$.claims: no certificate of python -m proofs.horseshoe")
+        raise Malformed("$.claims: no certificate of python -m proofs horseshoe")
     known = premises(source).known
     proofs = {
         str(claim["id"]): [known[name] for name in claim["proof"]]

@@ -37,7 +37,7 @@ CPU seconds hardly depend on who else uses the machine; seconds do. The line wit
 install 'impact-proofs[cluster]'.
 
 examples:
-  python -m proofs.atlas --eta 0.21 0.215 --nu -0.205 -0.195 --ask horseshoe
+  python -m proofs atlas --eta 0.21 0.215 --nu -0.205 -0.195 --ask horseshoe
   python -m proofs.plane.scaling runs/atlas --pairs 3
 """
 

@@ -29,15 +29,15 @@ exit status: 0 written, 1 a package of the extra `report`, or pyodide, is missin
              2 bad input (nothing is written), 3 the ledger says what its certificates do not prove
 
 examples:
-  python -m proofs.report
-  python -m proofs.report --out runs
-  python -m proofs.report --with-checker
+  python -m proofs report
+  python -m proofs report --out runs
+  python -m proofs report --with-checker
 """
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Write the pages of a folder; return the exit status."""
-    parser = Parser("proofs.report", __doc__, EPILOG)
+    parser = Parser("proofs report", __doc__, EPILOG)
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     help_text = "write DIR/checker.html, too: the page with Python and the checker in it"
     parser.add_argument("--with-checker", action="store_true", help=help_text)
@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--quiet", action="store_true", help="print nothing")
     options = parser.parse_args(arguments)
     if not (options.out / "ledger.json").is_file():
-        parser.error(f"no {options.out}/ledger.json: python -m proofs.ledger writes it")
+        parser.error(f"no {options.out}/ledger.json: python -m proofs ledger writes it")
     check_folder(parser, options.out)
     packages = missing()
     wanted = options.with_checker or options.pyodide is not None

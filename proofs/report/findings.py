@@ -94,7 +94,7 @@ class Finding:
     @property
     def checked(self) -> str:
         """The command that checks it."""
-        return f"python -m proofs.check reports/{self.file}"
+        return f"python -m proofs check reports/{self.file}"
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-
-from markupsafe import Markup
+from typing import TYPE_CHECKING
 
 from proofs.report.differences import marked
 from proofs.trusted.numbers import ceil_text, floor_text
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 _MANY = 6  # parts after which an enumeration is a list
 
@@ -33,16 +35,23 @@ def block(sentence: str, printed: str) -> Block:
     """Return a sentence, enumerations as a list: (1) ...; (2) ..., or many parts after a colon."""
     head, *numbered = re.split(r"[;:] \(\d\) ", sentence)
     if len(numbered) > 1:
-        return Block(Markup(marked(head + ":", printed)), _items(numbered, printed), "parts")
+        return Block(_markup(head + ":", printed), _items(numbered, printed), "parts")
     head, colon, rest = sentence.rpartition(": n = 1: ")
     parts = f"n = 1: {rest}".split("; ")
     if colon and len(parts) > _MANY:
-        return Block(Markup(marked(head + ":", printed)), _items(parts, printed), "narrow")
-    return Block(Markup(marked(sentence, printed)))
+        return Block(_markup(head + ":", printed), _items(parts, printed), "narrow")
+    return Block(_markup(sentence, printed))
 
 
 def _items(parts: Sequence[str], printed: str) -> tuple[Markup, ...]:
-    return tuple(Markup(marked(part, printed)) for part in parts)
+    return tuple(_markup(part, printed) for part in parts)
+
+
+def _markup(text: str, printed: str) -> Markup:
+    """Return what is marked; the package is one of the page's, and may be missing elsewhere."""
+    from markupsafe import Markup
+
+    return Markup(marked(text, printed))
 
 
 def enclosure(lower: str, upper: str) -> str:

@@ -55,7 +55,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         '## <a id="check"></a>Check it yourself',
         "The certificates beside this page hold the witnesses in exact numbers. From the "
         "repository's root, with nothing but Python:",
-        "    python -m proofs.check reports/MANIFEST.json",
+        "    python -m proofs check reports/MANIFEST.json",
     ]
     return "\n\n".join(parts) + "\n"
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from intervals import decimal_bounds
-from proofs.shell.cli import Parser, counting, heard, progress, share
+from proofs.shell.cli import Parser, heard, progress, share
 from proofs.shell.files import check_targets, write_target
 from proofs.shell.screen import say
 from proofs.trusted.numbers import Range
@@ -22,8 +22,8 @@ Answer = dict[str, Any]  # the JSON object
 
 
 def add_answer(parser: Parser, places: int = 30) -> None:
-    """Add the options for the form of an answer, and for what is evaluated for it."""
-    share(parser, "--digits", "--json", "--quiet", "--stats", places=places)
+    """Add the options for the form of an answer."""
+    share(parser, "--digits", "--json", "--quiet", places=places)
 
 
 def bounds(values: Range, places: int) -> dict[str, str]:
@@ -39,26 +39,20 @@ def lines(label: str, ends: dict[str, str], width: int = 18) -> list[str]:
 
 @contextmanager
 def answering(
-    parser: Parser, options: Namespace, asked: str, *more: str | None
+    parser: Parser, options: Namespace, *more: str | None
 ) -> Iterator[Callable[[str], None]]:
-    """Try the files before the work inside the `with`; afterwards print what it evaluated.
+    """Try the files before the work inside the `with`: that of --json, and more.
 
-    Yields what tells the stage of the work, which is shown once it takes over a second. asked: in
-    words. more: other files than that of --json. An exception, SystemExit for bad input as well,
-    goes through, and no counts are printed.
+    Yields what tells the stage of the work, which is shown once it takes over a second.
     """
     check_targets(parser, options.json, *more)
-    with counting(options.stats) as counts, progress() as options.tell:
+    with progress() as options.tell:
         yield options.tell
-    if options.stats:
-        from proofs.shell.counting import show
-
-        show(counts, [asked], quiet=not heard(options))
 
 
 def machine_text(parser: Parser, answer: Answer) -> str:
     """Return the machine form, with the schema of the command's answers."""
-    schema = f"impact-proofs.{parser.prog.rpartition('.')[2]}/1"
+    schema = f"impact-proofs.{parser.prog.rpartition(' ')[2]}/1"
     return json.dumps({"schema": schema, **answer}, indent=1) + "\n"
 
 

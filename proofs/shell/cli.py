@@ -1,8 +1,8 @@
 """What the command lines share: options, exact numbers, one-line errors, progress.
 
-A command is a module `proofs.<name>`, or a package with a `__main__`, whose docstring begins with
-the line that the list of commands shows, and which has `main(arguments=None)` that returns the
-exit status. It begins, before its imports, with
+A command is a row of `proofs.commands.groups`; or a module `proofs.<name>`, or a package with a
+`__main__`, whose docstring begins with the line that the list of commands shows, and which has
+`main(arguments=None)` that returns the exit status. It begins, before its imports, with
 
     if __name__ == "__main__":
         from proofs.shell.entry import launch
@@ -21,21 +21,17 @@ import argparse
 import re
 import sys
 from argparse import Namespace
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from intervals import fraction
 from proofs.motion.digits import MOST_DIGITS
 from proofs.shell.screen import Arguments, columns
-
-if TYPE_CHECKING:
-    from proofs.shell.counting import Counts
 
 _DIGITS = 190  # numerator and denominator: certificates take 400 characters a number
 _LARGEST = 10**_DIGITS
@@ -102,8 +98,6 @@ def share(parser: Parser, *names: str, places: int = 30, claims: Sequence[str] =
         "--out": {"type": Path, "metavar": "DIR", "help": "the folder that results go to"},
         "--json": {"metavar": "FILE", "help": "write the machine form to a file, - for the screen"},
         "--quiet": {"action": "store_true", "help": "print nothing but errors"},
-        "--stats": {"action": "store_true"}
-        | {"help": "count what is evaluated (takes three times as long)"},
     }
     for name in names:
         parser.add_argument(name, **known[name])
@@ -112,15 +106,6 @@ def share(parser: Parser, *names: str, places: int = 30, claims: Sequence[str] =
 def heard(options: Namespace) -> bool:
     """Whether words are printed: not if the screen is for machines, or for nothing."""
     return not options.quiet and "-" not in (options.json, getattr(options, "csv", None))
-
-
-def counting(wanted: bool) -> AbstractContextManager[Counts]:
-    """Return what counts evaluations inside a `with` if that is wanted, else what does nothing."""
-    if not wanted:
-        return nullcontext(Counter())
-    from proofs.shell.counting import counted
-
-    return counted()
 
 
 @contextmanager

@@ -1,6 +1,6 @@
 """Groups of claims: what a prover found, decided, and written as a certificate and a page.
 
-A group has a prover in `proofs.search` and a command `proofs.<group>`, see `proofs.shell.runner`.
+A group has a prover in `proofs.search`, and a command, a row of `proofs.commands.groups`.
 """
 
 from __future__ import annotations

@@ -6,18 +6,17 @@ import json
 import os
 import sys
 from argparse import Namespace
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from concurrent.futures import as_completed
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from proofs.report import current
 from proofs.shell import manifest, runner
-from proofs.shell.cli import Parser, counting, heard, progress
+from proofs.shell.cli import Parser, heard, progress
 from proofs.shell.entry import workers
 from proofs.shell.files import refusing, write_files, write_target, writing
 from proofs.shell.groups import FILES, Made, produce, row_of, wanted
@@ -27,9 +26,6 @@ from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
-
-if TYPE_CHECKING:
-    from proofs.shell.counting import Counts
 
 CLAIMS = tuple(
     sorted(
@@ -56,15 +52,15 @@ again, unless --fresh or --digits ask for it; which prover wrote it does not mat
 `reports` where all claims are asked for, else `runs`, to which what is complete in `reports` is
 copied. Where nothing has changed since the last time, neither a certificate nor a page nor this
 program (your cache has the digests, DIR has not), what was found then is printed, and nothing is
-checked again; `python -m proofs.check DIR/MANIFEST.json` always checks.
+checked again; `python -m proofs check DIR/MANIFEST.json` always checks.
 
 exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
 
 examples:
-  python -m proofs.ledger
-  python -m proofs.ledger --only G2 H13 --fresh
-  python -m proofs.ledger --json - --quiet > ledger.json
+  python -m proofs ledger
+  python -m proofs ledger --only G2 H13 --fresh
+  python -m proofs ledger --json - --quiet > ledger.json
 """
 
 
@@ -72,7 +68,7 @@ examples:
 class Job:
     """A file of claims to settle in a folder.
 
-    fresh: prove it whatever is there. stats: count what is evaluated.
+    fresh: prove it whatever is there.
     """
 
     name: str
@@ -80,7 +76,6 @@ class Job:
     folder: Path
     digits: int
     fresh: bool
-    stats: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,7 +90,6 @@ class Settled:
     report: Report
     found: Path | None
     seconds: float
-    counts: Counts = field(default_factory=Counter)
 
     @property
     def is_new(self) -> bool:
@@ -114,9 +108,7 @@ class Settled:
         ]
 
 
-def jobs(
-    claims: Iterable[str], folder: Path, places: int, fresh: bool, stats: bool = False
-) -> list[Job]:
+def jobs(claims: Iterable[str], folder: Path, places: int, fresh: bool) -> list[Job]:
     """Return the files to settle: those that have a claim which no file before them has."""
     asked, found = set(claims), []
     left = set(asked)
@@ -124,7 +116,7 @@ def jobs(
         members = [claim for ids in parts.values() for claim in ids]
         if left.intersection(members):
             chosen = tuple(claim for claim in members if claim in asked)
-            found.append(Job(name, chosen, folder, places, fresh, stats))
+            found.append(Job(name, chosen, folder, places, fresh))
             left.difference_update(members)
     return found
 
@@ -150,12 +142,6 @@ def settle(job: Job) -> Settled:
     return Settled(job, made, report, None, perf_counter() - began)
 
 
-def settle_counting(job: Job) -> Settled:
-    """Do `settle`, and count what it evaluates, if that is wanted."""
-    with counting(job.stats) as counts:
-        return replace(settle(job), counts=counts)
-
-
 def _there(job: Job, folder: Path) -> tuple[str, Report] | None:
     """Return the certificate that is in a folder, if it decides every claim of the job."""
     try:
@@ -170,7 +156,7 @@ def _there(job: Job, folder: Path) -> tuple[str, Report] | None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Settle the claims asked for; return the exit status."""
-    parser = Parser("proofs.ledger", __doc__, EPILOG)
+    parser = Parser("proofs ledger", __doc__, EPILOG)
     runner.add_outputs(parser, CLAIMS)
     parser.add_argument("--fresh", action="store_true", help="prove again what is there already")
     options = parser.parse_args(arguments)
@@ -178,10 +164,10 @@ def main(arguments: list[str] | None = None) -> int:
     runner.choose_folder(parser, options, not set(asked).issuperset(CLAIMS))
     fresh, places = options.fresh or options.digits is not None, options.digits or runner.PLACES
     options.began = perf_counter()
-    if not (fresh or options.stats) and (known := _unchanged(options.out, asked)) is not None:
+    if not fresh and (known := _unchanged(options.out, asked)) is not None:
         return _told(parser, options, *known)
     try:
-        settled = _settle_all(parser, jobs(asked, options.out, places, fresh, options.stats))
+        settled = _settle_all(parser, jobs(asked, options.out, places, fresh))
     except (Malformed, Rejected) as error:
         say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
         return 3
@@ -198,13 +184,7 @@ def main(arguments: list[str] | None = None) -> int:
         for one in settled
         for how in ["proved and checked" if one.is_new else f"in {one.found}, checked again"]
     ]
-    status = _told(parser, options, text, pages, shown)
-    if options.stats:
-        from proofs.shell.counting import show
-
-        for one in settled:
-            show(one.counts, one.job.claims, quiet=not heard(options))
-    return status
+    return _told(parser, options, text, pages, shown)
 
 
 def _unchanged(folder: Path, asked: Iterable[str]) -> tuple[str, set[str], list[str]] | None:
@@ -223,7 +203,7 @@ def _unchanged(folder: Path, asked: Iterable[str]) -> tuple[str, set[str], list[
             return None
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    again = f"python -m proofs.check {folder}/{manifest.NAME} checks it again"
+    again = f"python -m proofs check {folder}/{manifest.NAME} checks it again"
     return text, pages, [f"{folder}: nothing has changed since it was checked; {again}"]
 
 
@@ -296,7 +276,7 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
     settled = {}
     in_turn = sorted(todo, key=lambda job: (*_LONGEST, job.name).index(job.name))
     with workers(min(len(todo), os.cpu_count() or 1)) as pool:
-        futures = {pool.submit(settle_counting, job): job for job in in_turn}
+        futures = {pool.submit(settle, job): job for job in in_turn}
         with progress() as tell:
             tell(f"0 of {len(todo)} groups of claims")
             _load_drawing()

@@ -6,7 +6,6 @@ from argparse import Namespace
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from types import MappingProxyType
 from typing import Any
 
 from intervals import Undecided
@@ -15,25 +14,6 @@ from proofs.trusted.numbers import show
 from proofs.trusted.parameters import PAPER, Parameters
 
 Box = tuple[Fraction, Fraction, Fraction]
-_OSCILLATOR, _SETS = ("eta", "nu"), ("left", "right")
-HEEDED = MappingProxyType(  # by which parameters what a certificate says changes
-    {
-        "horseshoe": (*_OSCILLATOR, *_SETS, "interval", "slopes", "epsilon", "velocities"),
-        "foundations": _OSCILLATOR,
-        "nonplastic": (*_OSCILLATOR, *_SETS, "epsilon", "velocities", "reach"),
-        "sets": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
-        "dimension": (*_OSCILLATOR, *_SETS, "interval", "slopes"),
-        "chaos": _OSCILLATOR,
-        "circle": _OSCILLATOR,
-        "entropy": _OSCILLATOR,
-        "persistence": (*_OSCILLATOR, "epsilon"),
-        "single": _OSCILLATOR,
-        "soft": (),
-        "resonance": (),
-        "explore": (*_OSCILLATOR, "epsilon"),
-        "curves": ("epsilon",),
-    }
-)
 _MEANING = {
     "eta": "frequency ratio",
     "nu": "amplitude -beta/p",
@@ -107,7 +87,7 @@ def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Para
         if found is None:
             raise Undecided(
                 f"no sets with a horseshoe are seen at {of.place}: give --left and --right, or see "
-                "python -m proofs.explore"
+                "python -m proofs explore"
             )
         return replace(found, slopes=given.get("slopes", found.slopes))
     return of

@@ -12,13 +12,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from intervals import Undecided
 from proofs.report.figures import figures, names
 from proofs.report.page import Line
 from proofs.shell import manifest
-from proofs.shell.cli import Parser, counting, heard, progress, share
+from proofs.shell.cli import Parser, heard, progress, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -28,7 +29,7 @@ from proofs.shell.files import (
     writing,
 )
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
-from proofs.shell.parameters import HEEDED, add_parameters, parameters, refusal
+from proofs.shell.parameters import add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed, parameters_to_json, read
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
@@ -36,9 +37,6 @@ from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, check, premises
-
-if TYPE_CHECKING:
-    from proofs.shell.counting import Counts
 
 REPORTS, RUNS = Path("reports"), Path("runs")  # where the paper's results go, and all others
 PLACES = 30
@@ -52,20 +50,24 @@ exit status: 0 every claim asked for is decided, 1 something is undecided,
              2 bad input (nothing is written), 3 the checker disagrees (a bug)
 
 examples:
-  python -m proofs.{group}
-  python -m proofs.{group} --only {first} --digits 40
-  python -m proofs.{group} --json - > {group}.json
+  python -m proofs {group}
+  python -m proofs {group} --only {first} --digits 40
+  python -m proofs {group} --json - > {group}.json
 """
 
 
-class More(NamedTuple):
-    """What one command has more than others.
+class Group(NamedTuple):
+    """The command of a group of claims: its name, which is its certificate's, and its help.
 
-    options: for the prover, with what argparse is told of each. seen: returns what floating point
-    sees, in Markdown; it is shown beside the verdicts.
+    heeded: the numbers that what is proved depends on. options: for the prover, with what argparse
+    is told of each. seen: returns what floating point sees, in Markdown, shown beside the verdicts.
     """
 
-    options: Mapping[str, Mapping[str, Any]]
+    name: str
+    about: str
+    heeded: Sequence[str] = ()
+    examples: str = ""
+    options: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
     seen: Callable[[Parameters, Namespace], str] | None = None
 
     def chosen(self, options: Namespace) -> dict[str, Any]:
@@ -73,29 +75,19 @@ class More(NamedTuple):
         return {name: x for name in self.options if (x := getattr(options, name)) is not None}
 
 
-NOTHING_MORE = More({})
-
-
-def run(
-    file: str,
-    arguments: list[str] | None = None,
-    description: str | None = None,
-    *,
-    examples: str = "",
-    more: More = NOTHING_MORE,
-) -> int:
-    """Run the command of a certificate; return the exit status.
+def run(group: Group, arguments: list[str] | None = None) -> int:
+    """Run the command of a group of claims; return the exit status.
 
     With --figure the figures that are drawn from this certificate alone are written, too.
     """
-    parser = _parser(file, description, examples, more)
+    file, parser = group.name, _parser(group)
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
-        parser.error(refusal(unknown, HEEDED[file]))
+        parser.error(refusal(unknown, group.heeded))
     if options.figure and find_spec("matplotlib") is None:
-        parser.error("--figure needs matplotlib: pip install matplotlib")
+        parser.error("--figure needs matplotlib: pip install 'impact-proofs[report]'")
     try:
-        of = parameters(options, HEEDED[file], beyond=file in BEYOND)
+        of = parameters(options, group.heeded, beyond=file in BEYOND)
     except ValueError as error:
         parser.error(str(error))
     except Undecided as failure:
@@ -107,24 +99,25 @@ def run(
     if "rebounding" in asked and of.epsilon is None:
         parser.error(f"{' '.join(asked['rebounding'])}: with restitution: give --epsilon")
     is_less = of != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
-    is_other = is_less or file in BEYOND or options.figure or bool(more.chosen(options))
+    is_other = is_less or file in BEYOND or options.figure or bool(group.chosen(options))
     choose_folder(parser, options, is_other)
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
-    return _run(parser, options, of, asked, more)
+    return _run(group, parser, options, of, asked)
 
 
-def _parser(file: str, description: str | None, examples: str, more: More) -> Parser:
-    """Return the parser of the command of a certificate."""
+def _parser(group: Group) -> Parser:
+    """Return the parser of the command."""
+    file = group.name
     claims = [claim for ids in FILES[file].values() for claim in ids]
     exact = "Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. "
-    epilog = EPILOG.format(group=file, first=claims[0], own=exact if HEEDED[file] else "")
-    parser = Parser(f"proofs.{file}", description, epilog + examples)
-    add_parameters(parser, HEEDED[file], beyond=file in BEYOND)
+    epilog = EPILOG.format(group=file, first=claims[0], own=exact if group.heeded else "")
+    parser = Parser(f"proofs {file}", group.about, epilog + group.examples)
+    add_parameters(parser, group.heeded, beyond=file in BEYOND)
     add_outputs(parser, claims)
     parser.add_argument("--no-check", action="store_true", help="do not run the checker after it")
-    parser.set_defaults(file=file, figure=False)
-    for name, settings in more.options.items():
+    parser.set_defaults(figure=False)
+    for name, settings in group.options.items():
         parser.add_argument(f"--{name}", **settings)
     if drawn := names(file):
         pictures = ", ".join(f"{name}.svg" for name in drawn)
@@ -134,25 +127,25 @@ def _parser(file: str, description: str | None, examples: str, more: More) -> Pa
 
 
 def _run(
+    group: Group,
     parser: Parser,
     options: Namespace,
     of: Parameters,
     asked: dict[str, tuple[str, ...]],
-    more: More,
 ) -> int:
     """Prove the claims, write, print and check; return the exit status."""
-    began, file, chosen = perf_counter(), options.file, more.chosen(options)
-    with counting(options.stats) as counts, progress() as tell:
+    began, file, chosen = perf_counter(), group.name, group.chosen(options)
+    with progress() as tell:
         made = produce(asked, of, digits=options.digits or PLACES, tell=tell, **chosen)
-        if more.seen is not None:
+        if group.seen is not None:
             tell("the circle in floating point")
-            made = made._replace(seen=more.seen(of, options))
+            made = made._replace(seen=group.seen(of, options))
     seconds = perf_counter() - began
     drawn = dict(_drawn(parser, file, made)) if options.figure else {}
     with refusing(parser, options.out):
         write(options.out, file, made)
         write_files(options.out / "figures", drawn)
-    return finish(parser, options, made, file, seconds=seconds, counts=counts)
+    return finish(parser, options, made, file, seconds=seconds)
 
 
 def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
@@ -167,7 +160,7 @@ def _drawn(parser: Parser, file: str, made: Made) -> Iterator[tuple[str, str]]:
 
 def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
-    names = "--only", "--digits", "--out", "--json", "--quiet", "--stats"
+    names = "--only", "--digits", "--out", "--json", "--quiet"
     share(parser, *names, places=PLACES, claims=claims)
     parser.set_defaults(digits=None)
 
@@ -210,14 +203,8 @@ def write(folder: Path, name: str, made: Made) -> None:
         put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
 
 
-def finish(
-    parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float, counts: Counts
-) -> int:
-    """Print what was decided, have it checked, and return the exit status.
-
-    counts: of what was evaluated up to here; with what the check evaluates they are printed, if
-    that is asked for.
-    """
+def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float) -> int:
+    """Print what was decided, have it checked, and return the exit status."""
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
         print_lines(made.lines, options.digits or PLACES)
@@ -225,14 +212,8 @@ def finish(
         say(f"all of it: {options.out}/{file}.md")
         summary = tally((line.verdict, not line.words) for line in made.lines)
         say(f"{summary}; proved in {seconds * 1000:.0f} ms")
-    with counting(options.stats) as checking:
-        path = options.out / f"{file}.json"
-        accepted = options.no_check or _checked(path, quiet=not heard(options))
-    if options.stats:
-        from proofs.shell.counting import show as show_counts
-
-        show_counts(counts + checking, [row.id for row in made.lines], quiet=not heard(options))
-    if not accepted:
+    path = options.out / f"{file}.json"
+    if not (options.no_check or _checked(path, quiet=not heard(options))):
         return 3
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
@@ -263,7 +244,7 @@ def _checked(path: Path, quiet: bool) -> bool:
             say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
             return False
     if work > DEFAULT:
-        say(f"it needs more work than is usual: python -m proofs.check --work {work} {path}")
+        say(f"it needs more work than is usual: python -m proofs check --work {work} {path}")
     if not quiet:
         spent = (perf_counter() - began) * 1000
         count = f"{len(report.claims)} claim{'s' if len(report.claims) > 1 else ''}"

@@ -9,35 +9,29 @@ if __name__ == "__main__":
 
 import sys
 from collections.abc import Callable, Sequence
-from functools import partial
-from pathlib import Path
 from time import perf_counter
 
 import proofs.stress
-from proofs.benchmark.peers import Arithmetic
+from proofs.benchmark.peers import FLINT, Arithmetic, arithmetic, installed
 from proofs.shell.cli import Parser, heard, progress, share, whole
-from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.stress import report
-from proofs.stress.cases import Case
 from proofs.stress.families import FAMILIES, Family, cases
-from proofs.stress.judge import Judgement, judge, shrunk
-from proofs.stress.truth import kernel_of
+from proofs.stress.judge import Judgement, judge
+from proofs.stress.truth import BITS
 
 _CASES = 600
-_SHRUNK = 3  # failures of a run that are made smaller
 
 EXAMPLES = """
 examples:
-  python -m proofs.stress
-  python -m proofs.stress --family grazing tangent --cases 500 --seed 7
-  python -m proofs.stress --cases 10000 --out reports
-  python -m proofs.stress --family functions --json - > functions.json
+  python -m proofs stress
+  python -m proofs stress --family grazing tangent --cases 500 --seed 7
+  python -m proofs stress --cases 10000 --out reports
+  python -m proofs stress --family functions --json - > functions.json
 
-The same seed draws the same cases. With --out the report is written as stress.md, stress.json and,
-where matplotlib is installed, stress.svg. The first failures are made smaller before they are
-shown, so that the input printed is the shortest found that still fails.
+The same seed draws the same cases. With --out the report is written as stress.md and stress.json.
+What is true is computed by python-flint (pip install 'impact-proofs[fast]').
 
 families:
 """
@@ -50,28 +44,18 @@ exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2
 def stress(
     families: Sequence[Family], count: int, seed: int, by: Arithmetic, tell: Callable[[str], None]
 ) -> report.Run:
-    """Try about `count` cases of some families; shrink the first failures."""
+    """Try about `count` cases of some families."""
     began = perf_counter()
     found: list[Judgement] = []
     for case in cases(families, count, seed, by):
         tell(f"{len(found)} cases, {case.family}")
         found.append(judge(case, by))
-    for k in [k for k, one in enumerate(found) if one.outcome.failure][:_SHRUNK]:
-        found[k] = judge(shrunk(found[k].case, partial(_alike, found[k], by)), by)
     return report.Run(found, seed, by.name, perf_counter() - began)
-
-
-def _alike(one: Judgement, by: Arithmetic, other: Case) -> bool:
-    """Whether another case fails in the same way."""
-    try:
-        return judge(other, by).outcome is one.outcome
-    except (ArithmeticError, ValueError):
-        return False
 
 
 def _parser() -> Parser:
     listed = "".join(f"  {family.name:14} {family.about}\n" for family in FAMILIES)
-    parser = Parser("proofs.stress", proofs.stress.__doc__, EXAMPLES + listed + EXIT)
+    parser = Parser("proofs stress", proofs.stress.__doc__, EXAMPLES + listed + EXIT)
     add = parser.add_argument
     names = [family.name for family in FAMILIES]
     add("--family", nargs="+", metavar="NAME", choices=names, help="only these (default: all)")
@@ -79,7 +63,6 @@ def _parser() -> Parser:
     add("--cases", type=whole("cases", 10**7), default=_CASES, metavar="N", help=many)
     draw = whole("a seed", 10**18, 0)
     add("--seed", type=draw, default=1, metavar="N", help="of the draw (default 1)")
-    add("--kernel", choices=("flint", "mpmath"), help="the truth (default: flint if installed)")
     share(parser, "--out", "--json", "--quiet")
     return parser
 
@@ -91,11 +74,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check_targets(parser, options.json)
     if options.out is not None:
         check_folder(parser, options.out)
-    try:
-        by = kernel_of(options.kernel)
-    except ImportError:
-        say(f"{parser.prog}: python-flint is not installed", sys.stderr)
-        return USAGE_ERROR
+    if not installed("flint"):
+        say(f"{parser.prog}: needs python-flint: pip install 'impact-proofs[fast]'", sys.stderr)
+        return 1
+    by = arithmetic(FLINT, BITS)
     chosen = [f for f in FAMILIES if options.family is None or f.name in options.family]
     with progress() as tell:
         run = stress(chosen, options.cases, options.seed, by, tell)
@@ -103,16 +85,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if heard(options):
         say(report.text(run))
     if options.out is not None:
-        with refusing(parser, options.out):
-            _write(options.out, run)
+        with refusing(parser, options.out), writing(options.out) as put:
+            put("stress.md", report.markdown(run))
+            put("stress.json", report.machine_form(run))
     return int(bool(run.failures))
-
-
-def _write(folder: Path, run: report.Run) -> None:
-    with writing(folder) as put:
-        put("stress.md", report.markdown(run))
-        put("stress.json", report.machine_form(run))
-        try:
-            put("stress.svg", report.svg(run))
-        except ImportError:
-            say("no picture: matplotlib is not installed", sys.stderr)

@@ -1,4 +1,4 @@
-"""What a run found, by family: Markdown for people, JSON for machines, and a picture."""
+"""What a run found, by family: Markdown for people, JSON for machines."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from proofs.report.markup import markdown_table, svg_text
+from proofs.report.markup import markdown_table
 from proofs.stress.families import FAMILIES
 from proofs.stress.judge import Judgement, Outcome
 
@@ -137,29 +137,3 @@ def machine_form(run: Run) -> str:
     data = {"schema": SCHEMA, "seed": run.seed, "kernel": run.kernel}
     data |= {"seconds": round(run.seconds, 2), "failures": len(run.failures), "cases": cases}
     return json.dumps(data, indent=1) + "\n"
-
-
-def svg(run: Run) -> str:
-    """Return a picture: the width of every answer by the least possible, by family."""
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
-    families = run.by_family()
-    with mpl.rc_context({"svg.hashsalt": "stress", "font.size": 8}):
-        figure, axes = plt.subplots(figsize=(7.0, 0.28 * len(families) + 1.2), layout="constrained")
-        for row, some in enumerate(families.values()):
-            widths = [max(one.width, 1e-8) for one in some if one.width is not None]
-            spots = [row + 0.3 * ((7 * k) % 11 - 5) / 5 for k in range(len(widths))]
-            axes.plot(widths, spots, ".", ms=5, alpha=0.6, mew=0)
-            enclosed = sum(one.outcome is Outcome.ENCLOSED for one in some)
-            wrong = sum(one.outcome.failure for one in some)
-            note = f"{enclosed} of {len(some)} enclosed, {wrong} wrong"
-            axes.annotate(note, (1.01, row), xycoords=("axes fraction", "data"), va="center")
-        axes.axvline(1, color="0.6", lw=0.8, zorder=0)
-        axes.set_xscale("log")
-        axes.set_yticks(range(len(families)), list(families))
-        axes.invert_yaxis()
-        axes.set_xlabel("width of the answer, by the least possible (below 1: more than asked)")
-        return svg_text(figure)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from proofs.benchmark.peers import FLINT, MP, Arithmetic, arithmetic, libraries
+from proofs.benchmark.peers import Arithmetic
 from proofs.stress.cases import Truth
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
@@ -97,13 +97,6 @@ class Motion:
             "velocity by phi": self.nu * self.cos * s - speed_by_phi * c + time_by_phi * pull,
             "velocity by gamma": -self.restitution * c + time_by_gamma * pull,
         }
-
-
-def kernel_of(name: str | None = None) -> Arithmetic:
-    """Return the numbers named, "flint" or "mpmath"; by default python-flint where installed."""
-    if name == "mpmath" or (name is None and FLINT not in libraries()):
-        return arithmetic(MP, BITS)
-    return arithmetic(FLINT, BITS)
 
 
 def first_impact(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth:

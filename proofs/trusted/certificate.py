@@ -10,7 +10,7 @@
   refused. A range is a list of two numbers in increasing order, equal ones allowed.
 - Objects have exactly the fields that are named (`signs`, of f' on I0 and I1, is one of the
   parameters' only where one of them is -1); one that is there twice, unknown or missing is
-  refused. Names match [A-Za-z][A-Za-z0-9_-]{0,59}; a step is not named like a rule or a function.
+  refused. Names match `[A-Za-z][A-Za-z0-9_-]{0,59}`; a step is not named like a rule or a function.
 - A step refers to earlier steps by name; each step and function is used, by a claim or by a step
   that is. At most 4,000,000 bytes and 10,000 entries a list.
 - The digest is the SHA-256 of the JSON with sorted keys, without white space, in ASCII.

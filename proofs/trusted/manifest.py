@@ -38,7 +38,7 @@ def command(file: str, of: Parameters, claims: Sequence[str] = ()) -> str:
     be found, and epsilon where impacts would be plastic.
     """
     group = file.removesuffix(".json")
-    parts = [f"python -m proofs.{group}"]
+    parts = [f"python -m proofs {group}"]
     options = ("eta", "nu", "left", "right", "interval", "slopes", "epsilon", "velocities", "reach")
     unusual = {"epsilon"} if group in BEYOND else set()
     if group in _FINDING and of.place != PAPER.place:

@@ -7,12 +7,15 @@ if __name__ == "__main__":
 
     launch("proofs.report.figures.__main__")
 
+import sys
 from pathlib import Path
 
+from proofs.report.build import INSTALL, missing
 from proofs.report.figures import figures, names
 from proofs.report.figures.figure import Certificates
 from proofs.shell.cli import Parser
 from proofs.shell.files import check_folder, writing
+from proofs.shell.screen import say
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -23,6 +26,9 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=", ".join(known))
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     options = parser.parse_args(arguments)
+    if "matplotlib" in missing():
+        say(f"{parser.prog}: no figures, matplotlib missing: {INSTALL}", sys.stderr)
+        return 1
     check_folder(parser, options.out)
     documents = Certificates(options.out)
     with writing(options.out / "figures") as put:

@@ -39,17 +39,6 @@ def test_an_absent_peer_and_a_failing_process_are_reported(monkeypatch, capsys):
         horseshoe.process(["-c", "raise SystemExit(3)"])
 
 
-def test_the_claims_are_measured_cold(monkeypatch):
-    commands = []
-    monkeypatch.setattr(horseshoe, "process", lambda command: commands.append(command) or big)
-    big = horseshoe.Process(1.0, 0, 501.0)
-    section = horseshoe.claims("smallest", lambda stage: None)
-    assert len(section.rows) == len(commands) and not any(row.reached for row in section.rows)
-    told = [" ".join(command) for command in commands]
-    for part in ("proofs.circle --out", "-S -O -m proofs.check", "--digits 20", "--period 12"):
-        assert any(part in one for one in told)
-
-
 def test_a_ratio_is_of_the_median_of_pairs():
     row = ratio_row("a / b", [2.0, 9.0, 3.0], [1.0, 3.0, 1.0], 3)
     assert row.samples["ratios"] == [2.0, 3.0, 3.0] and row.reached
@@ -79,7 +68,7 @@ def test_bad_usage_exits_2_before_measuring(monkeypatch, tmp_path, arguments):
 
 
 def test_a_missing_interpreter_is_refused_and_help_has_examples(tmp_path, capsys):
-    assert main(["intervals", "--codac-python", str(tmp_path / "python")]) == 2
+    assert main(["limit", "--codac-python", str(tmp_path / "python")]) == 2
     assert "no such interpreter" in capsys.readouterr().err
     with pytest.raises(SystemExit) as stopped:
         main(["--help"])

@@ -1,4 +1,4 @@
-"""`python -m proofs.formal`: what it writes, prints, refuses, and the status it leaves with."""
+"""`python -m proofs formal`: what it writes, prints, refuses, and the status it leaves with."""
 
 import json
 

@@ -30,12 +30,13 @@ from proofs.motion.impact import (
 )
 from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
 from proofs.motion.system import System
-from proofs.shell.counting import counted, evaluations
 from proofs.stress.grazing import graze
 from proofs.trusted import flights
 from proofs.trusted.certificate import Reader
+from proofs.trusted.equations import gap
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER as FACTS
+from tests.calls import calls
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -236,12 +237,12 @@ def test_extremes_where_binary64_decides_nothing():
 def test_touches_without_end_are_refused_after_one_cut(eta):
     system, phases = System(Fraction(eta), Fraction("-0.2")), (Fraction("1.11"), Fraction("1.15"))
     horizon = Fraction(430)  # 68 turns
-    with counted() as counts, pytest.raises(Unsettled) as refused:
+    with calls(gap) as counts, pytest.raises(Unsettled) as refused:
         image(system, phases, horizon=horizon)
     assert refused.value.hopeless
-    with counted() as once, pytest.raises(Unsettled):
+    with calls(gap) as once, pytest.raises(Unsettled):
         first_impact(Flight(system, phases), horizon, steps_for(phases))
-    assert evaluations(counts) < 3 * evaluations(once)
+    assert 0 < counts["gap"] < 3 * once["gap"]
 
 
 def test_some_open_windows_are_not_hopeless():
@@ -381,15 +382,15 @@ def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
     def width(found):
         return found.flight.phases[1] - found.flight.phases[0]
 
-    with counted() as cut:
+    with calls(gap) as cut:
         found = parts()
     assert len(found) == 4
-    with counted() as afresh:
+    with calls(gap) as afresh:
         alone = [
             first_impact(Flight(PAPER, part.flight.phases), finest=steps_for(part.flight.phases))
             for part in found
         ]
-    assert evaluations(cut) < evaluations(afresh)
+    assert 0 < cut["gap"] < afresh["gap"]
     for part, other in zip(found, alone, strict=True):
         assert set(part.windows) <= set(pairwise(part.times))
         assert abs(part.window[1] - other.window[1]) < Fraction(1, 2)

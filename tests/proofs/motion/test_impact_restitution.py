@@ -1,4 +1,4 @@
-"""`python -m proofs.impact --epsilon --gamma`: F and DF against the printed (14) and (15)."""
+"""`python -m proofs impact --epsilon --gamma`: F and DF against the printed (14) and (15)."""
 
 import json
 import random

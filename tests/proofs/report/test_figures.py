@@ -24,7 +24,7 @@ from tests.proofs.trusted.paper import reference
 
 pytest.importorskip("matplotlib")
 
-from proofs import explore
+from proofs.__main__ import main as command
 from proofs.report.figures import curves, dossier, figures, names
 from proofs.report.figures.__main__ import main
 from proofs.report.figures.figure import all_of
@@ -338,7 +338,7 @@ def test_curves_of_grazing_pass_where_the_oracle_says():
 
 def test_the_dossier_s_boxes_are_crossed_by_f_from_edge_to_edge(tmp_path):
     options = ["--eta", "0.22", "--nu", "-0.2", "--only", "X2", "X3", "--effort", "1", "--figure"]
-    assert explore.main([*options, "--quiet", "--out", str(tmp_path)]) == 0
+    assert command(["explore", *options, "--quiet", "--out", str(tmp_path)]) == 0
     assert (tmp_path / "figures" / "dossier.svg").read_text().count("<path") > 5
     proved = premises((tmp_path / "explore.json").read_text())
     (shift,) = all_of(proved, StayingSet)

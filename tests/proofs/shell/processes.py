@@ -63,7 +63,7 @@ def started(name, arguments, **streams):
     """A process of a command, at the root of the project, in a group of its own."""
     environment = {k: v for k, v in os.environ.items() if k not in UNSET}
     return subprocess.Popen(
-        [sys.executable, "-m", f"proofs.{name}", *arguments],
+        [sys.executable, "-m", "proofs", *([] if name == "__main__" else [name]), *arguments],
         **{"cwd": ROOT, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams},
         env=environment | {"TERM": "xterm-256color"},
         start_new_session=True,

@@ -1,4 +1,4 @@
-"""`python -m proofs.bifurcation`: what it prints and writes, and what it refuses."""
+"""`python -m proofs bifurcation`: what it prints and writes, and what it refuses."""
 
 import json
 

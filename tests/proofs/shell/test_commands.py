@@ -6,16 +6,14 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
 from importlib import import_module
 
 import pytest
 
 from proofs import __main__ as every
 from proofs import __version__, check, impact, ledger
-from proofs.shell.entry import run_command
+from proofs.commands.groups import GROUPS
 from proofs.shell.groups import FILES, produce, wanted
-from proofs.shell.parameters import HEEDED
 from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
@@ -25,7 +23,7 @@ QUESTIONS = ["impact", "orbits", "period_doubling", "resonance", "single_impact"
 
 
 def main_of(name):
-    return partial(run_command, f"proofs.{name}")
+    return every.main if name == "__main__" else lambda arguments: every.main([name, *arguments])
 
 
 def test_the_list_has_a_line_for_every_command(capsys):
@@ -45,7 +43,7 @@ def test_a_new_command_is_listed_when_it_is_there(tmp_path, monkeypatch):
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder/__main__.py").write_text(f'"""Is one."""\n{guard}')
     monkeypatch.setattr(every, "_ROOT", tmp_path)
-    assert every.commands() == {"shadow": "Casts one.", "folder": "Is one."}
+    assert every.modules() == {"shadow": "Casts\none.\n\nMore.", "folder": "Is one."}
 
 
 def test_a_command_is_named_first(capsys):
@@ -56,7 +54,7 @@ def test_a_command_is_named_first(capsys):
     assert every.main(["check", str(ROOT / "tests/certificates/accepted/h16_alone.json")]) == 0
     with pytest.raises(SystemExit):
         every.main(["stress", "--help"])
-    assert "python -m proofs.stress" in capsys.readouterr().out
+    assert "python -m proofs stress" in capsys.readouterr().out
 
 
 @pytest.mark.slow
@@ -122,12 +120,12 @@ def test_what_a_command_takes_is_what_it_heeds(name):
         of = replace(PAPER, **change)
         made = produce(wanted(name, of) or wanted(name, of, FILES[name][name]), of, digits=12)
         decided[option] = json.loads(made.certificate)["claims"]
-    assert {x for x in CHANGES if decided[x] != decided[""]} == set(HEEDED[name])
+    assert {x for x in CHANGES if decided[x] != decided[""]} == set(GROUPS[name].heeded)
 
 
 @pytest.mark.parametrize("name", FILES)
 def test_what_it_does_not_heed_it_refuses(name, capsys):
-    for option in CHANGES.keys() - HEEDED[name] - {"nu", "epsilon"}:
+    for option in CHANGES.keys() - {*GROUPS[name].heeded} - {"nu", "epsilon"}:
         with pytest.raises(SystemExit) as leave:
             main_of(name)([f"--{option}", "0.3", "0.4", "0.5"])
         said = capsys.readouterr()
@@ -142,20 +140,20 @@ def test_what_it_does_not_heed_it_refuses(name, capsys):
 def test_the_command_in_the_manifest_is_one_that_is_taken(name, claim, tmp_path):
     """At numbers that leave the usual box of parameters no room, too."""
     option = {"eta": "0.00002", "nu": "-0.00002", "epsilon": "0.001"}
-    given = [f"--{x}={option[x]}" for x in HEEDED[name] if x in option]
-    given += ["--left", "1.12", "1.16"] if "left" in HEEDED[name] else []
+    given = [f"--{x}={option[x]}" for x in GROUPS[name].heeded if x in option]
+    given += ["--left", "1.12", "1.16"] if "left" in GROUPS[name].heeded else []
     status = main_of(name)([*given, "--only", claim, "--quiet", "--out", str(tmp_path)])
     assert status in (0, 1)
     manifest = json.loads((tmp_path / "MANIFEST.json").read_text())["files"]
     made = manifest[f"{name}.json"]["made"].split()
     before = (tmp_path / f"{name}.json").read_text()
-    assert main_of(name)([*made[3:], "--quiet", "--out", str(tmp_path)]) == status
+    assert main_of(name)([*made[4:], "--quiet", "--out", str(tmp_path)]) == status
     assert (tmp_path / f"{name}.json").read_text() == before
 
 
 def test_the_command_leaves_out_what_follows_from_the_sets():
     moved = replace(PAPER, left=(Fraction("1.12"), Fraction("1.15")))
-    made = "python -m proofs.sets --left 1.12 1.15"
+    made = "python -m proofs sets --left 1.12 1.15"
     assert command("sets.json", moved) == f"{made} --interval 1.11 1.32"
     moved = replace(moved, interval=(Fraction("1.12"), PAPER.interval[1]))
     assert command("sets.json", moved) == made

@@ -214,7 +214,7 @@ def test_fresh_keeps_what_is_finished_when_interrupted(tmp_path):
         os.killpg(process.pid, signal.SIGINT)
         _, err = process.communicate(timeout=10)
         assert not children(process)
-    assert process.returncode == 130 and err == b"python -m proofs.ledger: interrupted\n"
+    assert process.returncode == 130 and err == b"python -m proofs: interrupted\n"
     assert not (tmp_path / "circle.json").exists() and not list(tmp_path.glob(".*"))
     text = (tmp_path / "MANIFEST.json").read_text()
     assert [each.id for each in check_manifest(text, tmp_path, 1e9)] == ["H16"]

@@ -1,4 +1,4 @@
-"""`python -m proofs.impact`: what it prints, and what it refuses."""
+"""`python -m proofs impact`: what it prints, and what it refuses."""
 
 import json
 from fractions import Fraction
@@ -62,7 +62,7 @@ def test_no_impact_is_an_answer_and_not_bad_input(arguments, message, capsys):
     assert impact.main(arguments) == 1
     said = capsys.readouterr()
     assert said.out == "" and said.err.count("\n") == 1
-    assert said.err.startswith("python -m proofs.impact: no impact: ") and message in said.err
+    assert said.err.startswith("python -m proofs impact: no impact: ") and message in said.err
 
 
 def test_the_onset_of_sticking_is_undecided(capsys):

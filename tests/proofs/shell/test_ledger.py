@@ -1,5 +1,6 @@
 """python -m proofs: what is asked for is proved once, what is there is checked."""
 
+import inspect
 import json
 import shutil
 
@@ -10,8 +11,9 @@ from proofs.report import current
 from proofs.shell import files
 from proofs.shell import ledger as shell
 from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
+from proofs.trusted import equations
 from proofs.trusted.paper import BEYOND
-from proofs.trusted.verify import check
+from proofs.trusted.verify import Rejected, check
 
 FLAT = ["H1", "H2", "H11"]
 
@@ -75,7 +77,7 @@ def test_nothing_is_checked_again_where_nothing_has_changed(tmp_path, monkeypatc
     shutil.copytree(tmp_path, folder)
     assert main(["--only", "H16", "--out", str(folder)]) == 0
     assert "checked again" in capsys.readouterr().out, "nothing in a folder vouches for it"
-    for more in (["--digits", "30"], ["--fresh"], ["--stats"], ["--only", "H11"]):
+    for more in (["--digits", "30"], ["--fresh"], ["--only", "H11"]):
         assert "nothing has changed" not in ran(*more), more
     assert "nothing has changed" not in ran() and "nothing has changed" in ran()
     monkeypatch.setattr(current, "_digests", without("trusted/verify.py"))
@@ -164,6 +166,33 @@ def test_a_file_that_does_not_prove_it_is_proved_again(tmp_path, old, new):
     (job,) = jobs(FLAT, tmp_path, 30, False)
     found = settle(job)
     assert found.is_new and found.made.certificate == good
+
+
+def changed_gap():
+    """The equation (10) with 99/100 nu in place of nu."""
+    source = inspect.getsource(equations.gap)
+    for name in ("lift", "rate"):
+        assert source.count(f"{name} * (") == 1
+        source = source.replace(f"{name} * (", f"{name} * 99 / 100 * (")
+    space = dict(vars(equations))
+    exec(compile(source, equations.__file__, "exec", 1 << 24), space)  # annotations as strings
+    return space["gap"].__code__
+
+
+@pytest.mark.slow
+def test_another_equation_has_it_proved_again(tmp_path, monkeypatch):
+    """Prover and checker share the equations, so that what is proved then is about the new ones."""
+    assert run(tmp_path) == 0
+    old = (tmp_path / "horseshoe.json").read_text()
+    monkeypatch.setattr(equations.gap, "__code__", changed_gap())
+    with pytest.raises(Rejected):
+        check(old)
+    (job,) = jobs(["H1"], tmp_path, 30, False)
+    again = settle(job)
+    assert again.is_new
+    monkeypatch.undo()
+    with pytest.raises(Rejected):
+        check(again.made.certificate)
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""`python -m proofs.orbits`: the periodic phases against equations typed by hand, at 50 digits."""
+"""`python -m proofs orbits`: the periodic phases against equations typed by hand, at 50 digits."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""`python -m proofs.period_doubling`: the numbers, at any precision, and what it refuses."""
+"""`python -m proofs period_doubling`: the numbers, at any precision, and what it refuses."""
 
 import json
 from fractions import Fraction

@@ -24,10 +24,6 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="
 STOPS = {signal.SIGINT: (130, "interrupted"), signal.SIGTERM: (143, "terminated")}
 
 
-def prog(name):
-    return "python -m proofs" + (f".{name}" if name != "__main__" else "")
-
-
 def stopped(name, folder, number, after, everyone=True):
     """What becomes of a command that is stopped so long after it listens."""
     arguments = arguments_of(name, folder, LENGTHY)
@@ -52,7 +48,7 @@ def check_stop(name, folder, number, after, everyone=True):
     if status == 0 and not err:  # it was done before
         return False
     code, word = STOPS[number]
-    assert (status, err) == (code, f"{prog(name)}: {word}\n"), (name, status, err)
+    assert (status, err) == (code, f"python -m proofs: {word}\n"), (name, status, err)
     assert took < 2 and not left, (name, took, left)
     assert not list(folder.glob(".*"))
     return True
@@ -196,7 +192,7 @@ def on_full_disk(name, arguments):
 @needs_full
 @pytest.mark.parametrize("name", ["check", "horseshoe", "orbits", "stress"])
 def test_a_full_disk_is_a_line(name, tmp_path):
-    line = f"{prog(name)}: No space left on device\n"
+    line = "python -m proofs: No space left on device\n"
     assert on_full_disk(name, arguments_of(name, tmp_path)) == (2, line)
 
 
@@ -204,7 +200,7 @@ def test_a_full_disk_is_a_line(name, tmp_path):
 @pytest.mark.long
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_full_disk_is_a_line_whatever_is_printed(name, tmp_path):
-    line = f"{prog(name)}: No space left on device\n"
+    line = "python -m proofs: No space left on device\n"
     assert on_full_disk(name, arguments_of(name, tmp_path)) == (2, line)
 
 

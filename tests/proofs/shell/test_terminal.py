@@ -10,8 +10,8 @@ from time import sleep
 import pytest
 
 from proofs import check, horseshoe
+from proofs.__main__ import main
 from proofs.shell.cli import progress
-from proofs.shell.entry import run_command
 from proofs.shell.screen import Decided, fitted, gist, show_verdicts
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.shell.processes import (
@@ -41,10 +41,10 @@ def test_help_fits_and_has_examples(name, monkeypatch):
     monkeypatch.setenv("COLUMNS", str(width))
     monkeypatch.setattr(sys, "stdout", screen)
     with suppress(SystemExit):
-        assert run_command(f"proofs.{name}", ["--help"]) == 0
+        assert main([*([] if name == "__main__" else [name]), "--help"]) == 0
     lines = screen.getvalue().splitlines()
     examples = " ".join(words(lines)).partition("examples:")[2]
-    assert name == "__main__" or f"python -m proofs.{name} " in examples
+    assert name == "__main__" or f"python -m proofs {name} " in examples
     assert fits(lines, width), [line for line in lines if len(line) > width]
 
 

@@ -390,7 +390,7 @@ def readme() -> str:
     lines = [
         "# Certificates that the checker must accept, reject, or call malformed",
         "",
-        "`python -m proofs.check FILE` leaves with status 0 for `accepted/`, 1 for `rejected/` (it",
+        "`python -m proofs check FILE` leaves with status 0 for `accepted/`, 1 for `rejected/` (it",
         "is a certificate, and does not prove what it says) and 2 for `malformed/`. All are made",
         "from `accepted/horseshoe.json` by `python -m tests.proofs.trusted.corpus`; `tests`",
         "prove them up to date.",

@@ -56,7 +56,7 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
     assert document["schema"] == MANIFEST
     entry = document["files"]["horseshoe.json"]
     assert set(entry["claims"]) == {"H1", "H16"}
-    assert entry["made"] == "python -m proofs.horseshoe --only H1 H16"
+    assert entry["made"] == "python -m proofs horseshoe --only H1 H16"
     assert entry["digest"] == digest((tmp_path / "horseshoe.json").read_text(encoding="utf-8"))
     checked = entry["checked"].split()
     assert checked[:4] == ["python", "-I", "-m", "proofs.check"]
@@ -72,7 +72,7 @@ def test_the_command_names_the_parameters(tmp_path, capsys):
     path = tmp_path / manifest.NAME
     made = files(tmp_path)["horseshoe.json"]["made"]
     named = " ".join(SETS)  # without them others would be found
-    assert made == f"python -m proofs.horseshoe --eta 0.25 --nu -0.3 {named} --only H16"
+    assert made == f"python -m proofs horseshoe --eta 0.25 --nu -0.3 {named} --only H16"
     capsys.readouterr()
     assert check([str(path)]) == 0
     assert "1 claims, 1 of them at other parameters" in capsys.readouterr().out
@@ -80,11 +80,11 @@ def test_the_command_names_the_parameters(tmp_path, capsys):
 
 def test_the_command_names_epsilon_beyond_the_paper():
     plastic = replace(PAPER, epsilon=None, velocities=None, reach=None)
-    assert command("explore.json", plastic) == "python -m proofs.explore"
+    assert command("explore.json", plastic) == "python -m proofs explore"
     assert command("explore.json", replace(plastic, epsilon=PAPER.epsilon)).endswith(
         "--epsilon 0.01"
     )
-    assert command("nonplastic.json", PAPER) == "python -m proofs.nonplastic"
+    assert command("nonplastic.json", PAPER) == "python -m proofs nonplastic"
 
 
 @pytest.mark.slow
@@ -166,7 +166,7 @@ def of(document):
 WRONG = {
     "digest": (lambda d: d["files"][FILE].update(digest="sha256:" + "0" * 64), "proves 'sha256"),
     "parameters": (lambda d: d["files"][FILE]["parameters"].update(eta="1/5"), "file proves"),
-    "made": (lambda d: d["files"][FILE].update(made="python -m proofs.sets"), "the command is"),
+    "made": (lambda d: d["files"][FILE].update(made="python -m proofs sets"), "the command is"),
     "checked": (lambda d: d["files"][FILE].update(checked="true"), "proves 'python -I -m"),
     "verdict": (lambda d: of(d)["H2"].update(verdict="VERIFIED"), "file proves"),
     "statement": (lambda d: of(d)["H2"].update(statement="f' <= 7."), "file proves"),
@@ -190,7 +190,7 @@ def test_a_copy_under_another_name_is_no_file_that_a_command_makes(folder, name)
 
     def copied(document):
         entry = json.dumps(document["files"][FILE])
-        entry = entry.replace("proofs.horseshoe", f"proofs.{name}").replace(FILE, f"{name}.json")
+        entry = entry.replace("proofs horseshoe", f"proofs {name}").replace(FILE, f"{name}.json")
         document["files"][f"{name}.json"] = json.loads(entry)
 
     path = edited(folder, copied)

@@ -223,7 +223,7 @@ def _persists(verdict: Verdict) -> Decide:
 
 _OBSERVED = (
     "an observation about simulated motions, no theorem and no certificate: medians, means and how "
-    "many do not come to rest are on the page persistence.md, which python -m proofs.persistence "
+    "many do not come to rest are on the page persistence.md, which python -m proofs persistence "
     "makes"
 )
 

@@ -289,7 +289,7 @@ ROWS = (
     derived_row(
         Passage("E1", "7, Fig. 10", "eighth subharmonic appearing as the amplitude is increased"),
         "Figure 10: at resonance subharmonics of the table frequency, an eighth one, appear as "
-        "the amplitude grows (an experiment; python -m proofs.resonance --figure draws motions of "
+        "the amplitude grows (an experiment; python -m proofs resonance --figure draws motions of "
         "the model beside it).",
         Verdict.SIMULATED,
         no_subharmonic,

@@ -7,11 +7,11 @@ from itertools import product
 
 import pytest
 
+from proofs.__main__ import main
 from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
-from proofs.shell.runner import run
 from proofs.trusted.certificate import (
     Malformed,
     Reader,
@@ -364,7 +364,7 @@ def test_the_command_takes_a_box(tmp_path, capsys):
     sets = ["--left", "1.09", "1.18", "--right", "1.25", "1.35"]
     box = ["--reach", "0.0001", "0", "1/1000"]
     where = ["--only", "N4", "--out", str(tmp_path)]
-    assert run("nonplastic", [*sets, *box, *where]) == 0
+    assert main(["nonplastic", *sets, *box, *where]) == 0
     said = capsys.readouterr().out
     assert "For all eta in [0.212, 0.2122], nu = -0.2, epsilon in [0.009, 0.011]" in said
     document = json.loads((tmp_path / "nonplastic.json").read_text())
@@ -374,7 +374,7 @@ def test_the_command_takes_a_box(tmp_path, capsys):
 @pytest.mark.parametrize("reach", [*LEAVING, ("0", "0", "0.011"), ("a", "0", "0"), ("0", "0")])
 def test_the_command_refuses_other_boxes(tmp_path, capsys, reach):
     with pytest.raises(SystemExit) as leaving:
-        run("nonplastic", ["--only", "N4", "--out", str(tmp_path / "new"), "--reach", *reach])
+        main(["nonplastic", "--only", "N4", "--out", str(tmp_path / "new"), "--reach", *reach])
     assert leaving.value.code == 2
     assert "reach" in capsys.readouterr().err
     assert not (tmp_path / "new").exists()

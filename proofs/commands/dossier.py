@@ -1,69 +1,25 @@
-"""What can be proved about the motion at parameters of one's own: chaos, attractors, rest.
-
-Asks at any eta > 0 and nu: does the mass come to rest on the table for ever (X1)? Is there a
-compact invariant set on which the impact map has positive entropy (X2)? A stable periodic motion on
-which the mass sticks and leaves again (X3)? A stable periodic orbit without sticking (X4)? Are
-there flights without an end (X5)? Does more than half of the circle come to a motion that sticks
-(X10)? With --epsilon, about impacts with restitution: is there chaos (X6)? A stable motion (X7)?
-Does every motion come to rest (X8)? Do motions that only touch the table attract (X9)? Sets and
-orbits are found by themselves, then proved. Beside the verdicts, and apart from them: the circle
-cut into branches, as floating point sees it.
-"""
+"""What floating point sees beside what `explore` proves: the circle cut, and fates of orbits."""
 
 from __future__ import annotations
 
-if __name__ == "__main__":
-    from proofs.shell.entry import launch
-
-    launch("proofs.explore")
-
 import math
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from collections.abc import Iterator
-from fractions import Fraction
-from functools import partial
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
 from proofs.motion.system import System
 from proofs.search.budget import EFFORT, FASTEST, Budget
-from proofs.shell.cli import number, whole
-from proofs.shell.runner import More, run
 from proofs.trusted.numbers import TURN, show
 from proofs.trusted.parameters import Parameters
 
 if TYPE_CHECKING:
     from proofs.search.portrait import Stretch
 
-_MOST_EFFORT = 5
 _NARROW = 0.005  # of stretches that are counted only
 _SMALL = 50  # a denominator of eta after which touches are common
 
 _TITLE = "## Seen in floating point, not proved"
-
-EXAMPLES = """
-  python -m proofs.explore --eta 0.25 --nu -0.3
-  python -m proofs.explore --eta 0.103 --nu 0.541 --only X2
-  python -m proofs.explore --eta 0.22 --nu -0.2 --epsilon 0.05
-  python -m proofs.explore --eta 1.1009 --nu -1.2954 --effort 4 --seconds 60
-"""
-
-
-def _seconds(text: str) -> Fraction:
-    """Read a time for argparse."""
-    value = number(text)
-    if value <= 0:
-        raise ArgumentTypeError(f"seconds are a positive number, not {text!r}")
-    return value
-
-
-OWN = {
-    "effort": {"type": whole("effort", _MOST_EFFORT), "metavar": "N"}
-    | {"help": f"how much is looked at, 1 to {_MOST_EFFORT} (default {EFFORT}); each takes about"
-       " four times as long as the one before"},
-    "seconds": {"type": _seconds, "metavar": "S"}
-    | {"help": "stop looking early; what is found then depends on the machine"},
-}  # fmt: skip
 
 
 def dossier(of: Parameters, options: Namespace) -> str:
@@ -122,7 +78,7 @@ def _special(of: Parameters) -> Iterator[str]:
     turns = of.eta.denominator
     hints = []
     if of.eta == 1:
-        hints.append("eta = 1 is resonance: `python -m proofs.resonance` has f in closed form")
+        hints.append("eta = 1 is resonance: `python -m proofs resonance` has f in closed form")
     elif turns <= _SMALL:
         hints.append(
             f"eta = {show(of.eta)} has the small denominator {turns}: for flights that touch the "
@@ -132,6 +88,3 @@ def _special(of: Parameters) -> Iterator[str]:
         hints.append("nu <= -1: X5, and long flights in X2, are looked at for -1 < nu < 0 only")
     if hints:
         yield from ("", "What is special here:", "", *(f"- {hint}" for hint in hints))
-
-
-main = partial(run, "explore", description=__doc__, examples=EXAMPLES, more=More(OWN, dossier))

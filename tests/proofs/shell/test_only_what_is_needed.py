@@ -1,0 +1,45 @@
+"""A claim takes the calls that it needs, and no others: counted in prover and checker."""
+
+import pytest
+
+from intervals.cover import cover
+from proofs.methods.basin import Mesh
+from proofs.methods.derive import simplest
+from proofs.motion.impact import march
+from proofs.shell import groups
+from proofs.trusted import rules
+from proofs.trusted.equations import gap, return_map_derivative, slope
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.parameters import PAPER
+from proofs.trusted.verify import check
+from tests.calls import calls
+
+WATCHED = gap, slope, return_map_derivative, march, cover, simplest, Mesh.leaning, Tape.evaluate
+STEPS = rules.find_rule
+FLIGHTS = {gap: 1500, march: 5, cover: 4, slope: 25}
+SLOPES = {gap: 650, march: 2, cover: 4, slope: 30}
+NEEDED = [  # group, claims, the most calls in a proof, steps of the certificate
+    ("horseshoe", "H16", {}, 0),
+    ("foundations", "A2", {}, 0),
+    ("sets", "H15 H17", {}, 0),
+    ("sets", "H12 H14", {}, 2),
+    ("foundations", "M4", {Tape.evaluate: 5}, 5),
+    ("horseshoe", "H4", FLIGHTS, 4),
+    ("horseshoe", "H1", SLOPES, 4),
+    ("horseshoe", "H1 H3 H6 H11 H16", SLOPES, 6),  # steps that several need are made once
+    ("circle", "G1", {gap: 100, march: 1}, 1),  # an orbit of period 2: no cells of the circle
+    ("horseshoe", "N2", {gap: 2500, march: 8, return_map_derivative: 8}, 10),  # no plastic map
+]
+
+
+@pytest.mark.parametrize("group, claims, most, steps", NEEDED, ids=lambda x: str(x)[:16])
+def test_only_what_is_needed_is_computed(group, claims, most, steps):
+    with calls(*WATCHED, STEPS) as proving:
+        asked = groups.wanted(group, PAPER, claims.split())
+        made = groups.produce(asked, PAPER, digits=30)
+    with calls(*WATCHED, STEPS) as checking:
+        check(made.certificate)
+    allowed = {function.__qualname__: number for function, number in most.items()}
+    assert proving.pop("find_rule", 0) == checking.pop("find_rule", 0) == steps
+    assert set(proving) == set(allowed) >= set(checking)
+    assert all(0 < proving[name] <= most for name, most in allowed.items()), proving
