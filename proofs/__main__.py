@@ -32,10 +32,11 @@ has its options and examples; options without a command go to `ledger`.
 def modules() -> dict[str, str]:
     """Return for each command that is a module of its own what it says of itself."""
     texts = {}
-    for file in sorted([*_ROOT.glob("*.py"), *_ROOT.glob("*/__main__.py")]):
+    files = [*_ROOT.glob("*.py"), *_ROOT.glob("*/__main__.py"), *_ROOT.glob("commands/*.py")]
+    for file in sorted(files):
         source = file.read_text(encoding="utf-8")
         if 'if __name__ == "__main__":' in source and file != Path(__file__):
-            name = file.stem if file.parent == _ROOT else file.parent.name
+            name = file.parent.name if file.stem == "__main__" else file.stem
             texts[name] = ast.get_docstring(ast.parse(source)) or ""
     return texts
 
@@ -64,7 +65,8 @@ def main(arguments: list[str] | None = None) -> int:
     if first.startswith("-"):
         first, rest = "ledger", [first, *rest]
     if first in modules():  # before the table: the checker needs nothing but Python
-        return run_command(f"proofs.{first}", rest)
+        inner = (_ROOT / "commands" / f"{first}.py").is_file()
+        return run_command(f"proofs.commands.{first}" if inner else f"proofs.{first}", rest)
     from proofs.commands.groups import GROUPS
     from proofs.shell.runner import run
 

@@ -25,6 +25,7 @@ Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
 _SEEDS = 120
+_POINTS, _PASSED, _LONGEST = 400, 100, 8  # of a picture; periods that are looked for
 _SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
 
 
@@ -102,7 +103,7 @@ class Map:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
         from proofs.methods.newton import attractors
 
-        cycles = attractors(self._sampled, self._sides(box), longest)
+        cycles = attractors(self._sampled, self.region(box), longest)
         reason = f"no attracting orbit of a period up to {longest} is found and proved"
         return self._proved(cycles, reason)
 
@@ -120,7 +121,7 @@ class Map:
                 saddles += list(cycle.points) if cycle.is_saddle else []
             try:
                 return _theorem(
-                    file, find_horseshoe(file, self.function, saddles, self._sides(box), power)
+                    file, find_horseshoe(file, self.function, saddles, self.region(box), power)
                 )
             except Undecided as error:
                 reason = error
@@ -131,7 +132,7 @@ class Map:
         from proofs.methods.newton import prove_all_orbits
 
         file = self._derivation()
-        sides = self._sides(box)
+        sides = self.region(box)
         return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
 
     # -- what they share ---------------------------------------------------------------------------
@@ -165,10 +166,24 @@ class Map:
         if not isinstance(period, int) or not 1 <= period <= 60:
             raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
         sampled = self._sampled
-        starts = seeds(sampled, self._sides(box), _SEEDS * period)
+        starts = seeds(sampled, self.region(box), _SEEDS * period)
         return cycles(sampled, period, starts)
 
-    def _sides(self, box: Box | None) -> list[Range]:
+    def sample(self) -> Any:
+        """Return points in floating point, a row each, that others at random come to."""
+        from proofs.methods.newton import seeds
+
+        return seeds(self._sampled, self.region(), _POINTS, _PASSED)[:, _POINTS:].T
+
+    def seen(self) -> list[str]:
+        """Say what floating point sees points at random come to; nothing of it is proved."""
+        from proofs.methods.newton import attractors, fates
+
+        sampled, sides = self._sampled, self.region()
+        cycles = attractors(sampled, sides, _LONGEST)
+        return fates(sampled, sides, cycles)
+
+    def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""
         sides = {**self.box, **(box or {})}
         if unknown := sorted({*sides} - {*self.variables}):

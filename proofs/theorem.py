@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
+from itertools import takewhile
 from pathlib import Path
 
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -37,13 +38,15 @@ class Theorem:
         return self.conclusions[index]
 
     def __str__(self) -> str:
-        """Return them in words, a paragraph each."""
-        return "\n\n".join(
-            each.sentence if each.place is None else told([each]) for each in self.conclusions
-        )
+        """Return them in words, a line each, after the map that all are about."""
+        lines = [each.sentence if each.place is None else told([each]) for each in self.conclusions]
+        shared = _shared(lines).rpartition(": ")[0] if len(lines) > 1 else ""
+        if not shared:
+            return "\n".join(lines)
+        return "\n".join([f"{shared}:", *(f"- {line[len(shared) + 2 :]}" for line in lines)])
 
     def _repr_html_(self) -> str:
-        return "".join(f"<p>{escape(part)}</p>" for part in str(self).split("\n\n"))
+        return "".join(f"<p>{escape(part)}</p>" for part in str(self).split("\n"))
 
     def save(self, path: str | Path) -> Path:
         """Write the certificate to a file; FileExistsError where another system's is there."""
@@ -62,3 +65,9 @@ class Theorem:
             return all(there[part] == here[part] for part in ("parameters", "functions"))
         except (ValueError, KeyError, TypeError):
             return False
+
+
+def _shared(lines: list[str]) -> str:
+    """Return what texts begin with in common."""
+    columns = takewhile(lambda letters: len({*letters}) == 1, zip(*lines, strict=False))
+    return "".join(letters[0] for letters in columns)

@@ -150,6 +150,26 @@ def attractors(sampled: Sampled, box: Sequence[Range], longest: int) -> list[Cyc
     return found
 
 
+def fates(sampled: Sampled, box: Sequence[Range], cycles: Sequence[Cycle]) -> list[str]:
+    """Say what becomes of points at random: they come to attracting orbits, get lost, or go on."""
+    x = seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
+    ends = [f"of {_FOLLOWED} points at random {x.shape[1]} are followed for {_SETTLING} steps"]
+    near = [
+        {k for k, each in enumerate(cycles) if _comes_to(sampled, point, each)} for point in x.T
+    ]
+    for k, cycle in enumerate(cycles):
+        count = sum(k in each for each in near)
+        place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
+        ends.append(f"{count} come to an orbit of period {len(cycle.points)} through ({place})")
+    if others := sum(not each for each in near):
+        ends.append(f"{others} come to no orbit of a period up to 8")
+    return ends
+
+
+def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
+    return any(distance(sampled, point, each) < _CLOSE for each in cycle.points)
+
+
 def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence[Range]) -> str:
     """Add a step `periodic-orbits`: all orbits of a formula in a box whose period divides one."""
     formula = file.map(function)

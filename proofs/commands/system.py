@@ -1,0 +1,229 @@
+"""Theorems about an impacting system, or a map, of your own, each with a certificate.
+
+The system is a file of some ten lines (docs/own-system.md), or a published one by --example; a map
+is given by its formulas. What is proved stands first, then what floating point sees beside it.
+"""
+
+from __future__ import annotations
+
+if __name__ == "__main__":
+    from proofs.shell.entry import launch
+
+    launch("proofs.commands.system")
+
+import json
+import re
+from argparse import ArgumentTypeError, Namespace
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from time import monotonic
+from typing import Any, NamedTuple
+
+from intervals import Undecided
+from proofs.map import Ends, Map
+from proofs.shell.cli import Parser, heard, number, progress, share
+from proofs.shell.files import write_files
+from proofs.shell.screen import say
+from proofs.system import System
+from proofs.theorem import Theorem
+from proofs.trusted.verdicts import Verdict
+
+SCHEMA = "impact-proofs.system/1"
+_ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
+_ASK = re.compile(r"orbits:[1-9][0-9]?|stable|horseshoe")
+_STATEMENTS = {
+    "orbits": "periodic orbits of this least period exist",
+    "stable": "an attracting periodic orbit exists",
+    "horseshoe": "the map, or its second iterate, has a full shift on two symbols",
+}
+EPILOG = """\
+exit status: 0 all that is asked is proved; 1 something is undecided; 2 no system, or no file
+
+examples:
+  python -m proofs system --example bouncing-ball
+  python -m proofs system mine.toml --ask orbits:3 horseshoe --out runs/mine --figure
+  python -m proofs system --map "1 - 1.4*x^2 + y" "0.3*x" --ask orbits:2
+  python -m proofs system --map "r*x*(1 - x)" --set r=3.9 --box x=0:1 --json -
+  python -m proofs system --example bouncing-ball --set e=0.49:0.51 --ask orbits:1
+"""
+
+
+class Answer(NamedTuple):
+    """What is decided about one question; without a theorem the reason why nothing is."""
+
+    id: str
+    theorem: Theorem | None
+    why: str
+
+    @property
+    def verdict(self) -> Verdict:
+        """VERIFIED, or UNDECIDED: a search that fails refutes nothing."""
+        return Verdict.UNDECIDED if self.theorem is None else Verdict.VERIFIED
+
+    @property
+    def statement(self) -> str:
+        """The question as a sentence."""
+        kind, _, period = self.id.partition(":")
+        return _STATEMENTS[kind].replace("this least period", f"the least period {period}")
+
+    @property
+    def file(self) -> str:
+        """The name of its certificate."""
+        return f"{self.id.replace(':', '-')}.json"
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Prove what is asked, print and write it; return the exit status."""
+    options = _options(arguments)
+    system, parser = _subject(options), options.parser
+    began = monotonic()
+    with progress() as tell:
+        answers = []
+        for asked in options.ask or _ASKED:
+            tell(asked)
+            late = options.seconds is not None and monotonic() - began > options.seconds
+            answers.append(
+                Answer(asked, None, "no time is left") if late else _answer(system, asked, options)
+            )
+    if options.out:
+        _write(options, system, answers)
+    if options.json:
+        text = json.dumps(_machine(system, answers), indent=1, ensure_ascii=False) + "\n"
+        if options.json == "-":
+            print(text, end="")
+        else:
+            Path(options.json).write_text(text, "utf-8")
+    if heard(options):
+        for line in _told(system, answers):
+            say(line)
+    if options.figure and not options.out:
+        parser.error("--figure goes to the folder of --out")
+    return int(any(each.theorem is None for each in answers))
+
+
+def _options(arguments: list[str] | None) -> Namespace:
+    parser = Parser("proofs system", __doc__, EPILOG)
+    parser.add_argument("file", nargs="?", metavar="FILE", help="a system's file")
+    names = ", ".join(System.examples())
+    parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
+    parser.add_argument("--map", nargs="+", metavar="FORMULA", help="the formulas of a map")
+    help_text = "the period of a variable of --map that is an angle"
+    parser.add_argument("--period", nargs="+", type=_pair, metavar="NAME=P", help=help_text)
+    help_text = "parameters; a range, LOW:HIGH, means all of its values"
+    parser.add_argument("--set", nargs="+", type=_pair, metavar="NAME=VALUE", help=help_text)
+    help_text = "where orbits are looked for"
+    parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
+    help_text = f"what to prove: orbits:N, stable, horseshoe (default {' '.join(_ASKED)})"
+    parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
+    parser.add_argument("--seconds", type=number, metavar="S", help="begin nothing after that")
+    parser.add_argument("--figure", action="store_true", help="draw it as DIR/figure.svg, too")
+    share(parser, "--out", "--json", "--quiet")
+    options = parser.parse_args(arguments)
+    options.parser = parser
+    if sum(map(bool, (options.file, options.example, options.map))) != 1:
+        parser.error("one of FILE, --example and --map is expected")
+    return options
+
+
+def _pair(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name and equals and value):
+        raise ArgumentTypeError(f"NAME=VALUE is expected, not {text[:40]!r}")
+    return name, value
+
+
+def _question(text: str) -> str:
+    if not _ASK.fullmatch(text):
+        raise ArgumentTypeError(f"orbits:N, stable and horseshoe can be asked, not {text[:40]!r}")
+    return text
+
+
+def _ends(text: str) -> Ends:
+    low, colon, high = text.partition(":")
+    return (low, high) if colon else low
+
+
+def _subject(options: Namespace) -> Map:
+    """Return the system or the map; what is wrong with it is one line, status 2."""
+    values: dict[str, Any] = {name: _ends(value) for name, value in options.set or ()}
+    try:
+        if options.map:
+            made = Map(*options.map, periods=dict(options.period or ()), **values)
+        elif options.example:
+            made = System.example(options.example, **values)
+        else:
+            made = System.read(options.file, **values)
+        made.box |= {name: _side(value) for name, value in options.box or ()}
+        made.region()
+    except (ValueError, TypeError) as error:
+        options.parser.error(str(error))
+    return made
+
+
+def _side(text: str) -> Sequence[str]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise ValueError(f"LOW:HIGH is expected, not {text[:40]!r}")
+    return low, high
+
+
+def _answer(system: Map, asked: str, options: Namespace) -> Answer:
+    kind, _, period = asked.partition(":")
+    try:
+        if kind == "orbits":
+            theorem = system.orbits(int(period))
+        else:
+            theorem = system.stable() if kind == "stable" else system.horseshoe()
+    except Undecided as error:
+        return Answer(asked, None, str(error))
+    return Answer(asked, theorem, "")
+
+
+def _told(system: Map, answers: Sequence[Answer]) -> Iterator[str]:
+    for answer in answers:
+        if answer.theorem is not None:
+            yield f"{answer.id}  Theorem, VERIFIED:"
+            yield from (f"  {line}" for line in str(answer.theorem).split("\n"))
+            yield ""
+    for answer in answers:
+        why = f": {answer.why}" if answer.why else ""
+        yield f"{answer.id:12} {answer.verdict.value:10} {answer.statement}{why}"
+    yield ""
+    yield "Seen in floating point, not proved:"
+    yield from (f"  {line}" for line in system.seen())
+
+
+def _machine(system: Map, answers: Sequence[Answer]) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "system": repr(system),
+        "claims": [
+            {
+                "id": answer.id,
+                "verdict": answer.verdict.value,
+                "statement": answer.statement,
+                "why": answer.why,
+                "theorems": [each.sentence for each in answer.theorem or ()],
+                "certificate": answer.theorem and json.loads(answer.theorem.certificate),
+            }
+            for answer in answers
+        ],
+    }
+
+
+def _write(options: Namespace, system: Map, answers: Sequence[Answer]) -> None:
+    for answer in answers:
+        if answer.theorem is not None:
+            try:
+                answer.theorem.save(options.out / answer.file)
+            except FileExistsError as error:
+                options.parser.error(str(error))
+    if options.figure:
+        try:
+            from proofs.report.figures.portrait import portrait
+        except ImportError:
+            options.parser.error("--figure needs matplotlib: pip install 'impact-proofs[report]'")
+        proved = [each for answer in answers for each in answer.theorem or ()]
+        write_files(
+            options.out, {"figure.svg": portrait(system.sample(), system.variables, proved)}
+        )

@@ -1,0 +1,62 @@
+"""A portrait of any system: proved sets of a horseshoe and orbits, over sampled points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from io import StringIO
+from typing import Any
+
+from proofs.report.figures.style import BLUE, GREY, ORANGE, PROVED, RED, sheet, style
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.cycle import PeriodicOrbit
+from proofs.trusted.kernel.graph import Entropy
+
+_CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+
+
+def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]) -> str:
+    """Return it as SVG: the first two variables; for one variable the points over their order."""
+    with style("portrait"):
+        drawing, axes = sheet(3.6)
+        flat = len(variables) == 1
+        x, y = points[:, 0], (range(len(points)) if flat else points[:, 1])
+        axes.plot(x, y, ".", color=GREY, markersize=1, label="sampled, not proved")
+        for entropy in (each for each in proved if isinstance(each, Entropy)):
+            for node in entropy.graph.nodes:
+                _draw_set(axes, node, flat)
+        _draw_orbits(axes, [each for each in proved if isinstance(each, PeriodicOrbit)], flat)
+        axes.set_xlabel(variables[0])
+        axes.set_ylabel("" if flat else variables[1])
+        axes.legend(loc="upper right")
+        stream = StringIO()
+        drawing.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    return stream.getvalue()
+
+
+def _draw_set(axes: Any, node: Any, flat: bool) -> None:
+    """Fill an h-set; on the line its interval."""
+    if flat:
+        axes.axvspan(*map(float, node.span()), color=ORANGE, alpha=0.5, gid=PROVED)
+        return
+    corners = [
+        [
+            float(c + row[0] * p + row[1] * q)
+            for c, row in zip(node.centre, node.matrix, strict=True)
+        ]
+        for p, q in _CORNERS
+    ]
+    axes.fill(*zip(*corners, strict=True), color=ORANGE, alpha=0.7, gid=PROVED)
+
+
+def _draw_orbits(axes: Any, orbits: Sequence[PeriodicOrbit], flat: bool) -> None:
+    """Mark the first points of orbits, by their stability."""
+    for stability, colour, mark in (("attracting", BLUE, "o"), ("a saddle", RED, "x")):
+        places = [
+            [float(sum(side)) / 2 for side in orbit.box]
+            for orbit in orbits
+            if orbit.stability == stability
+        ]
+        if places:
+            x, y = zip(*((p[0], 0 if flat else p[1]) for p in places), strict=True)
+            label = f"proved: {stability.removeprefix('a ')}"
+            axes.plot(x, y, mark, color=colour, markersize=4, label=label, gid=PROVED)
