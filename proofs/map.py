@@ -25,7 +25,7 @@ Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
 _SEEDS = 120
-_POINTS, _PASSED, _LONGEST = 400, 100, 8  # of a picture; periods that are looked for
+_POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
 
 
@@ -80,6 +80,16 @@ class Map:
     def variables(self) -> tuple[str, ...]:
         """The variables, in their order."""
         return self._kernel.variables
+
+    @property
+    def ranges(self) -> tuple[str, ...]:
+        """The parameters for all of whose values theorems hold."""
+        sides = {
+            name: side
+            for function in self.functions.values()
+            for name, side in function.get("parameters", {}).items()
+        }
+        return tuple(name for name, (low, high) in sides.items() if low != high)
 
     def __repr__(self) -> str:
         """Return the definition."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from copy import copy
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Self
@@ -26,18 +27,44 @@ _MORE = {"title", "source", "units", "parameters", "periods", "region"}
 class System(Map):
     """A motion between impacts, gaps that end it, and the state after an impact: a map of states.
 
-    The map takes the state after an impact to that after the next. All that `Map` proves is proved
-    about it; `impact` has the time as well. Make one with `System.read` or `System.example`.
+    With one [[impact]] the map takes the state after an impact to that after the next. With several
+    walls it takes a state after an impact with the first wall to that after the next one, each of
+    the walls being hit once, in the order of the file, or in that of `around`. All that `Map`
+    proves is proved about it; `impact` has the time as well. Make one with `System.read` or
+    `System.example`.
     """
 
     def __init__(self, file: Mapping[str, Any], /, **parameters: Ends) -> None:
-        system = _Read(file, parameters)
+        self._file = _Read(file, parameters)
         self.title = str(file.get("title", ""))
         self.notes = {key: str(file[key]) for key in ("source", "units") if key in file}
-        self._begin({"P": system.flight(), "Impact": system.flight(timed=True)}, "P")
-        self.functions = {"P": self.functions["P"]}
-        self._timed = {"Impact": system.flight(timed=True)}
-        self.box = dict(file.get("region", {}))
+        self._turn(range(len(self._file.impacts)))
+
+    def _turn(self, walls: Sequence[int]) -> None:
+        pairs = [*zip(walls, (*walls[1:], walls[0]), strict=True)]
+        names = ["P" if len(self.walls) == 1 else f"P{i + 1}{j + 1}" for i, j in pairs]
+        functions = {
+            which: self._file.flight(i, j) for which, (i, j) in zip(names, pairs, strict=True)
+        }
+        if len(names) > 1:
+            functions["R"] = {"maps": names}
+        self._begin(functions, "R" if len(names) > 1 else names[0])
+        self.box = dict(self._file.region)
+
+    @property
+    def walls(self) -> tuple[str, ...]:
+        """The names of the walls, in the order of the file."""
+        return self._file.walls
+
+    def around(self, *walls: str) -> System:
+        """Return the system with the map that hits these walls in turn, back to the first."""
+        if unknown := sorted({*walls} - {*self.walls}):
+            raise ValueError(f"no wall {unknown[0]!r}; there are {', '.join(self.walls)}")
+        if not walls:
+            raise ValueError(f"walls are expected, of {', '.join(self.walls)}")
+        other = copy(self)
+        other._turn([self.walls.index(each) for each in walls])
+        return other
 
     @classmethod
     def read(cls, path: str | Path, **parameters: Ends) -> Self:
@@ -48,9 +75,7 @@ class System(Map):
         text = Path(path).read_text("utf-8")
         try:
             return cls(tomllib.loads(text), **parameters)
-        except tomllib.TOMLDecodeError as error:
-            raise GrammarError(f"{path}: {error}") from None
-        except ValueError as error:
+        except (ValueError, TypeError) as error:  # of tomllib as well
             raise GrammarError(f"{path}: {error}") from None
 
     @classmethod
@@ -67,11 +92,23 @@ class System(Map):
         names = (each.name for each in files("proofs.systems").iterdir())
         return sorted(each.removesuffix(".toml") for each in names if each.endswith(".toml"))
 
-    def impact(self, **state: Ends) -> Theorem:
-        """Enclose the next impact after a state, or after all states of a box: state and time."""
+    def impact(self, *, wall: str = "", **state: Ends) -> Theorem:
+        """Enclose the next impact after a state, or after all states of a box: state and time.
+
+        wall: that of the impact before, the first without one. The next one is with any wall.
+        """
         from proofs.methods.derivation import Derivation
 
-        return self._image(Derivation(self._timed), "Impact", state)
+        if wall and wall not in self.walls:
+            raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
+        reason, before = Undecided("there is no wall"), self.walls.index(wall) if wall else 0
+        for after in range(len(self.walls)):
+            timed = Derivation({"Impact": self._file.flight(before, after, timed=True)})
+            try:
+                return self._image(timed, "Impact", state)
+            except Undecided as error:
+                reason = error
+        raise reason
 
 
 class _Read:
@@ -93,33 +130,53 @@ class _Read:
         for each, value in self.parameters.items():
             if isinstance(value, float) or value in (None, ""):
                 raise GrammarError(f'the parameter {each} is no text: write {each} = "{value}"')
-        self.impacts = _list(file["impact"], "impact")
+        self.impacts = [_table(each, "impact") for each in _list(file["impact"], "impact")]
+        self.region = _table(file.get("region", {}), "region")
+        if not self.impacts:
+            raise GrammarError("one [[impact]] at least is expected")
+        self.walls = tuple(str(each.get("wall", k + 1)) for k, each in enumerate(self.impacts))
+        if len({*self.walls}) < len(self.walls):
+            raise GrammarError("two walls have one name")
+        self._motions: dict[int, list[dict[str, Any]]] = {}
 
-    def flight(self, timed: bool = False) -> dict[str, Any]:
-        """Return the flight as a certificate has it; timed: with the time as a last value."""
-        if len(self.impacts) > 1:
-            raise GrammarError("one [[impact]] is expected; other walls are its `others`")
-        impact = dict(_table(self.impacts[0], "impact"))
-        keys = {"gap", "others", *self.state}
+    def flight(self, before: int, after: int, timed: bool = False) -> dict[str, Any]:
+        """Return the flight from one wall to another as a certificate has it.
+
+        timed: with the time as a last value.
+        """
+        impact = self._impact(after)
+        gaps = [impact, *(self._impact(k) for k in range(len(self.impacts)) if k != after)]
+        values = [self._formula(impact[each], f"{each} after the impact") for each in self.state]
+        if before not in self._motions:
+            self._motions[before] = [
+                self._motion(name(each), _table(motion, each), self._here(before))
+                for each, motion in _table(self.file["motion"], "motion").items()
+            ]
+        return {
+            "variables": self.state,
+            **optional(self._here(before), self.file.get("periods", {})),
+            "time": self.time,
+            "motion": self._motions[before],
+            "gaps": [self._formula(each["gap"], "a gap") for each in gaps],
+            "values": [*values, *([self.time] if timed else [])],
+        }
+
+    def _here(self, wall: int) -> dict[str, Ends]:
+        """Return the parameters, and what else has a value after an impact with a wall."""
+        own = _table(self.impacts[wall].get("at", {}), "at")
+        return {**self.parameters, **{name(each): value for each, value in own.items()}}
+
+    def _impact(self, wall: int) -> Mapping[str, Any]:
+        impact, keys = self.impacts[wall], {"gap", "wall", "at", *self.state}
         if unknown := sorted({*impact} - keys):
             raise GrammarError(f"unknown key {unknown[0]!r} of impact; keys are {_listed(keys)}")
         if missing := [each for each in ("gap", *self.state) if each not in impact]:
             raise GrammarError(f"[[impact]] has no {missing[0]!r}")
-        gaps = [impact["gap"], *_list(impact.get("others", []), "others")]
-        values = [self._formula(impact[each], f"{each} after the impact") for each in self.state]
-        return {
-            "variables": self.state,
-            **optional(self.parameters, self.file.get("periods", {})),
-            "time": self.time,
-            "motion": [
-                self._motion(name(each), _table(motion, each))
-                for each, motion in _table(self.file["motion"], "motion").items()
-            ],
-            "gaps": [self._formula(gap, "a gap") for gap in gaps],
-            "values": [*values, *([self.time] if timed else [])],
-        }
+        return impact
 
-    def _motion(self, which: str, motion: Mapping[str, Any]) -> dict[str, Any]:
+    def _motion(
+        self, which: str, motion: Mapping[str, Any], parameters: Mapping[str, Ends]
+    ) -> dict[str, Any]:
         keys = {"equation", "start", "form"}
         if unknown := sorted({*motion} - keys):
             raise GrammarError(f"unknown key {unknown[0]!r} of {which}; keys are {_listed(keys)}")
@@ -137,14 +194,16 @@ class _Read:
         if "form" in motion:
             form = self._formula(motion["form"], f"the form of {which}")
         else:
-            form = self._closed(which, equation, start)
+            form = self._closed(which, equation, start, parameters)
         return {"name": which, "form": form, "equation": equation, "start": start}
 
-    def _closed(self, which: str, equation: str, start: Sequence[str]) -> str:
+    def _closed(
+        self, which: str, equation: str, start: Sequence[str], parameters: Mapping[str, Ends]
+    ) -> str:
         """Return a closed form that sympy finds, parameters with one value being put in."""
         from proofs.methods.linear import closed_form
 
-        sides = {each: ends_of(value) for each, value in self.parameters.items()}
+        sides = {each: ends_of(value) for each, value in parameters.items()}
         numbers = {each: low for each, (low, high) in sides.items() if low == high}
         try:
             return closed_form(which, self.time, equation, start, numbers)

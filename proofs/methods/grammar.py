@@ -17,7 +17,7 @@ from proofs.trusted.kernel.expression import FUNCTIONS
 from proofs.trusted.kernel.formulas import read_formulas, spelled
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![A-Za-z_.])"
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<name>[A-Za-z_]\w*)(?P<primes>'*)|(?P<op>\*\*|[-+*/^(),=]))"
 )
 _DERIVED = {

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from io import StringIO
 from typing import Any
 
 from proofs.report.figures.style import BLUE, GREY, ORANGE, PROVED, RED, sheet, style
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.covers import HSet
 from proofs.trusted.kernel.cycle import PeriodicOrbit
 from proofs.trusted.kernel.graph import Entropy
 
+_BITS = 64  # of periods
 _CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
@@ -22,8 +25,9 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
         x, y = points[:, 0], (range(len(points)) if flat else points[:, 1])
         axes.plot(x, y, ".", color=GREY, markersize=1, label="sampled, not proved")
         for entropy in (each for each in proved if isinstance(each, Entropy)):
+            map_ = entropy.graph.covers[0].local.map
             for node in entropy.graph.nodes:
-                _draw_set(axes, node, flat)
+                _draw_set(axes, node, map_.periods(_BITS), flat)
         _draw_orbits(axes, [each for each in proved if isinstance(each, PeriodicOrbit)], flat)
         axes.set_xlabel(variables[0])
         axes.set_ylabel("" if flat else variables[1])
@@ -33,19 +37,20 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
     return stream.getvalue()
 
 
-def _draw_set(axes: Any, node: Any, flat: bool) -> None:
-    """Fill an h-set; on the line its interval."""
+def _draw_set(axes: Any, node: HSet, periods: Mapping[int, Enclosure], flat: bool) -> None:
+    """Fill an h-set, its centre's angles being reduced; on the line its interval."""
     if flat:
         axes.axvspan(*map(float, node.span()), color=ORANGE, alpha=0.5, gid=PROVED)
         return
+    centre = [
+        float(c) % float(periods[k].range[0]) if k in periods else float(c)
+        for k, c in enumerate(node.centre)
+    ]
     corners = [
-        [
-            float(c + row[0] * p + row[1] * q)
-            for c, row in zip(node.centre, node.matrix, strict=True)
-        ]
+        [x + float(row[0] * p + row[1] * q) for x, row in zip(centre, node.matrix, strict=True)]
         for p, q in _CORNERS
     ]
-    axes.fill(*zip(*corners, strict=True), color=ORANGE, alpha=0.7, gid=PROVED)
+    axes.fill(*zip(*corners, strict=True), color=ORANGE, ec=ORANGE, lw=2, gid=PROVED)
 
 
 def _draw_orbits(axes: Any, orbits: Sequence[PeriodicOrbit], flat: bool) -> None:
