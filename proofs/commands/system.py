@@ -75,7 +75,7 @@ class Answer(NamedTuple):
 def main(arguments: list[str] | None = None) -> int:
     """Prove what is asked, print and write it; return the exit status."""
     options = _options(arguments)
-    system, parser = _subject(options), options.parser
+    system = _subject(options)
     began = monotonic()
     with progress() as tell:
         answers = []
@@ -96,8 +96,6 @@ def main(arguments: list[str] | None = None) -> int:
     if heard(options):
         for line in _told(system, answers):
             say(line)
-    if options.figure and not options.out:
-        parser.error("--figure goes to the folder of --out")
     return int(any(each.theorem is None for each in answers))
 
 
@@ -122,6 +120,8 @@ def _options(arguments: list[str] | None) -> Namespace:
     options.parser = parser
     if sum(map(bool, (options.file, options.example, options.map))) != 1:
         parser.error("one of FILE, --example and --map is expected")
+    if options.figure and not options.out:
+        parser.error("--figure goes to the folder of --out")
     return options
 
 

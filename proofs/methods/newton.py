@@ -22,6 +22,7 @@ from proofs.trusted.numbers import Range
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
 _STEPS, _NEAR = 12, 1e-9  # of Newton's method
 _RADII = ("1/1000000000", "1/10000000", "1/100000")  # of boxes around periodic points
+_WIDE = ("1/1000", "1/100")  # where parameters have ranges
 
 
 class Cycle(NamedTuple):
@@ -192,7 +193,7 @@ def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
         end = iterated(sampled, cycle.points[:1].T, n)[:, 0] - cycle.points[0]
         turns = np.round(end / sampled.periods)
         witness["turns"] = [str(int(turns[circle.place])) for circle in map_.circles]
-    for radius in map(Fraction, _RADII):
+    for radius in map(Fraction, _RADII + (_WIDE if _has_ranges(file, function) else ())):
         box = [_around(float(x), radius) for x in cycle.points[0]]
         entries = [[str(Fraction(f"{entry:.10g}")) for entry in row] for row in matrix]
         try:
@@ -202,6 +203,11 @@ def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
         except Unproved as error:
             reason = error
     raise reason
+
+
+def _has_ranges(file: Derivation, function: str) -> bool:
+    parameters = file.functions[function].get("parameters", {})
+    return any(low != high for low, high in parameters.values())
 
 
 def _around(x: float, radius: Fraction) -> Range:

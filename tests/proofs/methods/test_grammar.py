@@ -1,0 +1,87 @@
+"""What people type, and what the checker reads: the same function, or a sentence."""
+
+import math
+import random
+
+import flint
+import pytest
+
+from proofs.methods.grammar import GrammarError, canonical
+from tests.oracles.formulas import compiled
+
+TYPED = {
+    "1 - 1.4*x^2 + y": "1 - 7/5*x**2 + y",
+    "x^-1": "x**(-1)",
+    "x^0.5": "sqrt(x)",
+    "x^1.5": "x*sqrt(x)",
+    "x^0": "1",
+    "tan(x)": "sin(x)/cos(x)",
+    "cosh(x)": "(exp(x) + exp(-x))/2",
+    "y'' + 2*y'": "D(y, t, t) + 2*D(y, t)",
+    "1e-3*x": "1/1000*x",
+    "+x": "x",
+    " x ": "x",
+    ".5": "1/2",
+}
+REFUSED = {
+    "2x": "character 2 .* write \\* for a product",
+    "x y": "character 3 .* write \\* for a product",
+    "(x)(y)": "write \\* for a product",
+    "f(x)": "functions are sqrt, exp",
+    "abs(x)": "not smooth",
+    "x mod 1": "write \\*",
+    "mod(x)": "period",
+    "ln(x)": "write log",
+    "x % 2": "character 3",
+    "x = 3": "no equation",
+    "sin(x": "not a formula",
+    "": "empty",
+    "x^y": "an exponent is a number",
+    "x^(1/3)": "multiple of 1/2",
+    "tan(x, y)": "one number",
+    "é + 1": "character 1",
+    "x.y": "character 2",
+}
+
+
+@pytest.mark.parametrize(("typed", "read"), TYPED.items())
+def test_typed_and_read(typed, read):
+    assert canonical(typed, "t") == read
+
+
+@pytest.mark.parametrize(("typed", "reason"), REFUSED.items())
+def test_what_is_no_formula_is_a_sentence(typed, reason):
+    with pytest.raises(GrammarError, match=reason) as refused:
+        canonical(typed)
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 250
+
+
+@pytest.mark.parametrize("value", [1.5, 3, None])
+def test_only_texts_are_formulas(value):
+    with pytest.raises(GrammarError, match="a formula is a text"):
+        canonical(value)
+
+
+def test_primes_need_a_time():
+    with pytest.raises(GrammarError, match="no time"):
+        canonical("y'")
+
+
+def grown(rng, depth):
+    if depth == 0:
+        return rng.choice(["x", "y", "0.5", "3", "1.25", "pi"])
+    one, two = (grown(rng, depth - 1) for _ in range(2))
+    pattern = rng.choice(
+        ["({0})+{1}", "{0} - ({1})", "({0})*({1})", "-({0})", "({0})^2", "sin({0})", "tanh({0})"]
+    )
+    return pattern.format(one, two)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_same_function(seed):
+    typed = grown(random.Random(seed), 3)
+    python = typed.replace("^", "**")
+    names = {"x": 0.3, "y": -0.7, **{f: getattr(math, f) for f in ("sin", "tanh", "pi")}}
+    function, _ = compiled(canonical(typed))
+    value = float(function({"x": flint.arb("0.3"), "y": flint.arb("-0.7")}))
+    assert value == pytest.approx(eval(python, {}, names), rel=1e-9, abs=1e-9)

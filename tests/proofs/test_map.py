@@ -1,0 +1,267 @@
+"""Maps and systems of one's own: theorems against closed forms and simulation, errors in a line."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import proofs
+from intervals import Undecided
+from proofs import Map, System
+from proofs.commands.system import main
+from proofs.methods.grammar import GrammarError
+from proofs.trusted.verify import Rejected, check
+
+HENON = Map("1 - 1.4*x^2 + y", "0.3*x")
+BALL = System.example("bouncing-ball")
+
+
+def inside(box, *point):
+    return all(low <= x <= high for (low, high), x in zip(box, point, strict=True))
+
+
+def accepted(theorem):
+    """The checker, from the text alone, says what the theorem says."""
+    report = check(theorem.certificate)
+    assert report.sentences == tuple(each.sentence for each in theorem)
+    return theorem
+
+
+# -- maps ------------------------------------------------------------------------------------------
+
+
+def test_fixed_points_of_henon():
+    root = math.sqrt(0.7**2 + 4 * 1.4)
+    points = [(x, 0.3 * x) for x in ((-0.7 - root) / 2.8, (-0.7 + root) / 2.8)]
+    found = accepted(HENON.orbits(1))
+    assert [each.stability for each in found] == ["a saddle", "a saddle"]
+    assert all(inside(each.box, *p) for each, p in zip(found, points, strict=True))
+
+
+@pytest.mark.parametrize(("r", "period"), [("2.8", 1), ("3.2", 2), ("3.5", 4), ("3.83", 3)])
+def test_the_attracting_orbit_of_the_logistic_map(r, period):
+    x = 0.3
+    for _ in range(10_000):
+        x = float(r) * x * (1 - x)
+    orbit = {round(x := float(r) * x * (1 - x), 6) for _ in range(period)}
+    (found,) = accepted(Map("r*x*(1 - x)", r=r).stable(box={"x": ("0", "1")}))
+    assert found.period == period == len(orbit) and found.stability == "attracting"
+    assert round(float(sum(found.box[0]) / 2), 6) in orbit
+
+
+def test_all_orbits_of_henon_are_as_many_as_published():
+    box = {"x": ("-1.5", "1.5"), "y": ("-0.5", "0.5")}  # Galias 2001: 2, 1, 0, 1, 0, 2
+    assert accepted(HENON.periodic_orbits(6, box)).conclusion.counts == ((1, 2), (2, 1), (6, 2))
+
+
+def test_horseshoes_of_the_logistic_map():
+    box = {"x": ("0", "1")}
+    first = accepted(Map("r*x*(1 - x)", r="5").horseshoe(box=box))
+    assert len(first) == 2 and first.conclusion.forward
+    assert [each.local.power for each in first[0].graph.covers] == [1] * 4
+    second = accepted(Map("r*x*(1 - x)", r="3.9").horseshoe(box=box))
+    assert second[0].graph.covers[0].local.power == 2
+    with pytest.raises(Undecided, match="no horseshoe"):
+        Map("r*x*(1 - x)", r="3.2").horseshoe(box=box)
+
+
+def test_parameters_in_a_range():
+    found = accepted(Map("r*x*(1 - x)", r=("3.19", "3.21")).orbits(1, box={"x": ("0.2", "1")}))
+    (box,) = found[-1].box
+    assert all(box[0] <= 1 - 1 / r <= box[1] for r in (3.19, 3.2, 3.21))
+    assert "for every r in [3.19, 3.21]" in found[-1].sentence
+
+
+def test_angles():
+    """The standard map: fixed points (0, 0) and (0, pi), and on the cylinder more with x turned."""
+    standard = Map("x + k*sin(y)", "x + y + k*sin(y)", k="1.2", periods={"x": "2*pi", "y": "2*pi"})
+    found = accepted(standard.orbits(1))
+    places = [tuple(float(sum(side) / 2) for side in each.box) for each in found]
+    for y, kind in ((0.0, "a saddle"), (math.pi, None)):
+        near = [k for k, p in enumerate(places) if abs(math.remainder(p[1] - y, math.tau)) < 1e-6]
+        assert [found[k].stability for k in near] == [kind]
+
+
+@pytest.mark.parametrize(
+    ("make", "reason"),
+    [
+        (lambda: Map("r*x*(1 - x)"), "give numbers to parameters"),
+        (lambda: Map("x", "y", "x"), "3 formulas for the variables x, y"),
+        (lambda: Map("r*x", variables=["x"]), "r has no value"),
+        (lambda: Map("2x"), r"write \* for a product"),
+        (lambda: Map("x", Y="1"), "'Y' is no name"),
+        (lambda: Map("x^2", periods={"x": "2*pi"}), "respect the period of x"),
+        (lambda: Map("x", periods={"y": "1"}), "period"),
+        (lambda: Map("x", periods={"x": "-1"}), "a period is positive"),
+        (lambda: HENON.image(x="1"), "a value for each variable"),
+        (lambda: HENON.orbits(0), "whole number from 1"),
+        (lambda: HENON.orbits(1, {"z": ("0", "1")}), "none of the variables"),
+        (lambda: HENON.image(x=("1", "0"), y="0"), "reversed"),
+    ],
+)
+def test_what_is_no_map_is_a_sentence(make, reason):
+    with pytest.raises(ValueError, match=reason) as refused:
+        make()
+    assert "\n" not in str(refused.value) and "$" not in str(refused.value)
+
+
+def test_floats_are_refused():
+    for make in (lambda: Map("r*x", r=0.1), lambda: HENON.image(x=0.1, y="0")):
+        with pytest.raises(TypeError, match='write it as "0.1"'):
+            make()
+
+
+def test_completion_shows_what_there_is():
+    assert {"Map", "System", "Oscillator", "Theorem"} <= {*dir(proofs)}
+
+
+def test_a_file_of_another_system_is_not_replaced(tmp_path):
+    file = tmp_path / "mine.json"
+    HENON.orbits(1).save(file)
+    HENON.orbits(2).save(file)
+    kept = file.read_text()
+    with pytest.raises(FileExistsError, match="another system"):
+        Map("x/2").orbits(1).save(file)
+    assert file.read_text() == kept
+
+
+# -- systems ---------------------------------------------------------------------------------------
+
+
+def test_fixed_points_of_the_bouncing_ball():
+    """A flight of k turns: v = g pi k, cos phi = v (1 - e)/(1 + e)."""
+    found = accepted(BALL.orbits(1))
+    assert len(found) >= 10
+    for each in found:
+        phi, v = (float(sum(side) / 2) for side in each.box)
+        (turns,) = each.turns
+        assert v == pytest.approx(0.1 * math.pi * turns) and math.cos(phi) == pytest.approx(v / 3)
+
+
+def test_the_next_impact_of_the_bouncing_ball():
+    phi, v, h = 1.02, 1.57, 1e-5
+    t = np.arange(1, 10**7) * h
+    height = math.sin(phi) + v * t - 0.05 * t**2 - np.sin(phi + t)
+    time = t[np.argmax(height <= 0)]
+    after = 1.5 * math.cos(phi + time) - (v - 0.1 * time) / 2
+    (image,) = accepted(BALL.impact(phi="1.02", v="1.57"))
+    for (low, high), value in zip(image.bounds, (phi + time, after, time), strict=True):
+        assert float(low) - 2e-4 <= value <= float(high) + 2e-4 and high - low < 1e-9
+
+
+@pytest.mark.slow
+def test_a_horseshoe_of_the_bouncing_ball():
+    entropy, cone = accepted(BALL.horseshoe())
+    assert (entropy.growth, entropy.length) == (2, 1) and not cone.forward
+
+
+def test_orbits_with_two_walls():
+    walls = System.example("two-walls")
+    (found,) = accepted(walls.orbits(1))
+    assert walls.walls == ("right", "left") and found.turns == (1,)
+    with pytest.raises(Undecided):
+        walls.around("right", "right").impact(a="1", v="3")
+    with pytest.raises(ValueError, match="no wall 'top'"):
+        walls.around("top")
+
+
+@pytest.mark.parametrize("name", System.examples())
+def test_published_systems_are_read(name):
+    system = System.example(name)
+    assert system.title and repr(system)
+
+
+TEXT = """
+variables = ["phi", "v"]
+time = "t"
+parameters = { g = "0.1" }
+periods = { phi = "2*pi" }
+motion.y = { equation = "y'' = -g", start = ["sin(phi)", "v"] }
+impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("", "", ""),
+        ("time", "clock", "no 'time'"),
+        ("time =", 'colour = "red"\ntime =', "unknown key 'colour'"),
+        ('"2*pi"', '"2*pi + 1/10"', "respect the period of phi"),
+        ("-g", "g*", "the equation of y: not a formula"),
+        ("y''", "y'", "begins y'' ="),
+        ('"v"]', '"v"', "Unclosed array"),
+        ('"0.1"', "0.1", 'write g = "0.1"'),
+        ("= -g", "= -g*y^2", "not linear"),
+        ('"v"] }', '"v"], form = "sin(phi) + v*t + g*t^2/2" }', "not proved to solve"),
+        ('"v"] }', '"v"], form = "cos(phi) + v*t - g*t^2/2" }', "not proved to start"),
+        ('"cos(phi + t)"', '"cos(phi + s)"', "unknown variable 's'"),
+        (', v = "cos(phi + t)"', "", "no 'v'"),
+        ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
+    ],
+)
+def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
+    file = tmp_path / "mine.toml"
+    file.write_text(TEXT.replace(old, new, 1) if old else TEXT)
+    if not reason:
+        assert System.read(file).variables == ("phi", "v")
+        return
+    with pytest.raises(GrammarError, match=reason) as refused:
+        System.read(file)
+    assert "\n" not in str(refused.value) and str(file) in str(refused.value)
+
+
+# -- the command -----------------------------------------------------------------------------------
+
+
+def test_the_dossier_of_a_map(tmp_path, capsys):
+    asked = ["--ask", "orbits:1", "stable", "--box", "x=0:1", "--out", str(tmp_path)]
+    assert main(["--map", "r*x*(1 - x)", "--set", "r=3.2", *asked]) == 0
+    said = capsys.readouterr().out
+    assert said.index("Theorem, VERIFIED") < said.index("stable       VERIFIED")
+    assert said.index("VERIFIED") < said.index("Seen in floating point, not proved")
+    for file in ("orbits-1.json", "stable.json"):
+        assert check((tmp_path / file).read_text()).sentences
+    with pytest.raises(SystemExit, match="2"):
+        main(["--map", "x/2", "--ask", "orbits:1", "--out", str(tmp_path)])
+    assert "about another system" in capsys.readouterr().err
+
+
+def test_the_machine_form(capsys):
+    assert main(["--map", "x/2 + 1", "--ask", "orbits:1", "horseshoe", "--json", "-"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert [claim["verdict"] for claim in found["claims"]] == ["VERIFIED", "UNDECIDED"]
+    certificate = found["claims"][0]["certificate"]
+    assert check(json.dumps(certificate)).sentences == tuple(found["claims"][0]["theorems"])
+    certificate["steps"]["periodic-orbit-1"]["witness"]["box"] = [["3", "4"]]
+    with pytest.raises(Rejected):
+        check(json.dumps(certificate))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["nowhere.toml"],
+        ["--example", "none"],
+        ["--map", "2x"],
+        ["--map", "x", "--ask", "orbits:0"],
+        ["--map", "x", "--set", "r"],
+        ["--map", "x", "--box", "x=1"],
+        ["--map", "x", "--box", "y=0:1"],
+        ["--map", "x", "--example", "wall"],
+        ["--map", "x/2", "--figure"],
+    ],
+)
+def test_bad_input_is_one_line_and_status_2(arguments, tmp_path):
+    command = [sys.executable, "-m", "proofs", "system", *arguments]
+    where = {**os.environ, "PYTHONPATH": str(Path(proofs.__file__).parents[1])}
+    done = subprocess.run(
+        command, cwd=tmp_path, env=where, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "") and done.stderr.count("\n") == 1
