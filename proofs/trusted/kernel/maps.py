@@ -7,6 +7,7 @@ has `time`, `motion` and `gaps` as well (see `flight`), a composition if it has 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -134,11 +135,15 @@ class Head(NamedTuple):
         numbers = {name: tape.number(value) for name, value in self.numbers.items()}
         return Placer(tape, places | numbers, [])
 
+    def _written(self, period: Reader) -> tuple[str, ...]:
+        words = re.findall(r"\w+", period.string())
+        return period.string(), *(f"{w} = {self.numbers[w]}" for w in words if w in self.numbers)
+
     def formulas(self, name: str, placer: Placer, readers: Sequence[Reader]) -> Formulas:
         """Read functions of the variables, the periods last, from one tape."""
         roots = tuple(placer.read(reader) for reader in readers)
         circles = tuple(
-            Circle(self.state.index(angle), placer.read(period), period.string())
+            Circle(self.state.index(angle), placer.read(period), self._written(period))
             for angle, period in self.periods.items()
         )
         for circle, period in zip(circles, self.periods.values(), strict=True):
@@ -148,9 +153,10 @@ class Head(NamedTuple):
             (value,) = placer.tape.evaluate((circle.root,), Enclosures(_BITS), ())
             if value.lo <= 0:
                 raise period.fail("a period is positive")
-        parts, texts = tuple(dict.fromkeys(placer.parts)), tuple(each.string() for each in readers)
+        tape, texts = placer.tape, tuple(each.string() for each in readers)
+        parts = tuple(part for part in dict.fromkeys(placer.parts) if tape.may_fail(part))
         ranges = tuple(self.ranges.values())
-        head = Formulas(self.variables, texts, placer.tape, roots, parts, name, ranges)
+        head = Formulas(self.variables, texts, tape, roots, parts, name, ranges)
         return replace(head, circles=circles, given=self.given)
 
 
