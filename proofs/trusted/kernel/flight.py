@@ -37,7 +37,7 @@ from proofs.trusted.kernel.formulas import (
     names_in,
 )
 from proofs.trusted.kernel.gaps import stays_up
-from proofs.trusted.kernel.maps import optional, read_head, require_name, require_periods
+from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.numbers import Range, between, show
 
