@@ -83,14 +83,17 @@ def check(source: str, work: float = DEFAULT) -> Report:
     """
     with metered(work):
         document = parse(source)
-        steps_of, claims_of = document.fields(*FIELDS)[3:]
+        functions_of, steps_of, claims_of = document.fields(*FIELDS)[2:]
         context = _premises(document)
         used: set[str] = set()
         try:
             report = _conclude(context, claims_of, used)
         except Unproved as error:
             raise Rejected(f"{claims_of.path}: {error}") from None
-        unused = sorted({*context.known, *context.functions} - used_steps(steps_of, used))
+        used = used_steps(steps_of, used)
+        unused = sorted(
+            ({*context.known} - used) | ({*context.functions} - used_steps(functions_of, used))
+        )
         if unused:
             raise steps_of.fail(f"steps or functions that nothing uses: {', '.join(unused)[:80]}")
         return report

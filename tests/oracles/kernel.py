@@ -1,18 +1,67 @@
 """Judges of the generic kernel's conclusions, from the texts of the formulas alone."""
 
 from fractions import Fraction
-from itertools import pairwise, product
+from functools import reduce
+from itertools import combinations, pairwise, product
 
 import flint
 import numpy as np
 
+from tests.oracles.flights import Simulation, parameters_in, system_of_record
 from tests.oracles.formulas import BITS, STEP, compiled, exact
 
+STEP_OF_FLIGHTS = 1 / 10
 
-def values(formula, point):
-    """The components at a point (Arb numbers)."""
-    env = dict(zip(formula.variables, point, strict=True))
-    return [compiled(text)[0](env) for text in formula.texts]
+
+def values(function, point):
+    """The components of a map at a point (Arb numbers); those of a flight from floats."""
+    if function.kind == "Composition":
+        return reduce(lambda x, each: values(each, x), function.maps, point)
+    if function.kind == "Flight":
+        return [flint.arb(float(x)) for x in simulated(function).fly(column(point))[:-1, 0]]
+    env = dict(zip(function.variables, point, strict=True)) | parameters(function)
+    return [compiled(text)[0](env) for text in function.texts]
+
+
+def matrix(function, point):
+    """The derivative of a map at a point, in floats."""
+    if function.kind == "Composition":
+        product_ = np.eye(len(point))
+        for each in function.maps:
+            product_ = matrix(each, point) @ product_
+            point = values(each, point)
+        return product_
+    if function.kind == "Flight":
+        return simulated(function).slopes(column(point))[:, :, 0]
+    columns = [partial(function, point, k) for k in range(len(point))]
+    return np.array([[float(x) for x in each] for each in columns]).T
+
+
+def simulated(flight):
+    return Simulation(system_of_record(flight), STEP_OF_FLIGHTS)
+
+
+def column(point):
+    return np.array([[float(x)] for x in point])
+
+
+def parameters(formula):
+    """One value of each parameter."""
+    sides = parameters_in(formula.given).items()
+    return {name: exact(low + (high - low) / 3) for name, (low, high) in sides}
+
+
+def shift(function, turns):
+    """So many periods of the angles, as a vector (Arb numbers)."""
+    while function.kind == "Composition":
+        function = function.maps[0]
+    formula, count = function, len(getattr(function, "variables", ()))
+    if function.kind == "Flight":
+        formula, count = function.formulas, function.state
+    env, moved = parameters(formula), [flint.arb(0)] * count
+    for (place, _, (text, *_)), times in zip(formula.circles, turns, strict=True):
+        moved[place] = compiled(text)[0](env) * int(times)
+    return moved
 
 
 def partial(formula, point, place):
@@ -56,25 +105,21 @@ def newton(function, start):
     return None
 
 
-def _plain(formula):
+def _plain(map_):
     def function(point):
         balls = [exact(float(x)) for x in point]
-        columns = [partial(formula, balls, k) for k in range(len(balls))]
         with np.errstate(all="ignore"):
-            return (
-                np.array([float(x) for x in values(formula, balls)]),
-                np.array([[float(x) for x in column] for column in columns]).T,
-            )
+            return np.array([float(x) for x in values(map_, balls)]), matrix(map_, balls)
 
     return function
 
 
-def zeros_in(formula, box, rng):
-    """The zeros that Newton's method finds clearly inside a box."""
+def zeros_in(function, box, rng):
+    """The zeros that Newton's method finds clearly inside a box; function: as for `newton`."""
     found = []
     with flint.ctx.workprec(BITS):
         for start in list(sampled(box, rng, 5)):
-            zero = newton(_plain(formula), start)
+            zero = newton(function, start)
             if zero is None:
                 continue
             inside = all(
@@ -86,7 +131,7 @@ def zeros_in(formula, box, rng):
 
 
 def unique_zero(view, rng):
-    found = zeros_in(view.function, view.box, rng)
+    found = zeros_in(_plain(view.function), view.box, rng)
     return [] if len(found) == 1 else [f"{len(found)} zeros are found"]
 
 
@@ -107,7 +152,34 @@ def periodic_orbits(view, rng):
     return [] if counts == dict(view.counts) else [f"orbits are found: {counts}"]
 
 
-def _closing(formula, period):
+def periodic_orbit(view, rng):
+    """Newton's method finds one zero of F^n(x) - x - p; its points differ, its multipliers fit."""
+    turned = np.array([float(x) for x in shift(view.function, view.turns)])
+    found = zeros_in(_closing(view.function, view.period, turned), view.box, rng)
+    if len(found) != 1:
+        return [f"{len(found)} orbits are found"]
+    told, step = [], _plain(view.function)
+    points, product_ = [found[0]], np.eye(len(turned))
+    for _ in range(view.period):
+        x, slopes = step(points[-1])
+        points.append(x)
+        product_ = slopes @ product_
+    one = np.array([float(x) for x in shift(view.function, [1] * len(view.turns))])
+    for x, y in combinations(points[:-1], 2):
+        apart = np.where(one == 0, x - y, np.remainder(x - y + one / 2, one + (one == 0)) - one / 2)
+        if np.max(np.abs(apart)) < 1e-7:
+            told.append("two of its points are the same")
+    sizes = abs(np.linalg.eigvals(product_))
+    fits = {
+        None: True,
+        "attracting": all(sizes < 1),
+        "repelling": all(sizes > 1),
+        "a saddle": min(sizes) < 1 < max(sizes),
+    }
+    return told if fits[view.stability] else [*told, f"multipliers of sizes {sizes}"]
+
+
+def _closing(formula, period, turned=0):
     step = _plain(formula)
 
     def function(point):
@@ -117,7 +189,7 @@ def _closing(formula, period):
                 return np.full(len(point), np.nan), np.eye(len(point))
             x, slopes = step(x)
             product = slopes @ product
-        return x - point, product - np.eye(len(point))
+        return x - turned - point, product - np.eye(len(point))
 
     return function
 
@@ -180,7 +252,7 @@ def h_set(view, rng):
 
 def _local(cover, q, derivative=False):
     """f(q) = B^-1 (F^k(c + A q) - d) in Arb numbers; with the derivative, in floats."""
-    local, n = cover.local, len(q)
+    local = cover.local
     point = [
         exact(c) + sum((exact(a) * x for a, x in zip(row, q, strict=True)), flint.arb(0))
         for c, row in zip(local.source.centre, local.source.matrix, strict=True)
@@ -188,10 +260,10 @@ def _local(cover, q, derivative=False):
     product_ = np.array(local.source.matrix, float)
     for _ in range(local.power):
         if derivative:
-            columns = [partial(cover.local.map, point, k) for k in range(n)]
-            product_ = np.array([[float(x) for x in column] for column in columns]).T @ product_
-        point = [x.mid() for x in values(cover.local.map, point)]
-    moved = [x - exact(d) for x, d in zip(point, local.target.centre, strict=True)]
+            product_ = matrix(local.map, point) @ product_
+        point = [x.mid() for x in values(local.map, point)]
+    centre, turned = local.target.centre, shift(local.map, local.turns)
+    moved = [x - p - exact(d) for x, p, d in zip(point, turned, centre, strict=True)]
     image = [
         sum((exact(a) * x for a, x in zip(row, moved, strict=True)), flint.arb(0))
         for row in local.target.inverse
@@ -289,6 +361,7 @@ def _closed(edges, rng, most=2):
 JUDGES = {
     "Zero": zero,
     "UniqueZero": unique_zero,
+    "PeriodicOrbit": periodic_orbit,
     "PeriodicOrbits": periodic_orbits,
     "HSet": h_set,
     "Covers": covers,

@@ -378,6 +378,13 @@ FALSE = {
         put("function", lambda old: f"({old})**2 + 1"),
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "PeriodicOrbit": [
+        put("box", lambda old: tuple((b + 10, b + 11) for _, b in old)),
+        put("period", lambda old: 2 * old),
+        put("turns", lambda old: tuple(x + 1 for x in old)),
+        put("stability", lambda old: "attracting" if old == "a saddle" else "a saddle"),
+        put("stability", "repelling"),
+    ],
     "PeriodicOrbits": [
         put("counts", lambda old: (*old[:-1], (old[-1][0], old[-1][1] + 1))),
         put("counts", lambda old: old[1:]),

@@ -4,14 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.contractor import Point
 from proofs.trusted.kernel.covers import MAX_POWER, images, read_turns
-from proofs.trusted.kernel.enclose import PRECISIONS, Box, box_text, enclosed, integer, read_box
+from proofs.trusted.kernel.enclose import (
+    Box,
+    Matrix,
+    box_text,
+    enclosed,
+    integer,
+    read_box,
+    tried,
+)
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.periodic import Closing, derivative
 from proofs.trusted.kernel.zeros import read_matrix, require_zero
@@ -75,11 +85,16 @@ def periodic_orbit(context: Context, reader: Reader) -> PeriodicOrbit:
         raise function_of.fail("as many values as variables are expected")
     box = read_box(box_of, n)
     require_zero(Closing(function, period, turns), box, read_matrix(matrix_of, n))
-    for bits in PRECISIONS:
-        points = images(function, enclosed(box, bits), period)
+    for points, matrix in tried(partial(_followed, function, box, period)):
         if not any(_may_be_one(function, x, y) for x, y in combinations(points, 2)):
-            return PeriodicOrbit(function, period, turns, box, _stability(function, points))
+            return PeriodicOrbit(function, period, turns, box, _stability(matrix))
     raise Unproved("the points of the orbit are not proved to be different")
+
+
+def _followed(function: Map, box: Box, period: int, bits: int) -> tuple[list[Point], Matrix]:
+    """Enclose a box's images, and the derivative along them."""
+    points = images(function, enclosed(box, bits), period)
+    return points, derivative(function, points)
 
 
 def _may_be_one(function: Map, x: Sequence[Enclosure], y: Sequence[Enclosure]) -> bool:
@@ -96,10 +111,9 @@ def _may_be_one(function: Map, x: Sequence[Enclosure], y: Sequence[Enclosure]) -
     return True
 
 
-def _stability(function: Map, points: Sequence[list[Enclosure]]) -> str | None:
-    """Return what the multipliers are, if that is proved, of an orbit that goes through boxes."""
-    matrix = derivative(function, list(points))
-    unit = 1 << points[0][0].bits
+def _stability(matrix: Matrix) -> str | None:
+    """Return what the multipliers of all matrices in an interval matrix are, if that is proved."""
+    unit = 1 << matrix[0][0].bits
     if len(matrix) == 1:
         size = magnitude(matrix[0][0])
         return ATTRACTING if size.hi < unit else REPELLING if size.lo > unit else None

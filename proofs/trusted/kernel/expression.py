@@ -95,6 +95,11 @@ class Tape:
                 moved[place] = self.add(op, *(moved[i] for i in arguments), datum=datum)
         return [moved[root] for root in roots]
 
+    def may_fail(self, root: int) -> bool:
+        """Whether an expression may be undefined somewhere."""
+        nodes = [self.nodes[place] for place in self.order((root,))]
+        return any(op in ("/", "sqrt", "log") or (op == "^" and n < 0) for op, _, n in nodes)
+
     def derivative(self, root: int, variable: int) -> int:
         """Return the place of the partial derivative, by the rules of calculus, node by node.
 

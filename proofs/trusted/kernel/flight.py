@@ -6,8 +6,9 @@ may have them:
 - motion: a list of {name y, form, equation, start}. The form is a formula of x, t and the motions
   before it; it is proved to be the solution of y^(n) = equation whose derivatives of the orders
   0, ..., n - 1 at t = 0 are `start`, n in number. In the formulas y stands for it, D(y, t) for its
-  velocity. In an equation only y, D(y, t), ... of the orders below n occur, and neither divisors
-  nor roots nor logarithms of them, so that the solution is unique where the rest is defined.
+  velocity; nothing is substituted for y, or into it. In an equation only y, D(y, t), ... of the
+  orders below n occur, and neither divisors nor roots nor logarithms of them, so that the solution
+  is unique where the rest is defined.
 - gaps: formulas of x and t; the first is that of the impact, the others are those of other walls.
 - values: formulas of x and t, taken at the impact.
 
@@ -26,10 +27,17 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Matrix, add, enclosed
-from proofs.trusted.kernel.expression import Node, Tape
-from proofs.trusted.kernel.formulas import MAX_VALUES, MAX_VARIABLES, Circle, Formulas, Placer
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.formulas import (
+    MAX_VALUES,
+    MAX_VARIABLES,
+    Circle,
+    Formulas,
+    Placer,
+    names_in,
+)
 from proofs.trusted.kernel.gaps import stays_up
-from proofs.trusted.kernel.maps import optional, read_head, require_name, require_periods
+from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.numbers import Range, between, show
 
@@ -98,7 +106,7 @@ class Flight:
         time, count = self.formulas.variables[self.state], len(self.gaps)
         first, *others = self.formulas.texts[:count]
         values = ", ".join(self.formulas.texts[count:])
-        walls = f" and {', '.join(others)} > 0 from launch to it" if others else ""
+        walls = f" and {', '.join(others)} > 0 after launch until it" if others else ""
         motions = "; ".join(self.motions)
         return (
             f"{self.name}({', '.join(self.variables)}) = ({values}) at the first {time} > 0 where "
@@ -265,10 +273,10 @@ def read_flight(name: str, reader: Reader) -> Flight:
     for motion in motions:
         _require_solution(placer, time, motion, orders)
     gaps, values = gaps_of.items(1, _MOST_GAPS), values_of.items(1, MAX_VALUES)
+    left = tuple(_gap(placer, time, each) for each in gaps)
     formulas = head.formulas(name, placer, [*gaps, *values])
     roots, count = formulas.roots, len(gaps)
     require_periods(reader, formulas, roots[count:], roots[:count])
-    left = tuple(_gap(placer, time, *each) for each in zip(gaps, roots, strict=False))
     said = tuple(motion.said(time) for motion in motions)
     return Flight(formulas, len(head.state), left, said)
 
@@ -298,7 +306,7 @@ def _read_form(placer: Placer, time: str, reader: Reader) -> _Motion:
     if name in placer.places:
         raise name_of.fail(f"a name that is there twice: {name!r}")
     placer.places[name] = form = placer.read(form_of)
-    placer.parts.append(form)
+    placer.solutions.add(name)
     return _Motion(name, form, equation, start_of.items(1, _MOST_ORDERS))
 
 
@@ -309,21 +317,22 @@ def _require_solution(
 
     Theorem. The right side is a smooth function of the unknowns, continuous in t, wherever it is
     defined: so its solution is unique (Picard and Lindelof). The form is one: the normal forms of
-    both sides are the same, as are those of its derivatives at t = 0 and the start.
+    both sides are the same, as are those of its derivatives at t = 0 and the start; all of these
+    become parts, so they are proved defined wherever the flight is followed.
     """
     tape, equation = placer.tape, motion.equation
     right = placer.read(equation)
     _require_explicit(equation, ast.parse(equation.string(), mode="eval").body, time, orders)
-    if any(_may_fail(tape.nodes[place]) for place in tape.order((right,))):
-        placer.parts.append(right)
     rate, clock = motion.form, placer.places[time]
     for start_of in motion.start:
         start = placer.read(start_of)
-        if clock in tape.order((start,)):
-            raise start_of.fail("a start does not depend on the time")
+        if names_in(ast.parse(start_of.string())) & {time, *orders}:
+            raise start_of.fail("a start does not depend on the time, nor on motions")
+        placer.parts += rate, start
         if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
             raise start_of.fail(f"the form of {motion.name} is not proved to start so")
         rate = tape.derivative(rate, int(tape.nodes[clock].datum))
+    placer.parts += rate, right
     if not _equal(tape, rate, right):
         raise equation.fail(f"the form of {motion.name} is not proved to solve this equation")
 
@@ -335,10 +344,6 @@ def _equal(tape: Tape, one: int, two: int) -> bool:
     return forms.is_zero(plus(left, right, -1))
 
 
-def _may_fail(node: Node) -> bool:
-    return node.op in ("/", "sqrt", "log") or (node.op == "^" and node.datum < 0)
-
-
 def _require_explicit(reader: Reader, node: ast.AST, time: str, orders: Mapping[str, int]) -> None:
     """Raise Malformed unless the unknowns occur as y, D(y, t), ..., below their orders alone.
 
@@ -346,7 +351,7 @@ def _require_explicit(reader: Reader, node: ast.AST, time: str, orders: Mapping[
     """
 
     def unknown(part: ast.AST) -> bool:
-        return any(isinstance(each, ast.Name) and each.id in orders for each in ast.walk(part))
+        return not names_in(part).isdisjoint(orders)
 
     match node:
         case ast.Call(func=ast.Name(id="D"), args=[ast.Name(id=name), *by]) if name in orders:
@@ -372,10 +377,10 @@ def _require_explicit(reader: Reader, node: ast.AST, time: str, orders: Mapping[
     return None
 
 
-def _gap(placer: Placer, time: str, reader: Reader, root: int) -> Gap:
+def _gap(placer: Placer, time: str, reader: Reader) -> Gap:
     """Return a gap with its derivatives, up to the first that is not 0 at launch for all states."""
     tape, clock = placer.tape, placer.places[time]
-    orders = [root]
+    orders = [placer.read(reader)]
     while len(orders) < 3:
         orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
     for order in range(_MOST_ORDERS + 1):
@@ -383,5 +388,6 @@ def _gap(placer: Placer, time: str, reader: Reader, root: int) -> Gap:
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
         if not _equal(tape, start, tape.number(0)):
+            placer.parts += orders[: max(order, 2)]
             return Gap(tuple(orders), order)
     raise reader.fail("the gap is 0 at launch, with all its first derivatives")

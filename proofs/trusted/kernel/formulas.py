@@ -15,7 +15,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -40,11 +40,14 @@ VARIABLE = re.compile(r"[a-z][a-z0-9_]{0,19}")
 
 
 class Circle(NamedTuple):
-    """An angle, by its place among the variables; its period, on the tape and as it is written."""
+    """An angle, by its place among the variables; its period, on the tape and as it is written.
+
+    With the period's text go the values of the parameters in it.
+    """
 
     place: int
     root: int
-    period: str
+    period: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,12 +183,14 @@ def _tokens(reader: Reader) -> list[str]:
 class Placer:
     """Puts the syntax trees of texts on a tape.
 
-    places: of the variables. parts: collects the functions of which derivatives are taken.
+    places: of the variables, and of solutions of equations, which names stand for. parts: collects
+    the functions of which derivatives are taken.
     """
 
     tape: Tape
     places: dict[str, int]
     parts: list[int]
+    solutions: set[str] = field(default_factory=set)
 
     def read(self, reader: Reader) -> int:
         """Return the place of a text's expression."""
@@ -224,10 +229,7 @@ class Placer:
                 moves = {self._variable(word.arg): inner(word.value) for word in words}
                 if len(moves) < len(words):
                     raise Unproved("a variable is substituted twice")
-                before = len(self.parts)
-                root = inner(function)
-                moved = self.tape.moved([root, *self.parts[before:]], moves)
-                place, self.parts[before:] = moved[0], moved[1:]
+                place = self._moved(function, moves, depth - 1)
             case ast.Call(func=ast.Name(id=name), args=[one], keywords=[]) if name in FUNCTIONS:
                 place = self.tape.add(name, inner(one))
             case _:
@@ -241,9 +243,18 @@ class Placer:
             place = self.tape.derivative(place, int(self.tape.nodes[variable].datum))
         return place
 
+    def _moved(self, function: ast.AST, moves: dict[int, int], depth: int) -> int:
+        """Return a function's place, others being put in places; not into solutions: they end."""
+        if names_in(function) & self.solutions:
+            raise Unproved("nothing is substituted into the solution of an equation")
+        before = len(self.parts)
+        root = self._place(function, depth)
+        place, *self.parts[before:] = self.tape.moved([root, *self.parts[before:]], moves)
+        return place
+
     def _variable(self, name: str | None) -> int:
         place = self._named(name)
-        if self.tape.nodes[place].op != "variable":
+        if name in self.solutions or self.tape.nodes[place].op != "variable":
             raise Unproved(f"not a variable: {name!r}")
         return place
 
@@ -260,6 +271,11 @@ class Placer:
         if op == "/" and a.op == b[0].op == "number" and b[0].datum:
             return self.tape.number(a.datum / b[0].datum)
         return self.tape.add(op, *places)
+
+
+def names_in(node: ast.AST) -> set[str]:
+    """Return the names of which a formula is."""
+    return {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
 
 
 def _exponent(node: ast.AST) -> Fraction:

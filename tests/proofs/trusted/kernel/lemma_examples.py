@@ -9,6 +9,8 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.kernel.values import Equal, Series
+from tests.proofs.trusted.kernel.map_lemmas import MapLemmas
+from tests.proofs.trusted.kernel.systems import BALL, RATTLE, RATTLE_BACK
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
 CUBIC = "x**3 - 3*x + 1"
@@ -192,7 +194,29 @@ def flips():
     return file
 
 
+def ball():
+    """A ball on a vibrating table: a saddle of three periods, and its cones."""
+    file, start, turns = MapLemmas({"P": BALL}), (1.2512, 0.9425), (3,)
+    file.periodic_orbit("P", start, 1, turns, Fraction(1, 10**4))
+    rows = [["-71/40000", "1/400"], ["1/400", "-67/400000"]]
+    around = file.h_set(["1251/1000", "471/500"], rows)
+    graph = file.graph([file.covers("P", 1, around, around)])
+    file.cone(graph, ["1", "-4"])
+    return file
+
+
+def rattle():
+    """A tooth between two walls, for all restitutions of a range: an attracting orbit."""
+    more = {"parameters": {**RATTLE["parameters"], "e": ["3/5", "60001/100000"]}}
+    walls = {"U": {**RATTLE, **more}, "V": {**RATTLE_BACK, **more}}
+    file = MapLemmas({**walls, "P": {"maps": ["U", "V"]}})
+    file.periodic_orbit("P", (-0.7876, 0.5024), 1, (1,), Fraction(1, 1000))
+    return file
+
+
 EXAMPLES = {
+    "ball": ball,
+    "rattle": rattle,
     "flips": flips,
     "logistic": logistic,
     "henon_fixed_points": henon_fixed_points,

@@ -1,0 +1,157 @@
+"""What the formulas of a map are of: the state, its angles, a flight's time, parameters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.enclose import Enclosures
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.formulas import (
+    FUNCTION_NAME,
+    MAX_VARIABLES,
+    VARIABLE,
+    WORDS,
+    Circle,
+    Formulas,
+    Placer,
+)
+from proofs.trusted.kernel.normalform import NormalForms, Polynomial, plus
+from proofs.trusted.numbers import Range, show, show_range
+
+_OPTIONAL = ("parameters", "periods")
+_BITS = 64
+
+
+class Head(NamedTuple):
+    """What a map's formulas are of: the state, a flight's time, parameters.
+
+    numbers: parameters with one value; ranges: those with more.
+    """
+
+    state: tuple[str, ...]
+    time: tuple[str, ...]
+    numbers: Mapping[str, Fraction]
+    ranges: Mapping[str, Range]
+    periods: Mapping[str, Reader]
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables on the tape, in this order."""
+        return (*self.state, *self.time, *self.ranges)
+
+    @property
+    def given(self) -> str:
+        """Write the parameters, and the periods of angles."""
+        values = [f"{name} = {show(value)}" for name, value in self.numbers.items()]
+        values += [f"for every {name} in {show_range(ends)}" for name, ends in self.ranges.items()]
+        values += [f"{name} modulo {period.string()}" for name, period in self.periods.items()]
+        return "".join(f", {value}" for value in values)
+
+    def placer(self) -> Placer:
+        """Return a tape that has the variables and the parameters."""
+        tape = Tape()
+        places = {v: tape.add("variable", datum=Fraction(i)) for i, v in enumerate(self.variables)}
+        numbers = {name: tape.number(value) for name, value in self.numbers.items()}
+        return Placer(tape, places | numbers, [])
+
+    def _written(self, period: Reader) -> tuple[str, ...]:
+        words = re.findall(r"\w+", period.string())
+        return period.string(), *(f"{w} = {self.numbers[w]}" for w in words if w in self.numbers)
+
+    def formulas(self, name: str, placer: Placer, readers: Sequence[Reader]) -> Formulas:
+        """Read functions of the variables, the periods last, from one tape."""
+        roots = tuple(placer.read(reader) for reader in readers)
+        circles = tuple(
+            Circle(self.state.index(angle), placer.read(period), self._written(period))
+            for angle, period in self.periods.items()
+        )
+        for circle, period in zip(circles, self.periods.values(), strict=True):
+            needed = placer.tape.order((circle.root,))
+            if any(placer.tape.nodes[place].op == "variable" for place in needed):
+                raise period.fail("a period is a number")
+            (value,) = placer.tape.evaluate((circle.root,), Enclosures(_BITS), ())
+            if value.lo <= 0:
+                raise period.fail("a period is positive")
+        tape, texts = placer.tape, tuple(each.string() for each in readers)
+        parts = tuple(part for part in dict.fromkeys(placer.parts) if tape.may_fail(part))
+        ranges = tuple(self.ranges.values())
+        head = Formulas(self.variables, texts, tape, roots, parts, name, ranges)
+        return replace(head, circles=circles, given=self.given)
+
+
+def read_head(name: str, reader: Reader) -> Head:
+    """Read the variables, the time, the parameters and the periods of a map."""
+    if not FUNCTION_NAME.fullmatch(name):
+        raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
+    fields = dict(reader.entries())
+    state = tuple(item.string() for item in fields["variables"].items(1, MAX_VARIABLES))
+    time = (fields["time"].string(),) if "time" in fields else ()
+    sides = {
+        each: item.range()
+        for each, item in (fields["parameters"].entries() if "parameters" in fields else ())
+    }
+    names = (*state, *time, *sides)
+    for each in names:
+        require_name(reader, each, each in sides)
+    if len({*names}) < len(names) or len(names) > MAX_VARIABLES:
+        raise reader.fail(f"a name that is there twice, or more than {MAX_VARIABLES} names")
+    numbers = {each: low for each, (low, high) in sides.items() if low == high}
+    ranges = {each: ends for each, ends in sides.items() if each not in numbers}
+    periods = dict(fields["periods"].entries()) if "periods" in fields else {}
+    for each, period in periods.items():
+        if each not in state:
+            raise period.fail(f"a period of what is no variable: {each[:30]!r}")
+    return Head(state, time, numbers, ranges, periods)
+
+
+def require_name(reader: Reader, name: str, is_parameter: bool = False) -> None:
+    """Raise Malformed unless a name is one of a variable: parameters alone are named `e`."""
+    if name in WORDS or (name == "e" and not is_parameter) or not VARIABLE.fullmatch(name):
+        raise reader.fail(f"not a name for a variable: {name[:30]!r}")
+
+
+def optional(reader: Reader) -> list[str]:
+    """Return the names of the fields that a map may have, and has."""
+    return [name for name in _OPTIONAL if reader.has(name)]
+
+
+def require_periods(
+    reader: Reader, formulas: Formulas, values: Sequence[int], others: Sequence[int] = ()
+) -> None:
+    """Raise Malformed unless formulas respect the periods of the angles.
+
+    With x + P, P the period of an angle, in the place of x, each of the values changes by a
+    multiple of its own period if it is the image of an angle, else not; nor do the others. That is
+    seen in the normal forms, which are right wherever both sides are defined.
+    """
+    if not formulas.circles:
+        return
+    tape, forms = formulas.tape, NormalForms(MAX_VARIABLES)
+    own = {circle.place: circle.root for circle in formulas.circles}
+    for circle in formulas.circles:
+        angle = tape.add("variable", datum=Fraction(circle.place))
+        turned = tape.moved((*values, *others), {angle: tape.add("+", angle, circle.root)})
+        for k, (before, after) in enumerate(zip((*values, *others), turned, strict=True)):
+            roots = (before, after, own[k] if k < len(values) and k in own else before)
+            one, two, period = tape.evaluate(roots, forms, forms.inputs())
+            change = plus(two, one, -1)
+            if k < len(values) and k in own:
+                change = plus(change, period, -_multiple(change, period))
+            if not forms.is_zero(change):
+                variable = formulas.variables[circle.place]
+                raise reader.fail(
+                    f"the formulas are not proved to respect the period of {variable}"
+                )
+
+
+def _multiple(value: Polynomial, period: Polynomial) -> int:
+    """Return the integer k for which value = k period, if there is one; else any."""
+    for monomial, factor in period.items():
+        ratio = value.get(monomial, Fraction(0)) / factor
+        return int(ratio) if ratio.denominator == 1 else 0
+    return 0
