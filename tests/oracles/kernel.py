@@ -114,6 +114,16 @@ def _plain(map_):
     return function
 
 
+def image(view, rng):
+    """Points of the box are taken into the bounds."""
+    with flint.ctx.workprec(BITS):
+        for point in sampled(view.box, rng):
+            for value, (low, high) in zip(values(view.function, point), view.bounds, strict=True):
+                if not float(low) - 1e-6 <= float(value) <= float(high) + 1e-6:
+                    return [f"the image of {_told(point)} is not in the bounds"]
+    return []
+
+
 def zeros_in(function, box, rng):
     """The zeros that Newton's method finds clearly inside a box; function: as for `newton`."""
     found = []
@@ -361,6 +371,7 @@ def _closed(edges, rng, most=2):
 JUDGES = {
     "Zero": zero,
     "UniqueZero": unique_zero,
+    "Image": image,
     "PeriodicOrbit": periodic_orbit,
     "PeriodicOrbits": periodic_orbits,
     "HSet": h_set,

@@ -378,6 +378,7 @@ FALSE = {
         put("function", lambda old: f"({old})**2 + 1"),
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "PeriodicOrbit": [
         put("box", lambda old: tuple((b + 10, b + 11) for _, b in old)),
         put("period", lambda old: 2 * old),

@@ -112,7 +112,7 @@ def test_what_is_no_map_is_a_sentence(make, reason):
 
 def test_floats_are_refused():
     for make in (lambda: Map("r*x", r=0.1), lambda: HENON.image(x=0.1, y="0")):
-        with pytest.raises(TypeError, match='write it as "0.1"'):
+        with pytest.raises(TypeError, match="write it as"):
             make()
 
 

@@ -202,6 +202,8 @@ def ball():
     around = file.h_set(["1251/1000", "471/500"], rows)
     graph = file.graph([file.covers("P", 1, around, around)])
     file.cone(graph, ["1", "-4"])
+    box, bounds = [["1", "1001/1000"], ["3/2", "3/2"]], [["31", "32"], ["2", "5/2"]]
+    file.add("image", {"function": "P", "box": box, "tree": None, "bounds": bounds})
     return file
 
 
