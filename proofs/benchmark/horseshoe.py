@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
@@ -11,12 +12,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from proofs.benchmark.measure import Row, Tell, ratio_row, spread
 from proofs.benchmark.page import Section
 from proofs.benchmark.peers import FLINT, libraries
-from proofs.shell.entry import run_process
 from proofs.shell.groups import row_of
 from proofs.trusted.paper import GROUPS
 
@@ -66,6 +66,20 @@ def process(arguments: Sequence[str]) -> Process:
     if status not in (0, 1):  # 1: a claim is undecided
         raise ChildProcessError(f"python {' '.join(arguments)}: exit status {status}")
     return Process(seconds, status, peak / (1 << 20 if sys.platform == "darwin" else 1 << 10))
+
+
+def run_process(command: Sequence[str], **streams: Any) -> subprocess.CompletedProcess[bytes]:
+    """Do as `subprocess.run`; where that is given up, the process ends at once with all of its own.
+
+    It is in a session of its own, so that an interrupt from the keyboard does not reach it.
+    """
+    with subprocess.Popen(command, start_new_session=True, **streams) as process:
+        try:
+            out, err = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)
+            raise
+    return subprocess.CompletedProcess(command, process.returncode, out, err)
 
 
 def limits(mode: str, tell: Tell) -> Section:

@@ -10,13 +10,12 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
-    import subprocess
     from concurrent.futures import ProcessPoolExecutor
     from types import FrameType
 
@@ -161,19 +160,3 @@ def workers(count: int) -> Iterator[ProcessPoolExecutor]:
                 if process not in others:
                     process.terminate()
             raise
-
-
-def run_process(command: Sequence[str], **streams: Any) -> subprocess.CompletedProcess[bytes]:
-    """Do as `subprocess.run`; where that is given up, the process ends at once with all of its own.
-
-    It is in a session of its own, so that an interrupt from the keyboard does not reach it.
-    """
-    import subprocess
-
-    with subprocess.Popen(command, start_new_session=True, **streams) as process:
-        try:
-            out, err = process.communicate()
-        except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
-            raise
-    return subprocess.CompletedProcess(command, process.returncode, out, err)

@@ -1,4 +1,4 @@
-"""What people read: words never broken, verdicts in a table, the gist of a theorem.
+"""What people read: words never broken, verdicts in colour, the gist of a theorem.
 
 Importing this takes the standard library alone.
 """
@@ -19,12 +19,12 @@ from proofs.trusted.verdicts import Verdict
 
 _WIDTH = 80  # where there is no terminal
 _SENTENCE = re.compile(r"(?<=[^.]\.) ")
-_COLOURS = {
-    Verdict.VERIFIED: "green",
-    Verdict.REFUTED: "red",
-    Verdict.CONDITIONAL: "cyan",
-    Verdict.UNDECIDED: "yellow",
-    Verdict.SIMULATED: "magenta",
+_COLOURS = {  # of the terminal, by ECMA-48
+    Verdict.VERIFIED: 32,
+    Verdict.REFUTED: 31,
+    Verdict.CONDITIONAL: 36,
+    Verdict.UNDECIDED: 33,
+    Verdict.SIMULATED: 35,
 }
 
 
@@ -134,29 +134,15 @@ def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:
 
 
 def show_verdicts(rows: Sequence[Decided]) -> None:
-    """Print a table on a terminal that has room for its words, else two lines a claim."""
-    longest = max(len(word) for row in rows for word in f"{row.statement} {row.why}".split())
-    if sys.stdout.isatty() and longest <= columns() - len("claim  CONDITIONAL  "):
-        _show_table(rows)
-        return
+    """Print each claim in two lines, broken where a terminal has less room; there in colour."""
+    colours = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
     for row in rows:
-        say(f"{row.id:4} {row.verdict.value:11} {row.statement}\n     {row.why}")
-
-
-def _show_table(rows: Sequence[Decided]) -> None:
-    """Print the rows by `rich`, which knows widths and colours of terminals."""
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
-    for name in ("claim", "verdict", "statement, and why"):
-        table.add_column(name, no_wrap=name != "statement, and why")
-    for row in rows:
-        words = Text.assemble(row.statement, "\n", (row.why, "dim"))
-        table.add_row(row.id, Text(row.verdict.value, _COLOURS[row.verdict]), words)
-    Console().print(table)
+        word = row.verdict.value
+        text = fitted(f"{row.id:4} {word:11} {row.statement}", sys.stdout, hanging=5)
+        if colours and not os.environ.get("NO_COLOR"):
+            text = text.replace(word, f"\x1b[{_COLOURS[row.verdict]}m{word}\x1b[0m", 1)
+        print(text)
+        say(f"     {row.why}", hanging=0)
 
 
 def gist(theorem: str) -> str:

@@ -46,10 +46,10 @@ def stress(
 ) -> report.Run:
     """Try about `count` cases of some families."""
     began = perf_counter()
-    found: list[Judgement] = []
-    for case in cases(families, count, seed, by):
-        tell(f"{len(found)} cases, {case.family}")
-        found.append(judge(case, by))
+    found: dict[str, list[Judgement]] = {}
+    for number, case in enumerate(cases(families, count, seed, by)):
+        tell(f"{number} cases, {case.family}")
+        found.setdefault(case.family, []).append(judge(case, by))
     return report.Run(found, seed, by.name, perf_counter() - began)
 
 
@@ -86,6 +86,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         say(report.text(run))
     if options.out is not None:
         with refusing(parser, options.out), writing(options.out) as put:
-            put("stress.md", report.markdown(run))
+            put("stress.md", report.markdown(run, {each.name: each.about for each in FAMILIES}))
             put("stress.json", report.machine_form(run))
     return int(bool(run.failures))

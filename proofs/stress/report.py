@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from statistics import median
+from typing import NamedTuple
 
 from proofs.report.markup import markdown_table
-from proofs.stress.families import FAMILIES
 from proofs.stress.judge import Judgement, Outcome
 
 SCHEMA = "impact-proofs.stress/1"
-_REASONS = 3
+_REASONS = 3  # of a family, that are shown
 _OUTCOMES = {
     outcome.name if outcome.failure else outcome.name.lower(): outcome for outcome in Outcome
 }
@@ -28,98 +27,41 @@ of work. Missed: refused for want of an impact, or as impossible, though there i
 Unjudged: the truth is out of reach."""
 
 
-@dataclass(frozen=True)
-class Run:
-    """All judgements of one run, and what it was asked for."""
+class Run(NamedTuple):
+    """All judgements of one run, by family, and what it was asked for."""
 
-    judgements: Sequence[Judgement]
+    families: dict[str, list[Judgement]]
     seed: int
     kernel: str
     seconds: float
+
+    @property
+    def judgements(self) -> list[Judgement]:
+        """Return all of them."""
+        return [one for some in self.families.values() for one in some]
 
     @property
     def failures(self) -> list[Judgement]:
         """Return the cases on which the library is wrong."""
         return [one for one in self.judgements if one.outcome.failure]
 
-    def by_family(self) -> dict[str, list[Judgement]]:
-        """Return the judgements of each family that has any."""
-        found: dict[str, list[Judgement]] = {}
-        for one in self.judgements:
-            found.setdefault(one.case.family, []).append(one)
-        return found
-
-
-def rows(run: Run) -> list[tuple[str, ...]]:
-    """Return a line for each family; widths and times are medians and largest."""
-    lines = []
-    for name, some in run.by_family().items():
-        count = Counter(one.outcome for one in some)
-        numbers = (len(some), *(count[outcome] for outcome in _OUTCOMES.values()))
-        widths = [one.width for one in some if one.width is not None]
-        times = [1000 * one.seconds for one in some]
-        lines.append((name, *map(str, numbers), *_spread(widths), *_spread(times)))
-    return lines
-
-
-def _spread(values: Sequence[float]) -> tuple[str, str]:
-    return (f"{median(values):.2g}", f"{max(values):.2g}") if values else ("-", "-")
-
-
-def _table(run: Run) -> str:
-    return "\n".join(markdown_table([_HEADER, *rows(run)], numbers_from=1))
-
 
 def text(run: Run) -> str:
-    """Return the table, the failures and the verdict."""
-    return "\n".join([_table(run), "", *_failures(run), verdict(run)])
+    """Return the table, the failures, and the line that the exit status stands for."""
+    return "\n".join([_table(run), "", *_failures(run), _verdict(run)])
 
 
-def verdict(run: Run) -> str:
-    """Return the line that the exit status stands for."""
-    count = f"{len(run.judgements)} cases in {run.seconds:.0f} s, judged by {run.kernel}: "
-    if not run.failures:
-        return count + "no case excludes the truth"
-    excluded = sum(one.outcome is Outcome.EXCLUDED for one in run.failures)
-    return count + f"{excluded} EXCLUDE THE TRUTH, {len(run.failures) - excluded} crash"
-
-
-def _failures(run: Run) -> list[str]:
-    lines = []
-    for one in run.failures:
-        inputs = one.case.inputs()
-        name = inputs.pop("family")
-        given = ", ".join(f"{field} = {value}" for field, value in inputs.items())
-        lines.append(f"{one.outcome.value}: {name}: {one.reason}; input {given}")
-    return lines
-
-
-def markdown(run: Run) -> str:
-    """Return the page."""
-    known = run.by_family()
-    families = [f"- {family.name}: {family.about}" for family in FAMILIES if family.name in known]
-    refused = [
-        f"- {name}: {count} times: {reason}"
-        for name, some in known.items()
-        for reason, count in reasons(some)
-    ]
-    lines = ["# Stress", "", f"{verdict(run)}. Seed {run.seed}.", "", _ABOUT, "", _table(run)]
-    lines += ["", "## What each family is", "", *families]
-    lines += ["", "## Why cases were refused", "", *refused]
+def markdown(run: Run, about: dict[str, str]) -> str:
+    """Return the page. about: what each family is."""
+    lines = ["# Stress", "", f"{_verdict(run)}. Seed {run.seed}.", "", _ABOUT, "", _table(run)]
+    lines += ["", "## What each family is", ""]
+    lines += [f"- {name}: {about[name]}" for name in run.families]
+    lines += ["", "## Why cases were refused", ""]
+    for name, some in run.families.items():
+        lines += [f"- {name}: {count} times: {why}" for why, count in _reasons(some)]
     if run.failures:
         lines += ["", "## Failures", "", *(f"- {line}" for line in _failures(run))]
     return "\n".join(lines) + "\n"
-
-
-def reasons(some: Sequence[Judgement]) -> list[tuple[str, int]]:
-    """Return the commonest reasons of refusals, without what differs from case to case."""
-    refused = (Outcome.REFUSED, Outcome.STOPPED, Outcome.MISSED)
-    count: Counter[str] = Counter()
-    for one in some:
-        if one.outcome in refused:
-            words = one.reason.split()
-            count[" ".join("..." if any(map(str.isdigit, w)) else w for w in words)] += 1
-    return count.most_common(_REASONS)
 
 
 def machine_form(run: Run) -> str:
@@ -137,3 +79,41 @@ def machine_form(run: Run) -> str:
     data = {"schema": SCHEMA, "seed": run.seed, "kernel": run.kernel}
     data |= {"seconds": round(run.seconds, 2), "failures": len(run.failures), "cases": cases}
     return json.dumps(data, indent=1) + "\n"
+
+
+def _table(run: Run) -> str:
+    rows = [_HEADER, *(_row(name, some) for name, some in run.families.items())]
+    return "\n".join(markdown_table(rows, numbers_from=1))
+
+
+def _row(name: str, some: Sequence[Judgement]) -> tuple[str, ...]:
+    """Return the line of a family; widths and times are medians and largest."""
+    count = Counter(one.outcome for one in some)
+    numbers = len(some), *(count[outcome] for outcome in _OUTCOMES.values())
+    row = [name, *map(str, numbers)]
+    widths = [one.width for one in some if one.width is not None]
+    for values in (widths, [1000 * one.seconds for one in some]):
+        row += [f"{median(values):.2g}", f"{max(values):.2g}"] if values else ["-", "-"]
+    return tuple(row)
+
+
+def _verdict(run: Run) -> str:
+    count = f"{len(run.judgements)} cases in {run.seconds:.0f} s, judged by {run.kernel}: "
+    if not run.failures:
+        return count + "no case excludes the truth"
+    excluded = sum(one.outcome is Outcome.EXCLUDED for one in run.failures)
+    return count + f"{excluded} EXCLUDE THE TRUTH, {len(run.failures) - excluded} crash"
+
+
+def _failures(run: Run) -> Iterator[str]:
+    for one in run.failures:
+        family, *given = (f"{name} = {value}" for name, value in one.case.inputs().items())
+        yield f"{one.outcome.value}: {family}: {one.reason}; input {', '.join(given)}"
+
+
+def _reasons(some: Sequence[Judgement]) -> list[tuple[str, int]]:
+    """Return the commonest reasons of refusals, without what differs from case to case."""
+    refused = (Outcome.REFUSED, Outcome.STOPPED, Outcome.MISSED)
+    reasons = (one.reason.split() for one in some if one.outcome in refused)
+    words = (["..." if any(map(str.isdigit, word)) else word for word in each] for each in reasons)
+    return Counter(map(" ".join, words)).most_common(_REASONS)

@@ -307,7 +307,7 @@ def test_the_command_reports_a_failure_and_exits_1(monkeypatch, capsys, tmp_path
     assert "## Failures" in (out / "stress.md").read_text()
     monkeypatch.setattr(Interval, "exp", raises(KeyError("lost")))
     assert main(["--family", "functions", "--cases", "2"]) == 1
-    assert "CRASHED: functions: KeyError: 'lost'; input" in capsys.readouterr().out
+    assert "CRASHED: family = functions: KeyError: 'lost'; input" in capsys.readouterr().out
 
 
 def test_json_goes_to_the_screen_alone_and_makes_the_case_again(capsys):
