@@ -112,7 +112,10 @@ def _premises(document: Reader) -> Context:
     for name, each in functions_of.members():
         from proofs.trusted.kernel.maps import read_map  # that few files have
 
-        context.functions[name] = read_map(name, each, context.functions)
+        try:
+            context.functions[name] = read_map(name, each, context.functions)
+        except Unproved as error:
+            raise Rejected(f"{each.path}: {error}") from None
     derive(context, steps_of)
     return context
 

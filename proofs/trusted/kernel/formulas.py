@@ -35,7 +35,7 @@ WORDS = {*FUNCTIONS, "pi", "D", "at"}
 _TOKEN = re.compile(r"[0-9A-Za-z_]+|\*\*|[-+*/(),=]")
 _WORD = re.compile(r"[0-9]+|[A-Za-z][A-Za-z0-9_]*")
 _OPERATIONS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,19}")  # N1, A, M: h-sets
+FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[ADM]$)[A-Z][A-Za-z0-9]{0,19}")  # N1, A, M: h-sets
 VARIABLE = re.compile(r"[a-z][a-z0-9_]{0,19}")
 
 
@@ -129,7 +129,7 @@ def read_function(name: str, reader: Reader) -> Formulas:
     """Read {"variables", "values"}; names cannot be mistaken for anything else in print."""
     variables_of, values_of = reader.fields("variables", "values")
     if not FUNCTION_NAME.fullmatch(name):
-        raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
+        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
     variables = tuple(item.string() for item in variables_of.items(1, MAX_VARIABLES))
     values = values_of.items(1, MAX_VALUES)
     names = {token for value in values for token in _tokens(value) if token[0].isalpha()}

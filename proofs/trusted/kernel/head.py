@@ -87,7 +87,7 @@ class Head(NamedTuple):
 def read_head(name: str, reader: Reader) -> Head:
     """Read the variables, the time, the parameters and the periods of a map."""
     if not FUNCTION_NAME.fullmatch(name):
-        raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
+        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
     fields = dict(reader.entries())
     state = tuple(item.string() for item in fields["variables"].items(1, MAX_VARIABLES))
     time = (fields["time"].string(),) if "time" in fields else ()

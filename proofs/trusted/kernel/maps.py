@@ -106,7 +106,7 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:
     (names_of,) = reader.fields("maps")
     if not FUNCTION_NAME.fullmatch(name):
-        raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
+        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
     chain = []
     for each in names_of.items(2, _MOST_MAPS):
         if each.string() not in maps:

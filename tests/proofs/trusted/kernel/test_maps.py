@@ -13,9 +13,10 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.rules import find_rule
-from proofs.trusted.verify import check
+from proofs.trusted.verify import Rejected, check
 from tests.effort import examples
 from tests.proofs.trusted.kernel.lemma_examples import text
+from tests.proofs.trusted.kernel.systems import BALL
 
 STANDARD = {  # Chirikov's map, of all strengths k in a range
     "variables": ["x", "y"],
@@ -89,6 +90,7 @@ LIES = [
      "P": {"maps": ["F", "G"]}}, "one state, with the same angles"),
     ("a circle of another number", {"F": TWO, "G": with_(TWO, parameters={"c": ["2", "2"]}),
      "P": {"maps": ["F", "G"]}}, "one state, with the same angles"),
+    ("named as the derivative", {"D": DOUBLING}, "functions are named like F"),
     ("too few values", {"F": {"variables": ["x", "y"], "values": ["x"]},
      "G": {"maps": ["F", "F"]}}, "one state"),
 ]  # fmt: skip
@@ -199,6 +201,23 @@ def test_functions_of_a_composition_are_used_and_others_are_not():
     document["functions"]["W"] = STANDARD
     with pytest.raises(Malformed, match="that nothing uses: W"):
         check(render(document))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        with_(DOUBLING, periods={"x": "1/(1 - 1)"}),
+        with_(DOUBLING, periods={"x": "log(-1)"}),
+        with_(DOUBLING, values=["(12345678901*x)**1000"]),
+        {**BALL, "gaps": ["y - 1/(v - v)"]},
+    ],
+)
+def test_what_cannot_be_read_is_refused_in_a_line(data):
+    document = json.loads(text("ball"))
+    document["functions"]["P"] = data
+    with pytest.raises(Rejected, match=r"^\$\.functions\.P: ") as caught:
+        check(render(document))
+    assert len(str(caught.value).splitlines()) == 1
 
 
 @pytest.mark.parametrize("rule", ["unique-zero", "periodic-orbits", "arc"])
