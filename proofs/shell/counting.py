@@ -22,6 +22,7 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from math import inf
 from types import CodeType, FrameType
 from typing import Any, NamedTuple
 
@@ -207,8 +208,9 @@ def _checked(frame: FrameType, value: Any) -> dict[Kind, int]:
 
 def _charged(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count the work charged to a file, also to one that is rejected, when its meter ends."""
-    ended = value is None and "meter" in frame.f_locals
-    return {Kind(WORK): round(frame.f_locals["meter"].spent)} if ended else {}
+    held = frame.f_locals
+    ended = value is None and "meter" in held and held["outer"].limit == inf  # part of no other
+    return {Kind(WORK): round(held["meter"].spent)} if ended else {}
 
 
 _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
