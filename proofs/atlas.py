@@ -1,8 +1,8 @@
 """The plane of parameters in cells, with what is proved at all oscillators of each.
 
 An adaptive quadtree of boxes of (eta, nu): each cell has a proof of what is asked, or of its
-opposite, or is cut in four down to the depth; what is left is undecided. Results are rows of
-DIR/atlas.sqlite, with their certificates; a run that was ended in any way goes on where it was.
+opposite, or is cut in four down to the depth; what is left is undecided. DIR/atlas.jsonl has a
+line for each cell, with its certificate; a run that was ended in any way goes on where it was.
 """
 
 from __future__ import annotations
@@ -20,21 +20,20 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from proofs.plane import cost, summary
-from proofs.plane.cost import Cost
+from proofs.plane import summary
 from proofs.plane.head import executor, run
-from proofs.plane.store import NAME, Held, Store, opened
+from proofs.plane.store import LINES, Held, Store, file_of, key_of, opened
 from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
-from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
+from proofs.shell.files import check_folder, check_targets, write_target, writing
 from proofs.shell.screen import say
-from proofs.trusted.atlas import DEEPEST, Region, unpacked
-from proofs.trusted.atlas import cell as derived
+from proofs.trusted.atlas import DEEPEST, Region, proved
 from proofs.trusted.certificate import Malformed, box_to_json
+from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range
 from proofs.trusted.questions import QUESTIONS
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 FOLDER = Path("runs/atlas")
 _DEPTH, _CHUNK, _MOST_JOBS = 5, 16, 1000
@@ -42,11 +41,11 @@ EPILOG = """\
 Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. A depth of 5 makes cells of a
 32nd of the region's sides at the smallest; a greater depth goes on with what is undecided.
 
-DIR has atlas.sqlite, which `proofs.check` proves again, cell by cell; atlas.json, areas, costs by
-depth and a digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of
-single-impact orbits on top; cost.svg, what cells cost; atlas.html, where each cell says what is
-proved in it. --executor dask:HOST:PORT sends the cells to a Dask scheduler, dask: to one of this
-machine (pip install 'impact-proofs[cluster]').
+DIR has atlas.jsonl, which `proofs.check` proves again, line by line, and pandas and DuckDB read;
+atlas.json, areas and a digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of
+single-impact orbits on top; atlas.html, where each cell says what is proved in it; and
+atlas.sqlite, with which it goes on. --executor dask:HOST:PORT sends the cells to a Dask scheduler,
+dask: to one of this machine (pip install 'impact-proofs[cluster]').
 
 exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
 
@@ -56,8 +55,8 @@ examples:
   python -m proofs atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
   python -m proofs atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
   python -m proofs atlas --out runs/atlas --cell 0.2121 -0.2
-  python -m proofs atlas --out runs/atlas --export cells.parquet
-  python -m proofs check runs/atlas/atlas.sqlite
+  python -m proofs atlas --out runs/atlas --lines
+  python -m proofs check runs/atlas/atlas.jsonl
 """
 
 
@@ -66,16 +65,18 @@ def main(arguments: list[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     region = _region(parser, options)
-    if options.export and options.json:
-        parser.error("--export has no machine form: leave out --json")
+    if options.lines and options.json:
+        parser.error("--lines has no machine form: leave out --json")
     check_folder(parser, options.out)
     check_targets(parser, options.json)
     try:
         with opened(options.out, region) as store:
             if options.cell:
                 return _show_cell(parser, options, store)
-            if options.export:
-                return _export(parser, options, store)
+            if options.lines:
+                with writing(options.out) as put:
+                    put(LINES, store.lines())
+                return 0
             return _make(parser, options, store)
     except (Held, Malformed) as failure:
         parser.error(str(failure))
@@ -106,10 +107,8 @@ def _parser() -> Parser:
     cell = "say what is proved in the cell that holds this point, and write its certificate"
     looking = parser.add_mutually_exclusive_group()
     looking.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
-    export = (
-        "write the cells that there are to a Parquet file (pip install 'impact-proofs[parquet]')"
-    )
-    looking.add_argument("--export", type=_parquet, metavar="FILE", help=export)
+    lines = f"write {LINES} of what there is, and look at no cell"
+    looking.add_argument("--lines", action="store_true", help=lines)
     share(parser, "--out", "--json", "--quiet")
     parser.set_defaults(out=FOLDER)
     return parser
@@ -121,12 +120,6 @@ def _executor(text: str) -> str:
     if text != "here" and find_spec("distributed") is None:
         raise ArgumentTypeError("needs dask: pip install 'impact-proofs[cluster]'")
     return text
-
-
-def _parquet(text: str) -> Path:
-    if find_spec("pyarrow") is None:
-        raise ArgumentTypeError("needs pyarrow: pip install 'impact-proofs[parquet]'")
-    return Path(text)
 
 
 def _region(parser: Parser, options: Namespace) -> Region | None:
@@ -155,25 +148,30 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     """Do what is left to do, then print and write what there is."""
     with progress() as tell, executor(options.jobs, options.executor) as doing:
         done = run(store, options.depth, doing, options.chunk, tell)
-    spent = cost.costs(store)
-    made = summary.summary(store) | {"cpu_milliseconds": cost.by_depth(spent)}
+    made = summary.summary(store)
     with writing(options.out) as put:
+        put(LINES, store.lines())
         put("atlas.json", json.dumps(made, indent=1) + "\n")
+        for path in options.out.glob("cell-*.json"):
+            if (cell := store.row(key_of(path.name))) and cell.certificate:
+                put(path.name, cell.text)
     if packages := missing():
         say(f"{parser.prog}: no pictures and page, {', '.join(packages)} missing: {INSTALL}")
     else:
         with progress() as tell:
             tell("pictures")
-            _draw(options.out, store, made, spent)
+            _draw(options.out, store, made)
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
     if heard(options):
         for line in summary.lines(made, store.region):
             say(line)
-        say(f"{done} cells looked at now; all of it: {options.out / NAME}")
+        work = int(made["checker_work"])
+        more = f" --work {work}" if work > DEFAULT else ""
+        say(f"{done} cells looked at now; python -m proofs.check {options.out / LINES}{more}")
     return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
 
 
-def _draw(folder: Path, store: Store, made: dict[str, Any], spent: list[Cost]) -> None:
+def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
     """Write the pictures, and the page with all cells unless these are too many."""
     from proofs.plane import page, picture
     from proofs.report.figures.style import style, svg_of
@@ -184,27 +182,13 @@ def _draw(folder: Path, store: Store, made: dict[str, Any], spent: list[Cost]) -
         drawing = picture.picture(store.region, shown)
         image = picture.png(drawing)
         files["atlas.svg"] = svg_of(drawing, "atlas", made["holds"])
-    with style("cost"):
-        files["cost.svg"] = svg_of(cost.figure(spent), "cost", "CPU time")
     if sum(made["cells"].values()) <= page.MOST:
         beside = sorted(path.name for path in folder.glob("cell-*.json"))
-        files["atlas.html"] = page.page(store, shown, files["cost.svg"], beside)
+        files["atlas.html"] = page.page(store, shown, beside)
     with writing(folder) as put:
         put("atlas.png", image)
         for name, content in files.items():
             put(name, content)
-
-
-def _export(parser: Parser, options: Namespace, store: Store) -> int:
-    """Write the cells as a table."""
-    from proofs.plane.export import export
-
-    check_targets(parser, str(options.export))
-    with refusing(parser, options.export):
-        count = export(store, options.export)
-    if not options.quiet:
-        say(f"{count} cells: {options.export}")
-    return 0
 
 
 def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
@@ -212,22 +196,22 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
     cell = summary.at(store, *options.cell)
     if cell is None:
         parser.error("no cell of this atlas holds the point")
-    path = None
-    if cell.certificate is not None:
-        cell = derived(store.region, cell.key, unpacked(cell))  # whatever the store says of it
-        path = options.out / f"cell-{cell.key.replace('/', '-')}.json"
+    path, verdict, says = None, cell.verdict, cell.conclusion
+    if cell.certificate is not None:  # whatever the store says of it
+        verdict, _, says = proved(store.region, cell.key, check(cell.text))
+        path = options.out / file_of(cell.key)
         with writing(options.out) as put:
-            put(path.name, unpacked(cell))
+            put(path.name, cell.text)
     made = {
         "cell": cell.key,
         "box": box_to_json(store.region.box(cell.key)),
-        "verdict": cell.verdict,
-        "conclusion": cell.conclusion,
+        "verdict": verdict,
+        "conclusion": says,
         "certificate": None if path is None else str(path),
     }
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
     if heard(options):
-        say(f"{cell.verdict}: {cell.conclusion}")
+        say(f"{verdict}: {says}")
         if path is not None:
             say(f"python -m proofs check {path}")
     return int(path is None)

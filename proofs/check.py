@@ -8,30 +8,36 @@ if __name__ == "__main__":
     launch("proofs.check")
 
 import argparse
+import os
+import re
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
+from fractions import Fraction
 from functools import partial
 from itertools import islice
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
+from proofs.shell.backstop import Overrun, limited
 from proofs.shell.entry import workers
 from proofs.shell.screen import Arguments, fitted, say
+from proofs.trusted.atlas import LEFT_OUT, NOT_YET, check_atlas
 from proofs.trusted.certificate import (
     LEDGER,
     MANIFEST,
+    MAX_BYTES,
     Malformed,
+    decoded,
     digest,
-    read,
-    read_stream,
+    opened,
     schema_of,
 )
-from proofs.trusted.kernel.meter import DEFAULT, Exhausted
+from proofs.trusted.kernel.meter import DEFAULT, METER, Exhausted, metered
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
-from proofs.trusted.numbers import floor_text
+from proofs.trusted.numbers import ceil_text
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Verdict, tally
 from proofs.trusted.verify import Rejected, Report, check
@@ -40,8 +46,10 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
 PIPED = Path("-")
+_OPEN = (Verdict.UNDECIDED.value, NOT_YET, LEFT_OUT)
 _CHUNK = 16  # cells that are checked together
-STORE = b"SQLite format 3\0"
+_STORE = b"SQLite format 3\0"
+_ATLAS = re.compile(rb'\s*\{\s*"schema"\s*:\s*"impact-proofs\.atlas/')
 FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
 exit status: 0 every claim in every file is decided as stated (SIMULATED is no proof)
@@ -52,7 +60,7 @@ examples:
   python -m proofs check reports/horseshoe.json
   python -m proofs horseshoe --json - | python -m proofs check -
   python -m proofs check reports/MANIFEST.json    every file listed there, against what is listed
-  python -m proofs check runs/atlas/atlas.sqlite --jobs 2     every cell of an atlas
+  python -m proofs check runs/atlas/atlas.jsonl --jobs 2     every cell of an atlas
   python -m proofs check --rules                  what may be inferred, and from what
 """
 
@@ -64,7 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
-    help_text = f"how much work a file may take (default {DEFAULT})"
+    help_text = f"how much work a file may take, all of a list twice that (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     jobs = "processes that check the cells of an atlas (default 1)"
     parser.add_argument("--jobs", type=_work, default=1, metavar="N", help=jobs)
@@ -86,19 +94,21 @@ def _work(text: str) -> int:
     return int(text[:19])
 
 
+def printable(path: Path) -> str:
+    """Return the name of a file as a terminal may show it."""
+    name = "standard input" if path == PIPED else str(path)
+    return name if name.isprintable() else ascii(name)
+
+
 def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: int = 1) -> int:
     """Check one file, print a line a claim; return its exit status."""
-    name = "standard input" if path == PIPED else str(path)
-    if not name.isprintable():
-        name = ascii(name)
+    name = printable(path)
     try:
-        if path != PIPED and _is_store(path):
-            said, is_open = _check_store(path, name, work, jobs)
-        else:
-            source = read_stream(sys.stdin.buffer) if path == PIPED else read(path)
-            if (schema := schema_of(source)) in FOLDERS:
-                name = f"{name}: {FOLDERS[schema][0]}"
-            said, is_open = _check_text(source, schema, path.parent, name, work)
+        with (
+            limited(work),
+            nullcontext(sys.stdin.buffer) if path == PIPED else opened(path) as file,
+        ):
+            said, is_open = _check_open(file, path, work, jobs)
     except Malformed as error:
         return _refused(2, f"{name}: malformed: {error}")
     except OSError as error:
@@ -107,64 +117,83 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
         return _refused(1, f"{name}: REJECTED: {error}")
     except Exhausted as error:
         return _refused(1, f"{name}: not decided: {error}")
+    except (Overrun, MemoryError):
+        return _refused(1, f"{name}: not decided: it needs more time or memory: --work {2 * work}")
     if not is_quiet:  # here, where a closed pipe is no fault of the file
         say("\n".join(said))
     return int(is_open)
 
 
-def _check_text(
-    source: str, schema: str, folder: Path, name: str, work: int
-) -> tuple[list[str], bool]:
-    """Check a certificate, or a list of some; return what to say, and if anything is undecided."""
-    if schema in FOLDERS:
-        listed = FOLDERS[schema][1](source, folder, work)
-        said = f"{name} of {_counted(listed)}, all as the certificates beside it prove"
+def _check_open(file: BinaryIO, path: Path, work: int, jobs: int) -> tuple[list[str], bool]:
+    """Check what a file holds; return what to say, and if anything is undecided."""
+    name, first = printable(path), file.readline(MAX_BYTES + 1)
+    if first.startswith(_STORE):
+        making = f"python -m proofs atlas --out {printable(path.parent)} --lines"
+        raise Malformed(f"a store; what is checked are its lines, which {making} makes")
+    if _ATLAS.match(first):
+        return _check_lines(file, first, name, work, jobs)
+    source = decoded(first + file.read(MAX_BYTES + 1 - len(first)))
+    if (schema := schema_of(source)) in FOLDERS:
+        what, examine = FOLDERS[schema]
+        listed = examine(source, path.parent, work)
+        said = f"{name}: {what} of {_counted(listed)}, all as the certificates beside it prove"
         return [said], Verdict.UNDECIDED in {each.verdict for each in listed}
     report = check(source, work)
     is_open = Verdict.UNDECIDED in {claim.verdict for claim in report.claims}
     return report_lines(name, report, digest(source)), is_open
 
 
-def _is_store(path: Path) -> bool:
-    """Whether a file is of SQLite's format, as an atlas is."""
-    with path.open("rb") as file:
-        return file.read(len(STORE)) == STORE
-
-
-def _check_store(path: Path, name: str, work: int, jobs: int) -> tuple[list[str], bool]:
+def _check_lines(
+    file: BinaryIO, first: bytes, name: str, work: int, jobs: int
+) -> tuple[list[str], bool]:
     """Check an atlas, in several processes; return what to say, and if anything is undecided."""
-    from proofs.trusted.atlas import check_store  # with sqlite3, which nothing else needs
-
     began = perf_counter()
-    with nullcontext() if jobs == 1 else workers(jobs) as pool:
-        found = check_store(path, work, partial(_mapped, pool, jobs) if pool else map)
-    each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(found.cells.items()))
-    share = floor_text(found.areas[Verdict.UNDECIDED.value] / found.whole)
-    rate = sum(found.cells.values()) / (perf_counter() - began)
+    try:
+        with nullcontext() if jobs == 1 else workers(jobs) as pool:
+            mapped = partial(_mapped, pool, jobs, work) if pool else map
+            cells, shares = check_atlas(_lines(first, file), work, mapped)
+    except Exhausted:
+        size = os.fstat(file.fileno()).st_size  # of a pipe 0
+        enough = max(2 * work, int(1.5 * work * size / max(file.tell(), 1) if size else 0))
+        raise Exhausted(f"it needs more work, --work {enough}") from None
+    each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(cells.items()))
+    rate = cells.total() / (perf_counter() - began)
+    left = {what: shares.get(what, Fraction(0)) for what in _OPEN}
+    told = ", ".join(f"{what.lower()} {ceil_text(share)}" for what, share in left.items())
     said = (
-        f"{name}: an atlas of {each} cells, all as their certificates prove; undecided "
-        f"{share} of the area, not looked at {floor_text(found.missing / found.whole)}; "
+        f"{name}: an atlas of {each} cells, all as their certificates prove; of the area {told}; "
         f"{rate:.0f} cells a second"
     )
-    return [said], found.cells[Verdict.UNDECIDED.value] > 0 or found.missing > 0
+    return [said], bool(left[Verdict.UNDECIDED.value] or left[NOT_YET])
+
+
+def _lines(first: bytes, file: BinaryIO) -> Iterator[str]:
+    """Yield the lines of a file whose first one is read already."""
+    content = first
+    while content:
+        yield decoded(content)
+        content = file.readline(MAX_BYTES + 1)
 
 
 def _mapped(
-    pool: Executor, jobs: int, work: Callable[[Any], Any], rows: Iterable[Any]
+    pool: Executor, jobs: int, work: int, check_one: Callable[[Any], Any], unread: Iterable[Any]
 ) -> Iterator[Any]:
-    """Do as `map`, in a pool, reading few rows ahead: a store may be larger than the memory."""
-    left = iter(rows)
-    ahead: deque[Future[list[Any]]] = deque()
-    while chunk := list(islice(left, _CHUNK)):
-        ahead.append(pool.submit(_each, work, chunk))
-        if len(ahead) > 4 * jobs:
-            yield from ahead.popleft().result()
-    while ahead:
-        yield from ahead.popleft().result()
+    """Do as `map`, in a pool, reading few lines ahead: an atlas may be larger than the memory."""
+    left = iter(unread)
+    ahead: deque[Future[tuple[list[Any], float]]] = deque()
+    while (chunk := list(islice(left, _CHUNK))) or ahead:
+        if chunk:
+            ahead.append(pool.submit(_each, work, check_one, chunk))
+        if not chunk or len(ahead) > 4 * jobs:
+            done, spent = ahead.popleft().result()
+            METER.get().spend(spent)
+            yield from done
 
 
-def _each(work: Callable[[Any], Any], rows: list[Any]) -> list[Any]:
-    return [work(row) for row in rows]
+def _each(work: int, check_one: Callable[[Any], Any], chunk: list[Any]) -> tuple[list[Any], float]:
+    """Return what is found of some lines, and the work that it took."""
+    with metered(work) as meter:
+        return [check_one(each) for each in chunk], meter.spent
 
 
 def _refused(status: int, line: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator, Sequence
 from time import thread_time
 
@@ -9,17 +10,18 @@ from intervals import Undecided
 from proofs.plane import horseshoe, settling, singles
 from proofs.plane.horseshoe import Sets
 from proofs.plane.steps import Steps
-from proofs.trusted.atlas import SPLIT, Cell, Region, cell, without_proof
-from proofs.trusted.kernel.meter import Exhausted
+from proofs.plane.store import SPLIT, Row
+from proofs.trusted.atlas import Region, proved
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import Question
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 _HINTS = 3  # sets of neighbours that are tried
 
 
-def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[Cell]:
+def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[Row]:
     """Return the rows of cells, given by key and sets that may help; undecided ones are split.
 
     The last depth is never split. Cells in order are neighbours: each tries the sets of the last.
@@ -36,20 +38,23 @@ def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[
     return rows
 
 
-def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Cell:
+def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Row:
     why = "no proof is found"
     try:
         for made, sets in _proposals(region.asked, region.box(key), hints):
             try:
-                row = cell(region, key, made.certificate())
-                return row._replace(sets=sets.text if sets else "")
+                text = made.certificate()
+                with metered(DEFAULT) as meter:
+                    said = proved(region, key, check(text))
+                packed = zlib.compress(text.encode())
+                return Row(key, *said, packed, meter.spent, sets=sets.text if sets else "")
             except (Rejected, Exhausted) as failure:
                 why = str(failure).rpartition(": ")[2]
     except (Undecided, ArithmeticError) as failure:
         why = str(failure)
     if len(key.partition("/")[2]) < depth:
-        return without_proof(region, key, SPLIT, "")
-    return without_proof(region, key, Verdict.UNDECIDED.value, why)
+        return Row(key, SPLIT)
+    return Row(key, Verdict.UNDECIDED.value, conclusion=why)
 
 
 def _proposals(

@@ -8,9 +8,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from proofs.plane.cells import decide
-from proofs.plane.store import Store, quarters
+from proofs.plane.store import SPLIT, Row, Store, quarters
 from proofs.shell.entry import workers
-from proofs.trusted.atlas import SPLIT, Cell
 
 _AHEAD = 2  # chunks for each worker
 
@@ -61,7 +60,7 @@ def run(
     store.reopen(depth)
     waiting = store.left()[::-1]
     pool, count = doing
-    out: set[Future[list[Cell]]] = set()
+    out: set[Future[list[Row]]] = set()
     done = 0
     while waiting or out:
         while waiting and len(out) < _AHEAD * count:

@@ -16,13 +16,12 @@ from markupsafe import Markup
 
 from proofs.plane import overlay, picture, summary
 from proofs.plane.picture import Shown
-from proofs.plane.store import Store, quarters
+from proofs.plane.store import LEAVES, Row, Store, key_of, quarters
 from proofs.report.atlases import impacts
 from proofs.report.html import rendered
-from proofs.report.inline import inlined
 from proofs.report.layout import percent
 from proofs.report.typeset import begun
-from proofs.trusted.atlas import Cell, Region
+from proofs.trusted.atlas import NOT_YET, Region
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
 
@@ -44,11 +43,11 @@ class Said(NamedTuple):
     numbers: tuple[str, ...]
 
 
-def said(cell: Cell) -> Said:
-    """Divide a cell's sentence into what it has in common with others, and numbers."""
+def said(cell: Row, eta: str, nu: str) -> Said:
+    """Divide the sentence of a cell, of this box, into what others have as well, and numbers."""
     parts: list[str | int] = []
     numbers: list[str] = []
-    before, sides, rest = cell.conclusion.partition(f"eta in {cell.eta}, nu in {cell.nu}")
+    before, sides, rest = cell.conclusion.partition(f"eta in {eta}, nu in {nu}")
     if sides:
         parts += [f"{before}eta in ", _ETA, ", nu in ", _NU]
     for k, text in enumerate(_NUMBER.split(rest if sides else before)):
@@ -60,7 +59,7 @@ def said(cell: Cell) -> Said:
     return Said(cell.verdict, cell.kind, tuple(parts), tuple(numbers))
 
 
-def data(region: Region, cells: Iterable[Cell]) -> dict[str, Any]:
+def data(region: Region, cells: Iterable[Row]) -> dict[str, Any]:
     """Return what the page holds of cells.
 
     patterns: verdict, kind, and parts of a sentence: strings, places of numbers, -1 and -2 for the
@@ -68,7 +67,10 @@ def data(region: Region, cells: Iterable[Cell]) -> dict[str, Any]:
     the ends of sides in its finest grid, and its tree, parents first: -1 is cut in four, -2 is not
     looked at, others are places in `said`.
     """
-    leaves = {cell.key: (said(cell), cell.eta, cell.nu) for cell in cells}
+    leaves = {}
+    for cell in cells:
+        eta, nu = map(show_range, region.sides(cell.key))
+        leaves[cell.key] = said(cell, eta, nu), eta, nu
     patterns, codes = _coded(each for each, _, _ in leaves.values())
     index = {text: k for k, text in enumerate(dict.fromkeys(codes.values()))}
     inner = {key[:k] for key in leaves for k in range(key.index("/") + 1, len(key))}
@@ -145,7 +147,7 @@ def size(key: str, depth: int) -> int:
 def _on_map(region: Region, number: int) -> list[float]:
     """Return left, right, bottom and top of a root, in shares of the region's sides."""
     root = region.roots[number]
-    sides = ((root.eta, region.eta), (root.nu, region.nu))
+    sides = zip(root, (region.eta, region.nu), strict=True)
     return [float((end - low) / (high - low)) for ends, (low, high) in sides for end in ends]
 
 
@@ -172,11 +174,11 @@ class Stroke(NamedTuple):
     place: tuple[str, str]
 
 
-def page(store: Store, shown: Shown, cost: str, certificates: Sequence[str]) -> str:
-    """Return the page. cost: a figure as SVG. certificates: files of cells beside the page."""
+def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
+    """Return the page. certificates: files of cells beside it."""
     (made, found, over), region = shown, store.region
     shares = made["share_of_area"]
-    whole = data(region, store.cells(*summary.LEAVES))
+    whole = data(region, store.cells(*LEAVES))
     numbers = {name: percent(share) for name, share in shares.items()}
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
@@ -191,7 +193,7 @@ def page(store: Store, shown: Shown, cost: str, certificates: Sequence[str]) -> 
         impacts=begun(impacts(made.get("epsilon"))),
         numbers=numbers,
         verdicts=[x for x in Verdict if made["cells"].get(x.value)],
-        not_yet=summary.NOT_YET,
+        not_yet=NOT_YET,
         layers=layers,
         undecided=picture.UNDECIDED,
         strokes=[_stroke(region, line) for line in over.lines],
@@ -199,7 +201,6 @@ def page(store: Store, shown: Shown, cost: str, certificates: Sequence[str]) -> 
         meetings=[_in_map(region, place) for place in over.meetings],
         meet=picture.MEETINGS,
         periods=overlay.PERIODS,
-        cost=Markup(inlined({"cost": cost})["cost"]),
         certificates=[(name, _named(region, name)) for name in certificates],
         side=SIDE,
         data=Markup(_json(whole)),
@@ -217,8 +218,8 @@ def _sides(region: Region) -> list[tuple[str, tuple[Any, Any]]]:
 
 def _named(region: Region, name: str) -> str:
     """Return the box of the cell that a certificate is about."""
-    box = region.box(name.removeprefix("cell-").removesuffix(".json").replace("-", "/"))
-    return f"eta from {show(box.eta[0])}, nu from {show(box.nu[0])}"
+    eta, nu = (show(low) for low, _ in region.sides(key_of(name)))
+    return f"eta from {eta}, nu from {nu}"
 
 
 def _paths(region: Region, keys: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from proofs.plane.overlay import GRAZING, Line, Overlay, overlay
 from proofs.plane.store import Store
-from proofs.plane.summary import NOT_YET, joined, kinds, merged, words
+from proofs.plane.summary import joined, kinds, merged, words
 from proofs.report.figures import style
 from proofs.report.layout import percent
-from proofs.trusted.atlas import Region
+from proofs.trusted.atlas import NOT_YET, Region
 from proofs.trusted.verdicts import Verdict
 
 if TYPE_CHECKING:
@@ -67,9 +67,9 @@ def picture(region: Region, shown: Shown) -> Drawing:
     axes.set_facecolor(UNDECIDED)
     axes.fill([], [], color=UNDECIDED, label=undecided)
     for kind, colour in coloured([*found]).items():
-        boxes = [region.box(key) for key in found[kind]]
+        boxes = map(region.sides, found[kind])
         label = f"{words(kind)}: {percent(shares[kind])}"
-        style.proved_boxes(axes, joined((x.eta, x.nu) for x in boxes), colour, label, lw=0)
+        style.proved_boxes(axes, joined(boxes), colour, label, lw=0)
     _draw_lines(axes, region, over)
     axes.set(xlabel=r"$\eta$", ylabel=r"$\nu$", xlim=_ends(region.eta), ylim=_ends(region.nu))
     axes.set_title(f"{region.question}: {made['holds']}", wrap=True)

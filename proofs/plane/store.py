@@ -1,22 +1,54 @@
-"""The store of an atlas: one SQLite file, a row for each cell, one writer at a time.
+"""The store of an atlas while it is made: one SQLite file, a row for each cell, one writer.
 
 Rows of a chunk are written in one transaction: whatever ends a run, a cell is there whole or not
-at all, and never twice. What is left to do follows from what is there.
+at all, and never twice. What is left to do follows from what is there. What is checked and read by
+others are the lines that it writes.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import sqlite3
+import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
+from typing import NamedTuple
 
-from proofs.trusted.atlas import SPLIT, Cell, Region
+from proofs.trusted.atlas import DEEPEST, FIELDS, LEFT_OUT, NOT_YET, Region
+from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.verdicts import Verdict
 
-NAME = "atlas.sqlite"
-_FIELDS = ", ".join(Cell._fields)
+NAME, LINES = "atlas.sqlite", "atlas.jsonl"
+LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
+SPLIT = "SPLIT"
+
+
+class Row(NamedTuple):
+    """A cell that was looked at: its verdict or SPLIT, and for a verdict what proves it.
+
+    kind, conclusion: of the conclusion that decides it, the name and the words; where the cell is
+    undecided, "" and why. certificate: packed. work: of its check. seconds: of all work on it.
+    sets: what may help its neighbours.
+    """
+
+    key: str
+    verdict: str
+    kind: str = ""
+    conclusion: str = ""
+    certificate: bytes | None = None
+    work: float = 0.0
+    seconds: float = 0.0
+    sets: str = ""
+
+    @property
+    def text(self) -> str:
+        """The certificate."""
+        return zlib.decompress(self.certificate or b"").decode()
+
+
+_FIELDS = ", ".join(Row._fields)
 _COLUMNS = _FIELDS.replace("key", "key TEXT PRIMARY KEY", 1)
 _TABLES = f"""
 PRAGMA journal_mode = WAL;
@@ -29,6 +61,16 @@ WITH digits (digit) AS (VALUES ('0'), ('1'), ('2'), ('3'))
 SELECT key || digit, sets FROM cells, digits WHERE verdict = ?
 AND NOT EXISTS (SELECT 1 FROM cells AS there WHERE there.key = cells.key || digit)
 """
+
+
+def file_of(key: str) -> str:
+    """Return the name of the file that has a cell's certificate."""
+    return f"cell-{key.replace('/', '-')}.json"
+
+
+def key_of(file: str) -> str:
+    """Return the cell whose certificate a file of this name has."""
+    return file.removeprefix("cell-").removesuffix(".json").replace("-", "/")
 
 
 def quarters(key: str) -> list[str]:
@@ -46,9 +88,9 @@ class Store:
     def __init__(self, connection: sqlite3.Connection, region: Region) -> None:
         self._rows, self.region = connection, region
 
-    def put(self, cells: Sequence[Cell]) -> None:
+    def put(self, cells: Sequence[Row]) -> None:
         """Write the rows of a chunk, all or none."""
-        places = ", ".join("?" * len(Cell._fields))
+        places = ", ".join("?" * len(Row._fields))
         with self._rows:
             self._rows.executemany(f"INSERT INTO cells VALUES ({places})", cells)
 
@@ -68,23 +110,55 @@ class Store:
         below = self._rows.execute(_LEFT, (SPLIT,)).fetchall()
         return sorted([*(root for root in roots if root[0] not in there), *below])
 
-    def cells(self, *verdicts: Verdict) -> Iterator[Cell]:
+    def cells(self, *verdicts: Verdict) -> Iterator[Row]:
         """Yield the rows of these verdicts, in order."""
         marks = ", ".join("?" * len(verdicts))
         query = f"SELECT {_FIELDS} FROM cells WHERE verdict IN ({marks}) ORDER BY key"
-        yield from map(Cell._make, self._rows.execute(query, [x.value for x in verdicts]))
+        yield from map(Row._make, self._rows.execute(query, [x.value for x in verdicts]))
 
-    def rows(self) -> Iterator[Cell]:
-        """Yield all rows, in order."""
-        yield from map(Cell._make, self._rows.execute(f"SELECT {_FIELDS} FROM cells ORDER BY key"))
+    def row(self, key: str) -> Row | None:
+        """Return the row of a cell, None where there is none."""
+        found = self._rows.execute(f"SELECT {_FIELDS} FROM cells WHERE key = ?", (key,)).fetchone()
+        return None if found is None else Row._make(found)
 
-    def costs(self) -> Iterator[tuple[str, str, float]]:
-        """Yield key, verdict and seconds of all rows."""
-        yield from self._rows.execute("SELECT key, verdict, seconds FROM cells")
+    def total(self, column: str) -> float:
+        """Return the sum over all rows, of `work` or `seconds`."""
+        return float(self._rows.execute(f"SELECT total({column}) FROM cells").fetchone()[0])
 
-    def seconds(self) -> float:
-        """Return the work on all cells."""
-        return float(self._rows.execute("SELECT total(seconds) FROM cells").fetchone()[0])
+    def lines(self) -> Iterator[str]:
+        """Yield the atlas: region, cells and what is not looked at yet, strip."""
+        yield f"{self.region.text}\n"
+        full = 4**DEEPEST  # smallest cells, of which a part consists
+        ended = 0
+        for row in self.cells(*LEAVES):
+            number, _, path = row.key.partition("/")
+            size = full >> 2 * len(path)
+            begins = int(number) * full + int(f"0{path}", 4) * size
+            yield from (self._line(Row(key, NOT_YET)) for key in _between(ended, begins))
+            yield self._line(row)
+            ended = begins + size
+        count = len(self.region.roots)
+        yield from (self._line(Row(key, NOT_YET)) for key in _between(ended, count * full))
+        if count < len(self.region.parts):
+            yield self._line(Row(f"{count}/", LEFT_OUT))
+
+    def _line(self, row: Row) -> str:
+        proof = None if row.certificate is None else json.loads(row.text)
+        sides = map(texts, self.region.sides(row.key))
+        values = row.key, *sides, row.verdict, row.kind, row.conclusion, proof
+        held = dict(zip(FIELDS, values, strict=True))
+        return json.dumps(held, separators=(",", ":"), ensure_ascii=False) + "\n"
+
+
+def _between(begin: int, end: int) -> Iterator[str]:
+    """Yield the largest cells that lie one after the other from a place to another."""
+    while begin < end:
+        depth = 0
+        while begin % (size := 4 ** (DEEPEST - depth)) or begin + size > end:
+            depth += 1
+        number, place = divmod(begin // size, 4**depth)
+        yield f"{number}/" + "".join(f"{place >> 2 * k & 3}" for k in reversed(range(depth)))
+        begin += size
 
 
 @contextmanager
@@ -97,20 +171,28 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
     if region is None and not path.is_file():
         raise Held(f"there is no {path}")
     with _locked(folder), _told(path), closing(sqlite3.connect(path)) as connection:
-        connection.executescript(_TABLES)
-        known = connection.execute("SELECT text FROM region").fetchone()
-        if known is None and region is not None:
-            with connection:
-                connection.execute("INSERT INTO region VALUES (?)", (region.text,))
-            known = (region.text,)
-        if known is None:
+        known = None
+        with suppress(sqlite3.OperationalError):  # no table yet
+            known = connection.execute("SELECT text FROM region").fetchone()
+        own = region if known is None else _read(path, str(known[0]))
+        if own is None:
             raise Held(f"{path} has no region: its run ended before it began")
-        own = Region.of(str(known[0]))
         if region not in (None, own):
             raise Held(f"{path} is about another region or question")
+        connection.executescript(_TABLES)
+        if known is None:
+            with connection:
+                connection.execute("INSERT INTO region VALUES (?)", (own.text,))
         yield Store(connection, own)
-        with suppress(sqlite3.OperationalError):  # it is read just now, as by the checker
+        with suppress(sqlite3.OperationalError):  # another program reads it just now
             connection.execute("PRAGMA journal_mode = DELETE")  # one file again
+
+
+def _read(path: Path, text: str) -> Region:
+    try:
+        return Region.of(text)
+    except Malformed as error:
+        raise Held(f"{path} is of another version ({error}): make it anew elsewhere") from None
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""What an atlas amounts to: areas, work, a digest."""
+"""What an atlas amounts to: areas, work, the digest of its lines."""
 
 from __future__ import annotations
 
@@ -10,16 +10,13 @@ from fractions import Fraction
 from hashlib import sha256
 from typing import Any
 
-from proofs.plane.store import Store, quarters
-from proofs.trusted.atlas import Cell, Region, area
-from proofs.trusted.certificate import box_to_json
+from proofs.plane.store import LEAVES, Row, Store, quarters
+from proofs.trusted.atlas import LEFT_OUT, NOT_YET, Box, Region, area
+from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import Range, floor_text, show_range
-from proofs.trusted.verdicts import Verdict
 
-Box = tuple[Range, Range]
-LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
-NOT_YET = "not looked at"
 _VERDICTS = [verdict.value for verdict in LEAVES]
+_LINE = 300  # work of the checker on a line, beside the certificate
 _WORDS = {
     "CoveringShift": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
@@ -48,13 +45,15 @@ def kinds(names: Iterable[str]) -> list[str]:
 def summary(store: Store) -> dict[str, Any]:
     """Return what is proved on which area, of all cells so far.
 
-    digest: SHA-256 of the lines "key verdict digest-of-the-certificate", in the order of the keys.
+    checker_work: what the checker needs for all lines, and some to spare. digest: their SHA-256.
     """
     region, digest = store.region, sha256()
+    for line in store.lines():
+        digest.update(line.encode())
     cells, counts, areas = Counter[str](), Counter[str](), defaultdict[str, Fraction](Fraction)
     reasons = Counter[str]()
     for cell in store.cells(*LEAVES):
-        size = area(region.box(cell.key))
+        size = area(region.sides(cell.key))
         cells[cell.verdict] += 1
         areas[cell.verdict] += size
         if cell.kind:
@@ -62,41 +61,43 @@ def summary(store: Store) -> dict[str, Any]:
             areas[cell.kind] += size
         else:
             reasons[cell.conclusion] += 1
-        digest.update(f"{cell.key} {cell.verdict} {cell.sha256 or '-'}\n".encode())
-    whole = sum(map(area, region.roots), Fraction(0))
-    shares = {name: floor_text(areas[name] / whole) for name in (*_VERDICTS, *kinds(counts))}
-    left = 1 - sum(areas[name] for name in _VERDICTS) / whole
+    whole = area((region.eta, region.nu))
+    areas[LEFT_OUT] = whole - sum(map(area, region.roots), Fraction(0))
+    areas[NOT_YET] = whole - areas[LEFT_OUT] - sum(areas[name] for name in _VERDICTS)
+    named = (*_VERDICTS, *kinds(counts), NOT_YET, LEFT_OUT)
     return {
         **json.loads(region.text),
         "holds": region.asked.holds,
         "opposite": region.asked.opposite,
-        "parts": [box_to_json(root) for root in region.roots],
+        "parts": [dict(zip(("eta", "nu"), map(texts, root), strict=True)) for root in region.roots],
         "cells": dict(cells),
-        "share_of_area": shares | {NOT_YET: floor_text(left)},
+        "share_of_area": {name: floor_text(areas[name] / whole) for name in named},
         "kinds": {kind: counts[kind] for kind in kinds(counts)},
         "undecided_because": dict(reasons.most_common(8)),
-        "cpu_seconds": f"{store.seconds():.1f}",
+        "cpu_seconds": f"{store.total('seconds'):.1f}",
+        "checker_work": f"{1.1 * (store.total('work') + _LINE * (cells.total() + 10)):.0f}",
         "digest": f"sha256:{digest.hexdigest()}",
     }
 
 
 def lines(made: dict[str, Any], region: Region) -> Iterator[str]:
     """Yield what a summary says, for the screen."""
-    question = region.asked
+    question, shares = region.asked, made["share_of_area"]
     yield f"{region.question}: for all oscillators of a cell, {question.holds}."
     yield f"Opposite: {question.opposite}."
     if len(region.roots) > 1 or 0 in region.nu:
-        parts = "; ".join(f"eta {show_range(x.eta)}, nu {show_range(x.nu)}" for x in region.roots)
+        sides = ([show_range(side) for side in root] for root in region.roots)
+        parts = "; ".join(f"eta {eta}, nu {nu}" for eta, nu in sides)
         yield f"The region is cut at eta = 1 and nu = 0, next to which a strip is left out: {parts}"
     for verdict in LEAVES:
-        count, share = made["cells"].get(verdict.value, 0), made["share_of_area"][verdict.value]
-        yield f"{verdict.value:10} {count:8} cells, {share} of the area"
+        count = made["cells"].get(verdict.value, 0)
+        yield f"{verdict.value:10} {count:8} cells, {shares[verdict.value]} of the area"
     for kind, count in made["kinds"].items():
-        yield f"  {count} cells, {made['share_of_area'][kind]} of the area: {words(kind)}"
+        yield f"  {count} cells, {shares[kind]} of the area: {words(kind)}"
     for why, count in made["undecided_because"].items():
         yield f"  {count} cells undecided: {why}"
-    if made["share_of_area"][NOT_YET] != "0":
-        yield f"not looked at yet: {made['share_of_area'][NOT_YET]} of the area"
+    if shares[NOT_YET] != "0":
+        yield f"not looked at yet: {shares[NOT_YET]} of the area"
     yield f"{made['cpu_seconds']} CPU seconds on cells; {made['digest']}"
 
 
@@ -124,10 +125,10 @@ def joined(boxes: Iterable[Box]) -> list[Box]:
     return found
 
 
-def at(store: Store, eta: Fraction, nu: Fraction) -> Cell | None:
+def at(store: Store, eta: Fraction, nu: Fraction) -> Row | None:
     """Return the cell that holds a point; None where there is none yet."""
     for cell in store.cells(*LEAVES):
-        box = store.region.box(cell.key)
-        if box.eta[0] <= eta <= box.eta[1] and box.nu[0] <= nu <= box.nu[1]:
+        (left, right), (low, high) = store.region.sides(cell.key)
+        if left <= eta <= right and low <= nu <= high:
             return cell
     return None

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from proofs.shell.cli import Parser
 
-Put = Callable[[str, str | bytes], None]  # a name in the folder, and what the file is to hold
+Put = Callable[[str, str | bytes | Iterator[str]], None]
+"""Takes a name in the folder, and what the file is to hold, or an iterator over its lines."""
 
 
 @contextmanager
@@ -29,11 +30,12 @@ def writing(folder: Path) -> Iterator[Put]:
     folder.mkdir(parents=True, exist_ok=True)
     parts: dict[Path, Path] = {}
 
-    def put(name: str, content: str | bytes) -> None:
+    def put(name: str, content: str | bytes | Iterator[str]) -> None:
         _check_place(folder / name)
         parts[folder / name] = part = folder / f".{name}.{os.getpid()}.part"
         with part.open("wb") as file:
-            file.write(content.encode() if isinstance(content, str) else content)
+            for each in [content] if isinstance(content, str | bytes) else content:
+                file.write(each.encode() if isinstance(each, str) else each)
             file.flush()
             os.fsync(file.fileno())
 

@@ -1,38 +1,41 @@
 """An atlas: a region of (eta, nu) in cells, each with what is proved at all oscillators of it.
 
-A region is cut where eta = 1 and nu = 0, and its parts, the roots, are numbered; a cell is a root
-or a quarter of a cell: "0/", "0/3", "0/31", ... A quarter's digit is 1 for the upper half of eta,
-and 2 more for the upper half of nu. The store is an SQLite file with the tables `region` and
-`cells`; it is read, and each cell proved again, as a manifest's files are.
+A region is cut where eta = 1 and nu = 0; its parts are numbered, the last one being the strip that
+is left out around nu = 0, if there is one. A cell is a part, "0/", or a quarter of a cell: "0/3",
+"0/31", ... A quarter's digit is 1 for the upper half of eta, and 2 more for the upper half of nu.
+
+An atlas is a file of lines, each a JSON object in the form of certificates. The first one has
+`schema`, `eta`, `nu`, `question`, and `epsilon` where impacts are not plastic. Then come the cells,
+those that are not cut, in the order of their keys: `cell` (the key), `eta` and `nu` (its box),
+`verdict`, `kind` and `says` (of the conclusion that decides it, the name and the words), and
+`certificate`. Without one a cell is undecided, not looked at, or left out; `says` may tell why.
 """
 
 from __future__ import annotations
 
 import json
-import sqlite3
-import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable
-from contextlib import closing
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
-from hashlib import sha256
+from functools import cached_property, partial
 from itertools import pairwise, product
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from proofs.trusted.certificate import MAX_BYTES, Malformed, parse, schema_of, texts
-from proofs.trusted.kernel.meter import DEFAULT
-from proofs.trusted.numbers import Range, show_range
+from proofs.trusted.certificate import Malformed, parse, texts
+from proofs.trusted.kernel.meter import DEFAULT, METER, metered
+from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import Question, question
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected, Report, check_document
 
-SCHEMA = "impact-proofs.atlas/1"
-SPLIT = "SPLIT"
+SCHEMA = "impact-proofs.atlas/2"
+FIELDS = ("cell", "eta", "nu", "verdict", "kind", "says", "certificate")
+NOT_YET, LEFT_OUT = "not looked at", "left out"
 DEEPEST = 40
+_WORK = 100  # on a cell, beside its certificate
+Box = tuple[Range, Range]
 
 
 # -- the region and its cells ----------------------------------------------------------------------
@@ -65,8 +68,8 @@ class Region:
         """What is asked."""
         return question(self.question)
 
-    @property
-    def roots(self) -> list[Place]:
+    @cached_property
+    def roots(self) -> list[Box]:
         """The parts between the lines eta = 1 and nu = 0; of those at nu = 0, all but a strip.
 
         The strip is 2^-20 times as wide as its part.
@@ -75,43 +78,54 @@ class Region:
         for low, high in _cut(self.nu, Fraction(0)):
             strip = (high - low) / 2**20
             nus.append((low + strip * (low == 0), high - strip * (high == 0)))
-        return [Place(eta, nu, self.epsilon) for nu, eta in product(nus, etas)]
+        return [(eta, nu) for nu, eta in product(nus, etas)]
+
+    @cached_property
+    def parts(self) -> list[Box]:
+        """The roots, and the strip beside them: together the region."""
+        if not self.nu[0] <= 0 <= self.nu[1]:
+            return self.roots
+        zero, (_, first), (_, last) = Fraction(0), self.roots[0], self.roots[-1]
+        return [*self.roots, (self.eta, (min(first[1], zero), max(last[0], zero)))]
+
+    def sides(self, key: str) -> Box:
+        """Return eta and nu of a cell, which may be the strip; Malformed where there is none."""
+        number, slash, path = key.partition("/")
+        parts = {f"{i}": part for i, part in enumerate(self.parts)}
+        deepest = 0 if number == f"{len(self.roots)}" else DEEPEST
+        if not slash or number not in parts or not set(path) <= set("0123") or len(path) > deepest:
+            raise Malformed(f"no cell: {key[:60]!r}")
+        count, sides = 2 ** len(path), []
+        for bit, (low, high) in enumerate(parts[number]):
+            index = int("0" + "".join(str(int(digit) >> bit & 1) for digit in path), 2)
+            unit = (high - low) / count
+            sides.append((low + unit * index, low + unit * (index + 1)))
+        return sides[0], sides[1]
 
     def box(self, key: str) -> Place:
-        """Return the box of a cell; Malformed where it is none."""
-        number, slash, path = key.partition("/")
-        roots = {f"{i}": root for i, root in enumerate(self.roots)}
-        if not slash or number not in roots or not set(path) <= set("0123") or len(path) > DEEPEST:
-            raise Malformed(f"no cell: {key[:60]!r}")
-        parts = 2 ** len(path)
-        sides = []
-        for bit, (low, high) in enumerate((roots[number].eta, roots[number].nu)):
-            index = int("0" + "".join(str(int(digit) >> bit & 1) for digit in path), 2)
-            unit = (high - low) / parts
-            sides.append((low + unit * index, low + unit * (index + 1)))
-        return Place(sides[0], sides[1], self.epsilon)
+        """Return the oscillators of a cell; Malformed where there is none, Unproved for a strip."""
+        return Place(*self.sides(key), self.epsilon)
 
     @property
     def text(self) -> str:
-        """The region as it is stored."""
+        """The region as it is written."""
         sides = {"eta": texts(self.eta), "nu": texts(self.nu)}
         more = {} if self.epsilon is None else {"epsilon": texts(self.epsilon)}
-        return json.dumps({"schema": SCHEMA, **sides, "question": self.question, **more})
+        held = {"schema": SCHEMA, **sides, "question": self.question, **more}
+        return json.dumps(held, separators=(",", ":"))
 
     @classmethod
     def of(cls, text: str) -> Region:
-        """Read what is stored."""
-        if schema_of(text) != SCHEMA:
-            raise Malformed(f"$.schema: the schema is not {SCHEMA!r}")
-        stored = parse(text)
-        more = ["epsilon"] if stored.has("epsilon") else []
-        _, eta, nu, name, *rest = stored.fields("schema", "eta", "nu", "question", *more)
+        """Read what is written."""
+        document = parse(text)
+        more = ["epsilon"] if document.has("epsilon") else []
+        schema, eta, nu, name, *rest = document.fields("schema", "eta", "nu", "question", *more)
+        if schema.string() != SCHEMA:
+            raise schema.fail(f"the schema is not {SCHEMA!r}")
         try:
             return cls(eta.range(), nu.range(), name.string(), *(each.range() for each in rest))
-        except Malformed:
-            raise
         except ValueError as error:
-            raise Malformed(str(error)) from None
+            raise error if isinstance(error, Malformed) else Malformed(str(error)) from None
 
 
 def _cut(side: Range, at: Fraction) -> list[Range]:
@@ -119,131 +133,90 @@ def _cut(side: Range, at: Fraction) -> list[Range]:
     return list(pairwise(ends))
 
 
-def area(box: Place) -> Fraction:
+def area(box: Box) -> Fraction:
     """Return the area of a box."""
-    return (box.eta[1] - box.eta[0]) * (box.nu[1] - box.nu[0])
+    (left, right), (low, high) = box
+    return (right - left) * (high - low)
 
 
-# -- cells -----------------------------------------------------------------------------------------
+# -- the check -------------------------------------------------------------------------------------
 
 
-class Cell(NamedTuple):
-    """A row of the store: a cell, its verdict or SPLIT, and for a verdict what proves it.
+def proved(region: Region, key: str, report: Report) -> tuple[str, str, str]:
+    """Return verdict, kind and words of a cell whose certificate proves this.
 
-    kind, conclusion: of the conclusion that decides it, the name and the words; where the cell is
-    undecided, "" and why. seconds: of work on it. sets: what may
-    help its neighbours.
+    Raises Rejected where that answers nothing here: it must be about the cell's box, and say one
+    thing, which decides the question.
     """
-
-    key: str
-    eta: str
-    nu: str
-    verdict: str
-    kind: str
-    conclusion: str
-    certificate: bytes | None
-    sha256: str | None
-    seconds: float
-    sets: str
-
-
-def cell(region: Region, key: str, source: str, work: float = DEFAULT) -> Cell:
-    """Check a cell's certificate, and return the row; Rejected where it answers nothing here."""
-    box, report = region.box(key), check(source, work)
-    if report.parameters != box:
+    if report.parameters != region.box(key):
         raise Rejected(f"cell {key}: the certificate is about other parameters")
     verdict = region.asked.verdict(report.conclusions)
     if verdict is Verdict.UNDECIDED:
         raise Rejected(f"cell {key}: the certificate does not answer the question")
-    packed = source.encode()
-    return without_proof(region, key, verdict.value, report.sentences[0])._replace(
-        kind=report.conclusions[0].kind,
-        certificate=zlib.compress(packed),
-        sha256=sha256(packed).hexdigest(),
-    )
+    return verdict.value, report.conclusions[0].kind, report.sentences[0]
 
 
-def without_proof(region: Region, key: str, verdict: str, why: str) -> Cell:
-    """Return the row of a cell that is split or undecided."""
-    box = region.box(key)
-    sides = show_range(box.eta), show_range(box.nu)
-    return Cell(key, *sides, verdict, "", why, None, None, 0.0, "")
-
-
-def check_cell(region: Region, work: float, row: tuple[Any, ...]) -> tuple[str, Fraction]:
-    """Re-derive a row of the store; return its verdict and its area.
+def check_cell(region: Region, numbered: tuple[int, str]) -> tuple[str, str]:
+    """Re-derive a line of an atlas, given with its number; return the cell and its verdict.
 
     Raises Malformed or Rejected where it is not what its certificate proves.
     """
-    given = Cell(*row)
-    if not isinstance(given.key, str):
-        raise Malformed("a cell without a key")
-    if given.verdict in (SPLIT, Verdict.UNDECIDED.value):
-        own = without_proof(region, given.key, given.verdict, given.conclusion)
-    else:
-        own = cell(region, given.key, unpacked(given), work)
-    own = own._replace(certificate=given.certificate if own.certificate else None)
-    if own._replace(seconds=given.seconds, sets=given.sets) != given:
-        raise Rejected(f"cell {given.key}: its certificate proves something else")
-    return given.verdict, area(region.box(given.key))
-
-
-def unpacked(given: Cell) -> str:
-    """Return a cell's certificate."""
+    number, line = numbered
+    METER.get().spend(_WORK)
     try:
-        reader = zlib.decompressobj()
-        content = reader.decompress(given.certificate or b"", MAX_BYTES)
-        if not reader.eof:
-            raise Malformed(f"cell {given.key}: no whole certificate")
-        return content.decode()
-    except (zlib.error, TypeError, UnicodeDecodeError):
-        raise Malformed(f"cell {given.key}: no certificate") from None
-
-
-# -- the store -------------------------------------------------------------------------------------
+        key_of, eta, nu, *said, certificate = parse(line).fields(*FIELDS)
+        key, (verdict, kind, says) = key_of.string(), (each.string() for each in said)
+        if (eta.range(), nu.range()) != region.sides(key):
+            raise Rejected(f"cell {key}: its box is another one")
+        is_strip = key == f"{len(region.roots)}/"
+        if is_strip or certificate.is_null():
+            may_be = [LEFT_OUT] if is_strip else [Verdict.UNDECIDED.value, NOT_YET]
+            if verdict not in may_be or kind or not certificate.is_null():
+                raise Rejected(f"cell {key}: nothing proves what it says")
+        elif (verdict, kind, says) != proved(region, key, check_document(certificate)):
+            raise Rejected(f"cell {key}: its certificate proves something else")
+    except (Malformed, Rejected) as error:
+        raise type(error)(f"line {number}: {error}") from None
+    return key, verdict
 
 
 class Areas(NamedTuple):
-    """How many cells have each verdict, and their area; whole: of the region, without strips."""
+    """How many cells have each verdict, and their share of the region's area."""
 
     cells: Counter[str]
-    areas: Counter[str]
-    whole: Fraction
-
-    @property
-    def missing(self) -> Fraction:
-        """The area of what is not looked at yet."""
-        return self.whole - sum(self.areas.values())
+    shares: dict[str, Fraction]
 
 
-Mapped = Callable[[Callable[[tuple[Any, ...]], Any], Iterable[tuple[Any, ...]]], Iterable[Any]]
+def check_atlas(
+    lines: Iterable[str],
+    work: float = DEFAULT,
+    mapped: Callable[..., Iterable[tuple[str, str]]] = map,
+) -> Areas:
+    """Re-derive all cells of an atlas, each from its certificate; return what is proved where.
 
-
-def check_store(path: Path, work: float = DEFAULT, mapped: Mapped = map) -> Areas:
-    """Re-derive all cells of a store, each from its certificate; return what is proved where.
-
-    A cell that is no root is a quarter of one that is split, so that cells do not overlap.
-    mapped: what applies a function to rows, as `map` does. Raises Malformed or Rejected.
+    A cell begins where the one before it ended, in the order of the keys, and the last one ends the
+    last part: so no cell lies in another, and in each part their areas add up to its own. Of what
+    is read nothing is kept.
+    mapped: what applies a function to lines, as `map` does. Raises Malformed, Rejected, Exhausted.
     """
-    try:
-        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as store:
-            rows = store.execute("SELECT text FROM region").fetchall()
-            if len(rows) != 1:
-                raise Malformed("a store is about one region")
-            region = Region.of(str(rows[0][0]))
-            if orphan := store.execute(_ORPHANS).fetchone():
-                raise Rejected(f"cell {orphan[0]}: no quarter of a cell that is split")
-            cells, areas = Counter[str](), Counter[str]()
-            every = store.execute(f"SELECT {', '.join(Cell._fields)} FROM cells ORDER BY key")
-            for verdict, size in mapped(partial(check_cell, region, work), every):
-                cells[verdict] += 1
-                areas[verdict] += 0 if verdict == SPLIT else size
-    except sqlite3.Error as error:
-        raise Malformed(f"no atlas: {error}") from None
-    return Areas(cells, areas, sum(map(area, region.roots), Fraction(0)))
-
-
-_ORPHANS = (
-    "SELECT key FROM cells WHERE substr(key, -1) != '/' AND substr(key, 1, length(key) - 1) "
-    f"NOT IN (SELECT key FROM cells WHERE verdict = '{SPLIT}') LIMIT 1"
-)
+    with metered(work):
+        unread = iter(lines)
+        region = Region.of(next(unread, ""))
+        cells, areas = Counter[str](), Counter[tuple[str, int]]()
+        ended = 0  # in units of the smallest cells, `full` of which are a part
+        full = 4**DEEPEST
+        for key, verdict in mapped(partial(check_cell, region), enumerate(unread, 2)):
+            number, _, path = key.partition("/")
+            size = full >> 2 * len(path)
+            if int(number) * full + int("0" + path, 4) * size != ended:
+                raise Rejected(f"cell {key}: it does not begin where the one before it ended")
+            ended += size
+            cells[verdict] += 1
+            areas[verdict, int(number)] += size
+        if ended != len(region.parts) * full:
+            raise Rejected("cells are missing at the end")
+    shares = dict.fromkeys(cells, Fraction(0))
+    for (verdict, part), count in areas.items():
+        shares[verdict] += Fraction(count, full) * area(region.parts[part])
+    whole = area((region.eta, region.nu))
+    return Areas(cells, {verdict: share / whole for verdict, share in shares.items()})

@@ -22,7 +22,9 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import os
 import re
+import stat
 from collections.abc import Iterator
 from fractions import Fraction
 from hashlib import sha256
@@ -65,6 +67,10 @@ class _Broken(str):
     """Stands in the parsed JSON for what is not allowed there, until its path is known."""
 
 
+_BARE = _Broken("a bare JSON number: numbers are strings here")
+_TWICE = _Broken("a field is there twice")
+
+
 class Reader:
     """A value in the JSON with its path; every access states what it expects."""
 
@@ -101,7 +107,7 @@ class Reader:
 
     def has(self, name: str) -> bool:
         """Whether an object has a field."""
-        return name in dict(self.entries())
+        return isinstance(self.value, dict) and name in self.value
 
     def members(self) -> Iterator[tuple[str, Reader]]:
         """Iterate over the members of an object with free names."""
@@ -179,11 +185,11 @@ def _shown(name: str) -> str:
 
 def _unique(pairs: list[tuple[str, Any]]) -> Any:
     result = dict(pairs)
-    return result if len(result) == len(pairs) else _Broken("a field is there twice")
+    return result if len(result) == len(pairs) else _TWICE
 
 
 def _no_number(value: str) -> Any:
-    return _Broken(f"a bare JSON number, {value[:40]}: numbers are strings here")
+    return _BARE
 
 
 def _refuse_broken(value: Any, *path: str | int) -> None:
@@ -203,6 +209,7 @@ def parse(source: str) -> Reader:
     """Parse a certificate's text; Malformed if it is not JSON in the accepted form."""
     if len(source) > MAX_BYTES:
         raise Malformed(f"$: {len(source)} characters; at most {MAX_BYTES} are read")
+    METER.get().spend(len(source) >> 3)
     try:
         value = json.loads(
             source,
@@ -219,17 +226,26 @@ def parse(source: str) -> Reader:
     return Reader(value)
 
 
+def opened(path: Path) -> BinaryIO:
+    """Open a regular file; OSError where it is none, such as a pipe, which is not waited for."""
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
+    if not stat.S_ISREG(os.fstat(handle).st_mode):
+        os.close(handle)
+        raise OSError("not a regular file")
+    return os.fdopen(handle, "rb")
+
+
 def read(path: Path) -> str:
-    """Return a file's text; Malformed if it is too large or no UTF-8."""
-    with path.open("rb") as file:
-        return read_stream(file)
+    """Return a file's text; Malformed if it is too large or no UTF-8, OSError as in `opened`."""
+    with opened(path) as file:
+        return decoded(file.read(MAX_BYTES + 1))
 
 
-def read_stream(file: BinaryIO) -> str:
-    """Do `read` with what is open."""
-    content = file.read(MAX_BYTES + 1)
+def decoded(content: bytes) -> str:
+    """Return the text that was read, up to a byte more than is allowed."""
     if len(content) > MAX_BYTES:
         raise Malformed(f"$: larger than {MAX_BYTES} bytes")
+    METER.get().spend(len(content) >> 3)
     try:
         return content.decode()
     except UnicodeDecodeError:
@@ -238,8 +254,8 @@ def read_stream(file: BinaryIO) -> str:
 
 def schema_of(source: str) -> str:
     """Return the schema that a text names, whatever else it holds; "" if it names none."""
-    fields = dict(parse(source).entries())
-    return fields["schema"].string() if "schema" in fields else ""
+    document = parse(source)
+    return Reader(document.value["schema"], "$.schema").string() if document.has("schema") else ""
 
 
 def digest(source: str) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
+from proofs.trusted.kernel.meter import metered
 from proofs.trusted.numbers import show
 from proofs.trusted.paper import BEYOND, GROUPS, find
 from proofs.trusted.parameters import PAPER, Parameters
@@ -25,7 +25,7 @@ class Listed(NamedTuple):
     is_own: bool  # whether the claim is the project's, not the paper's
 
 
-_FILE = re.compile(r"[A-Za-z0-9_-]{1,80}\.json")
+_FILES = 2  # how much all files may take together, where each may take 1
 _FINDING = ("horseshoe", "sets", "dimension")  # commands that find sets
 BESIDE = MappingProxyType({"horseshoe": ("N1", "N2"), "explore": BEYOND["rebounding"]})
 """Claims in files of these names beside those of the group that the name is."""
@@ -64,31 +64,36 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
     An entry has the file's digest and parameters, the commands that make and check it, and what it
     proves: of each claim verdict and statement. Raises Malformed or Rejected where they differ.
     """
-    _, files = parse(source).fields("schema", "files")
-    listed = []
-    for name, entry in files.entries():
-        digest_of, parameters, made, checked, claims = entry.fields(
-            "digest", "parameters", "made", "checked", "claims"
-        )
-        text = _beside(folder, name, entry)
-        group, report = name.removesuffix(".json"), check(text, work)
-        of = report.parameters
-        if not isinstance(of, Parameters):
-            raise Rejected(f"{entry.path}: a file about formulas or a box decides no claim")
-        _same(digest_of, digest(text))
-        _same(parameters, parameters_to_json(of))
-        _same(checked, checking(name))
-        proved: dict[str, Any] = {}
-        ids = [claim.id for claim in report.claims]
-        if not {*ids} <= {*GROUPS.get(group, BEYOND.get(group, ())), *BESIDE.get(group, ())}:
-            raise Rejected(f"{entry.path}: no command makes a file of this name and these claims")
-        if made.string() not in (command(name, of), command(name, of, ids)):
-            raise Rejected(f"{made.path}: the command is {command(name, of, ids)!r}")
-        for claim in report.claims:
-            proved[claim.id] = {"verdict": claim.verdict.value, "statement": claim.statement}
-            listed.append(Listed(claim.id, claim.verdict, of == PAPER, _is_own(claim.id)))
-        _same(claims, proved)
+    listed: list[Listed] = []
+    with metered(_FILES * work):
+        _, files = parse(source).fields("schema", "files")
+        for name, entry in files.entries():
+            listed += _check_entry(folder, name, entry, work)
     return _some(listed, files)
+
+
+def _check_entry(folder: Path, name: str, entry: Reader, work: float) -> Iterator[Listed]:
+    digest_of, parameters, made, checked, claims = entry.fields(
+        "digest", "parameters", "made", "checked", "claims"
+    )
+    text = _beside(folder, name, entry)
+    group, report = name.removesuffix(".json"), check(text, work)
+    of = report.parameters
+    if not isinstance(of, Parameters):
+        raise Rejected(f"{entry.path}: a file about formulas or a box decides no claim")
+    _same(digest_of, digest(text))
+    _same(parameters, parameters_to_json(of))
+    _same(checked, checking(name))
+    proved: dict[str, Any] = {}
+    ids = [claim.id for claim in report.claims]
+    if not {*ids} <= {*GROUPS.get(group, BEYOND.get(group, ())), *BESIDE.get(group, ())}:
+        raise Rejected(f"{entry.path}: no command makes a file of this name and these claims")
+    if made.string() not in (command(name, of), command(name, of, ids)):
+        raise Rejected(f"{made.path}: the command is {command(name, of, ids)!r}")
+    for claim in report.claims:
+        proved[claim.id] = {"verdict": claim.verdict.value, "statement": claim.statement}
+        yield Listed(claim.id, claim.verdict, of == PAPER, _is_own(claim.id))
+    _same(claims, proved)
 
 
 def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
@@ -96,24 +101,25 @@ def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
 
     Raises Malformed or Rejected where that is not so.
     """
-    _, claims_of = parse(source).fields("schema", "claims")
     proved: dict[str, dict[str, Any]] = {}
     listed = []
-    for entry in claims_of.items():
-        members = dict(entry.entries())
-        if not {"id", "file"} <= set(members):
-            raise entry.fail("an id and a file are expected")
-        name = members["file"].string()
-        if name not in proved:
-            text = _beside(folder, name, members["file"])
-            if check(text, work).parameters != PAPER:
-                raise Rejected(f"{entry.path}: the file is not about the paper's parameters")
-            proved[name] = {x["id"]: x for x in parse(text).value["claims"]}
-        own = dict(proved[name].get(members["id"].string(), {}))
-        own.pop("proof", None)
-        _same(entry, {**own, "file": name})
-        own_id = own["id"]
-        listed.append(Listed(own_id, Verdict(own["verdict"]), True, _is_own(own_id)))
+    with metered(_FILES * work):
+        _, claims_of = parse(source).fields("schema", "claims")
+        for entry in claims_of.items():
+            members = dict(entry.entries())
+            if not {"id", "file"} <= set(members):
+                raise entry.fail("an id and a file are expected")
+            name = members["file"].string()
+            if name not in proved:
+                text = _beside(folder, name, members["file"])
+                if check(text, work).parameters != PAPER:
+                    raise Rejected(f"{entry.path}: the file is not about the paper's parameters")
+                proved[name] = {x["id"]: x for x in parse(text).value["claims"]}
+            own = dict(proved[name].get(members["id"].string(), {}))
+            own.pop("proof", None)
+            _same(entry, {**own, "file": name})
+            own_id = own["id"]
+            listed.append(Listed(own_id, Verdict(own["verdict"]), True, _is_own(own_id)))
     return _some(listed, claims_of)
 
 
@@ -124,12 +130,12 @@ def _is_own(claim: str) -> bool:
 
 def _beside(folder: Path, name: str, reader: Reader) -> str:
     """Return the text of a file in the same folder."""
-    if not _FILE.fullmatch(name):
-        raise reader.fail("not the name of a certificate in the same folder")
+    if name not in {f"{group}.json" for group in (*GROUPS, *BEYOND)}:
+        raise Rejected(f"{reader.path}: no command makes a file of this name in the same folder")
     try:
         return read(folder / name)
     except OSError as error:
-        raise Rejected(f"{reader.path}: cannot be read: {error.strerror}") from None
+        raise Rejected(f"{reader.path}: cannot be read: {error.strerror or error}") from None
 
 
 def _same(given: Reader, own: Any) -> None:

@@ -11,7 +11,7 @@ printed as a sentence.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from proofs.trusted.certificate import (
@@ -25,7 +25,7 @@ from proofs.trusted.certificate import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.meter import DEFAULT, metered
+from proofs.trusted.kernel.meter import DEFAULT, METER, metered
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER, Parameters, Place
@@ -33,6 +33,8 @@ from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.verdicts import Verdict, told
 
 _MAX_TEXT = 1_000_000
+_STEP = 150  # work on a step, beside what is counted in its rule
+_LOOK = 20  # work of a row on one conclusion: whether it is of a kind, and about its oscillator
 
 
 class Rejected(ValueError):
@@ -82,21 +84,25 @@ def check(source: str, work: float = DEFAULT) -> Report:
     does not follow from the witnesses, Exhausted where that takes more work.
     """
     with metered(work):
-        document = parse(source)
-        functions_of, steps_of, claims_of = document.fields(*FIELDS)[2:]
-        context = _premises(document)
-        used: set[str] = set()
-        try:
-            report = _conclude(context, claims_of, used)
-        except Unproved as error:
-            raise Rejected(f"{claims_of.path}: {error}") from None
-        used = used_steps(steps_of, used)
-        unused = sorted(
-            ({*context.known} - used) | ({*context.functions} - used_steps(functions_of, used))
-        )
-        if unused:
-            raise steps_of.fail(f"steps or functions that nothing uses: {', '.join(unused)[:80]}")
-        return report
+        return check_document(parse(source))
+
+
+def check_document(document: Reader) -> Report:
+    """Do as `check` with what is parsed, on the meter that there is."""
+    functions_of, steps_of, claims_of = document.fields(*FIELDS)[2:]
+    context = _premises(document)
+    used: set[str] = set()
+    try:
+        report = _conclude(context, claims_of, used)
+    except Unproved as error:
+        raise Rejected(f"{claims_of.path}: {error}") from None
+    used = used_steps(steps_of, used)
+    unused = sorted(
+        ({*context.known} - used) | ({*context.functions} - used_steps(functions_of, used))
+    )
+    if unused:
+        raise steps_of.fail(f"steps or functions that nothing uses: {', '.join(unused)[:80]}")
+    return report
 
 
 def premises(source: str) -> Context:
@@ -125,6 +131,7 @@ def derive(context: Context, steps_of: Reader) -> None:
     rules = {step.fields("rule", "witness")[0].string() for _, step in steps_of.members()}
     for name, step in steps_of.members():
         rule_of, witness = step.fields("rule", "witness")
+        METER.get().spend(_STEP)
         rule = find_rule(rule_of.string())
         if rule is None:
             raise rule_of.fail(f"unknown rule {rule_of.string()[:40]!r}")
@@ -179,21 +186,18 @@ def _check_claim(context: Context, entry: Reader, used: set[str]) -> Checked:
     return Checked(row.id, decision.verdict, says, own_why, theorem)
 
 
-def _named(context: Context, names: Reader, used: set[str]) -> list[str]:
-    """Return names of steps, each once, and mark them as used."""
-    result: list[str] = []
+def _conclusions(context: Context, names: Reader, used: set[str]) -> list[Conclusion]:
+    """Return what the named steps prove, each named once, and mark these as used."""
+    named: dict[str, Conclusion] = {}
     for name in names.items():
-        if name.string() not in context.known:
-            raise name.fail(f"names no step: {name.string()[:40]!r}")
-        if name.string() in result:
+        if (step := name.string()) not in context.known:
+            raise name.fail(f"names no step: {step[:40]!r}")
+        if step in named:
             raise name.fail("names a step twice")
-        result.append(name.string())
-    used.update(result)
-    return result
-
-
-def _conclusions(context: Context, names: Reader, used: set[str]) -> Sequence[Conclusion]:
-    return [context.known[name] for name in _named(context, names, used)]
+        named[step] = context.known[step]
+    used.update(named)
+    METER.get().spend(_LOOK * len(named))
+    return [*named.values()]
 
 
 def _check_quantities(claim: str, own: Mapping[str, Range], bounds: Reader) -> None:

@@ -1,7 +1,7 @@
 """Work, counted where it happens: in the arithmetic and in the reader.
 
 Whatever a rule does, its numbers come from a file and are computed with, so no rule can forget to
-count. The unit is about half a microsecond, and 20 bytes where results are kept.
+count. The unit is up to a microsecond, and 20 bytes where results are kept.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-DEFAULT = 10_000_000  # some seconds; every committed certificate takes less
+DEFAULT = 8_000_000  # some eight seconds; no committed certificate takes three
 
 
 class Exhausted(ArithmeticError):
@@ -18,35 +18,32 @@ class Exhausted(ArithmeticError):
 
 
 class Meter:
-    """What is left of the work that one check may take."""
+    """The work that one check may take: part of a larger one, there may be less left of that."""
 
-    __slots__ = ("left", "limit")
+    __slots__ = ("limit", "most", "spent")
 
-    def __init__(self, limit: float) -> None:
-        self.left = self.limit = limit
-
-    @property
-    def spent(self) -> float:
-        """The work so far."""
-        return self.limit - self.left
+    def __init__(self, limit: float, left: float) -> None:
+        self.limit, self.most, self.spent = limit, min(limit, left), 0.0
 
     def spend(self, amount: float) -> None:
         """Count work; Exhausted where more is asked for than there is."""
-        self.left -= amount
-        if self.left < 0:
+        self.spent += amount
+        if self.spent > self.most:
             raise Exhausted(f"it needs more work, --work {2 * self.limit:.0f}")
 
 
-_UNLIMITED = Meter(float("inf"))
+_UNLIMITED = Meter(float("inf"), float("inf"))
 METER: ContextVar[Meter] = ContextVar("meter", default=_UNLIMITED)
 
 
 @contextmanager
 def metered(limit: float) -> Iterator[Meter]:
-    """Give what is done inside so much work."""
-    meter = Meter(limit)
+    """Give what is done inside so much work, which is part of what is done around it."""
+    outer = METER.get()
+    meter = Meter(limit, outer.most - outer.spent)
     token = METER.set(meter)
     try:
         yield meter
     finally:
         METER.reset(token)
+        outer.spent += meter.spent

@@ -58,7 +58,7 @@ def power(place: int, n: Exponent = 1) -> Polynomial:
 
 def plus(a: Polynomial, b: Polynomial, factor: Fraction | int = 1) -> Polynomial:
     """Return a + factor b."""
-    METER.get().spend(5 * (len(a) + len(b)))
+    METER.get().spend(2 * (len(a) + len(b)))
     result = dict(a)
     for monomial, value in b.items():
         _accumulate(result, monomial, factor * value)
@@ -162,7 +162,7 @@ class NormalForms:
 
     def times(self, a: Polynomial, b: Polynomial) -> Polynomial:
         """Return the product, with the squares of i and of roots replaced."""
-        METER.get().spend(12 * len(a) * len(b) + len(b) * _weight(a) + len(a) * _weight(b))
+        METER.get().spend(5 * len(a) * len(b) + len(b) * _weight(a) + len(a) * _weight(b))
         product: Polynomial = {}
         for one, c in a.items():
             for two, d in b.items():
@@ -258,7 +258,7 @@ def _accumulate(polynomial: Polynomial, monomial: Monomial, value: Fraction) -> 
 
 def _weight(polynomial: Polynomial) -> int:
     """Return the work of a factor, for each term of the other one."""
-    return sum(3 * len(each) + (size(value) >> 4) for each, value in polynomial.items())
+    return sum(len(each) + (size(value) >> 4) for each, value in polynomial.items())
 
 
 def _whole(value: Fraction) -> Exponent:

@@ -25,6 +25,7 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.numbers import Range, hull, show_range, within
 
@@ -178,6 +179,7 @@ def _krawczyk(
     how: tuple[int | None, int],
 ) -> dict[int, Range]:
     """Enclose K by variables, but the axis; how: the axis, or None, and the precision."""
+    METER.get().spend(100 * len(matrix) ** 2)
     axis, bits = how
     whole = piece.box if axis is None else piece.hull(axis)
     x, middle = enclosed(piece.box, bits), enclosed(point_box(centre), bits)

@@ -32,6 +32,11 @@ def box(eta, nu, width="0.0002"):
     return Place((F(eta), F(eta) + F(width)), (F(nu), F(nu) + F(width)))
 
 
+def timeless(row):
+    """A row without what depends on what was done before: values that are kept cost nothing."""
+    return row._replace(seconds=0, work=0)
+
+
 def test_next_impacts_of_many_are_those_of_one():
     phases = np.linspace(0.05, 6.2, 60)
     for eta, nu in (("0.2121", "-0.2"), ("0.3", "0.5"), ("1.7", "0.9")):
@@ -140,7 +145,7 @@ def test_every_executor_gives_the_same_rows():
     with executor(2, "here") as (pool, count):
         there = pool.submit(decide, REGION, 2, todo).result()
     assert count == 2 and isinstance(here[0].certificate, bytes)
-    assert [row._replace(seconds=0) for row in there] == [row._replace(seconds=0) for row in here]
+    assert [*map(timeless, there)] == [*map(timeless, here)]
     assert Here().submit(math.sqrt, 4).result() == 2
 
 
@@ -152,7 +157,7 @@ def test_a_dask_cluster_of_two_processes():
         there = pool.submit(decide, REGION, 2, todo).result()
     assert count == 2
     here = decide(REGION, 2, todo)
-    assert [row._replace(seconds=0) for row in there] == [row._replace(seconds=0) for row in here]
+    assert [*map(timeless, there)] == [*map(timeless, here)]
 
 
 def test_four_quarters_are_one_part_of_the_picture():

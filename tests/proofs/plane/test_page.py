@@ -9,11 +9,10 @@ from itertools import islice
 import pytest
 
 from proofs.plane import picture, summary
-from proofs.plane.cost import Cost, by_depth
 from proofs.plane.overlay import Overlay
 from proofs.plane.page import MOST, corner, data, page, said, size
-from proofs.plane.store import opened, quarters
-from proofs.trusted.atlas import Region, without_proof
+from proofs.plane.store import Row, opened, quarters
+from proofs.trusted.atlas import Region
 from proofs.trusted.numbers import show_range
 
 F = Fraction
@@ -41,7 +40,7 @@ def cells(region, depth, rng, share=0.9):
                 yield from below(child)
         elif rng.random() < 0.95:
             verdict, kind, text = rng.choice([*sentences(rng, region.box(key))])
-            yield without_proof(region, key, verdict, text)._replace(kind=kind)
+            yield Row(key, verdict, kind, text)
 
     for number in range(len(region.roots)):
         yield from below(f"{number}/")
@@ -79,7 +78,7 @@ def told(held):
 @pytest.mark.parametrize("seed", [1, 3, 4])
 def test_each_cell_is_told_as_it_is_stored(region, seed):
     there = list(cells(region, 4, random.Random(seed), share=0.95))
-    want = [(x.key, x.verdict, x.kind, x.conclusion, x.eta, x.nu) for x in there]
+    want = [(*x[:4], *map(show_range, region.sides(x.key))) for x in there]
     assert list(told(data(region, there))) == want and len(want) > 99
 
 
@@ -94,8 +93,9 @@ def test_places_in_the_grid_are_those_of_the_boxes():
 
 def test_alike_sentences_are_one_pattern_and_equal_ones_are_there_once():
     at = "At eta in [0.15, 0.25], nu in [-0.4, -0.25], epsilon = 0: "
-    row = without_proof(PLAIN, "0/0", "VERIFIED", at + "C0 = [1.5, -2/3].")
-    assert row.eta == "[0.15, 0.25]" and said(row).numbers == ("0", "0", "1.5", "-2/3")
+    row = Row("0/0", "VERIFIED", "", at + "C0 = [1.5, -2/3].")
+    numbers = said(row, *map(show_range, PLAIN.sides("0/0"))).numbers
+    assert numbers == ("0", "0", "1.5", "-2/3")
     there = list(cells(PLAIN, 5, random.Random(1), share=1))
     held = data(PLAIN, there)
     assert len(there) > 900 and len(held["patterns"]) == 6
@@ -129,17 +129,8 @@ def test_the_page_says_what_impacts_it_is_about(tmp_path, epsilon, told, monkeyp
     monkeypatch.setattr(picture, "overlay", lambda region: Overlay([], []))
     region = Region(PLAIN.eta, PLAIN.nu, "orbits", epsilon)
     with opened(tmp_path, region) as store:
-        store.put([without_proof(region, "0/", "UNDECIDED", "nothing is found")])
+        store.put([Row("0/", "UNDECIDED", "", "nothing is found")])
         made = summary.summary(store)
-        text = page(store, picture.shown(store, made), "", [])
+        text = page(store, picture.shown(store, made), [])
     lede = re.search('<p class="lede">(.*?)</p>', text)[1]
     assert re.sub("<.*?>", "", lede).startswith(f"{told}. In each cell")
-
-
-def test_costs_are_told_by_depth():
-    spent = [Cost(2, 0.2, 0.1, "proved", float(k)) for k in range(1, 12)]
-    told = by_depth([*spent, Cost(0, 0.2, 0.1, "cut in four", 40.0)])
-    assert told == [
-        {"depth": 0, "cells": 1, "median": "40", "mean": "40", "nine_tenths": "40"},
-        {"depth": 2, "cells": 11, "median": "6", "mean": "6", "nine_tenths": "10"},
-    ]

@@ -1,6 +1,8 @@
 """The command and its store: nothing lost, nothing twice, one writer at a time."""
 
+import contextvars
 import json
+import math
 import random
 import signal
 import sqlite3
@@ -11,22 +13,22 @@ import tracemalloc
 from concurrent.futures import Future
 from contextlib import closing
 from fractions import Fraction
-from pathlib import Path
+from hashlib import sha256
 
 import pytest
 
 from proofs import atlas
 from proofs.check import _mapped
 from proofs.check import main as check
-from proofs.plane import cost, picture, summary
+from proofs.plane import picture, summary
 from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
-from proofs.plane.store import NAME, Held, opened
+from proofs.plane.store import LEAVES, LINES, NAME, SPLIT, Held, Row, opened
 from proofs.report.figures.style import style
 from proofs.report.layout import percent
-from proofs.trusted.atlas import SPLIT, check_store, without_proof
+from proofs.trusted.atlas import LEFT_OUT, NOT_YET, check_atlas
+from proofs.trusted.kernel.meter import METER, metered
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check as prove
 
 F = Fraction
 SMALL = ["--eta", "0.2115", "0.2127", "--nu", "-0.201", "-0.199", "--ask", "horseshoe"]
@@ -37,8 +39,14 @@ LARGE = ["--eta", "0.211", "0.2134", "--nu", "-0.204", "-0.2", "--ask", "horsesh
 def draw(monkeypatch):
     """Pictures take longer than all else here: what makes one is returned, not done."""
     made = atlas._draw
-    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made, spent: None)
+    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made: None)
     return made
+
+
+def proved(folder):
+    """What the checker makes of the lines of a store."""
+    with opened(folder, None) as store:
+        return check_atlas(store.lines(), math.inf)
 
 
 def start(folder, *more):
@@ -54,14 +62,13 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     assert "VERIFIED         16 cells, 1 of the area" in said and "Opposite: " in said
     made = json.loads((tmp_path / "atlas.json").read_text())
     assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
-    assert [(row["depth"], row["cells"]) for row in made["cpu_milliseconds"]] == [
-        (0, 1),
-        (1, 4),
-        (2, 16),
-    ]
-    assert check([str(tmp_path / NAME)]) == 0
+    lines = tmp_path / LINES
+    assert made["digest"] == f"sha256:{sha256(lines.read_bytes()).hexdigest()}"
+    assert check([str(lines)]) == 0
     assert "16 VERIFIED cells, all as their certificates prove" in capsys.readouterr().out
-    assert check([str(tmp_path / NAME), "--jobs", "2", "--quiet"]) == 0
+    assert check([str(lines), "--jobs", "2", "--quiet"]) == 0
+    assert check([str(lines), "--work", made["checker_work"]]) == 0
+    capsys.readouterr()
     assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 0
     assert "VERIFIED: At eta in [0.2121, 0.2124], nu in [-0.2005, -0.2]" in capsys.readouterr().out
     (path,) = tmp_path.glob("cell-*.json")
@@ -98,7 +105,7 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
         with style("atlas"):
             drawing = picture.picture(store.region, picture.shown(store, made))
         (path,) = drawing.axes[0].patches[1:]  # but for what is below it
-        draw(tmp_path, store, made, cost.costs(store))
+        draw(tmp_path, store, made)
         proved = {cell.key for cell in store.cells(Verdict.REFUTED)}
         inside = [path.get_path().contains_point(middle(store.region.box(key))) for key in proved]
         left = [cell.key for cell in store.cells(Verdict.UNDECIDED)]
@@ -109,7 +116,6 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
     for name in ("atlas.svg", "atlas.html"):
         text = (tmp_path / name).read_text()
         assert words in text and percent(share) in text
-    assert "cut in four" in (tmp_path / "cost.svg").read_text()
 
 
 def middle(box):
@@ -125,7 +131,7 @@ def test_it_goes_on_and_deeper(tmp_path, capsys):
     assert "0 cells looked at now" in capsys.readouterr().out
     assert atlas.main(["--depth", "2", *out]) == 0
     assert "16 cells looked at now" in capsys.readouterr().out
-    assert check_store(tmp_path / NAME).missing == 0
+    assert proved(tmp_path).shares == {"VERIFIED": 1}
 
 
 def survives(tmp_path, kills, seed):
@@ -139,18 +145,18 @@ def survives(tmp_path, kills, seed):
         if (tmp_path / NAME).exists() and (tmp_path / NAME).stat().st_size:
             try:
                 with opened(tmp_path, None) as store:
-                    now = sum(1 for _ in store.rows())
+                    now = store.total("1")
             except Held as early:
                 assert "has no region" in str(early)
                 now = 0
             assert now >= rows  # what was there is there
             rows = now
     assert start(tmp_path).wait() in (0, 1)
-    return check_store(tmp_path / NAME)
+    return proved(tmp_path)
 
 
 def whole(found):
-    return found.missing == 0 and sum(found.areas.values()) == found.whole
+    return NOT_YET not in found.shares and sum(found.shares.values()) == 1
 
 
 @pytest.mark.slow
@@ -186,10 +192,12 @@ def test_a_worker_that_dies_loses_its_chunk_alone(tmp_path):
     )
     with pytest.raises(ConnectionError), opened(tmp_path, region) as store:
         run(store, 2, (Breaks(), 1), 2)
-    assert 0 < check_store(tmp_path / NAME).cells.total() < 21
+    with opened(tmp_path, None) as store:
+        assert 0 < store.total("1") < 21
+    assert proved(tmp_path).shares == {NOT_YET: 1}
     with opened(tmp_path, region) as store:
         run(store, 2, (Here(), 1), 2)
-    assert whole(check_store(tmp_path / NAME))
+    assert whole(proved(tmp_path))
 
 
 @pytest.mark.slow
@@ -234,10 +242,10 @@ def test_what_is_left_are_roots_and_quarters_that_are_not_there(tmp_path):
     region = atlas.Region((F("0.9"), F("1.1")), (F("0.1"), F("0.2")), "horseshoe")
     with opened(tmp_path, region) as store:
         assert store.left() == [("0/", ""), ("1/", "")]
-        parent = without_proof(region, "0/", SPLIT, "")._replace(sets="near")
-        store.put([parent, without_proof(region, "0/2", "UNDECIDED", "why")])
+        parent = Row("0/", SPLIT, sets="near")
+        store.put([parent, Row("0/2", "UNDECIDED", "", "why")])
         assert store.left() == [(key, "near") for key in ("0/0", "0/1", "0/3")] + [("1/", "")]
-        store.put([without_proof(region, key, "UNDECIDED", "") for key in ("0/0", "0/1", "1/")])
+        store.put([Row(key, "UNDECIDED", "", "") for key in ("0/0", "0/1", "1/")])
         assert store.left() == [("0/3", "near")]
 
 
@@ -247,24 +255,21 @@ def test_memory_does_not_grow_with_the_number_of_cells(tmp_path):
 
     class Cuts(Here):
         def submit(self, work, /, *data, **more):
-            region, depth, todo = data
+            _, depth, todo = data
             ends = [SPLIT if len(key) - 2 < depth else "UNDECIDED" for key, _ in todo]
-            rows = [
-                without_proof(region, key, end, "")
-                for (key, _), end in zip(todo, ends, strict=True)
-            ]
+            rows = [Row(key, end) for (key, _), end in zip(todo, ends, strict=True)]
             return super().submit(lambda: rows)
 
     region = atlas.Region((F("0.2"), F("0.3")), (F("0.1"), F("0.2")), "horseshoe")
     peaks, counts = [], []
-    for depth in (3, 5):
+    for depth in (4, 6):
         with opened(tmp_path, region) as store:
             tracemalloc.start()
             counts.append(run(store, depth, (Cuts(), 1), 16))
             peaks.append(tracemalloc.get_traced_memory()[1])
             tracemalloc.stop()
         (tmp_path / NAME).unlink()
-    assert counts == [85, 1365] and peaks[1] < 2 * peaks[0]
+    assert counts == [341, 5461] and peaks[1] < 2 * peaks[0]
 
 
 @pytest.fixture
@@ -272,49 +277,73 @@ def small(tmp_path):
     """An atlas with two cells that are proved, and two that are not."""
     region = atlas.Region((F("0.2121"), F("0.2122")), (F("-0.2"), F("-0.1999")), "horseshoe")
     with opened(tmp_path, region) as store:
-        store.put([without_proof(region, "0/", SPLIT, "")])
-        store.put([without_proof(region, key, "UNDECIDED", "why") for key in ("0/0", "0/3")])
+        store.put([Row("0/", SPLIT)])
+        store.put([Row(key, "UNDECIDED", "", "why") for key in ("0/0", "0/3")])
         store.put(decide(region, 1, [("0/1", ""), ("0/2", "")]))
     return tmp_path
 
 
-def test_cells_as_a_table_are_those_of_the_store(small, capsys, monkeypatch):
-    parquet = pytest.importorskip("pyarrow.parquet")
-    monkeypatch.setattr("proofs.plane.export._AT_A_TIME", 3)
-    path = small / "cells.parquet"
-    assert atlas.main(["--out", str(small), "--export", str(path)]) == 0
-    assert f"4 cells: {path}" in capsys.readouterr().out
-    table = parquet.read_table(path)
-    assert json.loads(table.schema.metadata[b"atlas"])["question"] == "horseshoe"
-    rows = {row["key"]: row for row in table.to_pylist()}
+def test_lines_of_what_there_is(small, capsys):
+    """Also while cells are not looked at; what reads it are others' tables, too."""
+    assert atlas.main(["--out", str(small), "--lines"]) == 0
+    path = small / LINES
+    shares = check_atlas(path.read_text().splitlines()).shares
+    assert shares == {"VERIFIED": F(1, 2), "UNDECIDED": F(1, 2)}
     with opened(small, None) as store:
-        cells = {cell.key: cell for cell in store.rows() if cell.verdict != SPLIT}
-        region = store.region
-    assert rows.keys() == cells.keys() and rows["0/0"]["certificate"] is None
-    for key, row in rows.items():
-        cell, box = cells[key], region.box(key)
-        assert all(
-            row[name] == getattr(cell, name)
-            for name in row.keys() & {*cell._fields} - {"certificate"}
-        )
-        assert (row["eta_from"], row["eta_to"]) == tuple(map(float, box.eta))
-        assert (row["nu_from"], row["nu_to"]) == tuple(map(float, box.nu))
-        if key in ("0/1", "0/2"):
-            assert prove(row["certificate"]).parameters == box
+        there = {cell.key: cell for cell in store.cells(*LEAVES)}
+    pandas = pytest.importorskip("pandas")
+    table = pandas.read_json(path, lines=True).iloc[1:].set_index("cell")
+    assert [*table.index] == sorted(there)
+    for key, row in table.iterrows():
+        assert (row.verdict, row.kind, row.says) == there[key][1:4]
+        assert row.certificate == (json.loads(there[key].text) if row.kind else None)
+    duckdb = pytest.importorskip("duckdb")
+    counted = duckdb.sql(
+        f"SELECT verdict, count(certificate) FROM '{path}' WHERE cell NOTNULL GROUP BY ALL"
+    )
+    assert {*counted.fetchall()} == {("VERIFIED", 2), ("UNDECIDED", 0)}
 
 
-def test_a_table_that_cannot_be_written_is_one_line(small, capsys, monkeypatch):
-    monkeypatch.setattr(atlas, "find_spec", lambda name: None)
-    with pytest.raises(SystemExit) as left:
-        atlas.main(["--out", str(small), "--export", "cells.parquet"])
+def test_what_is_not_looked_at_are_lines_and_so_is_the_strip(tmp_path):
+    region = atlas.Region((F("0.9"), F("1.1")), (F("-0.1"), F("0.2")), "horseshoe")
+    with opened(tmp_path, region) as store:
+        store.put([Row("1/", SPLIT), Row("1/12", "UNDECIDED"), Row("1/2", "UNDECIDED")])
+        keys = [json.loads(line).get("cell") for line in store.lines()]
+    assert keys == [
+        None,
+        "0/",
+        "1/0",
+        "1/10",
+        "1/11",
+        "1/12",
+        "1/13",
+        "1/2",
+        "1/3",
+        "2/",
+        "3/",
+        "4/",
+    ]
+    found = proved(tmp_path)
+    assert found.cells == {NOT_YET: 8, "UNDECIDED": 2, LEFT_OUT: 1}
+    assert found.shares[LEFT_OUT] == F(1, 2**20) and sum(found.shares.values()) == 1
+    assert found.shares["UNDECIDED"] == (1 - F(1, 2**20)) * F(1, 2) * F(1, 3) * F(5, 16)
+
+
+def test_a_store_is_not_checked_but_its_lines_are(small, capsys):
+    assert check([str(small / NAME)]) == 2
     said = capsys.readouterr().err
-    assert left.value.code == 2 and "impact-proofs[parquet]" in said and said.count("\n") == 1
-    monkeypatch.undo()
-    pytest.importorskip("pyarrow")
+    assert f"python -m proofs.atlas --out {small} --lines" in said and said.count("\n") == 1
+
+
+def test_a_store_of_another_version_is_refused_by_name(small, capsys):
+    with closing(sqlite3.connect(small / NAME)) as store, store:
+        store.execute("UPDATE region SET text = replace(text, 'atlas/2', 'atlas/1')")
+    held = (small / NAME).read_bytes()
     with pytest.raises(SystemExit) as left:
-        atlas.main(["--out", str(small), "--export", str(small)])
+        atlas.main(["--out", str(small)])
     said = capsys.readouterr().err
-    assert left.value.code == 2 and "not a regular file" in said and said.count("\n") == 1
+    assert left.value.code == 2 and "of another version" in said and said.count("\n") == 1
+    assert (small / NAME).read_bytes() == held
 
 
 def test_a_check_without_a_reader_blames_no_file(small, monkeypatch):
@@ -324,17 +353,29 @@ def test_a_check_without_a_reader_blames_no_file(small, monkeypatch):
         if stream is None:
             raise BrokenPipeError
 
+    atlas.main(["--out", str(small), "--lines"])
     monkeypatch.setattr("proofs.check.say", closed)
     with pytest.raises(BrokenPipeError):
-        check([str(small / NAME)])
+        check([str(small / LINES)])
 
 
-def test_the_checker_reads_few_rows_ahead_and_keeps_their_order():
+def test_the_checker_reads_few_lines_ahead_keeps_their_order_and_adds_up_their_work():
     read = []
     rows = (read.append(k) or k for k in range(10_000))
-    found = _mapped(Here(), 2, str, rows)
-    assert [next(found) for _ in range(5)] == ["0", "1", "2", "3", "4"] and len(read) < 500
-    assert list(found) == [str(k) for k in range(5, 10_000)]
+
+    def spends(k):
+        METER.get().spend(2)
+        return str(k)
+
+    class Apart(Here):
+        def submit(self, work, /, *data, **more):
+            return super().submit(contextvars.Context().run, work, *data, **more)
+
+    with metered(20_000) as meter:
+        found = _mapped(Apart(), 2, 1000, spends, rows)
+        assert [next(found) for _ in range(5)] == ["0", "1", "2", "3", "4"] and len(read) < 500
+        assert list(found) == [str(k) for k in range(5, 10_000)]
+        assert meter.spent == 20_000
 
 
 @pytest.mark.parametrize(
@@ -370,7 +411,7 @@ def test_orbits_with_restitution(tmp_path, capsys):
     assert atlas.main([*asked, "--epsilon", "0.3", *out]) == 0
     said = capsys.readouterr().out
     assert "4 cells, 1 of the area: a stable single-impact orbit: n = 1" in said
-    assert check([str(tmp_path / NAME)]) == 0
+    assert check([str(tmp_path / LINES)]) == 0
     with pytest.raises(SystemExit):
         atlas.main([*asked, "--epsilon", "0", *out])
     assert "another region" in capsys.readouterr().err
@@ -382,13 +423,12 @@ def test_orbits_with_restitution(tmp_path, capsys):
     "more",
     [
         ["--json", "NOWHERE/atlas.json"],
-        ["--export", "cells.parquet", "--json", "-"],
-        ["--export", "cells.parquet", "--cell", "0.2122", "-0.2"],
+        ["--lines", "--json", "-"],
+        ["--lines", "--cell", "0.2122", "-0.2"],
     ],
 )
 def test_no_work_for_a_form_that_cannot_be_written(tmp_path, capsys, more, monkeypatch):
     monkeypatch.setattr(atlas, "opened", None)
-    monkeypatch.setattr(atlas, "_parquet", Path)
     (tmp_path / "file").touch()
     more = [each.replace("NOWHERE", str(tmp_path / "file")) for each in more]
     with pytest.raises(SystemExit) as left:
@@ -408,4 +448,4 @@ def test_a_region_across_resonance_is_cut_there(tmp_path, capsys):
     assert atlas.main([*region, "--depth", "0", "--out", str(tmp_path)]) == 1
     said = capsys.readouterr().out
     assert "cut at eta = 1 and nu = 0" in said and "eta [0.9, 1]" in said
-    assert check_store(tmp_path / NAME).cells == {"REFUTED": 2, "UNDECIDED": 2}
+    assert proved(tmp_path).cells == {"REFUTED": 2, "UNDECIDED": 2, LEFT_OUT: 1}

@@ -5,8 +5,9 @@ import random
 import pytest
 
 from proofs import atlas
-from proofs.plane import cost, summary
+from proofs.plane import summary
 from proofs.plane.store import opened
+from proofs.trusted.numbers import show_range
 from tests.proofs.plane.test_page import CUT as REGION
 from tests.proofs.plane.test_page import cells as some_cells
 
@@ -20,13 +21,14 @@ def made(tmp_path_factory):
     folder, cells = tmp_path_factory.mktemp("atlas"), list(some_cells(REGION, 2, random.Random(5)))
     with opened(folder, REGION) as store:
         store.put(cells)
-        atlas._draw(folder, store, summary.summary(store), cost.costs(store))
+        atlas._draw(folder, store, summary.summary(store))
     assert {cell.verdict for cell in cells} == {"VERIFIED", "REFUTED", "UNDECIDED"}
     return folder / "atlas.html", {cell.key: cell for cell in cells}
 
 
 def box_told(cell):
-    return f"η in {cell.eta}\nν in {cell.nu}"
+    eta, nu = map(show_range, REGION.sides(cell.key))
+    return f"η in {eta}\nν in {nu}"
 
 
 def told_of(cell):

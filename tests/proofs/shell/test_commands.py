@@ -222,7 +222,7 @@ def test_the_checker_says_what_a_ledger_is(tmp_path, capsys):
     assert f"{tmp_path}/MANIFEST.json: a manifest of 1 claims" in said[1]
     (tmp_path / "horseshoe.json").unlink()
     assert check.main([str(tmp_path / "ledger.json")]) == 1
-    assert "ledger.json: a ledger: REJECTED" in capsys.readouterr().err
+    assert "ledger.json: REJECTED" in capsys.readouterr().err
 
 
 def test_bad_usage_of_the_checker_is_a_line(capsys):

@@ -11,7 +11,6 @@ from tests.proofs.shell.processes import ROOT
 OPTIONAL = {  # of pyproject.toml
     "report": ("jinja2", "latex2mathml", "markupsafe", "matplotlib"),
     "cluster": ("dask", "distributed"),
-    "parquet": ("pyarrow",),
     "benchmark": ("scipy",),
     "fast": ("flint",),
 }

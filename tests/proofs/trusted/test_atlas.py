@@ -1,18 +1,18 @@
 """An atlas is what its certificates prove, and where: no cell twice, none in another's place."""
 
+import copy
 import json
-import sqlite3
-import zlib
-from contextlib import closing
+import math
+import tracemalloc
 from fractions import Fraction
-from hashlib import sha256
 
 import pytest
 
 from proofs.plane.head import Here, run
-from proofs.plane.store import NAME, opened
-from proofs.trusted.atlas import Region, area, check_store
-from proofs.trusted.certificate import Malformed
+from proofs.plane.store import opened
+from proofs.trusted.atlas import Region, area, check_atlas
+from proofs.trusted.certificate import Malformed, texts
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.beyond.boxes import CoveringShift
 from proofs.trusted.paper.beyond.singles import StableSingles
@@ -26,30 +26,6 @@ REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horsesh
 ORBITS = Region((F("0.595"), F("0.605")), (F("-0.755"), F("-0.745")), "orbits:3", (F("0.3"),) * 2)
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("atlas")
-    with opened(folder, REGION) as store:
-        run(store, 2, (Here(), 1), 16)
-    return (folder / NAME).read_bytes()
-
-
-@pytest.fixture
-def path(made, tmp_path):
-    (tmp_path / NAME).write_bytes(made)
-    return tmp_path / NAME
-
-
-def edit(path, query, *values):
-    with closing(sqlite3.connect(path)) as store, store:
-        assert store.execute(query, values).rowcount > 0
-
-
-def rows(path, query):
-    with closing(sqlite3.connect(path)) as store:
-        return store.execute(query).fetchall()
-
-
 # -- the region ------------------------------------------------------------------------------------
 
 
@@ -59,14 +35,14 @@ def test_cells_are_quarters_in_the_order_of_their_digits():
     assert region.box("0/1") == Place((F("1.5"), F(2)), (F(-4), F(-3)))
     assert region.box("0/2") == Place((F(1), F("1.5")), (F(-3), F(-2)))
     assert region.box("0/30") == Place((F("1.5"), F("1.75")), (F(-3), F("-2.5")))
-    quarters = [region.box(f"0/3{digit}") for digit in "0123"]
-    assert sum(map(area, quarters)) == area(region.box("0/3"))
+    quarters = [region.sides(f"0/3{digit}") for digit in "0123"]
+    assert sum(map(area, quarters)) == area(region.sides("0/3"))
 
 
 def test_a_region_is_cut_at_resonance_and_where_the_table_stands_still():
     parts = Region((F("0.5"), F(2)), (F(-1), F(3)), "attractor").roots
-    assert [part.eta for part in parts] == [(F("0.5"), 1), (1, F(2))] * 2
-    assert all(part.nu[0] * part.nu[1] > 0 for part in parts)
+    assert [eta for eta, _ in parts] == [(F("0.5"), 1), (1, F(2))] * 2
+    assert all(nu[0] * nu[1] > 0 for _, nu in parts)
     strips = 6 - sum(map(area, parts))
     assert 0 < strips < 6 * F(1, 2**20) * 2
     assert len(Region((F("0.5"), F(1)), (F(0), F(3)), "attractor").roots) == 1
@@ -115,15 +91,16 @@ def test_what_is_not_asked(question, epsilon, match):
 def test_a_region_is_read_as_it_is_written_and_all_cells_have_its_epsilon():
     for region in (REGION, ORBITS):
         assert Region.of(region.text) == region
-        assert {box.epsilon for box in (*region.roots, region.box("0/21"))} == {region.epsilon}
+        assert region.box("0/").epsilon == region.box("0/21").epsilon == region.epsilon
     assert "epsilon" not in REGION.text  # as it was before there was any
     for text in (
-        REGION.text.replace('"horseshoe"', '"horseshoe", "epsilon": ["1/3", "1/2"]'),
+        REGION.text.replace('"horseshoe"', '"horseshoe","epsilon":["1/3","1/2"]'),
         ORBITS.text.replace("3/10", "1"),
-        ORBITS.text.replace('["3/10", "3/10"]', '"3/10"'),
-        ORBITS.text.replace('["3/10", "3/10"]', "null"),
+        ORBITS.text.replace('["3/10","3/10"]', '"3/10"'),
+        ORBITS.text.replace('["3/10","3/10"]', "null"),
         ORBITS.text.replace("orbits", "orbit"),
     ):
+        assert text not in (REGION.text, ORBITS.text)
         with pytest.raises(Malformed):
             Region.of(text)
 
@@ -134,131 +111,214 @@ def test_what_is_no_cell(key):
         REGION.box(key)
 
 
-# -- the store -------------------------------------------------------------------------------------
+# -- lines -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-def test_all_cells_are_proved_again(path):
-    found = check_store(path)
-    assert found.cells == {"SPLIT": 5, "VERIFIED": 16}
-    assert found.areas["VERIFIED"] == found.whole and found.missing == 0
+def made_of(folder, region, depth):
+    with opened(folder, region) as store:
+        run(store, depth, (Here(), 1), 16)
+        return [json.loads(line) for line in store.lines()]
 
 
-@pytest.mark.slow
-def test_cells_that_are_not_there_are_missing(path):
-    edit(path, "DELETE FROM cells WHERE key = '0/01'")
-    found = check_store(path)
-    assert found.missing == found.whole / 16
-    edit(path, "DELETE FROM cells WHERE key LIKE '0/0_'")
-    assert check_store(path).missing == found.whole / 4
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return made_of(tmp_path_factory.mktemp("atlas"), REGION, 2)
 
 
-PROVED = "verdict = 'VERIFIED' AND key = '0/12'"
+@pytest.fixture
+def lines(made):
+    """The region, and 16 cells of it: "0/00" to "0/33"."""
+    return copy.deepcopy(made)
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        f"verdict = 'REFUTED' WHERE {PROVED}",
-        f"verdict = 'CONDITIONAL' WHERE {PROVED}",
-        f"conclusion = 'f is chaotic' WHERE {PROVED}",
-        f"kind = 'AtRest' WHERE {PROVED}",
-        f"eta = '[0.2, 0.3]' WHERE {PROVED}",
-        f"nu = '[0.2, 0.3]' WHERE {PROVED}",
-        f"sha256 = '{'0' * 64}' WHERE {PROVED}",
-        f"certificate = (SELECT certificate FROM cells WHERE key = '0/11') WHERE {PROVED}",
-        f"verdict = 'UNDECIDED' WHERE {PROVED}",
-        f"verdict = 'SPLIT' WHERE {PROVED}",
-        "verdict = 'VERIFIED' WHERE key = '0/1'",
-        "key = '0/122' WHERE key = '0/12'",
-        "key = '0/4' WHERE key = '0/12'",
-        f"certificate = NULL WHERE {PROVED}",
-        f"certificate = 'text' WHERE {PROVED}",
-        f"certificate = substr(certificate, 1, 100) WHERE {PROVED}",
-        f"verdict = NULL WHERE {PROVED}",
+def proved(lines, work=DEFAULT):
+    return check_atlas(map(json.dumps, lines), work)
+
+
+def refused(lines, match="line|box|cell"):
+    with pytest.raises((Rejected, Malformed), match=match):
+        proved(lines)
+
+
+def test_all_cells_are_proved_again(lines):
+    assert proved(lines) == ({"VERIFIED": 16}, {"VERIFIED": 1})
+
+
+def without(line, verdict):
+    return line | {"verdict": verdict, "kind": "", "certificate": None}
+
+
+def test_what_is_open_is_told_with_its_area(lines):
+    lines[5], lines[6] = without(lines[5], "UNDECIDED"), without(lines[6], "not looked at")
+    shares = proved(lines).shares
+    assert shares == {"VERIFIED": F(7, 8), "UNDECIDED": F(1, 16), "not looked at": F(1, 16)}
+
+
+ORDER = {
+    "a cell is there twice, and another one is not": lambda cells: [
+        *cells[:6],
+        cells[5],
+        *cells[7:],
     ],
-)
-def test_a_cell_that_is_not_what_is_proved(path, change):
-    edit(path, f"UPDATE cells SET {change}")
-    with pytest.raises((Rejected, Malformed)):
-        check_store(path)
+    "one cell many times, others not at all": lambda cells: cells[:1] * 16,
+    "a cell is there twice": lambda cells: [*cells[:6], *cells[5:]],
+    "none but the first": lambda cells: cells[:1],
+    "none": lambda cells: [],
+    "the last one is missing": lambda cells: cells[:-1],
+    "the first one is missing": lambda cells: cells[1:],
+    "one is missing": lambda cells: [*cells[:4], *cells[5:]],
+    "two change places": lambda cells: [*cells[:4], cells[5], cells[4], *cells[6:]],
+    "all twice": lambda cells: cells * 2,
+    "a cell in another one": lambda cells: [*cells[:4], *nested(cells[4]), *cells[5:]],
+    "a cell around another one": lambda cells: [without(box(cells[0], "0/0"), "UNDECIDED"), *cells],
+    "a part that is not there": lambda cells: [*cells, box(cells[0], "1/", REGION.sides("0/"))],
+    "one too small at the end": lambda cells: [
+        *cells[:-1],
+        without(box(cells[0], "0/330"), "UNDECIDED"),
+    ],
+}
 
 
-def test_a_cell_inside_of_one_that_is_decided(path):
-    """Cells that overlap would count an area twice."""
-    edit(
-        path,
-        "INSERT INTO cells SELECT '0/123', eta, nu, 'UNDECIDED', '', '', NULL, NULL, 0, '' "
-        "FROM cells WHERE key = '0/12'",
-    )
-    with pytest.raises(Rejected, match="quarter"):
-        check_store(path)
+def box(line, key, sides=None):
+    eta, nu = map(texts, sides or REGION.sides(key))
+    return line | {"cell": key, "eta": eta, "nu": nu}
 
 
-def put(path, key, document):
-    packed = json.dumps(document).encode()
-    edit(
-        path,
-        "UPDATE cells SET certificate = ?, sha256 = ? WHERE key = ?",
-        zlib.compress(packed),
-        sha256(packed).hexdigest(),
-        key,
-    )
+def nested(line):
+    inner = without(box(line, line["cell"] + "2"), "UNDECIDED")
+    return [line, inner]
 
 
-def test_a_certificate_of_another_box_or_about_something_else(path):
-    ((packed,),) = rows(path, "SELECT certificate FROM cells WHERE key = '0/12'")
-    document = json.loads(zlib.decompress(packed))
-    put(path, "0/12", document)
-    check_store(path)
+@pytest.mark.parametrize("name", ORDER)
+def test_cells_that_do_not_make_up_the_region(lines, name):
+    refused([lines[0], *ORDER[name](lines[1:])], "ended|no cell|missing")
+
+
+LIES = {
+    "verdict": {"verdict": "REFUTED"},
+    "another verdict": {"verdict": "CONDITIONAL"},
+    "no verdict": {"verdict": None},
+    "words": {"says": "f is chaotic"},
+    "kind": {"kind": "AtRest"},
+    "eta": {"eta": ["1/5", "3/10"]},
+    "nu": {"nu": ["1/5", "3/10"]},
+    "undecided, and a certificate": {"verdict": "UNDECIDED"},
+    "not looked at, and a certificate": {"verdict": "not looked at"},
+    "left out": {"verdict": "left out", "kind": "", "certificate": None},
+    "split": {"verdict": "SPLIT", "kind": "", "certificate": None},
+    "no certificate": {"certificate": None},
+    "a text": {"certificate": "text"},
+    "a kind without a certificate": {"verdict": "UNDECIDED", "certificate": None},
+    "a digit too many": {"cell": "0/4"},
+    "a space": {"cell": "0/00 "},
+    "another way to write it": {"cell": "00/00"},
+    "no cell": {"cell": None},
+    "deep": {"cell": "0/" + "0" * 41},
+    "more": {"more": ""},
+}
+
+
+@pytest.mark.parametrize("name", LIES)
+def test_a_cell_that_is_not_what_is_proved(lines, name):
+    lines[1] |= LIES[name]
+    refused(lines, "line 2: ")
+
+
+def test_a_certificate_of_another_box_or_about_something_else(lines):
+    document = lines[7]["certificate"]
     first = next(iter(document["steps"]))
     for false in (
         document | {"parameters": {"eta": ["2120/10000", "2121/10000"], "nu": ["-1/5", "-19/99"]}},
+        document | {"parameters": lines[6]["certificate"]["parameters"]},
         {**document, "steps": {first: document["steps"][first]}, "claims": [first]},
         {**document, "claims": [*document["claims"], first]},
+        lines[6]["certificate"],
     ):
-        put(path, "0/12", false)
-        with pytest.raises((Rejected, Malformed)):
-            check_store(path)
+        lines[7]["certificate"] = false
+        refused(lines, "line 8: ")
 
 
-def test_what_is_proved_of_another_box_is_not_of_this_one(path):
-    """The whole proof of a neighbour in the place of a cell's, words and digest with it."""
-    names = "kind", "conclusion", "certificate", "sha256"
-    taken = ", ".join(f"{x} = (SELECT {x} FROM cells WHERE key = '0/11')" for x in names)
-    edit(path, f"UPDATE cells SET {taken} WHERE key = '0/12'")
-    with pytest.raises(Rejected, match="other parameters"):
-        check_store(path)
+def test_what_is_proved_of_another_box_is_not_of_this_one(lines):
+    """The whole proof of a neighbour in the place of a cell's, and its words."""
+    lines[7] |= {name: lines[6][name] for name in ("kind", "says", "certificate")}
+    refused(lines, "other parameters")
 
 
-def test_another_region_or_none(path):
+def test_another_region_or_none(lines):
     region = Region((F("0.2115"), F("0.2128")), REGION.nu, "horseshoe")
-    edit(path, "UPDATE region SET text = ?", region.text)
-    with pytest.raises(Rejected):
-        check_store(path)
-    for text in ("", "{}", REGION.text.replace("atlas/1", "atlas/2"), REGION.text.replace("-", "")):
-        edit(path, "UPDATE region SET text = ?", text)
+    refused([json.loads(region.text), *lines[1:]], "box is another")
+    for text in ("", "{}", REGION.text.replace("atlas/2", "atlas/1"), REGION.text.replace("-", "")):
         with pytest.raises(Malformed):
-            check_store(path)
-    edit(path, "DELETE FROM region")
+            check_atlas([text, *map(json.dumps, lines[1:])])
     with pytest.raises(Malformed):
-        check_store(path)
+        check_atlas([])
 
 
 def test_what_is_proved_for_one_epsilon_is_not_of_another(tmp_path):
-    with opened(tmp_path, ORBITS) as store:
-        run(store, 1, (Here(), 1), 16)
-    path = tmp_path / NAME
-    found = check_store(path)
-    assert found.cells["VERIFIED"] and found.missing == 0
-    for text in (
-        ORBITS.text.replace("3/10", "2/5"),
-        ORBITS.text.replace(', "epsilon": ["3/10", "3/10"]', ""),
-        ORBITS.text.replace("orbits:3", "orbits:4"),
+    held = made_of(tmp_path, ORBITS, 1)
+    found = proved(held)
+    assert found.cells["VERIFIED"] and "not looked at" not in found.shares
+    for change in ({"epsilon": ["2/5", "2/5"]}, {"question": "orbits:4"}):
+        refused([held[0] | change, *held[1:]])
+    held[0].pop("epsilon")
+    refused(held)
+
+
+STRIP = Region((F("0.5"), F("0.6")), (F("-0.1"), F("0.1")), "horseshoe")
+
+
+def of_strip(**changes):
+    """An atlas that is not looked at, with a strip; changes: of that line."""
+    line = {"verdict": "not looked at", "kind": "", "says": "", "certificate": None}
+    cells = [box(line, key, STRIP.sides(key)) for key in ("0/", "1/", "2/")]
+    cells[2] |= {"verdict": "left out"} | changes
+    return [json.loads(STRIP.text), *cells]
+
+
+def test_the_strip_is_a_line_and_nothing_is_proved_of_it(lines):
+    assert proved(of_strip()).shares == {"not looked at": 1 - F(1, 2**20), "left out": F(1, 2**20)}
+    (low, high) = STRIP.sides("2/")[1]
+    assert low < 0 < high and STRIP.sides("0/")[1][1] == low and STRIP.sides("1/")[1][0] == high
+    refused(of_strip()[:-1], "missing")
+    for changes in (
+        {"verdict": "not looked at"},
+        {"verdict": "UNDECIDED"},
+        {"verdict": "VERIFIED", "kind": "AtRest"},
+        {"certificate": lines[1]["certificate"]},
+        {"cell": "2/0"},
+        {"nu": ["0", "1/10"]},
     ):
-        edit(path, "UPDATE region SET text = ?", text)
-        with pytest.raises(Rejected):
-            check_store(path)
+        refused(of_strip(**changes), "line 4: ")
+
+
+def test_one_budget_is_for_all_cells(lines):
+    proved(lines)  # some values are kept
+    with metered(math.inf) as meter:
+        proved(lines, math.inf)
+    proved(lines, meter.spent)
+    with pytest.raises(Exhausted, match="--work"):
+        proved(lines, meter.spent - 1)
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_number_of_cells(lines):
+    """Of undecided ones; a list of them would be larger."""
+    line = json.dumps(without(lines[1], "UNDECIDED"))
+    region = json.dumps(lines[0])
+    peaks = []
+    for depth in (4, 6):
+
+        def every(depth=depth):
+            yield region
+            for place in range(4**depth):
+                key = "0/" + "".join(f"{place >> 2 * k & 3}" for k in reversed(range(depth)))
+                yield json.dumps(box(json.loads(line), key))
+
+        tracemalloc.start()
+        assert check_atlas(every()).cells == {"UNDECIDED": 4**depth}
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.5 * peaks[0]
 
 
 def test_more_sets_than_asked_for_are_enough_and_fewer_are_not():
@@ -280,10 +340,3 @@ def test_orbits_are_decided_by_all_n_up_to_the_one_asked_for(most, stable, verdi
     found = [StableSingles(Place((F(1),) * 2, (F(1),) * 2), most, stable)]
     assert question("orbits").verdict(found).value == verdict
     assert question("orbits:10").verdict(found * 2) is Verdict.UNDECIDED
-
-
-def test_what_is_no_store(tmp_path):
-    path = tmp_path / NAME
-    path.write_bytes(b"SQLite format 3\0" + bytes(4000))
-    with pytest.raises(Malformed):
-        check_store(path)

@@ -14,6 +14,8 @@ from tests.proofs.trusted.renewing import renewed
 ROOT = Path(__file__).parents[3]
 REFUSED = ("numpy", "mpmath", "sympy", "flint", "gmpy2", "scipy", "matplotlib", "intervals")
 REFUSED += (
+    "sqlite3",
+    "proofs.plane",
     "proofs.methods",
     "proofs.search.s31_horseshoe",
     "proofs.search.steps",
@@ -59,6 +61,12 @@ def complains(result, status=2):
         and "Traceback" not in result.stderr
         and result.stdout == ""
     )
+
+
+def test_an_atlas_needs_no_database():
+    result = run(ROOT / "reports" / "atlas" / "across-resonance.jsonl", code=ALONE)
+    assert result.stderr == "" and result.returncode == 1  # some cells are undecided
+    assert "an atlas of 120 REFUTED, 75 UNDECIDED, 49 VERIFIED, 1 left out cells" in result.stdout
 
 
 @pytest.mark.parametrize("code", [None, ALONE], ids=["plain", "others refused"])

@@ -174,7 +174,7 @@ WRONG = {
     "claim left out": (lambda d: of(d).pop("H1"), "file proves"),
     "claims of another form": (lambda d: d["files"][FILE].update(claims=["H1"]), "file proves"),
     "no files": (lambda d: d.update(files={}), "no claims"),
-    "missing file": (lambda d: d["files"].update({"none.json": d["files"][FILE]}), "be read"),
+    "missing file": (lambda d: d["files"].update({"soft.json": d["files"][FILE]}), "be read"),
     "file outside": (lambda d: d["files"].update({"../x.json": d["files"][FILE]}), "same folder"),
     "NUL": (lambda d: d["files"].update({"x\0.json": d["files"][FILE]}), "same folder"),
     "field": (lambda d: d["files"][FILE].pop("digest"), "missing field"),

@@ -13,6 +13,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.cones import Cone, Rates, rates
 from proofs.trusted.paper.s33_restitution.rebounds import size
@@ -156,6 +157,7 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     Zgliczynski, Covering relations for multidimensional dynamical systems, J. Differential
     Equations 202 (2004).
     """
+    METER.get().spend(500)  # all in fractions, which nobody counts
     names, cone_of = reader.fields("rectangles", "cone")
     maps, cone = read_maps(context, names, 4), Cone(*cone_of.numbers(2, 2))
     if len(maps) == 2:
