@@ -167,7 +167,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
             say(line)
         work = int(made["checker_work"])
         more = f" --work {work}" if work > DEFAULT else ""
-        say(f"{done} cells looked at now; python -m proofs.check {options.out / LINES}{more}")
+        say(f"{done} cells looked at now; python -m proofs check {options.out / LINES}{more}")
     return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
 
 

@@ -332,7 +332,7 @@ def test_what_is_not_looked_at_are_lines_and_so_is_the_strip(tmp_path):
 def test_a_store_is_not_checked_but_its_lines_are(small, capsys):
     assert check([str(small / NAME)]) == 2
     said = capsys.readouterr().err
-    assert f"python -m proofs.atlas --out {small} --lines" in said and said.count("\n") == 1
+    assert f"python -m proofs atlas --out {small} --lines" in said and said.count("\n") == 1
 
 
 def test_a_store_of_another_version_is_refused_by_name(small, capsys):
