@@ -12,7 +12,7 @@ from tests.oracles.formulas import BITS, STEP, compiled, exact
 def values(formula, point):
     """The components at a point (Arb numbers)."""
     env = dict(zip(formula.variables, point, strict=True))
-    return [compiled(text)[0](env) for text in formula.texts]
+    return [compiled(text)[0](env) for text in formula.trees]
 
 
 def partial(formula, point, place):

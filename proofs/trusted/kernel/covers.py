@@ -142,7 +142,7 @@ class Covers(Conclusion):
     def map_name(self) -> str:
         """The map, F or F^k."""
         name, power = self.local.map.name, self.local.power
-        return name if power == 1 else f"the iterate {name}^{power}"
+        return f"`{name}`" if power == 1 else f"the iterate `{name}`^{power}"
 
     @property
     def sentence(self) -> str:

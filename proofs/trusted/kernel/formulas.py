@@ -1,40 +1,32 @@
-"""Formulas: texts in Python's notation, read once, and the real functions that they give.
-
-A text has + - * / and ** with an integer exponent other than 0, integers, pi, sqrt, exp, log, sin,
-cos. D(F, x, y) is the derivative of F by x and then by y, at(F, x=G, y=H) is F with G and H put in
-the places of x and y at once. Every other name is a real variable. As usual - and / are taken from
-the left, -x**2 is -(x**2), and a/b*c is (a/b)*c.
-
-A text is printed as it stands in the file. So that it is read by people as it is read here, no
-other character than these is allowed, and no white space but one space on both sides of a + or -
-between two terms and one after a comma.
-"""
+"""Functions given by formulas, see `trees`: on a tape, on which they are evaluated."""
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Enclosures, Matrix
-from proofs.trusted.kernel.expression import FUNCTIONS, Tape
-from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.trees import (
+    At,
+    Derivative,
+    Number,
+    Operation,
+    Pi,
+    Power,
+    Tree,
+    Variable,
+    is_name,
+    read_tree,
+)
 
 MAX_VARIABLES = 30
-_MAX_LENGTH = 12_000
-_MAX_DEPTH = 150
-_MAX_POWER = 1000
 _MAX_COMPONENTS = 20
-_WORDS = {*FUNCTIONS, "pi", "D", "at"}
-_TOKEN = re.compile(r"[0-9A-Za-z_]+|\*\*|[-+*/(),=]")
-_WORD = re.compile(r"[0-9]+|[A-Za-z][A-Za-z0-9_]*")
-_OPERATIONS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-_FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,19}")  # N1, A, M: h-sets
-_VARIABLE = re.compile(r"[a-z][a-z0-9_]{0,19}")
+_FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,11}")  # N1, A, M: h-sets
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +38,7 @@ class Formulas:
     """
 
     variables: tuple[str, ...]
-    texts: tuple[str, ...]
+    trees: tuple[Tree, ...]
     tape: Tape
     roots: tuple[int, ...]
     parts: tuple[int, ...]
@@ -55,13 +47,9 @@ class Formulas:
     @property
     def definition(self) -> str:
         """Write F(x, ...) = ..."""
-        text = self.texts[0] if len(self.texts) == 1 else f"({', '.join(self.texts)})"
-        return f"{self.name}({', '.join(self.variables)}) = {text}"
-
-    def free(self) -> set[str]:
-        """Return the variables on which the functions depend; others are substituted away."""
-        nodes = [self.tape.nodes[place] for place in self.tape.order((*self.roots, *self.parts))]
-        return {self.variables[int(node.datum)] for node in nodes if node.op == "variable"}
+        values = ", ".join(map(str, self.trees))
+        values = values if len(self.trees) == 1 else f"({values})"
+        return f"`{self.name}({', '.join(self.variables)}) = {values}`"
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box."""
@@ -79,9 +67,11 @@ class Formulas:
 
 
 def read_formulas(*readers: Reader) -> Formulas:
-    """Read texts; their variables are in the order of the alphabet, x where there are none."""
-    names = {token for reader in readers for token in _tokens(reader) if token[0].isalpha()}
-    return _read(readers, tuple(sorted(names - _WORDS)) or ("x",))
+    """Read formulas; their variables are in the order of the alphabet, x where there are none."""
+    try:
+        return on_tape(*map(read_tree, readers))
+    except Unproved as error:
+        raise readers[0].fail(str(error)) from None
 
 
 def read_function(name: str, reader: Reader) -> Formulas:
@@ -90,123 +80,76 @@ def read_function(name: str, reader: Reader) -> Formulas:
     if not _FUNCTION_NAME.fullmatch(name):
         raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
     variables = tuple(item.string() for item in variables_of.items(1, MAX_VARIABLES))
-    values = values_of.items(1, _MAX_COMPONENTS)
-    names = {token for value in values for token in _tokens(value) if token[0].isalpha()}
-    bound = sorted(names - _WORDS - {*variables})  # names that are all substituted away
-    for variable in (*variables, *bound):
-        if not _VARIABLE.fullmatch(variable) or variable in {*_WORDS, "e"}:
+    for variable in variables:
+        if not is_name(variable) or not variable[0].islower() or variable == "e":
             raise variables_of.fail(f"not a name for a variable: {variable[:30]!r}")
     if len(set(variables)) != len(variables):
         raise variables_of.fail("a variable is named twice")
-    formulas = _read(values, (*variables, *bound), name)
-    if unknown := sorted(formulas.free() - {*variables}):
-        raise values_of.fail(f"unknown variable {unknown[0]!r}")
-    return replace(formulas, variables=variables)
+    try:
+        trees = [read_tree(value) for value in values_of.items(1, _MAX_COMPONENTS)]
+        return on_tape(*trees, variables=variables, name=name)
+    except Unproved as error:
+        raise values_of.fail(str(error)) from None
 
 
-def _read(readers: Sequence[Reader], variables: tuple[str, ...], name: str = "") -> Formulas:
+def on_tape(*trees: Tree, variables: tuple[str, ...] = (), name: str = "") -> Formulas:
+    """Return the functions that formulas give, of these variables, else of all theirs."""
+    free = sorted(frozenset[str]().union(*(tree.free for tree in trees)))
+    variables = variables or tuple(free) or ("x",)
+    if unknown := [each for each in free if each not in variables]:
+        raise Unproved(f"unknown variable {unknown[0]!r}")
     if len(variables) > MAX_VARIABLES:
-        raise readers[0].fail(f"more than {MAX_VARIABLES} variables")
-    tape = Tape()
-    places = {v: tape.add("variable", datum=Fraction(i)) for i, v in enumerate(variables)}
-    placer = _Placer(tape, places, [])
-    roots = tuple(placer.read(reader) for reader in readers)
-    texts = tuple(reader.string() for reader in readers)
-    return Formulas(variables, texts, tape, roots, tuple(dict.fromkeys(placer.parts)), name)
-
-
-def spelled(text: str) -> str:
-    """Return a text as it has to be written: its tokens, with the spaces between them."""
-    canonical, before = "", ""
-    for token in _TOKEN.findall(text):
-        between = token in ("+", "-") and (before == ")" or _WORD.fullmatch(before))
-        canonical += f" {token} " if between else ", " if token == "," else token
-        before = token
-    return canonical
-
-
-def _tokens(reader: Reader) -> list[str]:
-    """Divide a text into its tokens; they, with the spaces that belong between them, give it."""
-    text = reader.string()
-    if len(text) > _MAX_LENGTH:
-        raise reader.fail(f"a formula has at most {_MAX_LENGTH} characters")
-    tokens: list[str] = _TOKEN.findall(text)
-    METER.get().spend(5 * len(tokens))
-    words = [token for token in tokens if token[0].isalnum()]
-    if spelled(text) != text or not all(map(_WORD.fullmatch, words)):
-        raise reader.fail(f"not a formula, or not in canonical form: {text[:40]!r}")
-    return tokens
+        raise Unproved(f"more than {MAX_VARIABLES} variables")
+    placer = _Placer(Tape(), list(variables), [])
+    roots = tuple(map(placer.place, trees))
+    return Formulas(variables, trees, placer.tape, roots, tuple(dict.fromkeys(placer.parts)), name)
 
 
 @dataclass
 class _Placer:
-    """Puts the syntax trees of texts on a tape.
+    """Puts trees on a tape.
 
-    places: of the variables. parts: collects the functions of which derivatives are taken.
+    variables: those on the tape, by their places: the functions' own, then the bound ones. parts:
+    collects the functions of which derivatives are taken.
     """
 
     tape: Tape
-    places: dict[str, int]
+    variables: list[str]
     parts: list[int]
 
-    def read(self, reader: Reader) -> int:
-        """Return the place of a text's expression."""
-        _tokens(reader)
-        try:
-            return self._place(ast.parse(reader.string(), mode="eval").body, _MAX_DEPTH)
-        except (SyntaxError, ValueError, RecursionError, MemoryError):
-            message = f"not a formula: {reader.string()[:40]!r}"
-        except Unproved as error:
-            message = str(error)
-        raise reader.fail(message) from None
-
-    def _place(self, node: ast.AST, depth: int) -> int:
-        if depth == 0:
-            raise Unproved(f"a formula nested more than {_MAX_DEPTH} deep")
-
-        def inner(part: ast.AST) -> int:
-            return self._place(part, depth - 1)
-
-        match node:
-            case ast.Constant(value=int(number)) if type(number) is int:
-                place = self.tape.number(number)
-            case ast.Name(id="pi"):
+    def place(self, tree: Tree) -> int:
+        """Return the place of a formula."""
+        match tree:
+            case Number(value=value):
+                place = self.tape.number(value)
+            case Pi():
                 place = self.tape.add("pi")
-            case ast.Name(id=name):
-                place = self._variable(name)
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                place = self._folded("negative", inner(operand))
-            case ast.BinOp(op=ast.Pow(), left=base, right=exponent):
-                place = self.tape.add("^", inner(base), datum=_exponent(exponent))
-            case ast.BinOp(op=op, left=left, right=right) if type(op) in _OPERATIONS:
-                place = self._folded(_OPERATIONS[type(op)], inner(left), inner(right))
-            case ast.Call(func=ast.Name(id="D"), args=[function, *by], keywords=[]) if by:
-                place = self._derivative(inner(function), by)
-            case ast.Call(func=ast.Name(id="at"), args=[function], keywords=words) if words:
-                moves = {self._variable(word.arg): inner(word.value) for word in words}
-                if len(moves) < len(words):
-                    raise Unproved("a variable is substituted twice")
+            case Variable(name=name):
+                place = self.tape.add("variable", datum=Fraction(self._number(name)))
+            case Power(base=base, exponent=n):
+                place = self.tape.add("^", self.place(base), datum=Fraction(n))
+            case Operation(op=op, arguments=arguments):
+                place = self._folded(op, *map(self.place, arguments))
+            case Derivative(function=function, by=by):
+                place = self.place(function)
+                for each in by:
+                    self.parts.append(place)
+                    place = self.tape.derivative(place, self._number(each))
+            case At(function=function, places=places):
+                moves = {self.place(Variable(name)): self.place(x) for name, x in places}
                 before = len(self.parts)
-                root = inner(function)
+                root = self.place(function)
                 moved = self.tape.moved([root, *self.parts[before:]], moves)
-                place, self.parts[before:] = moved[0], moved[1:]
-            case ast.Call(func=ast.Name(id=name), args=[one], keywords=[]) if name in FUNCTIONS:
-                place = self.tape.add(name, inner(one))
+                self.parts[before:] = moved[1:]
+                place = moved[0]
             case _:
-                raise Unproved(f"no formula has a {type(node).__name__} like this")
+                raise TypeError(f"not a formula: {tree!r}")
         return place
 
-    def _derivative(self, place: int, by: list[ast.expr]) -> int:
-        for each in by:
-            variable = self._variable(each.id if isinstance(each, ast.Name) else None)
-            self.parts.append(place)
-            place = self.tape.derivative(place, int(self.tape.nodes[variable].datum))
-        return place
-
-    def _variable(self, name: str | None) -> int:
-        if name not in self.places:
-            raise Unproved(f"unknown variable {(name or '')[:30]!r}")
-        return self.places[name]
+    def _number(self, name: str) -> int:
+        if name not in self.variables:
+            self.variables.append(name)
+        return self.variables.index(name)
 
     def _folded(self, op: str, *places: int) -> int:
         """Return the place of an operation; -a and a/b of numbers are numbers."""
@@ -216,13 +159,3 @@ class _Placer:
         if op == "/" and a.op == b[0].op == "number" and b[0].datum:
             return self.tape.number(a.datum / b[0].datum)
         return self.tape.add(op, *places)
-
-
-def _exponent(node: ast.AST) -> Fraction:
-    sign = 1
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        node, sign = node.operand, -1
-    value = node.value if isinstance(node, ast.Constant) else None
-    if type(value) is not int or not 0 < value <= _MAX_POWER:
-        raise Unproved(f"exponents are integers from 1 to {_MAX_POWER}, or their negatives")
-    return Fraction(sign * value)

@@ -59,8 +59,8 @@ class Entropy(Conclusion):
         low, high = (end / steps for end in log(Fraction(self.growth), _LOG_BITS).range)
         name = self.graph.covers[0].local.map.name
         return (
-            f"{self.graph.described}; the topological entropy of {name} on a compact invariant "
-            f"set is at least log({self.growth})/{steps}, which lies in "
+            f"{self.graph.described}; the topological entropy of `{name}` on a compact "
+            f"invariant set is at least log({self.growth})/{steps}, which lies in "
             f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
         )
 
