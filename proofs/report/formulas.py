@@ -16,10 +16,11 @@ from proofs.trusted.kernel.trees import (
     POWER,
     PRODUCT,
     SUM,
+    At,
+    Derivative,
     Number,
     Operation,
     Pi,
-    Places,
     Power,
     Printer,
     Tree,
@@ -64,7 +65,7 @@ def _within(low: str, high: str) -> str:
 
 def _series(series: Series) -> list[str]:
     name = latex(series.variable)
-    rest = f"O({latex(Power(series.variable, len(series.coefficients)))})"
+    rest = f"O({latex(Power(len(series.coefficients), (series.variable,)))})"
     where = r",\ ".join(rf"{latex(each)} \ne 0" for each in series.nonzero)
     limit = rf"\text{{as }} {name} \to 0" + (rf",\ \text{{where }} {where}" if where else "")
     return [f"= {latex(series.polynomial)} + {rest}", limit]
@@ -78,8 +79,8 @@ class _Latex(Printer):
             return super().operation(op, left, right)
         divisors = [right]
         while isinstance(left, Operation) and left.op == "/":  # a/b/c is a/(b c)
-            divisors.insert(0, left.arguments[1])
-            left = left.arguments[0]
+            left, other = left.parts
+            divisors.insert(0, other)
         least = SUM if len(divisors) == 1 else PRODUCT
         below = " ".join(self.inside(each, least) for each in divisors)
         return rf"\frac{{{self.text(left)}}}{{{below}}}", POWER
@@ -101,22 +102,25 @@ class _Latex(Printer):
 
     def power(self, base: Tree, n: int) -> str:
         if isinstance(base, Operation) and base.op in ("sin", "cos", "log"):
-            return rf"\{base.op}^{{{n}}}{self.brackets(self.text(base.arguments[0]))}"
+            return rf"\{base.op}^{{{n}}}{self.brackets(self.text(base.parts[0]))}"
         plain = isinstance(base, Number | Pi | Variable)
         text = self.text(base)
         return f"{text if plain else self.brackets(text)}^{_short(str(n))}"
 
-    def function(self, name: str, one: Tree) -> str:
-        if name == "sqrt":
-            return rf"\sqrt{{{self.text(one)}}}"
-        return rf"\{name}{self.brackets(self.text(one))}"
-
-    def derivative(self, function: Tree, by: tuple[str, ...]) -> str:
-        return rf"\partial_{{{''.join(map(_symbol, by))}}}{self.brackets(self.text(function))}"
-
-    def at(self, function: Tree, places: Places) -> str:
-        put = r",\,".join(f"{_symbol(name)} = {self.text(value)}" for name, value in places)
-        return f"{{{self.brackets(self.text(function), '[]')}}}_{{{put}}}"
+    def call(self, tree: Tree, first: str, *others: str) -> str:
+        inside = self.brackets(first)
+        match tree:
+            case Operation(op="sqrt"):
+                return rf"\sqrt{{{first}}}"
+            case Operation(op=name):
+                return rf"\{name}{inside}"
+            case Derivative(by=by):
+                return rf"\partial_{{{''.join(map(_symbol, by))}}}{inside}"
+            case At(names=names):
+                pairs = zip(map(_symbol, names), others, strict=True)
+                put = r",\,".join(f"{name} = {value}" for name, value in pairs)
+                return f"{{{self.brackets(first, '[]')}}}_{{{put}}}"
+        raise TypeError(f"not a formula: {tree!r}")
 
 
 def _short(script: str) -> str:

@@ -126,17 +126,18 @@ class _Placer:
                 place = self.tape.add("pi")
             case Variable(name=name):
                 place = self.tape.add("variable", datum=Fraction(self._number(name)))
-            case Power(base=base, exponent=n):
+            case Power(exponent=n, parts=(base,)):
                 place = self.tape.add("^", self.place(base), datum=Fraction(n))
-            case Operation(op=op, arguments=arguments):
-                place = self._folded(op, *map(self.place, arguments))
-            case Derivative(function=function, by=by):
+            case Operation(op=op, parts=parts):
+                place = self._folded(op, *map(self.place, parts))
+            case Derivative(by=by, parts=(function,)):
                 place = self.place(function)
                 for each in by:
                     self.parts.append(place)
                     place = self.tape.derivative(place, self._number(each))
-            case At(function=function, places=places):
-                moves = {self.place(Variable(name)): self.place(x) for name, x in places}
+            case At(names=names, parts=(function, *others)):
+                pairs = zip(map(Variable, names), others, strict=True)
+                moves = {self.place(name): self.place(other) for name, other in pairs}
                 before = len(self.parts)
                 root = self.place(function)
                 moved = self.tape.moved([root, *self.parts[before:]], moves)

@@ -14,9 +14,9 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import count
+from itertools import count, islice
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -34,11 +34,9 @@ SUM, SIGNED, PRODUCT, POWER, ATOM = range(5)  # how tightly a part is bound
 
 
 class Tree:
-    """A formula. parts: the formulas that it is made of."""
+    """A formula, made of parts."""
 
-    @property
-    def parts(self) -> tuple[Tree, ...]:
-        return ()
+    parts: tuple[Tree, ...] = ()
 
     @cached_property
     def free(self) -> frozenset[str]:
@@ -79,63 +77,50 @@ class Variable(Tree):
 
 @dataclass(frozen=True)
 class Operation(Tree):
-    """A sum, difference, product, quotient, negative, or a function of its arguments."""
+    """A sum, difference, product, quotient, negative, or a function of one part."""
 
     op: str
-    arguments: tuple[Tree, ...]
-
-    @property
-    def parts(self) -> tuple[Tree, ...]:
-        return self.arguments
+    parts: tuple[Tree, ...]
 
 
 @dataclass(frozen=True)
 class Power(Tree):
-    """An integer power, other than 0."""
+    """An integer power, other than 0, of one part."""
 
-    base: Tree
     exponent: int
-
-    @property
-    def parts(self) -> tuple[Tree, ...]:
-        return (self.base,)
+    parts: tuple[Tree, ...]
 
 
 @dataclass(frozen=True)
 class Derivative(Tree):
-    """The derivative by some variables, one after the other, which stay free."""
+    """The derivative of one part by some variables, one after the other, which stay free."""
 
-    function: Tree
     by: tuple[str, ...]
+    parts: tuple[Tree, ...]
 
-    @property
-    def parts(self) -> tuple[Tree, ...]:
-        return (self.function, *map(Variable, self.by))
-
-
-Places = tuple[tuple[str, Tree], ...]  # formulas in the places of variables
+    @cached_property
+    def free(self) -> frozenset[str]:
+        return self.parts[0].free | {*self.by}
 
 
 @dataclass(frozen=True)
 class At(Tree):
-    """A function with others in the places of variables, all at once: these it binds."""
+    """The first part with the others in the places of variables, all at once: these it binds."""
 
-    function: Tree
-    places: Places
-
-    @property
-    def parts(self) -> tuple[Tree, ...]:
-        return (self.function, *(value for _, value in self.places))
+    names: tuple[str, ...]
+    parts: tuple[Tree, ...]
 
     @cached_property
     def free(self) -> frozenset[str]:
-        inner = self.function.free - {name for name, _ in self.places}
-        return inner.union(*(value.free for _, value in self.places))
+        function, *others = (part.free for part in self.parts)
+        return (function - {*self.names}).union(*others)
 
     @cached_property
     def bound(self) -> frozenset[str]:
-        names = (name for name, _ in self.places)
-        return frozenset(names).union(*(part.bound for part in self.parts))
+        return frozenset(self.names).union(*(part.bound for part in self.parts))
+
+
+Places = tuple[tuple[str, Tree], ...]  # formulas in the places of variables
 
 
 def substitute(tree: Tree, places: Mapping[str, Tree]) -> Tree:
@@ -145,28 +130,23 @@ def substitute(tree: Tree, places: Mapping[str, Tree]) -> Tree:
     """
     METER.get().spend(10)
     places = {name: value for name, value in places.items() if name in tree.free}
-    match tree:
-        case Variable(name=name) if places:
-            return places[name]
-        case Operation(op=op, arguments=arguments) if places:
-            return Operation(op, tuple(substitute(each, places) for each in arguments))
-        case Power(base=base, exponent=n) if places:
-            return Power(substitute(base, places), n)
-        case Derivative(function=function, by=by) if places:
-            after = [places.get(name, Variable(name)) for name in by]
-            renamed = [each.name for each in after if isinstance(each, Variable)]
-            others = [places.get(name, Variable(name)) for name in tree.free - {*by}]
-            if len({*renamed}) < len({*by}) or any(x.free & {*renamed} for x in others):
-                raise Unproved("a substitution that changes what is differentiated")
-            return Derivative(substitute(function, places), tuple(renamed))
-        case At(function=function, places=inner) if places:
-            bound = {name for name, _ in inner}
-            outer = {name: x for name, x in places.items() if name in function.free - bound}
-            if any(value.free & bound for value in outer.values()):
-                raise Unproved("a substitution that captures a variable")
-            put = tuple((name, substitute(value, places)) for name, value in inner)
-            return At(substitute(function, outer), put)
-    return tree
+    if not places or isinstance(tree, Variable):
+        return places[tree.name] if places and isinstance(tree, Variable) else tree
+    inner = [places] * len(tree.parts)
+    if isinstance(tree, At):
+        inner[0] = {x: value for x, value in places.items() if x not in tree.names}
+        if any(
+            value.free & {*tree.names} for x, value in inner[0].items() if x in tree.parts[0].free
+        ):
+            raise Unproved("a substitution that captures a variable")
+    parts = tuple(map(substitute, tree.parts, inner))
+    if isinstance(tree, Derivative):
+        by = tuple(x.name for n in tree.by if isinstance(x := places.get(n, Variable(n)), Variable))
+        others = [places.get(name, Variable(name)).free for name in tree.free - {*tree.by}]
+        if len({*by}) < len({*tree.by}) or any(free & {*by} for free in others):
+            raise Unproved("a substitution that changes what is differentiated")
+        return Derivative(by, parts)
+    return replace(tree, parts=parts)  # type: ignore[type-var]
 
 
 # -- the reader ------------------------------------------------------------------------------------
@@ -215,12 +195,12 @@ def _tree(node: ast.AST | None, depth: int) -> Tree:
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             tree = Operation("negative", (inner(operand),))
         case ast.BinOp(op=ast.Pow(), left=base, right=exponent):
-            tree = Power(inner(base), _exponent(exponent))
+            tree = Power(_exponent(exponent), (inner(base),))
         case ast.BinOp(op=op, left=left, right=right) if type(op) in _OPERATIONS:
             tree = Operation(_OPERATIONS[type(op)], (inner(left), inner(right)))
         case ast.Call(func=ast.Name(id="D"), args=[function, *by], keywords=[]) if by:
-            variables = [_name(each.id if isinstance(each, ast.Name) else None) for each in by]
-            tree = Derivative(inner(function), tuple(variables))
+            names = tuple(_name(x.id if isinstance(x, ast.Name) else None) for x in by)
+            tree = Derivative(names, (inner(function),))
         case ast.Call(func=ast.Name(id="at"), args=[function], keywords=words) if words:
             places = tuple((_name(word.arg), inner(word.value)) for word in words)
             tree = bind(inner(function), places)
@@ -244,19 +224,16 @@ def bind(function: Tree, places: Places) -> At:
         raise Unproved("a variable is substituted twice")
     others = function.bound | function.free - {*given}
     fresh = (name for n in count() if (name := f"u{n or ''}") not in others)
-    new = dict(zip(given, fresh, strict=False))
-    renamed = substitute(function, {name: Variable(new[name]) for name in given})
-    return At(renamed, tuple((new[name], value) for name, value in places))
+    names = tuple(islice(fresh, len(given)))
+    renamed = substitute(function, dict(zip(given, map(Variable, names), strict=True)))
+    return At(names, (renamed, *(value for _, value in places)))
 
 
-def _exponent(node: ast.AST) -> int:
-    sign = 1
-    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        node, sign = node.operand, -1
-    value = node.value if isinstance(node, ast.Constant) else None
-    if type(value) is not int or not 0 < value <= _MAX_POWER:
+def _exponent(node: ast.expr) -> int:
+    value = ast.literal_eval(node)
+    if type(value) is not int or not 0 < abs(value) <= _MAX_POWER:
         raise Unproved(f"exponents are integers from 1 to {_MAX_POWER}, or their negatives")
-    return sign * value
+    return value
 
 
 # -- the printer -----------------------------------------------------------------------------------
@@ -278,42 +255,29 @@ class Printer:
         METER.get().spend(2)
         match tree:
             case Number(value=value):
-                printed = str(value), ATOM
-            case Variable(name=name):
-                printed = self.symbol(name), ATOM
-            case Pi():
-                printed = self.symbol("pi"), ATOM
-            case Power(base=base, exponent=n):
-                printed = self.power(base, n), POWER
-            case Operation(op="negative", arguments=(one,)):
-                printed = f"-{self.inside(one, POWER)}", SIGNED
-            case Operation(op=op, arguments=(left, right)):
-                printed = self.operation(op, left, right)
-            case Operation(op=name, arguments=(one,)):
-                printed = self.function(name, one), ATOM
-            case Derivative(function=function, by=by):
-                printed = self.derivative(function, by), ATOM
-            case At(function=function, places=places):
-                printed = self.at(function, places), ATOM
-            case _:
-                raise TypeError(f"not a formula: {tree!r}")
-        return printed
+                return str(value), ATOM
+            case Pi() | Variable():
+                return self.symbol("pi" if isinstance(tree, Pi) else tree.name), ATOM
+            case Power(exponent=n, parts=(base,)):
+                return self.power(base, n), POWER
+            case Operation(op="negative", parts=(one,)):
+                return f"-{self.inside(one, POWER)}", SIGNED
+            case Operation(op=op, parts=(left, right)):
+                return self.operation(op, left, right)
+        return self.call(tree, *map(self.text, tree.parts)), ATOM
 
     def operation(self, op: str, left: Tree, right: Tree) -> tuple[str, int]:
         """Return a sum, difference, product or quotient."""
         if op in "+-":
             return f"{self.inside(left, SUM)} {op} {self.inside(right, PRODUCT)}", SUM
         first, bound = self.part(left)
-        first = self.bracketed(first, bound, SIGNED)
+        first = first if bound >= SIGNED else self.brackets(first)
         written = self.product(first, self.inside(right, POWER), op)
         return written, SIGNED if bound == SIGNED else PRODUCT
 
     def inside(self, tree: Tree, least: int) -> str:
         """Return a part, in brackets unless it is bound as tightly as that."""
-        return self.bracketed(*self.part(tree), least)
-
-    def bracketed(self, text: str, bound: int, least: int) -> str:
-        """Put brackets around what is not bound tightly."""
+        text, bound = self.part(tree)
         return text if bound >= least else self.brackets(text)
 
     def brackets(self, text: str) -> str:
@@ -332,15 +296,10 @@ class Printer:
         """Return a power."""
         return f"{self.inside(base, ATOM)}**{n if n > 0 else f'({n})'}"
 
-    def function(self, name: str, one: Tree) -> str:
-        """Return a function."""
-        return f"{name}({self.text(one)})"
-
-    def derivative(self, function: Tree, by: tuple[str, ...]) -> str:
-        """Return a derivative."""
-        return f"D({', '.join([self.text(function), *by])})"
-
-    def at(self, function: Tree, places: Places) -> str:
-        """Return what has other formulas in places."""
-        put = [f"{name}={self.text(value)}" for name, value in places]
-        return f"at({', '.join([self.text(function), *put])})"
+    def call(self, tree: Tree, first: str, *others: str) -> str:
+        """Return a function, a derivative, or a formula with others in places, by its parts."""
+        if isinstance(tree, At):
+            others = tuple(f"{name}={x}" for name, x in zip(tree.names, others, strict=True))
+        name = tree.op if isinstance(tree, Operation) else "at" if isinstance(tree, At) else "D"
+        by = tree.by if isinstance(tree, Derivative) else ()
+        return f"{name}({', '.join((first, *by, *others))})"

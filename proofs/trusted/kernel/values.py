@@ -106,9 +106,7 @@ class Series(Conclusion):
         formulas, count = on_tape(*self.formulas), len(self.coefficients)
         name, tape = self.variable.name, formulas.tape
         if name not in self.function.free or any(name in x.free for x in self.formulas[1:]):
-            raise Unproved(
-                "the function, not the coefficients, depends on the variable of a series"
-            )
+            raise Unproved("the function, and no coefficient, depends on the variable of a series")
         x = formulas.variables.index(name)
         forms = NormalForms(len(formulas.variables))
         roots = (*formulas.roots, *_divisors(formulas))
@@ -125,7 +123,7 @@ class Series(Conclusion):
     @property
     def polynomial(self) -> Tree:
         """What the series begins with."""
-        powers = [Power(self.variable, n) if n > 1 else self.variable for n in range(_MAX_ORDER)]
+        powers = [Power(n, (self.variable,)) if n > 1 else self.variable for n in range(_MAX_ORDER)]
         terms = [
             Operation("*", (each, powers[n])) if n else each
             for n, each in enumerate(self.coefficients)
@@ -137,7 +135,7 @@ class Series(Conclusion):
     def sentence(self) -> str:
         """Return the series."""
         where = ", ".join(f"`{each}`" for each in self.nonzero)
-        rest = Power(self.variable, len(self.coefficients))
+        rest = Power(len(self.coefficients), (self.variable,))
         return (
             f"`{self.function} = {self.polynomial} + O({rest})` as `{self.variable}` -> 0"
             f"{f' where {where} are not 0' if where else ''}."
@@ -180,9 +178,9 @@ def value(_: Context, reader: Reader) -> Value:
     """Rule `formula-value`: {function, box: {variable: range}, tree, bounds}.
 
     Hypothesis: on each leaf of the tree, which divides the box (coordinates in the order of the
-    alphabet), an enclosure of the function lies within the bounds, or
-    its exact value, the normal form, at a leaf that is a point. Conclusion: the function is defined
-    on the box, with the functions of which it takes derivatives, and lies within the bounds there.
+    alphabet), an enclosure of the function lies within the bounds, or its exact value, the normal
+    form, at a leaf that is a point. Conclusion: the function is defined on the box, with the
+    functions of which it takes derivatives, and lies within the bounds there.
     (Bounds of one sign are a sign, those of D(F, x) say that F is monotone or by how much it
     expands, and the value at a point refutes what it contradicts.)
     """

@@ -105,7 +105,7 @@ def zero(context: Context, reader: Reader) -> Zero:
         raise value_of.fail("a step about a function of this variable alone is expected")
     (own,), bracket = formulas.trees, bracket_of.range()
     ((variable, interval),) = step.box
-    slope = Derivative(own, (variable.name,))
+    slope = Derivative((variable.name,), (own,))
     if step.function not in (own, slope):
         raise value_of.fail("the step is about another function")
     if not within(bracket, interval):

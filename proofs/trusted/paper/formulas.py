@@ -5,7 +5,7 @@ What sentences say are the formulas of these statements, not those of a file.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -87,7 +87,7 @@ def unknowns(
     variables: str,
     *lemmas: Equal | Series,
     nonzero: tuple[str, ...] = (),
-    given: Sequence[str] = (),
+    given: str = "",
 ) -> Unknowns:
     """Ask for expressions for these names, in these variables, for which the lemmas hold.
 
@@ -95,7 +95,7 @@ def unknowns(
     """
     parts = tuple(names.split())
     defined = Series.read(f"h*({' + '.join(parts)})", "h", ("0",), nonzero)
-    places = tuple(zip(parts, map(formula, given), strict=bool(given)))
+    places = tuple(zip(parts, map(formula, given.split("; ")), strict=True)) if given else ()
     return Unknowns(parts, frozenset(variables.split()), (defined, *lemmas), places)
 
 

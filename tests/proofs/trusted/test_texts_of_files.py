@@ -30,7 +30,7 @@ OPERATION = r"[-+*/^]|negative|number|variable|pi|sqrt|exp|log|sin|cos"
 WORDS = {  # the fields that are texts, and which: None for those that only the program writes
     "Variable.name": NAME,
     "Derivative.by": NAME,
-    "At.places": r"u[0-9]*",
+    "At.names": r"u[0-9]*",
     "Expressions.expressions": NAME,
     "Formulas.variables": NAME,
     "Formulas.name": r"[A-Z][A-Za-z0-9]{0,11}|",

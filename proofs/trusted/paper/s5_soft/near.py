@@ -38,14 +38,8 @@ POINT = unknowns(
         for printed, name in zip(eq.JACOBIAN, ("j11", "j12", "j21", "j22"), strict=True)
     ),
     nonzero=("1 + epsilon",),
-    given=(
-        "(1 - epsilon)*c/(1 + epsilon)",
-        "-c",
-        "1 - (1 + epsilon)**2*a/2",
-        "-epsilon*(1 + epsilon)/2",
-        "epsilon*(1 + epsilon)*a",
-        "epsilon**2",
-    ),
+    given="(1 - epsilon)*c/(1 + epsilon); -c; 1 - (1 + epsilon)**2*a/2; -epsilon*(1 + epsilon)/2; "
+    "epsilon*(1 + epsilon)*a; epsilon**2",
 )
 
 
@@ -142,13 +136,9 @@ STIFF_POINT = unknowns(
     ),
     Equal.read("k11*k22 - k12*k21", "epsilon**2"),
     nonzero=("1 + epsilon", "big", "k", "1 + t**2"),
-    given=(
-        "(1 - epsilon)*t*big/((1 + epsilon)*k)",
-        "-t*big/k",
-        "(big*(1 + epsilon*t**2) - (1 + epsilon)**2*a)/(big*(1 + t**2))",
-        "-epsilon*(1 + epsilon)/(big*(1 + t**2))",
-        "((1 + epsilon)**2*(epsilon + t**2)*a - (1 - epsilon)**2*t**2*big)"
-        "/((1 + epsilon)*(1 + t**2))",
-        "epsilon*(epsilon + t**2)/(1 + t**2)",
-    ),
+    given="(1 - epsilon)*t*big/((1 + epsilon)*k); -t*big/k; "
+    "(big*(1 + epsilon*t**2) - (1 + epsilon)**2*a)/(big*(1 + t**2)); "
+    "-epsilon*(1 + epsilon)/(big*(1 + t**2)); "
+    "((1 + epsilon)**2*(epsilon + t**2)*a - (1 - epsilon)**2*t**2*big)/((1 + epsilon)*(1 + t**2)); "
+    "epsilon*(epsilon + t**2)/(1 + t**2)",
 )

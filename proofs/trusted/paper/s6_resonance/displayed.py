@@ -96,12 +96,8 @@ AT_REST = unknowns(
     ),
     Equal.read(trace(FIXED_JACOBIAN), "1 + epsilon"),
     Equal.read(determinant(FIXED_JACOBIAN), "epsilon"),
-    given=(
-        "1 - 2*epsilon*nu*sin(phi)",
-        "2*epsilon",
-        "nu*sin(phi)*(1 - epsilon - 2*epsilon*nu*sin(phi))",
-        "epsilon*(1 + 2*nu*sin(phi))",
-    ),
+    given="1 - 2*epsilon*nu*sin(phi); 2*epsilon; "
+    "nu*sin(phi)*(1 - epsilon - 2*epsilon*nu*sin(phi)); epsilon*(1 + 2*nu*sin(phi))",
 )
 PRINTED_JACOBIAN = (
     "(1 - epsilon*nu*sin(phi))",
@@ -121,12 +117,8 @@ OFF_THE_MAP = unknowns(
         Equal.read(f"at({entry}, {_FIXED})", name)
         for entry, name in zip(JACOBIAN, _OFF_THE_MAP, strict=True)
     ),
-    given=(
-        "1 - epsilon*nu*sin(phi)",
-        "epsilon",
-        "nu*sin(phi1)*(1 - epsilon*nu*sin(phi))",
-        "epsilon*nu*sin(phi1)",
-    ),
+    given="1 - epsilon*nu*sin(phi); epsilon; nu*sin(phi1)*(1 - epsilon*nu*sin(phi)); "
+    "epsilon*nu*sin(phi1)",
 )
 
 # -- 6.2, double impacts ---------------------------------------------------------------------------

@@ -45,8 +45,8 @@ def extended(inner):
         st.builds(lambda op, a, b: Operation(op, (a, b)), st.sampled_from("+-*/"), inner, inner),
         st.builds(lambda a: Operation("negative", (a,)), inner),
         st.builds(lambda op, a: Operation(op, (a,)), st.sampled_from(FUNCTIONS), inner),
-        st.builds(Power, inner, st.sampled_from([-7, -1, 1, 2, 3])),
-        st.builds(Derivative, inner, names.map(tuple)),
+        st.builds(lambda n, a: Power(n, (a,)), st.sampled_from([-7, -1, 1, 2, 3]), inner),
+        st.builds(lambda by, a: Derivative(tuple(by), (a,)), names, inner),
         st.builds(bind, inner, places),
     )
 
@@ -86,10 +86,12 @@ def test_bound_variables_are_named_by_the_reader_alone(tree):
     """Whatever a text calls them."""
     text = str(tree)
     for each in (node for node in subtrees(tree) if isinstance(node, At)):
-        for k, (name, _) in enumerate(each.places):
+        function, *values = each.parts
+        for k, name in enumerate(each.names):
             assume(not re.search(rf"\bq{k}\b", text))
-            renamed = substitute(each.function, {name: Variable(f"q{k}")})
-            places = tuple((f"q{k}" if x == name else x, value) for x, value in each.places)
+            renamed = substitute(function, {name: Variable(f"q{k}")})
+            names = [f"q{k}" if x == name else x for x in each.names]
+            places = zip(names, values, strict=True)
             shown = ", ".join([str(renamed), *(f"{x}={value}" for x, value in places)])
             assert formula(f"at({shown})") == each
 

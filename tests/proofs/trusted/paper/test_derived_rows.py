@@ -72,7 +72,7 @@ class TestDecisions:
 
 
 class TestUnknowns:
-    ASKED = unknowns("a", "x", Equal.read("a - 2*x", "0"), given=("2*x",))
+    ASKED = unknowns("a", "x", Equal.read("a - 2*x", "0"), given="2*x")
     THEOREM = corollary("The root is {a}, in {0}.", ASKED, values=(at("x", x="1"),))
     ONE = Value(
         formula("x"), ((Variable("x"), (Fraction(1), Fraction(1))),), (Fraction(1), Fraction(1))
