@@ -98,7 +98,7 @@ class _Latex(Printer):
         return f"{fence[0]}{text}{fence[1]}"
 
     def symbol(self, name: str) -> str:
-        return _symbol(name)
+        return _symbol(name if name[0] != "_" else f"u{name}")
 
     def power(self, base: Tree, n: int) -> str:
         if isinstance(base, Operation) and base.op in ("sin", "cos", "log"):
@@ -115,9 +115,9 @@ class _Latex(Printer):
             case Operation(op=name):
                 return rf"\{name}{inside}"
             case Derivative(by=by):
-                return rf"\partial_{{{''.join(map(_symbol, by))}}}{inside}"
+                return rf"\partial_{{{''.join(map(self.symbol, by))}}}{inside}"
             case At(names=names):
-                pairs = zip(map(_symbol, names), others, strict=True)
+                pairs = zip(map(self.symbol, names), others, strict=True)
                 put = r",\,".join(f"{name} = {value}" for name, value in pairs)
                 return f"{{{self.brackets(first, '[]')}}}_{{{put}}}"
         raise TypeError(f"not a formula: {tree!r}")

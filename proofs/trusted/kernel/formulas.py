@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
@@ -25,8 +25,8 @@ from proofs.trusted.kernel.trees import (
 )
 
 MAX_VARIABLES = 30
-_MAX_COMPONENTS = 20
-_FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,11}")  # N1, A, M: h-sets
+MAX_VALUES = 20
+FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[AM]$)[A-Z][A-Za-z0-9]{0,11}")  # N1, A, M: h-sets
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def read_formulas(*readers: Reader) -> Formulas:
 def read_function(name: str, reader: Reader) -> Formulas:
     """Read {"variables", "values"}; names cannot be mistaken for anything else in print."""
     variables_of, values_of = reader.fields("variables", "values")
-    if not _FUNCTION_NAME.fullmatch(name):
+    if not FUNCTION_NAME.fullmatch(name):
         raise reader.fail("functions are named like F or Gap2, not N, N1, M or A")
     variables = tuple(item.string() for item in variables_of.items(1, MAX_VARIABLES))
     for variable in variables:
@@ -86,7 +86,7 @@ def read_function(name: str, reader: Reader) -> Formulas:
     if len(set(variables)) != len(variables):
         raise variables_of.fail("a variable is named twice")
     try:
-        trees = [read_tree(value) for value in values_of.items(1, _MAX_COMPONENTS)]
+        trees = [read_tree(value) for value in values_of.items(1, MAX_VALUES)]
         return on_tape(*trees, variables=variables, name=name)
     except Unproved as error:
         raise values_of.fail(str(error)) from None
@@ -94,27 +94,27 @@ def read_function(name: str, reader: Reader) -> Formulas:
 
 def on_tape(*trees: Tree, variables: tuple[str, ...] = (), name: str = "") -> Formulas:
     """Return the functions that formulas give, of these variables, else of all theirs."""
-    free = sorted(frozenset[str]().union(*(tree.free for tree in trees)))
-    variables = variables or tuple(free) or ("x",)
-    if unknown := [each for each in free if each not in variables]:
-        raise Unproved(f"unknown variable {unknown[0]!r}")
+    free = frozenset[str]().union(*(tree.free for tree in trees))
+    variables = variables or tuple(sorted(free)) or ("x",)
     if len(variables) > MAX_VARIABLES:
         raise Unproved(f"more than {MAX_VARIABLES} variables")
-    placer = _Placer(Tape(), list(variables), [])
+    tape = Tape()
+    places = {v: tape.add("variable", datum=Fraction(i)) for i, v in enumerate(variables)}
+    placer = Placer(tape, places, [])
     roots = tuple(map(placer.place, trees))
-    return Formulas(variables, trees, placer.tape, roots, tuple(dict.fromkeys(placer.parts)), name)
+    return Formulas(variables, trees, tape, roots, tuple(dict.fromkeys(placer.parts)), name)
 
 
 @dataclass
-class _Placer:
+class Placer:
     """Puts trees on a tape.
 
-    variables: those on the tape, by their places: the functions' own, then the bound ones. parts:
-    collects the functions of which derivatives are taken.
+    places: of the variables; bound ones are variables of the tape, too, until they are moved away.
+    parts: collects the functions of which derivatives are taken.
     """
 
     tape: Tape
-    variables: list[str]
+    places: dict[str, int]
     parts: list[int]
 
     def place(self, tree: Tree) -> int:
@@ -125,32 +125,38 @@ class _Placer:
             case Pi():
                 place = self.tape.add("pi")
             case Variable(name=name):
-                place = self.tape.add("variable", datum=Fraction(self._number(name)))
+                place = self._variable(name)
             case Power(exponent=n, parts=(base,)):
                 place = self.tape.add("^", self.place(base), datum=Fraction(n))
             case Operation(op=op, parts=parts):
                 place = self._folded(op, *map(self.place, parts))
             case Derivative(by=by, parts=(function,)):
                 place = self.place(function)
-                for each in by:
+                for node in [self.tape.nodes[self._variable(name)] for name in by]:
+                    if node.op != "variable":
+                        raise Unproved("a derivative by what is no variable")
                     self.parts.append(place)
-                    place = self.tape.derivative(place, self._number(each))
+                    place = self.tape.derivative(place, int(node.datum))
             case At(names=names, parts=(function, *others)):
-                pairs = zip(map(Variable, names), others, strict=True)
-                moves = {self.place(name): self.place(other) for name, other in pairs}
-                before = len(self.parts)
-                root = self.place(function)
-                moved = self.tape.moved([root, *self.parts[before:]], moves)
-                self.parts[before:] = moved[1:]
-                place = moved[0]
+                place = self._moved(function, names, [self.place(other) for other in others])
             case _:
                 raise TypeError(f"not a formula: {tree!r}")
         return place
 
-    def _number(self, name: str) -> int:
-        if name not in self.variables:
-            self.variables.append(name)
-        return self.variables.index(name)
+    def _variable(self, name: str) -> int:
+        if name not in self.places:
+            raise Unproved(f"unknown variable {name!r}")
+        return self.places[name]
+
+    def _moved(self, function: Tree, names: tuple[str, ...], others: Sequence[int]) -> int:
+        """Return the place of a function with others in the places of what is bound in it."""
+        numbers = (Fraction(MAX_VARIABLES + int(name[1:])) for name in names)
+        bound = [self.tape.add("variable", datum=number) for number in numbers]
+        inner = replace(self, places=self.places | dict(zip(names, bound, strict=True)))
+        before, root = len(self.parts), inner.place(function)
+        roots = [root, *self.parts[before:]]
+        place, *self.parts[before:] = self.tape.moved(roots, dict(zip(bound, others, strict=True)))
+        return place
 
     def _folded(self, op: str, *places: int) -> int:
         """Return the place of an operation; -a and a/b of numbers are numbers."""

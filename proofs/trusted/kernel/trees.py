@@ -3,7 +3,7 @@
 A text is in Python's notation: + - * / and ** with an integer exponent other than 0, integers, pi,
 sqrt, exp, log, sin, cos, names of variables of at most 12 characters. D(F, x, y) is the derivative
 of F by x and then by y; at(F, x=G, y=H), F with G and H in the places of x and y at once, binds x
-and y in F, where they are named u, u1, u2 and so on, whatever the text calls them. As usual - and /
+and y in F, where they are named _1, _2 and so on, whatever the text calls them. As usual - and /
 are taken from the left, -x**2 is -(x**2), and a/b*c is (a/b)*c.
 
 What is printed is printed from the tree. Printed text, read again, is the same tree.
@@ -16,7 +16,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import count, islice
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -26,8 +25,9 @@ from proofs.trusted.kernel.meter import METER
 _MAX_LENGTH = 12_000
 _MAX_DEPTH = 150
 _MAX_POWER = 1000
-_TEXT = re.compile(r"(?:[-+*/(),= ]|[A-Za-z]\w*+|[0-9]++(?![A-Za-z_]))*+", re.ASCII)
+_TEXT = re.compile(r"(?:[-+*/(),= ]|[A-Za-z_]\w*+|[0-9]++(?![A-Za-z_]))*+", re.ASCII)
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,11}")
+_BOUND = re.compile(r"_[1-9][0-9]{0,3}")
 _WORDS = {*FUNCTIONS, "pi", "D", "at"}
 _OPERATIONS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 SUM, SIGNED, PRODUCT, POWER, ATOM = range(5)  # how tightly a part is bound
@@ -166,7 +166,10 @@ def read_tree(reader: Reader) -> Tree:
     try:
         if not _TEXT.fullmatch(text):
             raise Unproved("a character that is in no formula")
-        return _tree(ast.parse(text, mode="eval").body, _MAX_DEPTH)
+        tree = _tree(ast.parse(text, mode="eval").body, _MAX_DEPTH)
+        if any(map(_BOUND.fullmatch, tree.free)):
+            raise Unproved("a variable without a name")
+        return tree
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         message = f"not a formula: {text[:40]!r}"
     except Unproved as error:
@@ -212,19 +215,18 @@ def _tree(node: ast.AST | None, depth: int) -> Tree:
 
 
 def _name(name: str | None) -> str:
-    if name is None or not is_name(name):
+    if name is None or not (is_name(name) or _BOUND.fullmatch(name)):
         raise Unproved(f"not a name for a variable: {(name or '')[:30]!r}")
     return name
 
 
 def bind(function: Tree, places: Places) -> At:
-    """Return at(function, ...); bound are the first u, u1, ... that are nowhere else in it."""
+    """Return at(function, ...); what it binds are the first _k after those bound in it."""
     given = [name for name, _ in places]
-    if len({*given}) < len(given):
+    first = 1 + max((int(name[1:]) for name in function.bound), default=0)
+    names = tuple(f"_{k}" for k in range(first, first + len(given)))
+    if len({*given}) < len(given) or function.free & {*names} - {*given}:
         raise Unproved("a variable is substituted twice")
-    others = function.bound | function.free - {*given}
-    fresh = (name for n in count() if (name := f"u{n or ''}") not in others)
-    names = tuple(islice(fresh, len(given)))
     renamed = substitute(function, dict(zip(given, map(Variable, names), strict=True)))
     return At(names, (renamed, *(value for _, value in places)))
 

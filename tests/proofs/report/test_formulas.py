@@ -58,7 +58,7 @@ def test_the_value_is_that_of_the_text(text):
         ("a - (b - c)", "a - (b - c)"),
         ("x*2", r"x \cdot 2"),
         ("D(f, x, x)", r"\partial_{xx}(f)"),
-        ("at(x*y, x=0, y=t)", r"{[u u_1]}_{u = 0,\,u_1 = t}"),
+        ("at(x*y, x=0, y=t)", r"{[u_1 u_2]}_{u_1 = 0,\,u_2 = t}"),
         ("omega_n*x0", r"\omega_n x_0"),
         ("lam*big", r"\lambda \mathrm{big}"),
     ],

@@ -83,7 +83,7 @@ HEAD = "3 + 0*"  # of a formula that is 3
     ("left", "right", "sentence"),
     [
         ("-2*-x", "2*x", "`-2*(-x) = 2*x`"),
-        ("at(3, false=1)", "3", "`at(3, u=1) = 3`"),
+        ("at(3, false=1)", "3", "`at(3, _1=1) = 3`"),
         ("x**-2*x**2", "1", "`x**(-2)*x**2 = 1`"),
         ("(-x)**2", "x**2", "`(-x)**2 = x**2`"),
         ("-x**2", "-(x**2)", "`-x**2 = -x**2`"),
@@ -111,6 +111,9 @@ def test_formulas_are_printed_from_trees(left, right, sentence):
         "D(x, 1)",
         "x**(1/2)",
         "`x`",
+        "_1",
+        "at(at(x*_1, x=2), _1=3)",
+        "D(x, _1)",
     ],
 )
 def test_what_is_no_formula_is_malformed(text):

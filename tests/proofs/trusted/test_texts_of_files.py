@@ -25,12 +25,12 @@ from tests.oracles.sources import classes
 from tests.proofs.trusted.edits import at, walk
 
 ROOT = Path(__file__).parents[3]
-NAME = r"[A-Za-z][A-Za-z0-9_]{0,11}"
+NAME = r"[A-Za-z][A-Za-z0-9_]{0,11}|_[0-9]+"
 OPERATION = r"[-+*/^]|negative|number|variable|pi|sqrt|exp|log|sin|cos"
 WORDS = {  # the fields that are texts, and which: None for those that only the program writes
     "Variable.name": NAME,
     "Derivative.by": NAME,
-    "At.names": r"u[0-9]*",
+    "At.names": r"_[0-9]+",
     "Expressions.expressions": NAME,
     "Formulas.variables": NAME,
     "Formulas.name": r"[A-Z][A-Za-z0-9]{0,11}|",

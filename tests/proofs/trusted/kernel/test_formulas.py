@@ -218,7 +218,7 @@ def test_other_names_are_all_substituted_away():
     for text in ("at(x + z, x=y)", "at(D(x*z**2, z), x=y)", "at(D(z, z), z=x) + z"):
         with pytest.raises(Malformed, match="unknown variable 'z'"):
             formula(text)
-    assert formula("at(x + Z, Z=y)").definition == "`F(x, y) = at(x + u, u=y)`"
+    assert formula("at(x + Z, Z=y)").definition == "`F(x, y) = at(x + _1, _1=y)`"
 
 
 @pytest.mark.slow

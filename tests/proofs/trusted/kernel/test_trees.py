@@ -13,6 +13,9 @@ from hypothesis import strategies as st
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.formulas import Placer
+from proofs.trusted.kernel.normalform import NormalForms
 from proofs.trusted.kernel.trees import (
     At,
     Derivative,
@@ -65,14 +68,14 @@ def test_what_is_printed_is_read_as_the_same_tree(tree):
 
 @given(trees)
 def test_what_is_printed_leaves_nothing_to_be_guessed(tree):
-    """No product without its sign, no two signs side by side, no names but free ones and u, u1."""
+    """No product without its sign, no two signs side by side, no names but free ones and _1, _2."""
     text = str(tree)
     assert not re.search(r"[\w)] +[\w(]", text.replace(" + ", "+").replace(" - ", "-"))
     assert not re.search(r"[-+*/] *[-+/]", text)
     assert "*-" not in text and "**-" not in text
-    names = set(re.findall(r"[A-Za-z]\w*", text)) - {*FUNCTIONS, "pi", "D", "at"}
+    names = set(re.findall(r"[A-Za-z_]\w*", text)) - {*FUNCTIONS, "pi", "D", "at"}
     assert names == tree.free | tree.bound
-    assert all(re.fullmatch(r"u\d*", name) for name in tree.bound)
+    assert all(re.fullmatch(r"_[1-9]\d*", name) for name in tree.bound)
 
 
 def subtrees(tree):
@@ -86,6 +89,7 @@ def test_bound_variables_are_named_by_the_reader_alone(tree):
     """Whatever a text calls them."""
     text = str(tree)
     for each in (node for node in subtrees(tree) if isinstance(node, At)):
+        assume(not any(name[0] == "_" for name in each.free))
         function, *values = each.parts
         for k, name in enumerate(each.names):
             assume(not re.search(rf"\bq{k}\b", text))
@@ -133,7 +137,6 @@ def test_substitution_is_evaluation_elsewhere(tree, places):
         ("D(x*y, x)", {"x": "y"}),
         ("D(x*y, x)", {"x": "2"}),
         ("D(x*y, x, y)", {"x": "y", "y": "y"}),
-        ("at(a*z, z=2)", {"a": "u"}),
         ("at(D(x*y, x), y=2)", {"x": "x + 1"}),
     ],
 )
@@ -147,8 +150,8 @@ def test_capture_is_refused(text, places):
     [
         ("x*y", {"x": "y", "y": "x"}, "y*x"),
         ("D(x*y, x)", {"x": "z"}, "D(z*y, z)"),
-        ("at(a*z, z=a)", {"a": "3"}, "at(3*u, u=3)"),
-        ("at(z*u, z=u)", {"z": "7"}, "at(u1*u, u1=u)"),
+        ("at(a*z, z=a)", {"a": "3"}, "at(3*w, w=3)"),
+        ("at(z*u, z=u)", {"z": "7"}, "at(w*u, w=u)"),
     ],
 )
 def test_substitution(text, places, expected):
@@ -169,9 +172,9 @@ def test_substitution(text, places, expected):
         ("(2*x)**2", "(2*x)**2"),
         ("a - -b", "a - (-b)"),
         ("a+-2*b", "a + (-2*b)"),
-        ("at(w, w=0)", "at(u, u=0)"),
-        ("at(w + u, w=u)", "at(u1 + u, u1=u)"),
-        ("at(at(w, w=z), z=1)", "at(at(u, u=u1), u1=1)"),
+        ("at(w, w=0)", "at(_1, _1=0)"),
+        ("at(w + u, w=u)", "at(_1 + u, _1=u)"),
+        ("at(at(w, w=z), z=1)", "at(at(_1, _1=_2), _2=1)"),
         ("D(w**2, w)", "D(w**2, w)"),
     ],
 )
@@ -251,3 +254,16 @@ def test_formulas_of_statements(group):
             for text in Reader(step["witness"]).mentioned():
                 if not re.fullmatch(r"-?[0-9/]+", text):
                     assert str(formula(text)) == text
+
+
+def test_what_is_bound_is_no_other_variable_of_its_name():
+    """u is bound beside a u that is free, and that may be a number on the tape."""
+    tape = Tape()
+    two = tape.number(2)
+    placer = Placer(tape, {"u": two, "x": tape.add("variable")}, [])
+    root = placer.place(formula("at(2*w + 2, w=5)*u + at(D(w**2, w), w=x + u)"))
+    forms = NormalForms(1)
+    (value,) = tape.evaluate((root,), forms, forms.inputs())
+    assert value == {(): 28, ((0, 1),): 2}
+    with pytest.raises(Unproved, match="no variable"):
+        placer.place(formula("D(x*u, u)"))
