@@ -162,7 +162,7 @@ def read_tree(reader: Reader) -> Tree:
     text = reader.string()
     if len(text) > _MAX_LENGTH:
         raise reader.fail(f"a formula has at most {_MAX_LENGTH} characters")
-    METER.get().spend(2 * len(text))
+    METER.get().spend(10 * len(text))
     try:
         if not _TEXT.fullmatch(text):
             raise Unproved("a character that is in no formula")
