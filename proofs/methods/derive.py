@@ -13,8 +13,9 @@ from types import MappingProxyType
 from typing import Any
 
 from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.enclose import ARITHMETIC
-from proofs.trusted.kernel.formulas import read_formulas, spelled
+from proofs.trusted.kernel.formulas import read_formulas
 
 
 class _Expressions:
@@ -128,4 +129,4 @@ def write(expression: Any) -> str:
         def _print_Exp1(self, _: Any) -> str:  # noqa: N802
             return "exp(1)"
 
-    return spelled("".join(Printer().doprint(expression).split()))
+    return str(trees.formula(Printer().doprint(expression)))

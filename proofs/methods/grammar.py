@@ -12,9 +12,8 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.expression import FUNCTIONS
-from proofs.trusted.kernel.formulas import read_formulas, spelled
+from proofs.trusted.kernel.trees import formula
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -51,12 +50,10 @@ def canonical(text: str, time: str = "") -> str:
         tree = ast.parse(python, mode="eval").body
     except SyntaxError:
         raise GrammarError(f"not a formula: {_short(text)}") from None
-    typed = spelled(ast.unparse(_rewritten(tree, text)))
     try:
-        read_formulas(Reader(typed))
+        return str(formula(ast.unparse(_rewritten(tree, text))))
     except ValueError as error:
         raise GrammarError(f"{str(error).removeprefix('$: ')}, in {_short(text)}") from None
-    return typed
 
 
 def name(text: str) -> str:
@@ -69,9 +66,8 @@ def name(text: str) -> str:
 
 
 def names(text: str) -> list[str]:
-    """Return the names in a formula as the checker reads it, in the order in which they occur."""
-    found = re.findall(r"[A-Za-z]\w*", text)
-    return [each for each in dict.fromkeys(found) if each not in {*FUNCTIONS, "pi", "D", "at"}]
+    """Return the names in a formula as the checker reads it."""
+    return sorted(formula(text).free)
 
 
 def _short(text: str) -> str:

@@ -25,13 +25,16 @@ from proofs.methods.formulas import (
 )
 from proofs.trusted.certificate import SCHEMA, Reader, texts
 from proofs.trusted.kernel.enclose import Box, centre_of, point_box
-from proofs.trusted.kernel.formulas import Formulas, read_formulas, read_function
+from proofs.trusted.kernel.formulas import Formulas, read_formulas
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.solutions import Expressions
+from proofs.trusted.kernel.trees import formula
 from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range
 
 _COARSE_DIGITS = 3
+_UNUSED = (Fraction(0), Fraction(0))  # the side of x where there is no variable
 _PLACES = 2**40  # candidates are rounded to multiples of 1 / _PLACES
 _STEPS = 8  # of Newton's method
 
@@ -69,31 +72,28 @@ def bounds_of(text: str, box: Mapping[str, Range], sign: int) -> tuple[Range, Tr
 
 
 def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Values], bool]) -> Tree:
-    """Divide a box until the enclosures of a formula decide; variables are in alphabetical order.
-
-    Those that are substituted away have the side [0, 0], as in the checker.
-    """
+    """Divide a box until the enclosures of a formula decide; variables in alphabetical order."""
     formulas = read_formulas(Reader(text))
-    sides = tuple(box.get(name, (Fraction(0), Fraction(0))) for name in formulas.variables)
+    sides = tuple(box.get(name, _UNUSED) for name in formulas.variables)
     return subdivide(sides, lambda part: decided(enclosed(formulas, part)))
 
 
 def witness_of(lemma: Equal | Series) -> dict[str, Any]:
     """Return what the checker needs for an equation or a series."""
     if isinstance(lemma, Equal):
-        return {"left": lemma.left, "right": lemma.right}
+        return {"left": str(lemma.left), "right": str(lemma.right)}
     return {
-        "function": lemma.function,
-        "variable": lemma.variable,
-        "coefficients": list(lemma.coefficients),
-        "nonzero": list(lemma.nonzero),
+        "function": str(lemma.function),
+        "variable": str(lemma.variable),
+        "coefficients": list(map(str, lemma.coefficients)),
+        "nonzero": list(map(str, lemma.nonzero)),
     }
 
 
 def solution_witness(found: Expressions) -> dict[str, Any]:
     """Return what the checker needs for expressions that solve equations."""
     return {
-        "expressions": dict(found.expressions),
+        "expressions": {name: str(value) for name, value in found.expressions},
         "lemmas": [witness_of(each) for each in found.lemmas],
     }
 
@@ -151,8 +151,7 @@ class Lemmas:
     def bounds(self, text: str, digits: int, bits: int, **box: Range) -> Range:
         """Add a step `formula-value` with as narrow bounds as a box allows; return them."""
         formulas = read_formulas(Reader(text))
-        unused = (Fraction(0), Fraction(0))
-        sides = [Interval(*box.get(x, unused), precision=bits) for x in formulas.variables]
+        sides = [Interval(*box.get(x, _UNUSED), precision=bits) for x in formulas.variables]
         (found,) = values(formulas, sides)
         lower, upper = map(Fraction, decimal_bounds(found.inf, found.sup, digits))
         self._value(text, _sides(box), (lower, upper), None)
@@ -165,17 +164,17 @@ class Lemmas:
 
     def equal(self, left: str, right: str) -> str:
         """Add a step `formula-equal`."""
-        return self.add("formula-equal", witness_of(Equal(left, right)))
+        return self.add("formula-equal", witness_of(Equal.read(left, right)))
 
     def series(self, text: str, variable: str, *coefficients: str, nonzero: Any = ()) -> str:
         """Add a step `formula-series`."""
         return self.add(
-            "formula-series", witness_of(Series(text, variable, coefficients, tuple(nonzero)))
+            "formula-series", witness_of(Series.read(text, variable, coefficients, nonzero))
         )
 
     def solution(self, expressions: Mapping[str, str], *lemmas: Equal | Series) -> str:
         """Add a step `formula-solution`."""
-        found = Expressions(tuple(expressions.items()), lemmas)
+        found = Expressions(tuple((x, formula(y)) for x, y in expressions.items()), lemmas)
         return self.add("formula-solution", solution_witness(found))
 
     # -- zeros ---------------------------------------------------------------------------------

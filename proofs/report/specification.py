@@ -7,7 +7,7 @@ import sys
 from importlib import import_module
 
 from proofs.trusted import certificate, verify
-from proofs.trusted.kernel import formulas, normalform
+from proofs.trusted.kernel import normalform, trees
 from proofs.trusted.kernel.enclose import leaves
 from proofs.trusted.rules import RULES, find_rule
 
@@ -15,7 +15,7 @@ from proofs.trusted.rules import RULES, find_rule
 def specification() -> str:
     """Return the page, in Markdown."""
     parts = ["# Certificates", _doc(certificate), _doc(verify)]
-    parts += ["# Formulas", _doc(formulas), _doc(normalform), _doc(leaves), "# Rules"]
+    parts += ["# Formulas", _doc(trees), _doc(normalform), _doc(leaves), "# Rules"]
     modules: dict[str, list[str]] = {}
     for name, place in RULES.items():
         modules.setdefault(place.rpartition(".")[0], []).append(name)

@@ -1,7 +1,8 @@
 """Sentences, which are plain ASCII, as typeset text: symbols, subscripts, powers.
 
-Conclusions write phi, f', <=, omega_n, sin^2(x), f^(k-1)(phi). Nothing is added or left out here:
-a mark of the sentence becomes a mark of the page, or a script its place.
+Conclusions write phi, f', <=, omega_n, sin^2(x), f^(k-1)(phi), and formulas of a user's own between
+backquotes. Nothing is added or left out here: a mark of the sentence becomes a mark of the page, or
+a script its place.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ _SIGNS = MappingProxyType(
 )
 _WORDS = MappingProxyType({"infinity": "∞", "sqrt": "√"})
 _TOKEN = re.compile(
-    r"(?P<code>[a-z_]{2,}(?:\.[a-z_]{2,})+)"
+    r"`(?P<formula>[^`]*)`"
+    r"|(?P<code>[a-z_]{2,}(?:\.[a-z_]{2,})+)"
     r"|(?P<name>[A-Za-z]+)(?P<index>[0-9]*)"
     r"|(?P<number>[0-9]+(?:\.[0-9]+)?(?:e-?[0-9]+)?)"
     r"|(?P<sign><=|>=|->|\+-|\.\.\.|=:|:=)"
@@ -128,8 +130,8 @@ class _Setter:
         self.place = match.end()
         if match["name"]:
             yield from self._name(match["name"], match["index"])
-        elif match["code"]:
-            yield Piece("code", match["code"])
+        elif match["code"] or match["formula"]:
+            yield Piece("code", match["code"] or match["formula"])
         elif match["sign"]:
             yield Piece("words", _SIGNS[match["sign"]])
         elif match["prime"]:

@@ -17,12 +17,13 @@ from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.formulas import Tree, values
 from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
 from proofs.search.evidence import Evidence, Tell, concluded
-from proofs.trusted.certificate import Reader, texts
+from proofs.trusted.certificate import texts
+from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import size
-from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.formulas import on_tape
 from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import Range
@@ -43,7 +44,7 @@ def enclose(formula: str, digits: int, **point: Fraction) -> Range:
 
     The precision has room for what digits of the point's coordinates cancel.
     """
-    formulas = read_formulas(Reader(formula))
+    formulas = on_tape(trees.formula(formula))
     bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
     inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
     (found,) = values(formulas, inputs)
@@ -80,28 +81,30 @@ class Steps:
 
     def _solution(self, wanted: Unknowns) -> None:
         try:
-            expressions = self.solvers[wanted](wanted)
+            expressions = wanted.given or tuple(
+                (name, trees.formula(text)) for name, text in self.solvers[wanted](wanted).items()
+            )
         except Undecided:
             return
-        found = Expressions(tuple(expressions.items()), wanted.lemmas)
+        found = Expressions(expressions, wanted.lemmas)
         self._add(wanted, found, "formula-solution", solution_witness(found))
 
     def _value(self, asked: Asked) -> None:
         tree: Tree = None
         if all(low == high for _, (low, high) in asked.box):
-            point = {name: low for name, (low, _) in asked.box}
-            bounds = enclose(asked.function, self.digits, **point)
+            point = {variable.name: low for variable, (low, _) in asked.box}
+            bounds = enclose(str(asked.function), self.digits, **point)
         else:
-            bounds, tree = bounds_of(asked.function, dict(asked.box), asked.signs[0])
+            box = {variable.name: side for variable, side in asked.box}
+            bounds, tree = bounds_of(str(asked.function), box, asked.signs[0])
         witness = {
-            "function": asked.function,
-            "box": {name: texts(side) for name, side in asked.box},
+            "function": str(asked.function),
+            "box": {variable.name: texts(side) for variable, side in asked.box},
             "tree": tree,
             "bounds": texts(bounds),
         }
-        self._add(
-            asked, Value(asked.function, tuple(sorted(asked.box)), bounds), "formula-value", witness
-        )
+        found = Value(asked.function, asked.box, bounds)
+        self._add(asked, found, "formula-value", witness)
 
     def _add(
         self, wanted: Lemma | Asked, found: Conclusion, rule: str, witness: dict[str, Any]

@@ -16,31 +16,17 @@ from proofs.trusted.paper.formulas import Unknowns
 from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 
 _LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
-_STIFF = Map(("x", "lam"), tuple(f"at({each}, {near.STIFF_HERE})" for each in near.STIFF))
-
-
-def _at_origin(*texts: str, names: tuple[str, ...]) -> dict[str, Any]:
-    """Solve equations at x = 0 for names, of which there is one solution."""
-    (found,) = solve([derive.read(f"at({each}, x=0)") for each in texts], names)
-    return {"x": derive.read("0"), **found}
 
 
 def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
     return {name: derive.write(found[name]) for name in wanted.names}
 
 
-def _point(wanted: Unknowns, *, of: Map) -> dict[str, str]:
-    """Solve for the fixed point of a map and its Jacobian, the last four names."""
-    found = _at_origin(*of.fixed, names=("lam", "b"))
-    entries = zip(wanted.names[-4:], of.jacobian_at(found), strict=True)
-    return _written(wanted, found | dict(entries))
-
-
 def _flip(wanted: Unknowns) -> dict[str, str]:
     """Solve for the flip of the limit map, and its centre manifold."""
     texts = (*_LIMIT.map.fixed, _LIMIT.condition())
-    point = _at_origin(*texts, names=("lam", "b", "a"))
-    return _written(wanted, coefficients(_LIMIT, point, "a"))
+    (found,) = solve([derive.read(f"at({each}, x=0)") for each in texts], ("lam", "b", "a"))
+    return _written(wanted, coefficients(_LIMIT, {"x": derive.read("0"), **found}, "a"))
 
 
 def _cycle(wanted: Unknowns) -> dict[str, str]:
@@ -98,8 +84,6 @@ prove = partial(
     (*soft.ROWS, *stability.ROWS),
     solvers=MappingProxyType(
         {
-            near.POINT: partial(_point, of=_LIMIT.map),
-            near.STIFF_POINT: partial(_point, of=_STIFF),
             near.FLIP: _flip,
             doubling.CYCLE: _cycle,
             near.JET: partial(_jet, height=4, slope=-1),

@@ -1,6 +1,6 @@
 """The form of a certificate, and a reader that takes nothing on faith.
 
-- A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/3"), `parameters` (of a
+- A UTF-8 JSON object with the fields `schema` ("impact-proofs.certificate/4"), `parameters` (of a
   statement; {`eta`, `nu`}, two ranges, in a file about all plastic oscillators of a box, and with
   them `epsilon` in one about others; null in a file about formulas alone), `functions` (name to
   {`variables`, `values`}), `steps` (name to {`rule`, `witness`}, in the order of the proof) and
@@ -13,7 +13,8 @@
   refused. Names match `[A-Za-z][A-Za-z0-9_-]{0,59}`; a step is not named like a rule or a function.
 - A step refers to earlier steps by name; each step and function is used, by a claim or by a step
   that is. At most 4,000,000 bytes and 10,000 entries a list.
-- The digest is the SHA-256 of the JSON with sorted keys, without white space, in ASCII.
+- The digest is the SHA-256 of the JSON without white space, its keys in the order of the file, in
+  ASCII.
 
 What breaks this form, or that of a witness, is malformed; whatever else fails is no proof.
 """
@@ -36,7 +37,7 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters, Place
 
-SCHEMA = "impact-proofs.certificate/3"
+SCHEMA = "impact-proofs.certificate/4"
 FIELDS = ("schema", "parameters", "functions", "steps", "claims")
 MANIFEST = "impact-proofs.manifest/3"
 LEDGER = "impact-proofs.ledger/2"
@@ -259,11 +260,12 @@ def schema_of(source: str) -> str:
 
 
 def digest(source: str) -> str:
-    """Return the SHA-256 of a certificate's canonical form: sorted, without white space, ASCII.
+    """Return the SHA-256 of a certificate's canonical form: without white space, ASCII.
 
-    Two files with the same digest prove the same by the same steps, however they are laid out.
+    Keys stay in their order, which steps and expressions have: two files with the same digest are
+    accepted or not, and say the same, however they are laid out.
     """
-    canonical = json.dumps(json.loads(source), sort_keys=True, separators=(",", ":"))
+    canonical = json.dumps(json.loads(source), separators=(",", ":"))
     return "sha256:" + sha256(canonical.encode("ascii")).hexdigest()
 
 

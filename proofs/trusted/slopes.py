@@ -70,8 +70,8 @@ class SlopeRange(Conclusion):
     pieces: tuple[Range, ...]
 
     def __post_init__(self) -> None:
-        if not increasing(self.points):
-            raise Unproved("points must be in order")
+        if len(self.points) < 2 or not increasing(self.points):
+            raise Unproved("two points, or more, are expected in order")
         if not 0 <= self.points[0] <= TURN or self.points[-1] - self.points[0] >= TURN:
             raise Unproved("points of one turn are expected")
 

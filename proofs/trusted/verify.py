@@ -113,7 +113,8 @@ def premises(source: str) -> Context:
 def _premises(document: Reader) -> Context:
     schema, parameters_of, functions_of, steps_of, _ = document.fields(*FIELDS)
     if schema.string() != SCHEMA:
-        raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}")
+        again = "`python -m proofs ledger --fresh` makes those of a folder of reports anew"
+        raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}; {again}")
     context = Context(subject_from_json(parameters_of))
     for name, each in functions_of.members():
         from proofs.trusted.kernel.maps import read_map  # that few files have

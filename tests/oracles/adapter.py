@@ -45,6 +45,8 @@ def plain(value, share=0):
     """Numbers, texts, tuples of them, and records in the place of the project's classes."""
     if value is None or isinstance(value, str | int | float | Fraction | frozenset):
         return value
+    if any(kind.__name__ == "Tree" for kind in type(value).__mro__):
+        return str(value)
     if isinstance(value, list | tuple):
         return tuple(plain(part, share) for part in value)
     if is_dataclass(value):

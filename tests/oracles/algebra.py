@@ -11,8 +11,9 @@ from proofs.trusted.kernel.values import Equal, Series
 def agrees(lemma: Equal | Series) -> bool:
     """Whether sympy proves a lemma."""
     if isinstance(lemma, Equal):
-        return equal(lemma.left, lemma.right)
-    return begins(lemma.function, lemma.variable, lemma.coefficients)
+        return equal(*map(str, lemma.formulas))
+    coefficients = tuple(map(str, lemma.coefficients))
+    return begins(str(lemma.function), str(lemma.variable), coefficients)
 
 
 def equal(left: str, right: str) -> bool:

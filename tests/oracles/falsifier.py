@@ -141,9 +141,10 @@ def needed(steps: dict[str, Any], names: list[str]) -> dict[str, Any]:
 
 
 def place(value: Any, chance: random.Random) -> tuple:
-    """A path to a list or a string inside, as likely near the root as deep."""
+    """A path to a list, an object or a string inside, as likely near the root as deep."""
     inner = list(value) if isinstance(value, dict) else range(len(value))
-    if isinstance(value, str) or not inner or (isinstance(value, list) and chance.random() < 0.3):
+    stay = {list: 0.3, dict: 0.05}.get(type(value), 1)
+    if not inner or chance.random() < stay:
         return ()
     key = chance.choice(inner)
     return (
@@ -159,8 +160,41 @@ def number(text: Any) -> Fraction | None:
         return None
 
 
+def edit_object(value: dict, chance: random.Random) -> dict:
+    """The same members in another order, one less, one under another name, two exchanged."""
+    names, kind = list(value), chance.randrange(4)
+    one, two = chance.choice(names), chance.choice(names)
+    if kind == 0:
+        chance.shuffle(names)
+        return {name: value[name] for name in names}
+    if kind == 1:
+        return {name: x for name, x in value.items() if name != one}
+    if kind == 2:
+        return {chance.choice((f"{one}1", two)) if x == one else x: y for x, y in value.items()}
+    return {**value, one: value[two], two: value[one]}
+
+
+def edit_formula(text: str, chance: random.Random) -> str:
+    """The same function in other words, as often another one."""
+    same = f"-(-({text}))", f"at({text}, truth=1)", f"({text})*1", f"{text} + 0", f"1/(1/({text}))"
+    other = (
+        f"-({text})",
+        f"({text})*2",
+        f"D({text}, epsilon)",
+        text.replace(" + ", " - ", 1),
+        text.replace("sin(", "cos(", 1),
+        re.sub(r"[a-z]+\b(?!\()", lambda name: chance.choice(("nu", name[0])), text),
+    )
+    return chance.choice(same if chance.random() < 0.5 else other)
+
+
 def edit_list(value: list, chance: random.Random) -> list:
-    """The same list in another order, an entry more, less, or twice; a pair wider or narrower."""
+    """The same list in another order, an entry more, less, or twice; a pair wider or narrower.
+
+    A pair may become a point; all of a list may be gone.
+    """
+    if chance.random() < 0.03:
+        return []
     value, kind = list(value), chance.randrange(5)
     pair = [number(each) for each in value]
     if len(value) == 2 and None not in pair and chance.random() < 0.75:
@@ -190,8 +224,10 @@ def edit_text(text: str, chance: random.Random) -> str:
     value = number(text)
     if value is None:
         numbers = list(re.finditer(r"(?<![A-Za-z_])\d+", text)) if "-" not in text[1:2] else []
-        if not numbers or chance.random() < 0.3:
-            return f"({text})*2" if numbers else text
+        if re.search(r"[*(+]", text) and chance.random() < 0.6:
+            return edit_formula(text, chance)
+        if not numbers:
+            return text
         one = chance.choice(numbers)
         return text[: one.start()] + str(chance.randint(1, 5)) + text[one.end() :]
     small = Fraction(chance.choice((-1, 1)), 10 ** chance.choice((2, 4, 6, 9, 12, 20, 30)))
@@ -279,8 +315,9 @@ def _put(value: Any, path: tuple, chance: random.Random) -> None:
     for key in path[:-1]:
         value = value[key]
     old = value[path[-1]]
-    if isinstance(old, list | str):
-        value[path[-1]] = (edit_list if isinstance(old, list) else edit_text)(old, chance)
+    edits = {list: edit_list, dict: edit_object, str: edit_text}
+    if type(old) in edits and old:
+        value[path[-1]] = edits[type(old)](old, chance)
 
 
 # -- judging ---------------------------------------------------------------------------------------

@@ -62,23 +62,14 @@ def system_of_record(flight):
     """The same of a record that `adapter.view` made: from what its sentence says."""
     formulas, count = flight.formulas, len(flight.gaps)
     variables, time = formulas.variables[: flight.state], formulas.variables[flight.state]
-    texts = formulas.texts[:count], formulas.texts[count:]
-    motions = tuple(_motion(said, time) for said in flight.motions)
+    texts = formulas.trees[:count], formulas.trees[count:]
+    motions = tuple(Motion(name, right, tuple(start)) for name, _, right, start in flight.motions)
     return System(variables, time, motions, *texts, parameters_in(formulas.given))
 
 
-def _motion(said, time):
-    """Read `D(y, t, t) = -g with y = 0, D(y, t) = v at t = 0`."""
-    rate, said = said.removesuffix(f" at {time} = 0").split(" = ", 1)
-    equation, starts = said.split(" with ")
-    name = re.match(r"D\((\w+),", rate)[1]
-    parts = re.split(rf"(?:^|, )(?:{name}|D\({name}(?:, {time})+\)) = ", starts)[1:]
-    return Motion(name, equation, tuple(parts))
-
-
 def parameters_in(given):
-    """The parameters in `, g = 0.1, for every e in [0.5, 0.6], phi modulo 2*pi`."""
-    found = re.findall(r", (?:for every )?(\w+) (?:= ([^,]+)|in \[([^,]+), ([^\]]+)\])", given)
+    """The parameters in ", `g` = 0.1, for all `e` in [0.5, 0.6], `phi` modulo `2*pi`"."""
+    found = re.findall(r", (?:for all )?`(\w+)` (?:= ([^,]+)|in \[([^,]+), ([^\]]+)\])", given)
     return {name: (Fraction(x or low), Fraction(x or high)) for name, x, low, high in found}
 
 

@@ -20,7 +20,7 @@ def values(function, point):
     if function.kind == "Flight":
         return [flint.arb(float(x)) for x in simulated(function).fly(column(point))[:-1, 0]]
     env = dict(zip(function.variables, point, strict=True)) | parameters(function)
-    return [compiled(text)[0](env) for text in function.texts]
+    return [compiled(text)[0](env) for text in function.trees]
 
 
 def matrix(function, point):

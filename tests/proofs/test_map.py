@@ -74,7 +74,7 @@ def test_parameters_in_a_range():
     found = accepted(Map("r*x*(1 - x)", r=("3.19", "3.21")).orbits(1, box={"x": ("0.2", "1")}))
     (box,) = found[-1].box
     assert all(box[0] <= 1 - 1 / r <= box[1] for r in (3.19, 3.2, 3.21))
-    assert "for every r in [3.19, 3.21]" in found[-1].sentence
+    assert "for all `r` in [3.19, 3.21]" in found[-1].sentence
 
 
 def test_angles():

@@ -20,6 +20,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.solutions import solution
+from proofs.trusted.kernel.trees import formula
 from proofs.trusted.kernel.values import Equal, Series, equal
 from proofs.trusted.numbers import Range
 from proofs.trusted.rules import Rule
@@ -55,10 +56,10 @@ def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter
     nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
     name = file.solution(
         {name: derive.write(value) for name, value in found.items()},
-        *(Equal(each, "0") for each in (*form.map.fixed, form.condition())),
-        *(Series(each, "h", nought, nonzero) for each in sides),
-        Equal(form.criticality, "critical"),
-        Equal(form.speed(parameter), "speed"),
+        *(Equal.read(each, "0") for each in (*form.map.fixed, form.condition())),
+        *(Series.read(each, "h", nought, nonzero) for each in sides),
+        Equal.read(form.criticality, "critical"),
+        Equal.read(form.speed(parameter), "speed"),
     )
     _confirm(file, name, solution)
 
@@ -188,7 +189,7 @@ def prove_enclosure(
 
 def _bounds(file: Lemmas, text: str, box: Mapping[str, Range], digits: int) -> Range:
     """Add bounds on a formula on a box; return them."""
-    free = read_formulas(Reader(text)).free()
+    free = formula(text).free
     sides = {name: ends for name, ends in box.items() if name in free}
     return file.bounds(text, digits, (digits + _SPARE_DIGITS) * 4, **sides)
 

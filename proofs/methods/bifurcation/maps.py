@@ -15,7 +15,9 @@ from typing import Any
 
 from proofs.methods import derive
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.kernel.formulas import read_formulas, read_function, spelled
+from proofs.trusted.kernel import trees
+from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.solutions import implicit_derivative
 
 Rows = list[list[str]]  # a matrix of formulas
@@ -30,14 +32,10 @@ def formula(text: str) -> str:
         return f"({fraction(match[1])})"
 
     typed = _DECIMAL.sub(exact, "".join(text.split())).replace("^", "**")
-    canonical = spelled(typed)
     try:
-        if "".join(canonical.split()) != typed:
-            raise ValueError("a character that is in no formula")
-        read_formulas(Reader(canonical))
+        return str(trees.formula(typed))
     except ValueError as error:
         raise ValueError(f"{str(error).removeprefix('$: ')}, in {text[:60]!r}") from None
-    return canonical
 
 
 def image_of(variable: str) -> str:
@@ -67,7 +65,7 @@ class Map:
             sides = formula(left), formula(right)
             for side in reversed(sides) if sides[1].isidentifier() else sides:
                 names += read_formulas(Reader(side)).variables
-            equations.append(sides[0] if sides[1] == "0" else spelled(f"{sides[0]}-({sides[1]})"))
+            equations.append(sides[0] if sides[1] == "0" else formula(f"{sides[0]}-({sides[1]})"))
         try:  # with names that the checker takes for variables
             read_function("F", Reader({"variables": sorted({*names}), "values": equations}))
         except Malformed as error:
@@ -82,8 +80,8 @@ class Map:
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """All other names, in alphabetical order."""
-        names = read_formulas(*map(Reader, self.equations)).free()
-        return tuple(sorted(names - {*self.state, *self.images}))
+        names = read_formulas(*map(Reader, self.equations)).variables
+        return tuple(x for x in names if x not in (*self.state, *self.images))
 
     def with_numbers(self, **values: str) -> Map:
         """Return the map with numbers in the place of some parameters."""
@@ -148,11 +146,7 @@ class Map:
     @cached_property
     def jacobian_at_rest(self) -> Any:
         """The Jacobian at fixed points."""
-        return self.jacobian_at({})
-
-    def jacobian_at(self, point: Mapping[str, Any]) -> Any:
-        """Return the Jacobian at a fixed point, given by expressions of sympy by name."""
-        return self._jacobian(self.at_rest(point))
+        return self._jacobian(self.at_rest({}))
 
     def at_rest(self, point: Mapping[str, Any]) -> dict[str, Any]:
         """Return the expressions of a fixed point, by name, and the same for its image."""

@@ -29,7 +29,6 @@ _PERIODS = 1  # m
 _HIGHEST = 9.0  # rho
 _POINTS = 60
 _BITS = 64
-_UNUSED = Fraction(0)
 _LATEST = Fraction("1.57")  # of u, a little below pi/2
 _FOCUS = ("2*(1 - epsilon)**2/(1 + epsilon)", "2*(1 + epsilon)")  # alpha where the kind changes
 
@@ -41,8 +40,7 @@ def values(formula: str, points: Sequence[Mapping[str, Fraction]]) -> list[float
     """
     read, found = read_formulas(Reader(formula)), []
     for inputs in points:
-        used = [inputs.get(name, _UNUSED) for name in read.variables]  # others are replaced
-        point = [rational(value, _BITS) for value in used]
+        point = [rational(inputs[name], _BITS) for name in read.variables]
         try:
             low, high = read.values(point)[0].range
             found.append(float(low + high) / 2)
@@ -82,7 +80,7 @@ def witnesses(proved: Context) -> list[tuple[float, float]]:
         row = find(claim)
         for need in () if row is None else row.needs:
             if isinstance(need, Asked) and any(need.met_by(value) for value in known):
-                point = dict(need.box)
+                point = {variable.name: side for variable, side in need.box}
                 if {"epsilon", "rho"} <= point.keys():
                     found.add((float(point["epsilon"][0]), float(point["rho"][0])))
     return sorted(found)

@@ -68,9 +68,9 @@ class Arc(Conclusion):
         )
         shown = "; ".join(box_text(point, names) for point in self.points)
         return (
-            f"for {self.function.definition}: the zeros of {self.function.name} in a chain of "
-            f"{len(self.pieces)} slanted boxes, from {first} to {last}, are the graph of a smooth "
-            f"function of {names[self.axis]} in {show_range(ends)}"
+            f"for {self.function.definition}: the zeros of `{self.function.name}` in a chain "
+            f"of {len(self.pieces)} slanted boxes, from {first} to {last}, are the graph of a "
+            f"smooth function of `{names[self.axis]}` in {show_range(ends)}"
             + (f", which passes {shown}." if shown else ".")
         )
 

@@ -101,9 +101,10 @@ class LocalMap:
     @property
     def label(self) -> str:
         """The iterate, and how many periods are taken off."""
-        name = self.map.name if self.power == 1 else f"the iterate {self.map.name}^{self.power}"
+        name = f"`{self.map.name}`"
+        name = name if self.power == 1 else f"the iterate {name}^{self.power}"
         lifts = [
-            f"{self.map.variables[circle.place]} less {turns} periods"
+            f"`{self.map.variables[circle.place]}` less {turns} periods"
             for circle, turns in zip(self.map.circles, self.turns, strict=True)
             if turns
         ]

@@ -48,7 +48,7 @@ class PeriodicOrbit(Conclusion):
         """Return the statement."""
         map_, place = self.function, box_text(self.box, self.function.variables)
         turned = [
-            f"{map_.variables[circle.place]} having increased by {turns} periods"
+            f"`{map_.variables[circle.place]}` having increased by {turns} periods"
             for circle, turns in zip(map_.circles, self.turns, strict=True)
         ]
         orbit = (

@@ -243,10 +243,10 @@ def shown(box: Sequence[Range]) -> str:
 
 
 def box_text(box: Sequence[Range], variables: Sequence[str] = ()) -> str:
-    """Write a box: x = 1/2, y in [0, 1]; without names [1/2, 1/2] x [0, 1]."""
+    """Write a box: `x` = 1/2, `y` in [0, 1]; without names [1/2, 1/2] x [0, 1]."""
     if not variables:
         return " x ".join(map(show_range, box))
     return ", ".join(
-        f"{name} = {show(ends[0])}" if ends[0] == ends[1] else f"{name} in {show_range(ends)}"
+        f"`{name}` = {show(ends[0])}" if ends[0] == ends[1] else f"`{name}` in {show_range(ends)}"
         for name, ends in zip(variables, box, strict=True)
     )

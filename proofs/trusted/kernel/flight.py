@@ -18,7 +18,6 @@ where all gaps are > 0 in between, and the others at the impact too.
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -34,11 +33,18 @@ from proofs.trusted.kernel.formulas import (
     Circle,
     Formulas,
     Placer,
-    names_in,
 )
 from proofs.trusted.kernel.gaps import stays_up
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.normalform import NormalForms, plus
+from proofs.trusted.kernel.trees import (
+    Derivative,
+    Operation,
+    Power,
+    Tree,
+    Variable,
+    read_tree,
+)
 from proofs.trusted.numbers import Range, between, show
 
 LATEST = Fraction(1024)
@@ -57,17 +63,36 @@ class Gap(NamedTuple):
     order: int
 
 
+class Motion(NamedTuple):
+    """A motion as it is read, and the place of its form."""
+
+    name: str
+    form: int
+    equation: Tree
+    start: tuple[Tree, ...]
+
+    def said(self, time: str) -> str:
+        """Write the equation and the start."""
+        n = len(self.start)
+        name = Variable(self.name)
+        rates = [name, *(Derivative((time,) * k, (name,)) for k in range(1, n + 1))]
+        start = ", ".join(
+            f"`{rate}` = `{each}`" for rate, each in zip(rates, self.start, strict=False)
+        )
+        return f"`{rates[n]}` = `{self.equation}` with {start} at `{time}` = 0"
+
+
 @dataclass(frozen=True, eq=False)
 class Flight:
     """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
 
-    motions: what is printed of them.
+    motions: the equations that the forms solve.
     """
 
     formulas: Formulas
     state: int
     gaps: tuple[Gap, ...]
-    motions: tuple[str, ...]
+    motions: tuple[Motion, ...]
     _windows: list[tuple[list[Enclosure], Range]] = field(default_factory=list)
     _last: list[tuple[list[Enclosure], Enclosure]] = field(default_factory=list)
 
@@ -104,13 +129,13 @@ class Flight:
     def definition(self) -> str:
         """Write F(x, ...) = ... at the first t > 0 where gap = 0, and what the motion is."""
         time, count = self.formulas.variables[self.state], len(self.gaps)
-        first, *others = self.formulas.texts[:count]
-        values = ", ".join(self.formulas.texts[count:])
+        first, *others = (f"`{gap}`" for gap in self.formulas.trees[:count])
+        values = ", ".join(map(str, self.formulas.trees[count:]))
         walls = f" and {', '.join(others)} > 0 after launch until it" if others else ""
-        motions = "; ".join(self.motions)
+        motions = "; ".join(motion.said(time) for motion in self.motions)
         return (
-            f"{self.name}({', '.join(self.variables)}) = ({values}) at the first {time} > 0 where "
-            f"{first} = 0{walls}; {motions}{self.formulas.given}"
+            f"`{self.name}({', '.join(self.variables)}) = ({values})` at the first `{time}` > 0 "
+            f"where {first} = 0{walls}; {motions}{self.formulas.given}"
         )
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
@@ -272,69 +297,49 @@ def read_flight(name: str, reader: Reader) -> Flight:
     orders = {motion.name: len(motion.start) for motion in motions}
     for motion in motions:
         _require_solution(placer, time, motion, orders)
-    gaps, values = gaps_of.items(1, _MOST_GAPS), values_of.items(1, MAX_VALUES)
-    left = tuple(_gap(placer, time, each) for each in gaps)
+    gaps = [read_tree(each) for each in gaps_of.items(1, _MOST_GAPS)]
+    values = [read_tree(each) for each in values_of.items(1, MAX_VALUES)]
+    left = tuple(_gap(placer, time, *each) for each in zip(gaps, gaps_of.items(), strict=True))
     formulas = head.formulas(name, placer, [*gaps, *values])
     roots, count = formulas.roots, len(gaps)
     require_periods(reader, formulas, roots[count:], roots[:count])
-    said = tuple(motion.said(time) for motion in motions)
-    return Flight(formulas, len(head.state), left, said)
+    return Flight(formulas, len(head.state), left, tuple(motions))
 
 
-class _Motion(NamedTuple):
-    """A motion as it is read, and the place of its form."""
-
-    name: str
-    form: int
-    equation: Reader
-    start: list[Reader]
-
-    def said(self, time: str) -> str:
-        """Write the equation and the start."""
-        n = len(self.start)
-        rates = [self.name, *(f"D({', '.join([self.name] + [time] * k)})" for k in range(1, n + 1))]
-        start = ", ".join(
-            f"{rate} = {each.string()}" for rate, each in zip(rates, self.start, strict=False)
-        )
-        return f"{rates[n]} = {self.equation.string()} with {start} at {time} = 0"
-
-
-def _read_form(placer: Placer, time: str, reader: Reader) -> _Motion:
+def _read_form(placer: Placer, time: str, reader: Reader) -> Motion:
     name_of, form_of, equation, start_of = reader.fields("name", "form", "equation", "start")
     name = name_of.string()
     require_name(name_of, name)
     if name in placer.places:
         raise name_of.fail(f"a name that is there twice: {name!r}")
-    placer.places[name] = form = placer.read(form_of)
+    placer.places[name] = form = placer.place(read_tree(form_of))
     placer.solutions.add(name)
-    return _Motion(name, form, equation, start_of.items(1, _MOST_ORDERS))
+    start = tuple(read_tree(each) for each in start_of.items(1, _MOST_ORDERS))
+    return Motion(name, form, read_tree(equation), start)
 
 
-def _require_solution(
-    placer: Placer, time: str, motion: _Motion, orders: Mapping[str, int]
-) -> None:
-    """Raise Malformed unless a form solves its equation and starts as it says.
+def _require_solution(placer: Placer, time: str, motion: Motion, orders: Mapping[str, int]) -> None:
+    """Raise Unproved unless a form solves its equation and starts as it says.
 
     Theorem. The right side is a smooth function of the unknowns, continuous in t, wherever it is
     defined: so its solution is unique (Picard and Lindelof). The form is one: the normal forms of
     both sides are the same, as are those of its derivatives at t = 0 and the start; all of these
     become parts, so they are proved defined wherever the flight is followed.
     """
-    tape, equation = placer.tape, motion.equation
-    right = placer.read(equation)
-    _require_explicit(equation, ast.parse(equation.string(), mode="eval").body, time, orders)
+    tape, right = placer.tape, placer.place(motion.equation)
+    _require_explicit(motion.equation, time, orders)
     rate, clock = motion.form, placer.places[time]
-    for start_of in motion.start:
-        start = placer.read(start_of)
-        if names_in(ast.parse(start_of.string())) & {time, *orders}:
-            raise start_of.fail("a start does not depend on the time, nor on motions")
+    for tree in motion.start:
+        start = placer.place(tree)
+        if tree.free & {time, *orders}:
+            raise Unproved("a start does not depend on the time, nor on motions")
         placer.parts += rate, start
         if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
-            raise start_of.fail(f"the form of {motion.name} is not proved to start so")
+            raise Unproved(f"the form of {motion.name} is not proved to start so")
         rate = tape.derivative(rate, int(tape.nodes[clock].datum))
     placer.parts += rate, right
     if not _equal(tape, rate, right):
-        raise equation.fail(f"the form of {motion.name} is not proved to solve this equation")
+        raise Unproved(f"the form of {motion.name} is not proved to solve this equation")
 
 
 def _equal(tape: Tape, one: int, two: int) -> bool:
@@ -344,43 +349,37 @@ def _equal(tape: Tape, one: int, two: int) -> bool:
     return forms.is_zero(plus(left, right, -1))
 
 
-def _require_explicit(reader: Reader, node: ast.AST, time: str, orders: Mapping[str, int]) -> None:
-    """Raise Malformed unless the unknowns occur as y, D(y, t), ..., below their orders alone.
+def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
+    """Raise Unproved unless the unknowns occur as y, D(y, t), ..., below their orders alone.
 
     And not in divisors, roots, logarithms, so that the formula is smooth in them.
     """
-
-    def unknown(part: ast.AST) -> bool:
-        return not names_in(part).isdisjoint(orders)
-
-    match node:
-        case ast.Call(func=ast.Name(id="D"), args=[ast.Name(id=name), *by]) if name in orders:
-            is_explicit = len(by) < orders[name] and all(
-                isinstance(each, ast.Name) and each.id == time for each in by
-            )
-        case ast.Call(func=ast.Name(id="sin" | "cos" | "exp"), args=[argument]):
-            return _require_explicit(reader, argument, time, orders)
-        case ast.Call():
-            is_explicit = not unknown(node)
-        case ast.BinOp(op=ast.Div(), left=left, right=right):
-            _require_explicit(reader, left, time, orders)
-            is_explicit = not unknown(right)
-        case ast.BinOp(op=ast.Pow(), left=base, right=exponent):
-            _require_explicit(reader, base, time, orders)
-            is_explicit = isinstance(exponent, ast.Constant) or not unknown(base)
+    if not tree.free & {*orders}:
+        return
+    parts: tuple[Tree, ...] = ()
+    match tree:
+        case Variable():
+            is_explicit = True
+        case Derivative(by=by, parts=(Variable(name=name),)):
+            is_explicit = name in orders and len(by) < orders[name] and {*by} == {time}
+        case Operation(op="/", parts=(top, bottom)):
+            is_explicit, parts = not bottom.free & {*orders}, (top,)
+        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp"):
+            is_explicit, parts = True, tree.parts
+        case Power(exponent=n):
+            is_explicit, parts = n > 0, tree.parts
         case _:
-            for part in ast.iter_child_nodes(node):
-                _require_explicit(reader, part, time, orders)
-            return None
+            is_explicit = False
     if not is_explicit:
-        raise reader.fail("unknowns of lower order alone, in no divisor, root or logarithm")
-    return None
+        raise Unproved("unknowns of lower order alone, in no divisor, root or logarithm")
+    for part in parts:
+        _require_explicit(part, time, orders)
 
 
-def _gap(placer: Placer, time: str, reader: Reader) -> Gap:
+def _gap(placer: Placer, time: str, tree: Tree, reader: Reader) -> Gap:
     """Return a gap with its derivatives, up to the first that is not 0 at launch for all states."""
     tape, clock = placer.tape, placer.places[time]
-    orders = [placer.read(reader)]
+    orders = [placer.place(tree)]
     while len(orders) < 3:
         orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
     for order in range(_MOST_ORDERS + 1):

@@ -45,8 +45,8 @@ class Graph(Conclusion):
         pairs = zip(self.covers, self.edges, strict=True)
         maps = {f"N{i + 1}": each.local.map.name for each, (i, _) in pairs}
         if len({*maps.values()}) == 1:
-            return self.covers[0].local.map.name
-        return f"the map that is {', '.join(f'{name} on {node}' for node, name in maps.items())}"
+            return f"`{self.covers[0].local.map.name}`"
+        return f"the map that is {', '.join(f'`{name}` on {node}' for node, name in maps.items())}"
 
     @property
     def sentence(self) -> str:

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import Enclosures
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.formulas import (
     FUNCTION_NAME,
+    MAX_VALUES,
     MAX_VARIABLES,
-    VARIABLE,
-    WORDS,
     Circle,
     Formulas,
     Placer,
 )
 from proofs.trusted.kernel.normalform import NormalForms, Polynomial, plus
+from proofs.trusted.kernel.trees import Tree, is_name, read_tree
 from proofs.trusted.numbers import Range, show, show_range
 
 _OPTIONAL = ("parameters", "periods")
@@ -37,7 +37,7 @@ class Head(NamedTuple):
     time: tuple[str, ...]
     numbers: Mapping[str, Fraction]
     ranges: Mapping[str, Range]
-    periods: Mapping[str, Reader]
+    periods: Mapping[str, Tree]
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -47,9 +47,9 @@ class Head(NamedTuple):
     @property
     def given(self) -> str:
         """Write the parameters, and the periods of angles."""
-        values = [f"{name} = {show(value)}" for name, value in self.numbers.items()]
-        values += [f"for every {name} in {show_range(ends)}" for name, ends in self.ranges.items()]
-        values += [f"{name} modulo {period.string()}" for name, period in self.periods.items()]
+        values = [f"`{name}` = {show(value)}" for name, value in self.numbers.items()]
+        values += [f"for all `{name}` in {show_range(ends)}" for name, ends in self.ranges.items()]
+        values += [f"`{name}` modulo `{period}`" for name, period in self.periods.items()]
         return "".join(f", {value}" for value in values)
 
     def placer(self) -> Placer:
@@ -59,28 +59,23 @@ class Head(NamedTuple):
         numbers = {name: tape.number(value) for name, value in self.numbers.items()}
         return Placer(tape, places | numbers, [])
 
-    def _written(self, period: Reader) -> tuple[str, ...]:
-        words = re.findall(r"\w+", period.string())
-        return period.string(), *(f"{w} = {self.numbers[w]}" for w in words if w in self.numbers)
+    def _circle(self, placer: Placer, angle: str, period: Tree) -> Circle:
+        tape, root = placer.tape, placer.place(period)
+        if any(tape.nodes[place].op == "variable" for place in tape.order((root,))):
+            raise Unproved(f"a period is a number, and that of {angle} is none")
+        (value,) = tape.evaluate((root,), Enclosures(_BITS), ())
+        if value.lo <= 0:
+            raise Unproved(f"a period is positive, and that of {angle} is not")
+        values = (f"{name} = {self.numbers[name]}" for name in sorted(period.free))
+        return Circle(self.state.index(angle), root, (str(period), *values))
 
-    def formulas(self, name: str, placer: Placer, readers: Sequence[Reader]) -> Formulas:
-        """Read functions of the variables, the periods last, from one tape."""
-        roots = tuple(placer.read(reader) for reader in readers)
-        circles = tuple(
-            Circle(self.state.index(angle), placer.read(period), self._written(period))
-            for angle, period in self.periods.items()
-        )
-        for circle, period in zip(circles, self.periods.values(), strict=True):
-            needed = placer.tape.order((circle.root,))
-            if any(placer.tape.nodes[place].op == "variable" for place in needed):
-                raise period.fail("a period is a number")
-            (value,) = placer.tape.evaluate((circle.root,), Enclosures(_BITS), ())
-            if value.lo <= 0:
-                raise period.fail("a period is positive")
-        tape, texts = placer.tape, tuple(each.string() for each in readers)
+    def formulas(self, name: str, placer: Placer, trees: Sequence[Tree]) -> Formulas:
+        """Put functions of the variables on one tape, the periods last."""
+        roots, tape = tuple(map(placer.place, trees)), placer.tape
+        circles = tuple(self._circle(placer, *each) for each in self.periods.items())
         parts = tuple(part for part in dict.fromkeys(placer.parts) if tape.may_fail(part))
         ranges = tuple(self.ranges.values())
-        head = Formulas(self.variables, texts, tape, roots, parts, name, ranges)
+        head = Formulas(self.variables, tuple(trees), tape, roots, parts, name, ranges)
         return replace(head, circles=circles, given=self.given)
 
 
@@ -106,12 +101,26 @@ def read_head(name: str, reader: Reader) -> Head:
     for each, period in periods.items():
         if each not in state:
             raise period.fail(f"a period of what is no variable: {each[:30]!r}")
-    return Head(state, time, numbers, ranges, periods)
+    trees = {each: read_tree(period) for each, period in periods.items()}
+    return Head(state, time, numbers, ranges, trees)
+
+
+def read_function(name: str, reader: Reader) -> Formulas:
+    """Read a formula: {variables, values}, and perhaps parameters and periods."""
+    _, values_of, *_ = reader.fields("variables", "values", *optional(reader))
+    head = read_head(name, reader)
+    trees = [read_tree(each) for each in values_of.items(1, MAX_VALUES)]
+    try:
+        formulas = head.formulas(name, head.placer(), trees)
+    except Unproved as error:
+        raise values_of.fail(str(error)) from None
+    require_periods(reader, formulas, formulas.roots)
+    return replace(formulas, variables=head.state)
 
 
 def require_name(reader: Reader, name: str, is_parameter: bool = False) -> None:
     """Raise Malformed unless a name is one of a variable: parameters alone are named `e`."""
-    if name in WORDS or (name == "e" and not is_parameter) or not VARIABLE.fullmatch(name):
+    if not (is_name(name) and name[0].islower() and (is_parameter or name != "e")):
         raise reader.fail(f"not a name for a variable: {name[:30]!r}")
 
 

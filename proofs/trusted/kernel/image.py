@@ -28,8 +28,8 @@ class Image(Conclusion):
         place = box_text(self.box, self.function.variables)
         values = ", ".join(map(show_range, self.bounds))
         return (
-            f"for {self.function.definition}: {self.function.name} is defined for {place}, and its "
-            f"values are in {values}."
+            f"for {self.function.definition}: `{self.function.name}` is defined for {place}, and "
+            f"its values are in {values}."
         )
 
 

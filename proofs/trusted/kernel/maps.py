@@ -8,7 +8,7 @@ has `time`, `motion` and `gaps` as well (see `flight`), a composition if it has 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 from typing import Protocol
 
@@ -16,8 +16,8 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
-from proofs.trusted.kernel.formulas import FUNCTION_NAME, MAX_VALUES, Circle, read_function
-from proofs.trusted.kernel.head import optional, read_head, require_periods
+from proofs.trusted.kernel.formulas import FUNCTION_NAME, Circle
+from proofs.trusted.kernel.head import read_function
 
 _MOST_MAPS = 20
 
@@ -67,9 +67,9 @@ class Composition:
     @property
     def definition(self) -> str:
         """Write which maps follow each other, and what they are."""
-        names = ", then ".join(each.name for each in self.maps)
+        names = ", then ".join(f"`{each.name}`" for each in self.maps)
         known = {each.name: each.definition for each in self.maps}
-        return f"{self.name} = {names}, where {'; '.join(known.values())}"
+        return f"`{self.name}` is {names}, where {'; '.join(known.values())}"
 
     def periods(self, bits: int) -> dict[int, Enclosure]:
         """Enclose the periods."""
@@ -94,13 +94,7 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
         return _read_composition(name, reader, maps)
     if reader.has("gaps"):
         return read_flight(name, reader)
-    if not (more := optional(reader)):
-        return read_function(name, reader)
-    values = reader.fields("variables", "values", *more)[1].items(1, MAX_VALUES)
-    head = read_head(name, reader)
-    formulas = head.formulas(name, head.placer(), values)
-    require_periods(reader, formulas, formulas.roots)
-    return replace(formulas, variables=head.state)
+    return read_function(name, reader)
 
 
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:

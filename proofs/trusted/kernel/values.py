@@ -2,35 +2,69 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, attempts, box_text, decide, leaves
-from proofs.trusted.kernel.formulas import Formulas, read_formulas
+from proofs.trusted.kernel.formulas import Formulas, on_tape, read_formulas
 from proofs.trusted.kernel.normalform import NormalForms, number, plus, power
 from proofs.trusted.kernel.taylor import Taylor
+from proofs.trusted.kernel.trees import (
+    Number,
+    Operation,
+    Places,
+    Power,
+    Tree,
+    Variable,
+    bind,
+    formula,
+    read_tree,
+)
 from proofs.trusted.numbers import Range, show_range, within
 
 _MAX_ORDER = 12
-_UNUSED = (Fraction(0), Fraction(0))  # the side of a variable that is substituted away
+_UNUSED = ((Fraction(0), Fraction(0)),)  # the side of x where there is no variable
 
 
 @dataclass(frozen=True)
 class Equal(Conclusion):
     """left = right, at all real values of the variables at which all parts of both are defined."""
 
-    left: str
-    right: str
+    left: Tree
+    right: Tree
+
+    @classmethod
+    def read(cls, left: str, right: str) -> Equal:
+        """Return what two texts say."""
+        return cls(formula(left), formula(right))
+
+    @property
+    def formulas(self) -> tuple[Tree, ...]:
+        """All formulas in it."""
+        return self.left, self.right
+
+    def put(self, places: Places) -> Equal:
+        """Return it with formulas in the places of variables."""
+        return Equal(*(bind(each, places) for each in self.formulas))
+
+    def prove(self) -> None:
+        """Raise Unproved unless it holds by `formula-equal`."""
+        formulas = on_tape(*self.formulas)
+        forms = NormalForms(len(formulas.variables))
+        a, b = formulas.tape.evaluate(formulas.roots, forms, forms.inputs())
+        if not forms.is_zero(plus(a, b, -1)):
+            raise Unproved("the normal forms of the two sides differ")
 
     @property
     def sentence(self) -> str:
         """Return the equation."""
-        return f"{self.left} = {self.right}, wherever all parts of both sides are defined."
+        return f"`{self.left} = {self.right}`, wherever all parts of both sides are defined."
 
 
 @dataclass(frozen=True)
@@ -41,21 +75,70 @@ class Series(Conclusion):
     formulas `nonzero` are not 0 and the parts of the coefficients are defined.
     """
 
-    function: str
-    variable: str
-    coefficients: tuple[str, ...]
-    nonzero: tuple[str, ...] = ()
+    function: Tree
+    variable: Variable
+    coefficients: tuple[Tree, ...]
+    nonzero: tuple[Tree, ...] = ()
+
+    @classmethod
+    def read(
+        cls, function: str, variable: str, coefficients: Sequence[str], nonzero: Sequence[str] = ()
+    ) -> Series:
+        """Return what texts say."""
+        lists = (tuple(map(formula, texts)) for texts in (coefficients, nonzero))
+        return cls(formula(function), Variable(variable), *lists)
+
+    @property
+    def formulas(self) -> tuple[Tree, ...]:
+        """All formulas in it."""
+        return self.function, *self.coefficients, *self.nonzero
+
+    def put(self, places: Places) -> Series:
+        """Return it with formulas in the places of variables, which x is not."""
+        if self.variable.name in dict(places):
+            raise Unproved("the variable of a series is no unknown")
+        function, *others = (bind(each, places) for each in self.formulas)
+        count = len(self.coefficients)
+        return Series(function, self.variable, tuple(others[:count]), tuple(others[count:]))
+
+    def prove(self) -> None:
+        """Raise Unproved unless it holds by `formula-series`."""
+        formulas, count = on_tape(*self.formulas), len(self.coefficients)
+        name, tape = self.variable.name, formulas.tape
+        if name not in self.function.free or any(name in x.free for x in self.formulas[1:]):
+            raise Unproved("the function, and no coefficient, depends on the variable of a series")
+        x = formulas.variables.index(name)
+        forms = NormalForms(len(formulas.variables))
+        roots = (*formulas.roots, *_divisors(formulas))
+        rest, *values = tape.evaluate(roots, forms, forms.inputs())
+        divisors = values[len(formulas.roots) - 1 :]
+        taylor = Taylor(forms, x, values[count : len(formulas.roots) - 1])
+        for divisor in divisors:
+            taylor.order(divisor)
+        for n, each in enumerate(values[:count]):
+            rest = plus(rest, forms.times(each, power(x, n) if n else number(1)), -1)
+        if not taylor.vanishes(rest, count):
+            raise Unproved("the series begins otherwise")
+
+    @property
+    def polynomial(self) -> Tree:
+        """What the series begins with."""
+        powers = [Power(n, (self.variable,)) if n > 1 else self.variable for n in range(_MAX_ORDER)]
+        terms = [
+            Operation("*", (each, powers[n])) if n else each
+            for n, each in enumerate(self.coefficients)
+            if each != Number(0)
+        ]
+        return reduce(lambda a, b: Operation("+", (a, b)), terms or [Number(0)])
 
     @property
     def sentence(self) -> str:
         """Return the series."""
-        terms = " + ".join(
-            f"({each})*{self.variable}**{n}" for n, each in enumerate(self.coefficients)
-        )
-        where = f" where {', '.join(self.nonzero)} are not 0" if self.nonzero else ""
+        where = ", ".join(f"`{each}`" for each in self.nonzero)
+        rest = Power(len(self.coefficients), (self.variable,))
         return (
-            f"{self.function} = {terms} + O({self.variable}**{len(self.coefficients)}) as "
-            f"{self.variable} -> 0{where}."
+            f"`{self.function} = {self.polynomial} + O({rest})` as `{self.variable}` -> 0"
+            f"{f' where {where} are not 0' if where else ''}."
         )
 
 
@@ -63,21 +146,20 @@ class Series(Conclusion):
 class Value(Conclusion):
     """The function and all its parts are defined on a box; its values there are in these bounds."""
 
-    function: str
-    box: tuple[tuple[str, Range], ...]
+    function: Tree
+    box: tuple[tuple[Variable, Range], ...]
     bounds: Range
 
     @property
     def sides(self) -> Mapping[str, Range]:
         """The sides of the box, by the names of the variables."""
-        return dict(self.box)
+        return {variable.name: side for variable, side in self.box}
 
     @property
     def sentence(self) -> str:
         """Return the bounds."""
-        names = list(self.sides)
-        where = f" for {box_text(list(self.sides.values()), names)}" if names else ""
-        return f"{self.function} lies in {show_range(self.bounds)}{where}."
+        where = f" for {box_text([*self.sides.values()], [*self.sides])}" if self.box else ""
+        return f"`{self.function}` lies in {show_range(self.bounds)}{where}."
 
 
 def equal(_: Context, reader: Reader) -> Equal:
@@ -87,38 +169,35 @@ def equal(_: Context, reader: Reader) -> Equal:
     which it has inverses, is 0. Conclusion: they are equal wherever all their parts are defined.
     Proof. There each operation on normal forms is one on complex numbers, no divisor being 0.
     """
-    left, right = reader.fields("left", "right")
-    formulas = read_formulas(left, right)
-    forms = NormalForms(len(formulas.variables))
-    a, b = formulas.tape.evaluate(formulas.roots, forms, forms.inputs())
-    if not forms.is_zero(plus(a, b, -1)):
-        raise Unproved("the normal forms of the two sides differ")
-    return Equal(*formulas.texts)
+    found = _equal(reader)
+    found.prove()
+    return found
 
 
 def value(_: Context, reader: Reader) -> Value:
     """Rule `formula-value`: {function, box: {variable: range}, tree, bounds}.
 
     Hypothesis: on each leaf of the tree, which divides the box (coordinates in the order of the
-    alphabet, among all names in the text), an enclosure of the function lies within the bounds, or
-    its exact value, the normal form, at a leaf that is a point. Conclusion: the function is defined
-    on the box, with the functions of which it takes derivatives, and lies within the bounds there.
+    alphabet), an enclosure of the function lies within the bounds, or its exact value, the normal
+    form, at a leaf that is a point. Conclusion: the function is defined on the box, with the
+    functions of which it takes derivatives, and lies within the bounds there.
     (Bounds of one sign are a sign, those of D(F, x) say that F is monotone or by how much it
     expands, and the value at a point refutes what it contradicts.)
     """
     function, box_of, tree, bounds_of = reader.fields("function", "box", "tree", "bounds")
     formulas = read_formulas(function)
     sides = {name: side.range() for name, side in sorted(box_of.members())}
-    if set(sides) != formulas.free():
+    if set(sides) != formulas.trees[0].free:
         raise box_of.fail("a side for each variable of the function is expected")
     bounds = bounds_of.range()
-    for leaf in leaves(tree, tuple(sides.get(name, _UNUSED) for name in formulas.variables)):
+    for leaf in leaves(tree, tuple(sides.values()) or _UNUSED):
         try:
             decide(formulas, leaf, lambda found: within(found[0].range, bounds))
         except Unproved:
             if not _exactly_within(formulas, leaf, bounds):
                 raise
-    return Value(function.string(), tuple(sides.items()), bounds)
+    box = tuple((Variable(name), side) for name, side in sides.items())
+    return Value(formulas.trees[0], box, bounds)
 
 
 def _exactly_within(formulas: Formulas, box: Box, bounds: Range) -> bool:
@@ -148,30 +227,32 @@ def series(_: Context, reader: Reader) -> Series:
     exponentials of monomials in x, so by 1 no divisor is 0 for small x other than 0: F is defined
     there, and F - C = P/Q, where P = O(x^(m+n)) and |Q| >= c |x|^m, c > 0.
     """
-    function, variable, coefficients_of, nonzero_of = reader.fields(
+    found = _series(reader)
+    found.prove()
+    return found
+
+
+def _series(reader: Reader) -> Series:
+    function_of, variable_of, *lists = reader.fields(
         "function", "variable", "coefficients", "nonzero"
     )
-    coefficients, nonzero = coefficients_of.items(1, _MAX_ORDER), nonzero_of.items(0, _MAX_ORDER)
-    formulas = read_formulas(function, *coefficients, *nonzero)
-    name, tape, count = variable.string(), formulas.tape, len(coefficients)
-    if name not in formulas.variables:
-        raise variable.fail("a variable of the function is expected")
-    x = formulas.variables.index(name)
-    if tape.add("variable", datum=Fraction(x)) in tape.order(formulas.roots[1:]):
-        raise variable.fail("coefficients do not depend on the variable of the series")
-    forms = NormalForms(len(formulas.variables))
-    roots = (*formulas.roots, *_divisors(formulas))
-    rest, *values = tape.evaluate(roots, forms, forms.inputs())
-    divisors = values[len(formulas.roots) - 1 :]
-    taylor = Taylor(forms, x, values[count : len(formulas.roots) - 1])
-    for divisor in divisors:
-        taylor.order(divisor)
-    for n, each in enumerate(values[:count]):
-        rest = plus(rest, forms.times(each, power(x, n) if n else number(1)), -1)
-    if not taylor.vanishes(rest, count):
-        raise Unproved("the series begins otherwise")
-    texts = formulas.texts
-    return Series(texts[0], name, texts[1 : count + 1], texts[count + 1 :])
+    function, variable = read_tree(function_of), read_tree(variable_of)
+    if not isinstance(variable, Variable):
+        raise variable_of.fail("a variable is expected")
+    coefficients, nonzero = (
+        tuple(map(read_tree, each.items(least, _MAX_ORDER)))
+        for each, least in zip(lists, (1, 0), strict=True)
+    )
+    return Series(function, variable, coefficients, nonzero)
+
+
+def _equal(reader: Reader) -> Equal:
+    return Equal(*map(read_tree, reader.fields("left", "right")))
+
+
+def read_lemma(reader: Reader) -> Equal | Series:
+    """Read an equation or a series."""
+    return _equal(reader) if reader.has("left") else _series(reader)
 
 
 def _divisors(formulas: Formulas) -> list[int]:

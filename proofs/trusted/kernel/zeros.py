@@ -26,6 +26,7 @@ from proofs.trusted.kernel.enclose import (
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.trees import Derivative, Tree, Variable
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.numbers import Range, hull, show_range, within
 
@@ -36,8 +37,8 @@ Rows = Sequence[Sequence[Fraction]]
 class Zero(Conclusion):
     """A function of one variable has a zero in a bracket; perhaps the only one in an interval."""
 
-    function: str
-    variable: str
+    function: Tree
+    variable: Variable
     interval: Range
     bracket: Range
     only: bool
@@ -45,7 +46,7 @@ class Zero(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the statement."""
-        place = f"{self.function} has a zero {self.variable} in {show_range(self.bracket)}"
+        place = f"`{self.function}` has a zero `{self.variable}` in {show_range(self.bracket)}"
         return (
             f"{place}, and no other in {show_range(self.interval)}." if self.only else f"{place}."
         )
@@ -63,7 +64,8 @@ class UniqueZero(Conclusion):
         """Return the statement."""
         box = box_text(self.box, self.function.variables)
         return (
-            f"for {self.function.definition} and {box}: {self.function.name} has exactly one zero."
+            f"for {self.function.definition} and {box}: `{self.function.name}` has exactly one "
+            "zero."
         )
 
 
@@ -103,10 +105,10 @@ def zero(context: Context, reader: Reader) -> Zero:
     formulas, step = read_formulas(function), context.step(value_of, Value)
     if len(step.box) != 1 or formulas.variables != tuple(step.sides):
         raise value_of.fail("a step about a function of this variable alone is expected")
-    text, bracket = function.string(), bracket_of.range()
+    (own,), bracket = formulas.trees, bracket_of.range()
     ((variable, interval),) = step.box
-    slope = f"D({text}, {variable})"
-    if step.function not in (text, slope):
+    slope = Derivative((variable.name,), (own,))
+    if step.function not in (own, slope):
         raise value_of.fail("the step is about another function")
     if not within(bracket, interval):
         raise bracket_of.fail("the bracket leaves the interval of the step")
@@ -114,7 +116,7 @@ def zero(context: Context, reader: Reader) -> Zero:
     if first == last:
         raise Unproved(f"the same sign at both ends of {show_range(bracket)}")
     only = step.function == slope and not step.bounds[0] <= 0 <= step.bounds[1]
-    return Zero(text, variable, interval, bracket, only)
+    return Zero(own, variable, interval, bracket, only)
 
 
 def unique_zero(context: Context, reader: Reader) -> UniqueZero:

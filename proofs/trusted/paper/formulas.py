@@ -1,6 +1,6 @@
 """What is proved about formulas, and claims that follow from it. Trusted, and shared.
 
-A formula is a text, as `proofs.trusted.kernel.formulas` reads it.
+What sentences say are the formulas of these statements, not those of a file.
 """
 
 from __future__ import annotations
@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.solutions import Expressions
+from proofs.trusted.kernel.trees import Places, Tree, Variable, formula
 from proofs.trusted.kernel.values import Equal, Series, Value
 from proofs.trusted.numbers import Range, between
 from proofs.trusted.parameters import Parameters
@@ -26,15 +25,15 @@ __all__ = ["Equal", "Series", "Value"]  # of the kernel, here too
 class Asked:
     """What a theorem asks about a formula on a box: bounds; with a sign, which is to be proved."""
 
-    function: str
-    box: tuple[tuple[str, Range], ...]
+    function: Tree
+    box: tuple[tuple[Variable, Range], ...]
     signs: tuple[int, ...] = (-1, 0, 1)
 
     def met_by(self, found: Conclusion) -> bool:
         """Whether a conclusion bounds the values, with one of the signs asked for."""
         if not isinstance(found, Value) or found.function != self.function:
             return False
-        if found.sides != dict(self.box):
+        if found.box != self.box:
             return False
         low, high = found.bounds
         return 0 in self.signs or (1 in self.signs and low > 0) or (-1 in self.signs and high < 0)
@@ -45,56 +44,59 @@ class Asked:
         return min(met, key=lambda ends: ends[1] - ends[0], default=None)
 
 
-def _point(places: dict[str, str]) -> tuple[tuple[str, Range], ...]:
-    return tuple((name, (Fraction(value), Fraction(value))) for name, value in places.items())
+def _point(places: dict[str, str]) -> tuple[tuple[Variable, Range], ...]:
+    sides = sorted((name, Fraction(value)) for name, value in places.items())
+    return tuple((Variable(name), (value, value)) for name, value in sides)
 
 
 def at(function: str, sign: int = 0, /, **point: str) -> Asked:
     """Ask for the value at an exact point, of a sign if that is not 0."""
-    return Asked(function, _point(point), (sign,) if sign else (-1, 0, 1))
+    return Asked(formula(function), _point(point), (sign,) if sign else (-1, 0, 1))
 
 
 def differ(printed: str, derived: str, /, **point: str) -> Asked:
     """Ask for a point at which two formulas have different values."""
-    return Asked(f"({printed}) - ({derived})", _point(point), (-1, 1))
+    return Asked(formula(f"({printed}) - ({derived})"), _point(point), (-1, 1))
 
 
 @dataclass(frozen=True)
 class Unknowns:
-    """What a theorem asks for: expressions in some variables that solve equations for unknowns."""
+    """What a theorem asks for: expressions in some variables that solve equations for unknowns.
+
+    given: what they are, where the theorem says it; else any will do.
+    """
 
     names: tuple[str, ...]
     variables: frozenset[str]
     lemmas: tuple[Equal | Series, ...]
+    given: Places = ()
 
-    def solved(self, found: Found) -> dict[str, str] | None:
-        """Return the expressions, None if none are proved."""
-        for each in found.all(Expressions):
-            texts = dict(each.expressions)
-            if (
-                each.lemmas == self.lemmas
-                and tuple(texts) == self.names
-                and all(read_formulas(Reader(x)).free() <= self.variables for x in texts.values())
-            ):
-                return texts
-        return None
+    def met_by(self, found: Conclusion) -> bool:
+        """Whether a conclusion has such expressions."""
+        return (
+            isinstance(found, Expressions)
+            and found.lemmas == self.lemmas
+            and tuple(name for name, _ in found.expressions) == self.names
+            and all(each.free <= self.variables for _, each in found.expressions)
+            and self.given in ((), found.expressions)
+        )
 
 
 def unknowns(
-    names: str, variables: str, *lemmas: Equal | Series, nonzero: tuple[str, ...] = ()
+    names: str,
+    variables: str,
+    *lemmas: Equal | Series,
+    nonzero: tuple[str, ...] = (),
+    given: str = "",
 ) -> Unknowns:
     """Ask for expressions for these names, in these variables, for which the lemmas hold.
 
     They are to be defined where the formulas `nonzero` are not 0: h times their sum is O(h) there.
     """
     parts = tuple(names.split())
-    defined = Series(f"h*({' + '.join(parts)})", "h", ("0",), nonzero)
-    return Unknowns(parts, frozenset(variables.split()), (defined, *lemmas))
-
-
-def spoken(formula: str) -> str:
-    """Write a formula as sentences do."""
-    return formula.replace("**", "^").replace("*", " ")
+    defined = Series.read(f"h*({' + '.join(parts)})", "h", ("0",), nonzero)
+    places = tuple(zip(parts, map(formula, given.split("; ")), strict=True)) if given else ()
+    return Unknowns(parts, frozenset(variables.split()), (defined, *lemmas), places)
 
 
 # -- theorems that follow from formulas ------------------------------------------------------------
@@ -149,18 +151,15 @@ class Derived:
     def prove(self, found: Found) -> Theorem | None:
         """Return the theorem, None if something that it needs is not proved."""
         known = {*found.all(Equal), *found.all(Series)}
-        expressions: dict[str, str] = {}
+        expressions: dict[str, Tree] = {}
         for need in self.needs:
-            if isinstance(need, Asked):
-                proved = need.best(found) is not None
-            elif isinstance(need, Unknowns):
-                texts = need.solved(found)
-                proved = texts is not None
-                expressions |= {name: spoken(text) for name, text in (texts or {}).items()}
-            else:
+            if isinstance(need, Equal | Series):
                 proved = need in known
+            else:
+                proved = any(map(need.met_by, found.here))
             if not proved:
                 return None
+            expressions |= dict(need.given) if isinstance(need, Unknowns) else {}
         bounds = [each for value in self.values if (each := value.best(found)) is not None]
         shown = [between(each) for each in bounds]
         reported = tuple(zip(self.reports, bounds, strict=False))

@@ -30,15 +30,15 @@ S9 = (
 )
 _AT_IMPACT = f"t=t0 + tau, x0={HEIGHT4}, v0={SPEED5}"
 _FLIGHT = (
-    Equal(f"D({X2}, t, t) + omega_n**2*({X2})", "0"),
-    Equal(f"at({X2}, t=t0)", "x0"),
-    Equal(f"D({X2}, t)", V3),
-    Equal(f"at({V3}, t=t0)", "v0"),
+    Equal.read(f"D({X2}, t, t) + omega_n**2*({X2})", "0"),
+    Equal.read(f"at({X2}, t=t0)", "x0"),
+    Equal.read(f"D({X2}, t)", V3),
+    Equal.read(f"at({V3}, t=t0)", "v0"),
 )
-RESTITUTION = Equal(f"-(({SPEED5}) - beta*omega*cos(a))/(v - beta*omega*cos(a))", "epsilon")
+RESTITUTION = Equal.read(f"-(({SPEED5}) - beta*omega*cos(a))/(v - beta*omega*cos(a))", "epsilon")
 _LAUNCH = (
-    Equal(f"at({TABLE}, t=a/omega)", HEIGHT4),
-    Equal(f"at(D({TABLE}, t), t=a/omega)", "beta*omega*cos(a)"),
+    Equal.read(f"at({TABLE}, t=a/omega)", HEIGHT4),
+    Equal.read(f"at(D({TABLE}, t), t=a/omega)", "beta*omega*cos(a)"),
     RESTITUTION,
 )
 
@@ -61,12 +61,12 @@ _RATIOS = "omega_n=eta*omega, beta=-nu*p"
 _VELOCITIES = "beta=-nu*p, v=eta*omega*p*gamma, a=psi"
 _SCALES = f"{_VELOCITIES}, omega_n=eta*omega, tau=(psi1 - psi)/omega"
 _RELATIONS = (
-    Equal(f"at({X2}, {_AT_IMPACT}) - (-p + beta*sin(b))", S8),
-    Equal(f"at({V3}, {_AT_IMPACT})", S9),
-    Equal(f"at({S8}, {_SCALES}, b=psi1)", f"-p*({S14})"),
-    Equal(f"at({S9}, {_SCALES})", f"eta*omega*p*({S15})"),
+    Equal.read(f"at({X2}, {_AT_IMPACT}) - (-p + beta*sin(b))", S8),
+    Equal.read(f"at({V3}, {_AT_IMPACT})", S9),
+    Equal.read(f"at({S8}, {_SCALES}, b=psi1)", f"-p*({S14})"),
+    Equal.read(f"at({S9}, {_SCALES})", f"eta*omega*p*({S15})"),
 )
-_PLASTIC = (*_RELATIONS, Equal(f"at({S14}, epsilon=0)", S10))
+_PLASTIC = (*_RELATIONS, Equal.read(f"at({S14}, epsilon=0)", S10))
 
 # -- the flight: (10) and (14) as functions of t ---------------------------------------------------
 
@@ -77,23 +77,23 @@ _BEND = "(nu*(1 - eta**2)*s - eta**2)"
 _JERK = "nu*(1 - eta**2)*cos(psi)"
 _SNAP = "(eta**4*(1 + nu*s) - nu*s)"
 BEND = f"at({_BEND}, s=sin(psi))"
-LAUNCH = Series(
+LAUNCH = Series.read(
     PLASTIC, "t", ("0", "0", f"{BEND}/2", f"{_JERK}/6", f"at({_SNAP}, s=sin(psi))/24"), ("eta",)
 )
 # At eta = 1/2 and eta = 2 a quadratic form in the sine and the cosine of a quarter, or half, of t.
-HALF = Equal(
+HALF = Equal.read(
     f"at({PLASTIC}, eta=1/2)",
     "-2*sin(t/4)**2*((1 + nu*sin(psi))*sin(t/4)**2 - 4*nu*cos(psi)*sin(t/4)*cos(t/4)"
     " + (1 - 3*nu*sin(psi))*cos(t/4)**2)",
 )
-_TWICE = Equal(
+_TWICE = Equal.read(
     f"at({PLASTIC}, eta=2)",
     "2*sin(t/2)**2*(nu*sin(psi)*sin(t/2)**2 - 2*nu*cos(psi)*sin(t/2)*cos(t/2)"
     " - (4 + 3*nu*sin(psi))*cos(t/2)**2)",
 )
 
 # At psi = pi/2 the first two terms vanish, and the last two are >= 0 if -1 < nu < 0.
-_TOP = Equal(
+_TOP = Equal.read(
     f"-({PLASTIC})",
     "nu*(1 - sin(psi))*(cos(eta*t) - cos(t)) - nu*cos(psi)*(sin(eta*t)/eta - sin(t))"
     " + (-nu)*(1 - cos(t)) + (1 + nu)*(1 - cos(eta*t))",
@@ -104,26 +104,26 @@ _TOP = Equal(
 _PULL = "-beta*omega**2*s"  # the acceleration of the table
 _PUSH = "-omega_n**2*(-p + beta*s)"  # that of a free mass where the table is
 _SEPARATION = "eta**2/(nu*(1 - eta**2))"
-_FORCE = Equal(f"at({_PULL} - ({_PUSH}), {_RATIOS})", f"p*omega**2*{_BEND}")
+_FORCE = Equal.read(f"at({_PULL} - ({_PUSH}), {_RATIOS})", f"p*omega**2*{_BEND}")
 _IMPACT = (
-    Equal(f"at({SPEED5}, epsilon=0) - beta*omega*cos(a)", "0"),
-    Equal(f"at(v - beta*omega*cos(a), {_VELOCITIES})", f"p*omega*{_CLOSING}"),
-    Series(f"at({S14}, psi1=psi + t)", "t", ("0", f"epsilon*{_CLOSING}"), ("eta",)),
+    Equal.read(f"at({SPEED5}, epsilon=0) - beta*omega*cos(a)", "0"),
+    Equal.read(f"at(v - beta*omega*cos(a), {_VELOCITIES})", f"p*omega*{_CLOSING}"),
+    Series.read(f"at({S14}, psi1=psi + t)", "t", ("0", f"epsilon*{_CLOSING}"), ("eta",)),
     LAUNCH,
-    Equal(f"at({_SNAP}, s={_SEPARATION})", "-eta**2"),
+    Equal.read(f"at({_SNAP}, s={_SEPARATION})", "-eta**2"),
 )
 _EQUATION = (  # between the accelerations, as printed
-    Equal(f"at({_PULL}, beta=-nu*p)", "-(eta*omega)**2*p*(-nu/eta**2*s)"),
-    Equal(f"at({_PUSH}, {_RATIOS})", "-(eta*omega)**2*p*(-1 - nu*s)"),
-    Equal(_BEND, f"nu*(1 - eta**2)*(s - {_SEPARATION})"),
-    Equal(f"at({_BEND}, eta=1)", "-1"),
-    Equal(f"D({BEND}, psi)", _JERK),
+    Equal.read(f"at({_PULL}, beta=-nu*p)", "-(eta*omega)**2*p*(-nu/eta**2*s)"),
+    Equal.read(f"at({_PUSH}, {_RATIOS})", "-(eta*omega)**2*p*(-1 - nu*s)"),
+    Equal.read(_BEND, f"nu*(1 - eta**2)*(s - {_SEPARATION})"),
+    Equal.read(f"at({_BEND}, eta=1)", "-1"),
+    Equal.read(f"D({BEND}, psi)", _JERK),
 )
 _EXTREMES = (
-    Equal(f"at({_BEND}, s=0)", "-eta**2"),
-    Equal(f"at({_BEND}, s=1)", "(1 + nu)*(nu/(1 + nu) - eta**2)"),
-    Equal(f"at({_BEND}, s=-1)", "-nu - (1 - nu)*eta**2"),
-    Equal(f"at({_SEPARATION}, eta=237/1000)", "56169/(943831*nu)"),
+    Equal.read(f"at({_BEND}, s=0)", "-eta**2"),
+    Equal.read(f"at({_BEND}, s=1)", "(1 + nu)*(nu/(1 + nu) - eta**2)"),
+    Equal.read(f"at({_BEND}, s=-1)", "-nu - (1 - nu)*eta**2"),
+    Equal.read(f"at({_SEPARATION}, eta=237/1000)", "56169/(943831*nu)"),
 )
 
 # -- theorems --------------------------------------------------------------------------------------
@@ -309,7 +309,7 @@ ROWS = (
             "the table it rests on is 3/40 sin phi - 1/4 <= -7/40 < 0 at every phase phi: after a "
             "plastic impact the mass stays on the table for ever.",
             _FORCE,
-            Equal(f"at({_BEND}, eta=1/2, nu=1/10)", "3/40*s - 1/4"),
+            Equal.read(f"at({_BEND}, eta=1/2, nu=1/10)", "3/40*s - 1/4"),
         ),
         corrected=(rest,),
     ),

@@ -14,7 +14,7 @@ from proofs.trusted.verdicts import Decision, Found, Verdict
 # -- A1: the marching algorithm --------------------------------------------------------------------
 
 
-_FORM = Equal(
+_FORM = Equal.read(
     "at(4*(nu*cos(psi))**2 - (1 + nu*sin(psi))*(1 - 3*nu*sin(psi)), nu=-1/2)",
     "-sin(psi)*(1 + sin(psi)/4)",
 )
@@ -34,7 +34,7 @@ _BENDS = at(eq.BEND, -1, eta="1/2", nu="-1/2", psi="387/100")
 
 
 @theorem(
-    Equal(f"at({eq.PLASTIC}, eta=1)", "-2*sin(t/2)**2"),
+    Equal.read(f"at({eq.PLASTIC}, eta=1)", "-2*sin(t/2)**2"),
     eq.HALF,
     _FORM,
     eq.LAUNCH,

@@ -305,7 +305,7 @@ def test_the_coordinates_are_none_of_the_variables():
 
 
 def test_what_people_type():
-    assert formula("0.30*x^2-(1+y)") == "(3/10)*x**2 - (1 + y)"
+    assert formula("0.30*x^2-(1+y)") == "3/10*x**2 - (1 + y)"
 
 
 def test_an_implicit_map_has_the_jacobian_of_the_explicit_one():

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from intervals import Interval, IntervalArray
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel.head import read_function
 
 LINE = Region((Interval(-1, 1),))
 PLANE = Region((Interval(-1, 1), Interval(-1, 1)))

@@ -20,7 +20,8 @@ from proofs.methods.periodic import periodic_orbits
 from proofs.methods.rectangles import lemma, rectangles
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel import trees
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
@@ -80,7 +81,7 @@ def test_a_corner_that_is_moved_leaves(corner, sign):
     there = {"s": ("0", "0"), "t": ("1", "1")}
     file = Lemmas()
     file.sign(first, sign, **there)
-    assert check(render(file.document())).sentences[0].startswith(first)
+    assert check(render(file.document())).sentences[0].startswith(f"`{trees.formula(first)}`")
     with pytest.raises((Undecided, ValueError)):
         file.sign(first, -sign, **there)
 

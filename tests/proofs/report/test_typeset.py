@@ -33,6 +33,7 @@ CASES = [
     ("rho_SN and d^2(f^2)/dpsi drho", "<var>ρ</var><sub>SN</sub> and <var>d</var><sup>2</sup>"
      "(<var>f</var><sup>2</sup>)/d<var>ψ</var> d<var>ρ</var>"),
     ("by proofs.report.figures", "by <code>proofs.report.figures</code>"),
+    ("for `F(x) = -2*x**(-1)` and `x`", "for <code>F(x) = -2*x**(-1)</code> and <code>x</code>"),
 ]  # fmt: skip
 
 

@@ -248,7 +248,7 @@ def read_whole(text):
     """The parameters, steps and claims, with their form checked."""
     names = ("schema", "parameters", "functions", "steps", "claims")
     schema, of, functions, step_texts, claims = fields(parse(text), *names)
-    form(schema == "impact-proofs.certificate/3", "another schema")
+    form(schema == "impact-proofs.certificate/4", "another schema")
     form(functions == {}, "no functions are used")
     of, steps, used = parameters(of), {}, set()
     form(isinstance(step_texts, dict), "an object")

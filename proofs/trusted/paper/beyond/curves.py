@@ -36,16 +36,16 @@ _MATRIX = (
 _DETERMINANT = f"({_MATRIX[0]})*({_MATRIX[3]}) - {_MATRIX[1]}*({_MATRIX[2]})"
 
 REPEATED = (
-    Equal(f"at({E14}, a=psi, b=psi1, delta=psi1 - psi)", S14),
-    Equal(f"at({E15}, a=psi, b=psi1, delta=psi1 - psi)", S15),
-    Equal(f"at({E14}, {_REPEATED})", f"2/eta*sin{X}*{_HALFWAY}"),
-    Equal(f"at({E15}, {_REPEATED}) - {_LAUNCHED}/eta", f"-2/eta*cos{X}*{_HALFWAY}"),
+    Equal.read(f"at({E14}, a=psi, b=psi1, delta=psi1 - psi)", S14),
+    Equal.read(f"at({E15}, a=psi, b=psi1, delta=psi1 - psi)", S15),
+    Equal.read(f"at({E14}, {_REPEATED})", f"2/eta*sin{X}*{_HALFWAY}"),
+    Equal.read(f"at({E15}, {_REPEATED}) - {_LAUNCHED}/eta", f"-2/eta*cos{X}*{_HALFWAY}"),
 )
-MULTIPLIERS = Equal(
+MULTIPLIERS = Equal.read(
     f"at(at({_DETERMINANT}, {_REPEATED}, gamma={GAMMA}), nu={NU})",
     f"at(-2/(1 - epsilon)*nu*cos(phi)*(z**2 - z*{TRACE} + epsilon**2), nu={NU})",
 )
-LEAST = Equal(
+LEAST = Equal.read(
     "D((p**2 + q**2*e)/(1 - p)**2, p)",
     "2*(p + q**2*e)/(1 - p)**3",
 )
@@ -97,10 +97,10 @@ _FALL = "(eta*cos(phi)/sin(phi)*cos(eta*tau) - sin(eta*tau))"
 _LATER = f"a=phi, b=phi, delta=2*tau, epsilon=0, nu={NU_SEPARATING}"
 _TABLE = f"at(nu*cos(phi), nu={NU_SEPARATING})"
 AGAIN = (
-    Equal(f"at({E14}, {_LATER})", f"2*sin(eta*tau)*{_FALL}/(1 - eta**2)"),
-    Equal(f"eta*at({E15}, {_LATER}) - {_TABLE}", f"-2*eta*cos(eta*tau)*{_FALL}/(1 - eta**2)"),
+    Equal.read(f"at({E14}, {_LATER})", f"2*sin(eta*tau)*{_FALL}/(1 - eta**2)"),
+    Equal.read(f"eta*at({E15}, {_LATER}) - {_TABLE}", f"-2*eta*cos(eta*tau)*{_FALL}/(1 - eta**2)"),
 )
-ONSET = Equal(
+ONSET = Equal.read(
     "at((p**2 + q**2*e)/(1 - p)**2, p=eta**2, q=1, e=(eta**2*cos(phi)/sin(phi))**2)",
     f"({NU_SEPARATING})**2",
 )

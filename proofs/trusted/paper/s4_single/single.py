@@ -42,25 +42,25 @@ _HEIGHT = "(eta**2*(1 + nu*sin(phi)))"
 _AT = "a=phi, b=phi, delta=2*pi*n"
 
 NECESSARY = (
-    Equal(f"at({E10}, {_AT})", E16),
-    Equal(E16, f"2/eta*sin{X}*{DEFECT}"),
+    Equal.read(f"at({E10}, {_AT})", E16),
+    Equal.read(E16, f"2/eta*sin{X}*{DEFECT}"),
 )
 ANGLE = (
-    Equal(E16, f"-nu/eta*at({LINEAR}, alpha={ALPHA}, beta={BETA})"),
-    Equal(f"at({LINEAR}, alpha=r*cos(theta), beta=r*sin(theta))", f"r*({E17})"),
-    Equal(f"({BETA})/({ALPHA})", f"cos{X}/(eta*sin{X})"),
+    Equal.read(E16, f"-nu/eta*at({LINEAR}, alpha={ALPHA}, beta={BETA})"),
+    Equal.read(f"at({LINEAR}, alpha=r*cos(theta), beta=r*sin(theta))", f"r*({E17})"),
+    Equal.read(f"({BETA})/({ALPHA})", f"cos{X}/(eta*sin{X})"),
 )
 SLOPE = (
-    Equal(f"at(-D({E10}, a) + D({E10}, delta), {_AT})", TOP18),
-    Equal(f"at(D({E10}, b) + D({E10}, delta), {_AT})", BOTTOM18),
-    Equal(BOTTOM18, f"-2*nu*cos(phi) + 2*cos{X}*{DEFECT}"),
-    Equal(
+    Equal.read(f"at(-D({E10}, a) + D({E10}, delta), {_AT})", TOP18),
+    Equal.read(f"at(D({E10}, b) + D({E10}, delta), {_AT})", BOTTOM18),
+    Equal.read(BOTTOM18, f"-2*nu*cos(phi) + 2*cos{X}*{DEFECT}"),
+    Equal.read(
         f"({TOP18}) - 2*nu*cos(phi)*cos{X}**2*{LAUNCH}/{_HEIGHT}",
         f"-2*cos{X}*{LAUNCH}/{_HEIGHT}*{DEFECT}",
     ),
 )
 FLIGHT = (
-    Equal(
+    Equal.read(
         "cos(2*eta*y) - 1 + tan*sin(2*eta*y) + eta**2*(1 - cos(2*y)) - eta*tan*sin(2*y)",
         "2*(tan*(sin(eta*y)*cos(eta*y) - eta*sin(y)*cos(y)) - sin(eta*y)**2 + eta**2*sin(y)**2)",
     ),

@@ -35,10 +35,10 @@ _POSITIVE = (
 CYCLE = unknowns(
     "a b l_1 a_2 b_2 l_2 l_3",
     "k t r big",
-    *(Series(side, "h", _ZERO4, _NONZERO) for side in SIDES),
-    Equal("a", "big*(1 + t**2 + r**2)"),
-    Equal("b", "r*t*big/k"),
-    Equal("2*(a*a_2 + b*b_2)", RISE),
+    *(Series.read(side, "h", _ZERO4, _NONZERO) for side in SIDES),
+    Equal.read("a", "big*(1 + t**2 + r**2)"),
+    Equal.read("b", "r*t*big/k"),
+    Equal.read("2*(a*a_2 + b*b_2)", RISE),
     nonzero=_NONZERO,
 )
 
@@ -75,8 +75,8 @@ doubling = corollary(
     "rho, and its fixed points have mu = K h^2: so K > 0.",
     *STIFF,
     CYCLE,
-    Equal(*_REGULAR),
-    Equal(_RISE, _POSITIVE),
-    Series(f"at({RISE}, t=sin(pi*m*k)/cos(pi*m*k), big=2)", "k", (LIMIT_RISE,)),
+    Equal.read(*_REGULAR),
+    Equal.read(_RISE, _POSITIVE),
+    Series.read(f"at({RISE}, t=sin(pi*m*k)/cos(pi*m*k), big=2)", "k", (LIMIT_RISE,)),
     tex=r"\rho^2 = \rho_F^2 + \kappa h^2 + O(h^4)",
 )

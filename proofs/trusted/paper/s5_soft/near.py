@@ -25,19 +25,21 @@ _AT_POINT = "x=0, x1=0, lam1=lam"
 POINT = unknowns(
     "b lam j11 j12 j21 j22",
     "a c epsilon",
-    *(Equal(f"at({each}, {_AT_POINT})", "0") for each in LOCAL),
-    Equal(f"at(D({_RETURN}, x1), {_AT_POINT})", "-2*c/(1 + epsilon)"),
+    *(Equal.read(f"at({each}, {_AT_POINT})", "0") for each in LOCAL),
+    Equal.read(f"at(D({_RETURN}, x1), {_AT_POINT})", "-2*c/(1 + epsilon)"),
     *(
-        Equal(f"at({entry}, {_AT_POINT})", "0")
+        Equal.read(f"at({entry}, {_AT_POINT})", "0")
         for entry in implicit_derivative(
             LOCAL, ("x", "lam"), ("x1", "lam1"), ("j11", "j12", "j21", "j22")
         )
     ),
     *(
-        Equal(f"at({printed}, alpha=(1 + epsilon)*a)", name)
+        Equal.read(f"at({printed}, alpha=(1 + epsilon)*a)", name)
         for printed, name in zip(eq.JACOBIAN, ("j11", "j12", "j21", "j22"), strict=True)
     ),
     nonzero=("1 + epsilon",),
+    given="(1 - epsilon)*c/(1 + epsilon); -c; 1 - (1 + epsilon)**2*a/2; -epsilon*(1 + epsilon)/2; "
+    "epsilon*(1 + epsilon)*a; epsilon**2",
 )
 
 
@@ -55,7 +57,7 @@ FLIP = unknowns(
     "a b lam lam_1 lam_2 lam_3 b2 b3",
     "c epsilon",
     *(
-        Series(
+        Series.read(
             _flip(each, f", lam={_MANIFOLD}, lam1=at({_MANIFOLD}, {{}})"),
             "h",
             _ZERO4,
@@ -63,8 +65,8 @@ FLIP = unknowns(
         )
         for each in LOCAL
     ),
-    Equal("(1 + epsilon)*a", eq.ALPHA_FLIP),
-    Equal("b2**2 + b3", CUBIC),
+    Equal.read("(1 + epsilon)*a", eq.ALPHA_FLIP),
+    Equal.read("b2**2 + b3", CUBIC),
     nonzero=_NONZERO,
 )
 
@@ -85,11 +87,11 @@ def _jet(a: str, slope: str, names: str, rates: str, values: tuple[str, ...]) ->
     return unknowns(
         f"{names} {rates}",
         "c",
-        Equal(s1, slope),
-        Series(f"at({near}, r=0)", "h", _ZERO4, ("c",)),
-        Series(f"at(D({near}, r), r=0)", "h", ("0", "0"), ("c",)),
-        *(Equal(f"at(D({second}, {x}), h=0, r=0)", name) for x, name in by),
-        *map(Equal, rates.split(), values),
+        Equal.read(s1, slope),
+        Series.read(f"at({near}, r=0)", "h", _ZERO4, ("c",)),
+        Series.read(f"at(D({near}, r), r=0)", "h", ("0", "0"), ("c",)),
+        *(Equal.read(f"at(D({second}, {x}), h=0, r=0)", name) for x, name in by),
+        *map(Equal.read, rates.split(), values),
         nonzero=("c",),
     )
 
@@ -118,18 +120,25 @@ STIFF_POINT = unknowns(
     "b lam k11 k12 k21 k22",
     "a big k t epsilon",
     *(
-        Equal(f"at(at({each}, {_AT_POINT}), {STIFF_HERE})", "0")
+        Equal.read(f"at(at({each}, {_AT_POINT}), {STIFF_HERE})", "0")
         for each in (
             *STIFF,
             *implicit_derivative(STIFF, ("x", "lam"), ("x1", "lam1"), _STIFF_ENTRIES),
         )
     ),
-    Equal(f"at(at(D({STIFF[0]}, x1), {_AT_POINT}), {STIFF_HERE})", "-2*t*big/(k*(1 + epsilon))"),
-    Equal(
+    Equal.read(
+        f"at(at(D({STIFF[0]}, x1), {_AT_POINT}), {STIFF_HERE})", "-2*t*big/(k*(1 + epsilon))"
+    ),
+    Equal.read(
         "k11 + k22",
         "at(((1 + epsilon)**2 + (1 - epsilon)**2*C - (1 + epsilon)**2*(1 + C)*a/big)/2, "
         "C=(1 - t**2)/(1 + t**2))",
     ),
-    Equal("k11*k22 - k12*k21", "epsilon**2"),
+    Equal.read("k11*k22 - k12*k21", "epsilon**2"),
     nonzero=("1 + epsilon", "big", "k", "1 + t**2"),
+    given="(1 - epsilon)*t*big/((1 + epsilon)*k); -t*big/k; "
+    "(big*(1 + epsilon*t**2) - (1 + epsilon)**2*a)/(big*(1 + t**2)); "
+    "-epsilon*(1 + epsilon)/(big*(1 + t**2)); "
+    "((1 + epsilon)**2*(epsilon + t**2)*a - (1 - epsilon)**2*t**2*big)/((1 + epsilon)*(1 + t**2)); "
+    "epsilon*(epsilon + t**2)/(1 + t**2)",
 )

@@ -15,20 +15,20 @@ HEIGHT = f"(2*u*(d - u)*(({_COT})**2 - 1) - 2*(d - 2*u)*{_COT})"
 RESTITUTION = f"(1 - {TOUCH})/(1 + {TOUCH})"
 _SAGITTA = "(u - sin(u)*cos(u))"
 _GRAZING = (
-    Equal(
+    Equal.read(
         f"at({eq.GAP}, tau=2*u, lam=-2*pi*m, rho={eq.RHO})",
         f"2*sin(u)**2*({eq.RHO}*sin(psi) - at({LEAST}, d=pi*m, r=(1 - epsilon)/(1 + epsilon)))",
     ),
-    Equal(f"D({LEAST}, u)", f"2*d*({TOUCH} - r)/sin(u)**2"),
-    Equal(f"D({TOUCH}, u)", f"-2*({_SAGITTA}*(d - {_SAGITTA}) - sin(u)**4)/(d*sin(u)**2)"),
-    Equal(f"D({_SAGITTA}*(pi - {_SAGITTA}) - sin(u)**4, u)", "2*(pi - 2*u)*sin(u)**2"),
-    Equal(f"at({LEAST}, r={TOUCH})", HEIGHT),
-    Equal(f"D({HEIGHT}, u)", f"2*d*{_COT}*D({TOUCH}, u)"),
-    Series(TOUCH, "u", ("1",), ("d",)),
-    Series(HEIGHT, "u", ("2",)),
-    Series(f"at({LEAST}, r=1)", "u", ("2",)),
-    Equal(f"at(({eq.ALPHA_FLIP})/(1 + epsilon), epsilon=(1 - r)/(1 + r))", "2*(1 + r**2)"),
-    Series(
+    Equal.read(f"D({LEAST}, u)", f"2*d*({TOUCH} - r)/sin(u)**2"),
+    Equal.read(f"D({TOUCH}, u)", f"-2*({_SAGITTA}*(d - {_SAGITTA}) - sin(u)**4)/(d*sin(u)**2)"),
+    Equal.read(f"D({_SAGITTA}*(pi - {_SAGITTA}) - sin(u)**4, u)", "2*(pi - 2*u)*sin(u)**2"),
+    Equal.read(f"at({LEAST}, r={TOUCH})", HEIGHT),
+    Equal.read(f"D({HEIGHT}, u)", f"2*d*{_COT}*D({TOUCH}, u)"),
+    Series.read(TOUCH, "u", ("1",), ("d",)),
+    Series.read(HEIGHT, "u", ("2",)),
+    Series.read(f"at({LEAST}, r=1)", "u", ("2",)),
+    Equal.read(f"at(({eq.ALPHA_FLIP})/(1 + epsilon), epsilon=(1 - r)/(1 + r))", "2*(1 + r**2)"),
+    Series.read(
         f"at({eq.GAP}, epsilon=0, lam=-2*pi*m, rho=2*pi*m/cos(psi))",
         "tau",
         ("0", "0", "pi*m*sin(psi)/cos(psi) - 1"),
@@ -48,18 +48,18 @@ _FIRST_EPSILON = (
 SPEED = "(tau**2 - 2 + 2*cos(tau))/(tau - sin(tau))"
 _HALVES = "(2*sin(tau/2) - tau*cos(tau/2))"
 _STICKING = (
-    Equal(
+    Equal.read(
         f"at({eq.PLASTIC}, m=0, psi1=psi + tau, rho=2/sin(psi))",
         f"(tau - sin(tau))*(2*cos(psi)/sin(psi) - {SPEED})",
     ),
-    Equal(f"D({SPEED}, tau)", f"2*{_HALVES}**2/(tau - sin(tau))**2"),
-    Equal(
+    Equal.read(f"D({SPEED}, tau)", f"2*{_HALVES}**2/(tau - sin(tau))**2"),
+    Equal.read(
         f"2*cos(tau) + {SPEED}*sin(tau) - 2",
         f"-2*tau*sin(tau/2)*{_HALVES}/(tau - sin(tau))",
     ),
-    Equal(f"{SPEED} - tau", f"-2*sin(tau/2)*{_HALVES}/(tau - sin(tau))"),
-    Equal("D(u*cos(u)/sin(u), u)", "(sin(u)*cos(u) - u)/sin(u)**2"),
-    Series(SPEED, "tau", ("0", "1/2")),
+    Equal.read(f"{SPEED} - tau", f"-2*sin(tau/2)*{_HALVES}/(tau - sin(tau))"),
+    Equal.read("D(u*cos(u)/sin(u), u)", "(sin(u)*cos(u) - u)/sin(u)**2"),
+    Series.read(SPEED, "tau", ("0", "1/2")),
 )
 
 admissible = corollary(

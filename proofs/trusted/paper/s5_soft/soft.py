@@ -9,38 +9,38 @@ from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.verdicts import Verdict
 
 _FLIGHT = (
-    Equal(f"D({eq.X20}, t, t) + omega_n**2*({eq.X20})", "-g"),
-    Equal(f"at({eq.X20}, t=t0)", "x0"),
-    Equal(f"D({eq.X20}, t)", eq.V21),
-    Equal(f"at({eq.V21}, t=t0)", "v0"),
+    Equal.read(f"D({eq.X20}, t, t) + omega_n**2*({eq.X20})", "-g"),
+    Equal.read(f"at({eq.X20}, t=t0)", "x0"),
+    Equal.read(f"D({eq.X20}, t)", eq.V21),
+    Equal.read(f"at({eq.V21}, t=t0)", "v0"),
 )
 _IMPACT = (
-    Equal(f"at({eq.X20}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5}) - (-p + beta*sin(b))", eq.S22),
-    Equal(f"at({eq.V21}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5})", eq.S23),
-    Equal(f"at({eq.S22}, a=psi, b=psi1, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S24),
-    Equal(f"at({eq.S23}, a=psi, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S25),
+    Equal.read(f"at({eq.X20}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5}) - (-p + beta*sin(b))", eq.S22),
+    Equal.read(f"at({eq.V21}, t=t0 + tau, x0={HEIGHT4}, v0={SPEED5})", eq.S23),
+    Equal.read(f"at({eq.S22}, a=psi, b=psi1, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S24),
+    Equal.read(f"at({eq.S23}, a=psi, tau=(psi1 - psi + 2*pi*m)/omega)", eq.S25),
 )
-_FIRST = Equal(f"at({eq.S24}, psi1=psi)", eq.TRUE26)
-_SECOND = Equal(f"at({eq.S25}, psi1=psi)", eq.S27)
-_VELOCITY = Equal(f"at({eq.S27}, v={eq.S29})", eq.S29)
-_PHASE = Equal(f"at({eq.TRUE26}, v={eq.S29})", eq.TRUE28)
+_FIRST = Equal.read(f"at({eq.S24}, psi1=psi)", eq.TRUE26)
+_SECOND = Equal.read(f"at({eq.S25}, psi1=psi)", eq.S27)
+_VELOCITY = Equal.read(f"at({eq.S27}, v={eq.S29})", eq.S29)
+_PHASE = Equal.read(f"at({eq.TRUE26}, v={eq.S29})", eq.TRUE28)
 _NONZERO = ("omega", "1 + epsilon")
 _LIMITS = tuple(
-    Series(printed, "omega_n", (limit,), _NONZERO) for printed, limit in eq.LIMITS.items()
+    Series.read(printed, "omega_n", (limit,), _NONZERO) for printed, limit in eq.LIMITS.items()
 )
 _TRUE_LIMITS = (
-    Series(eq.TRUE_A28, "omega_n", ("0",), _NONZERO),
-    Series(eq.TRUE28, "omega_n", (eq.LIMIT28, "0"), _NONZERO),
+    Series.read(eq.TRUE_A28, "omega_n", ("0",), _NONZERO),
+    Series.read(eq.TRUE28, "omega_n", (eq.LIMIT28, "0"), _NONZERO),
 )
 _COSINE = (
-    Equal(eq.LIMIT28, f"2*pi*m*beta*(cos(psi) - {eq.COSINE})"),
-    Equal(f"at({eq.COSINE}, beta=rho*g/(2*omega**2))", eq.COSINE_RHO),
+    Equal.read(eq.LIMIT28, f"2*pi*m*beta*(cos(psi) - {eq.COSINE})"),
+    Equal.read(f"at({eq.COSINE}, beta=rho*g/(2*omega**2))", eq.COSINE_RHO),
 )
 _FINITE = (
-    Equal(f"({eq.TRUE28})*(1 + epsilon*cos(2*pi*m*omega_n/omega))", eq.FACTORS28),
-    Series(eq.FINITE, "k", ("2*pi*m", "0", "2*(pi*m)**3/3 - pi*m*(q - rho*sin(psi))")),
-    Equal(f"at({eq.STIFF_MAP}, {eq.STIFF_FIXED})", "0"),
-    Equal(f"at({eq.STIFF_VELOCITY}, {eq.STIFF_FIXED})", eq.STIFF_LAMBDA),
+    Equal.read(f"({eq.TRUE28})*(1 + epsilon*cos(2*pi*m*omega_n/omega))", eq.FACTORS28),
+    Series.read(eq.FINITE, "k", ("2*pi*m", "0", "2*(pi*m)**3/3 - pi*m*(q - rho*sin(psi))")),
+    Equal.read(f"at({eq.STIFF_MAP}, {eq.STIFF_FIXED})", "0"),
+    Equal.read(f"at({eq.STIFF_VELOCITY}, {eq.STIFF_FIXED})", eq.STIFF_LAMBDA),
 )
 
 _POINT = {"p": "1", "beta": "1/10", "psi": "1", "m": "1", "omega_n": "1/10", "omega": "1"}
@@ -79,7 +79,7 @@ ROWS = (
             "Printed minus derived, the left side of (26) is {0} at p = omega = m = psi = g = 1, "
             "omega_n = beta = 1/10, epsilon = 1/2, v = -1. Always it is -2 g (sin^2(2 x) - sin^2 "
             "x)/omega_n^2, x = pi m omega_n/omega.",
-            Equal(
+            Equal.read(
                 f"({eq.S26}) - ({eq.TRUE26})",
                 "-2*g*(sin(2*pi*m*omega_n/omega)**2 - sin(pi*m*omega_n/omega)**2)/omega_n**2",
             ),
@@ -111,7 +111,7 @@ ROWS = (
             "{0} at p = omega = m = psi = g = 1, omega_n = beta = 1/10, epsilon = 1/2. Always it "
             "is epsilon (-p + beta sin psi) sin^2(2 x) (1/omega_n - 1)/(1 + epsilon cos(2 x)), x = "
             "pi m omega_n/omega.",
-            Equal(
+            Equal.read(
                 f"({eq.S28}) - ({eq.TRUE28})",
                 "epsilon*(-p + beta*sin(psi))*sin(2*pi*m*omega_n/omega)**2*(1/omega_n - 1)"
                 "/(1 + epsilon*cos(2*pi*m*omega_n/omega))",
@@ -190,9 +190,11 @@ ROWS = (
             "(29) tends to beta omega cos psi - 2 pi m g/(omega (1 + epsilon)), which is -pi m "
             "g/omega at the limit phase.",
             *_COSINE,
-            Series(eq.S29, "omega_n", (f"{eq.LIMITS[eq.G29]} - {eq.LIMITS[eq.F29]}",), _NONZERO),
-            Equal(f"at(beta*omega*x - {eq.LIMITS[eq.F29]}, x={eq.COSINE})", "-pi*m*g/omega"),
-            Equal("at(2*omega*v/g, v=-pi*m*g/omega)", "-2*pi*m"),
+            Series.read(
+                eq.S29, "omega_n", (f"{eq.LIMITS[eq.G29]} - {eq.LIMITS[eq.F29]}",), _NONZERO
+            ),
+            Equal.read(f"at(beta*omega*x - {eq.LIMITS[eq.F29]}, x={eq.COSINE})", "-pi*m*g/omega"),
+            Equal.read("at(2*omega*v/g, v=-pi*m*g/omega)", "-2*pi*m"),
         ),
     ),
     derived_row(

@@ -33,8 +33,8 @@ ROWS = (
         corollary(
             "Their sum is the trace, their product epsilon^2, the determinant.",
             given.DETERMINANT,
-            Equal(" + ".join(eq.EIGENVALUES), eq.TRACE),
-            Equal("*".join(f"({one})" for one in eq.EIGENVALUES), "epsilon**2"),
+            Equal.read(" + ".join(eq.EIGENVALUES), eq.TRACE),
+            Equal.read("*".join(f"({one})" for one in eq.EIGENVALUES), "epsilon**2"),
             *given.TRACE,
         ),
     ),
@@ -45,7 +45,7 @@ ROWS = (
         corollary(
             "The right side minus the left one is 2 (1 + epsilon) alpha, {0} at epsilon = 1/2, "
             "alpha = 1.",
-            Equal(f"({eq.PRINTED_SUM}) - ({eq.DISCRIMINANT})", "2*(1 + epsilon)*alpha"),
+            Equal.read(f"({eq.PRINTED_SUM}) - ({eq.DISCRIMINANT})", "2*(1 + epsilon)*alpha"),
             values=(differ(eq.PRINTED_SUM, eq.DISCRIMINANT, epsilon="1/2", alpha="1"),),
         ),
         corrected=(
@@ -55,7 +55,7 @@ ROWS = (
                 "epsilon) (1 + epsilon^2) alpha = ((1 + epsilon) alpha/2 - (1 - epsilon)^2) ((1 + "
                 "epsilon) alpha/2 - (1 + epsilon)^2), which is negative for (1 - epsilon)^2 < (1 + "
                 "epsilon) alpha/2 < (1 + epsilon)^2.",
-                Equal(eq.DISCRIMINANT, eq.TRUE_SUM),
+                Equal.read(eq.DISCRIMINANT, eq.TRUE_SUM),
                 given.ROOTS,
                 tex=r"(\tfrac{1 + \varepsilon}{2} \alpha - (1 - \varepsilon)^2)"
                 r"(\tfrac{1 + \varepsilon}{2} \alpha - (1 + \varepsilon)^2)",
@@ -156,7 +156,7 @@ ROWS = (
             "flip. Two fixed points are there already for rho < rho_m.",
             *given.CHARACTERISTIC,
             *given.THRESHOLDS,
-            Equal(f"at({eq.AT_ONE}, alpha=2*(1 - epsilon))", "1 - epsilon**2"),
+            Equal.read(f"at({eq.AT_ONE}, alpha=2*(1 - epsilon))", "1 - epsilon**2"),
             values=(
                 at(f"at({eq.AT_MINUS_ONE}, alpha={eq.PRINTED_ALPHA_FLIP})", -1, epsilon="1/2"),
             ),

@@ -10,44 +10,44 @@ from proofs.trusted.paper.s5_soft.orbits import admissible
 
 _SCALED = ("omega", "g")
 MAP: tuple[Lemma, ...] = (
-    Series(f"at({eq.S24}, {eq.SCALES})*2*omega**2/g", "omega_n", (eq.MAP,), _SCALED),
-    Series(f"at({eq.S25}, {eq.SCALES})*2*omega/g", "omega_n", (eq.VELOCITY,), _SCALED),
-    Equal(f"at({eq.MAP}, psi1=psi)", f"2*pi*m*({eq.LAUNCH} - 2*pi*m)"),
-    Equal(f"at({eq.VELOCITY}, psi1=psi)", f"({eq.LAUNCH} - 2*pi*m) - 2*pi*m"),
-    Equal(f"at({eq.LAUNCH}, lam=-2*pi*m, rho={eq.RHO})", "2*pi*m"),
-    Equal(f"({eq.ALPHA})**2", f"at({eq.ALPHA_SQUARE}, rho={eq.RHO})"),
+    Series.read(f"at({eq.S24}, {eq.SCALES})*2*omega**2/g", "omega_n", (eq.MAP,), _SCALED),
+    Series.read(f"at({eq.S25}, {eq.SCALES})*2*omega/g", "omega_n", (eq.VELOCITY,), _SCALED),
+    Equal.read(f"at({eq.MAP}, psi1=psi)", f"2*pi*m*({eq.LAUNCH} - 2*pi*m)"),
+    Equal.read(f"at({eq.VELOCITY}, psi1=psi)", f"({eq.LAUNCH} - 2*pi*m) - 2*pi*m"),
+    Equal.read(f"at({eq.LAUNCH}, lam=-2*pi*m, rho={eq.RHO})", "2*pi*m"),
+    Equal.read(f"({eq.ALPHA})**2", f"at({eq.ALPHA_SQUARE}, rho={eq.RHO})"),
 )
 LOCAL: tuple[Lemma, ...] = tuple(
-    Equal(f"at({each}, {near.MOVED})", f"at({local}, {near.HERE})")
+    Equal.read(f"at({each}, {near.MOVED})", f"at({local}, {near.HERE})")
     for each, local in zip((eq.MAP, f"lam1 - ({eq.VELOCITY})"), near.LOCAL, strict=True)
 )
 JACOBIAN: tuple[Lemma, ...] = (*MAP, *LOCAL, near.POINT)
 _A, _B, _C, _D = (f"({entry})" for entry in eq.JACOBIAN)
-DETERMINANT = Equal(f"{_A}*{_D} - {_B}*{_C}", "epsilon**2")
-TRACE: tuple[Lemma, ...] = (Equal(f"{_A} + {_D}", eq.TRACE),)
+DETERMINANT = Equal.read(f"{_A}*{_D} - {_B}*{_C}", "epsilon**2")
+TRACE: tuple[Lemma, ...] = (Equal.read(f"{_A} + {_D}", eq.TRACE),)
 CHARACTERISTIC: tuple[Lemma, ...] = (
     *JACOBIAN,
     DETERMINANT,
     *TRACE,
-    Equal(eq.AT_ONE, "(1 + epsilon)/2*alpha"),
-    Equal(eq.AT_MINUS_ONE, f"(1 + epsilon)/2*({eq.ALPHA_FLIP} - alpha)"),
-    Equal(f"at({eq.ALPHA_SQUARE}, rho={eq.RHO_SN})", "0"),
-    Equal(f"at({eq.ALPHA_SQUARE}, rho={eq.flip('alpha')})", "alpha**2"),
+    Equal.read(eq.AT_ONE, "(1 + epsilon)/2*alpha"),
+    Equal.read(eq.AT_MINUS_ONE, f"(1 + epsilon)/2*({eq.ALPHA_FLIP} - alpha)"),
+    Equal.read(f"at({eq.ALPHA_SQUARE}, rho={eq.RHO_SN})", "0"),
+    Equal.read(f"at({eq.ALPHA_SQUARE}, rho={eq.flip('alpha')})", "alpha**2"),
 )
-ROOTS = Equal(
+ROOTS = Equal.read(
     eq.DISCRIMINANT,
     "((1 + epsilon)/2*alpha - (1 - epsilon)**2)*((1 + epsilon)/2*alpha - (1 + epsilon)**2)",
 )
 THRESHOLDS: tuple[Lemma, ...] = (
-    Equal(f"at({eq.ALPHA_SQUARE}, rho={eq.RHO_M})", "(2*(1 - epsilon))**2"),
-    Equal(
+    Equal.read(f"at({eq.ALPHA_SQUARE}, rho={eq.RHO_M})", "(2*(1 - epsilon))**2"),
+    Equal.read(
         f"({eq.PRINTED_ALPHA_FLIP})**2 - ({eq.ALPHA_FLIP})**2",
         "64*epsilon**4*(1 - epsilon**2 - epsilon**4)/((1 - 2*epsilon**2)**2*(1 + epsilon)**2)",
     ),
 )
 STIFF: tuple[Lemma, ...] = (
     *(
-        Equal(
+        Equal.read(
             f"at({each}, psi=x + y, psi1=x1 + y, m=s/(pi*k))",
             f"at({local}, a=rho*sin(y), b=rho*cos(y), C=cos(2*s), S=sin(2*s))",
         )
@@ -55,11 +55,11 @@ STIFF: tuple[Lemma, ...] = (
             (eq.STIFF_MAP, f"lam1 - ({eq.STIFF_VELOCITY})"), near.STIFF, strict=True
         )
     ),
-    Equal("cos(2*s)*(1 + (sin(s)/cos(s))**2)", "1 - (sin(s)/cos(s))**2"),
-    Equal("sin(2*s)*(1 + (sin(s)/cos(s))**2)", "2*sin(s)/cos(s)"),
+    Equal.read("cos(2*s)*(1 + (sin(s)/cos(s))**2)", "1 - (sin(s)/cos(s))**2"),
+    Equal.read("sin(2*s)*(1 + (sin(s)/cos(s))**2)", "2*sin(s)/cos(s)"),
     near.STIFF_POINT,
 )
-PLASTIC_LIMIT = Series(
+PLASTIC_LIMIT = Series.read(
     f"at({eq.S24}, epsilon=0, beta=rho*g/(2*omega**2))*2*omega**2/g",
     "omega_n",
     (eq.PLASTIC,),
@@ -67,22 +67,22 @@ PLASTIC_LIMIT = Series(
 )
 CONDITIONS: tuple[Lemma, ...] = (
     PLASTIC_LIMIT,
-    Equal(f"at({eq.MAP}, epsilon=0)", eq.PLASTIC),
+    Equal.read(f"at({eq.MAP}, epsilon=0)", eq.PLASTIC),
     *LOCAL,
     near.JET,
-    Equal("at(-(3*c**2/4 + 2), c=2*pi*m)", near.F2_PSI_PSI_PSI),
-    Equal(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", near.F2_PSI_RHO),
+    Equal.read("at(-(3*c**2/4 + 2), c=2*pi*m)", near.F2_PSI_PSI_PSI),
+    Equal.read(f"at((c**2 + 16)/4, c=2*pi*m)/{eq.TRUE_RHO_O}", near.F2_PSI_RHO),
 )
 PRINTED_CONDITIONS: tuple[Lemma, ...] = (*CONDITIONS, near.PRINTED_JET)
 SLOPES: tuple[Lemma, ...] = (
     *JACOBIAN,
-    Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.RHO_O})", "2**2"),
-    Equal(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.TRUE_RHO_O})", "4**2"),
+    Equal.read(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.RHO_O})", "2**2"),
+    Equal.read(f"at({eq.ALPHA_SQUARE}, epsilon=0, rho={eq.TRUE_RHO_O})", "4**2"),
 )
 HIGH_BOUNCE: tuple[Lemma, ...] = (
-    Equal(eq.HIGH_DETERMINANT, "epsilon"),
-    Equal(eq.HIGH_TRACE, "1 + epsilon + gamma*sin(x)"),
-    Equal(f"{eq.ALPHA_FLIP} - 2*(1 + epsilon)", "2*(1 - epsilon)**2/(1 + epsilon)"),
+    Equal.read(eq.HIGH_DETERMINANT, "epsilon"),
+    Equal.read(eq.HIGH_TRACE, "1 + epsilon + gamma*sin(x)"),
+    Equal.read(f"{eq.ALPHA_FLIP} - 2*(1 + epsilon)", "2*(1 - epsilon)**2/(1 + epsilon)"),
 )
 
 # -- theorems --------------------------------------------------------------------------------------

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from proofs.trusted.paper.formulas import Passage, corollary, derived_row, spoken, theorem
+from proofs.trusted.kernel.trees import Tree, formula
+from proofs.trusted.paper.formulas import Passage, corollary, derived_row, theorem
 from proofs.trusted.paper.s6_resonance import displayed as eq
 from proofs.trusted.verdicts import Verdict
 
@@ -46,7 +47,7 @@ iterates = corollary(
 
 
 @theorem(closed_form, *eq.ENTRIES, eq.AT_REST)
-def jacobian(**f: str) -> str:
+def jacobian(**f: Tree) -> str:
     """Proof. 1. Implicit differentiation of (14), (15): eq.ENTRIES. 2. By `closed_form` F is, in
     phi and c, (phi + 2 arctan(epsilon c), epsilon c), with the determinant epsilon, and the change
     from gamma to c has determinant 1. 3. At K = 0, as arctan K = K + O(K^3): eq.AT_REST.
@@ -250,7 +251,7 @@ ROWS = (
             "At eta = 1 DF has four such entries, a21 corrected. At an impact at phi = phi_o, "
             "gamma = gamma_o, the next one being at phi1: "
             + "; ".join(
-                f"a{n} = {spoken(text)}"
+                f"a{n} = {formula(text)}"
                 for n, text in zip((11, 12, 21, 22), eq.JACOBIAN, strict=True)
             )
             + ".",

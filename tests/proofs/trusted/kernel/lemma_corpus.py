@@ -252,19 +252,14 @@ MALFORMED = {
         "no formula has",
         changed("logistic", formula("F", "tan(x)")),
     ),
-    "white_space": (
-        "a formula whose spaces suggest another reading",
-        "canonical",
-        changed("logistic", formula("F", "x+1 * 2")),
-    ),
     "comment": (
         "a formula with a comment that says more",
-        "canonical",
+        "in no formula",
         changed("logistic", formula("F", "x # + 1")),
     ),
     "hexadecimal": (
         "a number 0x10 that is 16 and looks like 0 times x10",
-        "canonical",
+        "in no formula",
         changed("logistic", formula("F", "0x10*x")),
     ),
     "number_not_canonical": (

@@ -182,14 +182,14 @@ def flips():
     reduced = "-h + b2*h**2 + b3*h**3"
     file.solution(
         {"x": "2/3", "r": "3", "b2": "-3", "b3": "0", "c": "9"},
-        Equal(f"at({step}, x1=x)", "0"),
-        Series(f"at({step}, x=x + h, x1=x + ({reduced}))", "h", ("0",) * 4),
-        Equal("b2**2 + b3", "c"),
+        Equal.read(f"at({step}, x1=x)", "0"),
+        Series.read(f"at({step}, x=x + h, x1=x + ({reduced}))", "h", ("0",) * 4),
+        Equal.read("b2**2 + b3", "c"),
     )
     file.solution(
         {"c": "-x**2/4", "d": "-x"},
-        Equal("x**2 + 4*c", "0"),
-        Series("sin(h*d)/d", "h", ("0", "1", "0", "-d**2/6"), ("x",)),
+        Equal.read("x**2 + 4*c", "0"),
+        Series.read("sin(h*d)/d", "h", ("0", "1", "0", "-d**2/6"), ("x",)),
     )
     return file
 

@@ -173,7 +173,7 @@ def formulas(document: Document) -> Iterator[tuple[str, tuple[Any, ...], Any]]:
             for other in OTHERS.get(token, ["3" * len(token)] if token.isdigit() else []):
                 changed = "".join([*tokens[:index], other, *tokens[index + 1 :]])
                 yield "formula changed", path, put(path, changed)
-        for other in (f"{value} ", f"({value}", f"tan({value})", f"0x10*({value})", f"{value}#"):
+        for other in (f" {value}", f"({value}", f"tan({value})", f"0x10*({value})", f"{value}#"):
             yield "formula malformed", path, put(path, other)
 
 

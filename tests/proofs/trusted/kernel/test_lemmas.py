@@ -108,11 +108,11 @@ def test_entropy_of_the_golden_mean():
 
 def test_sentences_in_full():
     assert check(zero_file(value(SQUARE, ["-1", "2"], x=["1", "2"]))).sentences[0] == (
-        "x**2 - 2 has a zero x in [1.4, 1.5]."
+        "`x**2 - 2` has a zero `x` in [1.4, 1.5]."
     )
     assert says("unique-zero", UNIQUE, F=PLANE) == (
-        "for F(x, y) = (x*y - 1, x - y) and x in [0.9, 1.1], y in [0.9, 1.1]: "
-        "F has exactly one zero."
+        "for `F(x, y) = (x*y - 1, x - y)` and `x` in [0.9, 1.1], `y` in [0.9, 1.1]: "
+        "`F` has exactly one zero."
     )
 
 
@@ -150,7 +150,7 @@ def test_a_zero_has_opposite_signs_around_it():
 
 def test_the_only_zero_where_the_function_is_monotone():
     only = check(zero_file(RISING)).sentences[0]
-    assert only == "x**2 - 2 has a zero x in [1.4, 1.5], and no other in [1, 2]."
+    assert only == "`x**2 - 2` has a zero `x` in [1.4, 1.5], and no other in [1, 2]."
     flat = value(f"D({SQUARE}, x)", ["0", "4"], x=["0", "2"])
     falls = value(f"D({SQUARE}, x)", ["-4", "4"], x=["-2", "2"])
     for step in (flat, falls, AROUND):
@@ -256,10 +256,12 @@ LOW = {"box": [["0", "1/4"], ["-21/20", "-3/4"]], "slope": ["0", "1/8"], "matrix
 
 def test_arc():
     """The circle over [-1/4, 1/4], on two slanted boxes; over [-3/5, 4/5] in the example."""
-    assert "are the graph of a smooth function of x in [-0.25, 0.25]" in says("arc", ARC, C=CIRCLE)
+    assert "are the graph of a smooth function of `x` in [-0.25, 0.25]" in says(
+        "arc", ARC, C=CIRCLE
+    )
     for piece, ends in ((LEFT, "[-0.25, 0]"), (LOW, "[0, 0.25]")):
         alone = {**ARC, "pieces": [piece], "points": []}
-        assert says("arc", alone, C=CIRCLE).endswith(f"a smooth function of x in {ends}.")
+        assert says("arc", alone, C=CIRCLE).endswith(f"a smooth function of `x` in {ends}.")
 
 
 @pytest.mark.parametrize(

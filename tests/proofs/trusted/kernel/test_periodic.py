@@ -16,7 +16,7 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.contractor import Contractor, Empty
-from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check, premises
 from tests.proofs.methods.test_henon import CYCLES
@@ -100,9 +100,9 @@ def test_a_box_without_orbits_and_maps_that_are_not_polynomials():
 
 def test_the_sentence():
     assert check(source(SHIFT, 2)).sentences == (
-        "for F(x) = 5*x*(1 - x): the periodic orbits whose points all have x in [-0.1, 1.1], and "
-        "whose least period divides 2, are exactly these: 2 of least period 1, 1 of least period "
-        "2.",
+        "for `F(x) = 5*x*(1 - x)`: the periodic orbits whose points all have `x` in [-0.1, 1.1], "
+        "and whose least period divides 2, are exactly these: 2 of least period 1, 1 of least "
+        "period 2.",
     )
     assert check(source((LOGISTIC, (("1/10", "7/10"),)), 1)).sentences[0].endswith(": none.")
 

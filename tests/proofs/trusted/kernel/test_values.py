@@ -10,9 +10,10 @@ from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel import values
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.kernel.normalform import Exponential, Function, Inverse, NormalForms
+from proofs.trusted.kernel.trees import Variable, formula
 from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Asked, Value, at, differ
 from tests.intervals.oracle import arb
@@ -122,7 +123,7 @@ FALSE = [
 
 @pytest.mark.parametrize(("left", "right"), TRUE)
 def test_true_equations(left, right):
-    assert equal(left, right) == Equal(left, right)
+    assert equal(left, right) == Equal.read(left, right)
 
 
 def acb_of(forms, polynomial, x):
@@ -267,11 +268,6 @@ def test_what_is_no_formula(text):
         equal(text, "1")
 
 
-@pytest.mark.parametrize("text", ["x + y - 1", "-x**2", "x - -y", "at(x*y, x=-1, y=2)*D(-x, x)"])
-def test_the_canonical_form(text):
-    assert equal(text, text).left == text
-
-
 def test_a_text_is_read_from_the_left():
     equal("8/4/2*x - 2 - 1", "x - 3")
     equal("-x**2", "(-1)*x*x")
@@ -353,7 +349,7 @@ def test_forms_of_series():
         {"coefficients": ["0"] * 13},
     ):
         witness = {"function": "x", "variable": "x", "coefficients": ["0"], "nonzero": []}
-        with pytest.raises(Malformed):
+        with pytest.raises((Malformed, Unproved)):
             values.series(Context(), Reader({**witness, **arguments}))
 
 
@@ -370,10 +366,10 @@ def test_values():
     # the first axis is that of x, whatever comes first in the file
     value("y*x*(1 - x)", ["0", "9/20"], y=["1", "1"], x=["0", "1"], tree=["1", "1/2", None, None])
     assert value("3*x - 1", ["0", "0"], x=["1/3", "1/3"]).sentence == (
-        "3*x - 1 lies in [0, 0] for x = 1/3."
+        "`3*x - 1` lies in [0, 0] for `x` = 1/3."
     )
     two = value("x**2 - y", ["-1", "4"], y=["0", "1"], x=["0", "2"])
-    assert two.sentence == "x**2 - y lies in [-1, 4] for x in [0, 2], y in [0, 1]."
+    assert two.sentence == "`x**2 - y` lies in [-1, 4] for `x` in [0, 2], `y` in [0, 1]."
 
 
 @pytest.mark.parametrize(
@@ -412,11 +408,11 @@ def test_a_box_has_the_variables_of_the_function(box):
 @pytest.mark.parametrize("name", ["function", "box", "bounds"])
 def test_an_asked_value_is_met_by_that_value_alone(name):
     asked = at("x - y", 1, y="1", x="2")
-    met = Value("x - y", tuple(sorted(asked.box)), (Fraction(1, 2), Fraction(3, 2)))
+    met = Value(formula("x - y"), asked.box, (Fraction(1, 2), Fraction(3, 2)))
     assert asked.met_by(met)
     other = {
-        "function": "y - x",
-        "box": (("x", (Fraction(2),) * 2), ("y", (Fraction(0), Fraction(1)))),
+        "function": formula("y - x"),
+        "box": ((Variable("x"), (Fraction(2),) * 2), (Variable("y"), (Fraction(0), Fraction(1)))),
         "bounds": (Fraction(0), Fraction(1)),
     }
     fields = {"function": met.function, "box": met.box, "bounds": met.bounds, name: other[name]}

@@ -27,7 +27,7 @@ from proofs.trusted.certificate import (
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.formulas import read_function
+from proofs.trusted.kernel.head import read_function
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, covering_shift
