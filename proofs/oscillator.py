@@ -20,11 +20,11 @@ from html import escape
 from intervals import Undecided, decimal_bounds, fraction
 from intervals.exact import whole
 from proofs.motion.digits import MOST_DIGITS
-from proofs.motion.image import Image, PossibleImages, image
-from proofs.motion.impact import HORIZON
-from proofs.motion.rebound import Rebound, rebound
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence, Proof
+from proofs.search.image import Image, PossibleImages, image
+from proofs.search.rebound import Rebound, rebound
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups

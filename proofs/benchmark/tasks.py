@@ -33,12 +33,12 @@ from proofs.benchmark.slopes import (
     first_impact,
 )  # fmt: skip
 from proofs.motion import candidate, kernel
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.image import Image, image
-from proofs.motion.impact import HORIZON, locate
+from proofs.motion.covering import cover_by
 from proofs.motion.marching import march
-from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.slope_cover import cut, grid_of, slope_cover
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, FlightBox, locate
+from proofs.search.image import Image, image
 from proofs.shell.entry import run_process
 
 SYSTEM = System(ETA, NU)
@@ -76,6 +76,10 @@ def loss(found: Sequence[Range]) -> float:
     return float(min(losses)) if min(losses) < 0 else float(max(losses))
 
 
+def _flights(phases: Range) -> FlightBox:
+    return FlightBox.plastic(SYSTEM.place, phases)
+
+
 @cache
 def works(boxes: int) -> list[Work]:
     """Return what is given to all; Undecided if the kernel does not find it."""
@@ -85,7 +89,7 @@ def works(boxes: int) -> list[Work]:
 @cache
 def work(domain: Range, boxes: int) -> Work:
     """Return the work of one domain, on times before every impact that a scalar proof finds."""
-    grid = grid_of(cover_by_impacts(SYSTEM, domain)[0])
+    grid = grid_of(cover_by(_flights(domain))[0])
     times, cuts = slope_cover(SYSTEM, domain, boxes, grid).times, cut(domain, boxes)
     low, high = times.inf * (1 - _OPENING), times.sup * (1 + _OPENING)
     brackets = list(zip(low.tolist(), high.tolist(), strict=True))
@@ -147,12 +151,6 @@ def excluded(library: str, boxes: float) -> float:
     return 0.0
 
 
-def extremes(_: float) -> float:
-    """Bound f' by monotonicity, in binary64."""
-    found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
-    return loss([(Fraction(x.minimum[0]), Fraction(x.maximum[1])) for x in found])
-
-
 def main_job_slopes(digits: float) -> float:
     """Do what the main job does: it is given nothing, and keeps the witness."""
     from proofs.search.steps import Prover
@@ -199,9 +197,8 @@ def flights(library: str, digits: float) -> float:
 @cache
 def _given(phase: Fraction) -> tuple[list[float], float]:
     """Return times before the impact, and about the time of it."""
-    impact, about = locate(SYSTEM, (phase, phase)), candidate.next_impact(SYSTEM, float(phase))
-    grid = [float(time) for time in impact.times[1:] if time <= impact.window[0]]
-    return grid, about[0] if about else 0.0
+    about = candidate.next_impact(SYSTEM, float(phase))
+    return grid_of(locate(_flights((phase, phase)))), about[0] if about else 0.0
 
 
 def marches(step: float) -> float:

@@ -21,9 +21,9 @@ from intervals import IntervalArray, Jet, Undecided
 from intervals.bilinear import bilinear
 from intervals.rounding import outward, outward_sum
 from proofs.motion.candidate import next_impact
-from proofs.motion.impact import HORIZON
 from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 
 Floats = NDArray[np.float64]

@@ -16,7 +16,7 @@ from fractions import Fraction
 from intervals import Interval, Undecided, atan
 from proofs.motion.digits import to_digits
 from proofs.motion.phase import on_circle
-from proofs.motion.rebound import Impossible
+from proofs.motion.witness import Impossible
 from proofs.trusted.equations import Clock, arrival, closing, launch
 from proofs.trusted.numbers import Range
 

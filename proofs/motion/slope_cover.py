@@ -1,4 +1,4 @@
-"""f' over thousands of boxes of phases, and its extremes, each box at the precision it needs.
+"""f' over thousands of boxes of phases, each box at the precision it needs.
 
 Binary64 decides what it can, many boxes at once; the others are asked alone, in multiprecision.
 """
@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 from intervals import IntervalArray, Undecided
 from intervals.cover import cover
 from intervals.rounding import float_down, float_up
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import LEAST, FirstImpact, impact_time, locate, time_range
+from proofs.motion.branch import Branch
+from proofs.motion.covering import cover_by
 from proofs.motion.kernel import Floats, Launches, enclose_times, exclude_impacts, find_times
 from proofs.motion.system import System
+from proofs.motion.witness import FlightBox, Seen
+from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.numbers import Range, hull
 
 BINARY64 = 53
@@ -66,8 +68,8 @@ def slope_cover(
         return _in_binary64(system, grid, cut(phases, boxes))
     return _joined(
         [
-            _retried(system, part, cut(part.flight.phases, _share(part, phases, boxes)))
-            for part in cover_by_impacts(system, phases)
+            _retried(system, part, cut(part.flights.phases, _share(part, phases, boxes)))
+            for part in _impacts(system, phases)
         ]
     )
 
@@ -86,7 +88,7 @@ def _joined(covers: Sequence[SlopeCover]) -> SlopeCover:
     )
 
 
-def _retried(system: System, part: FirstImpact, cuts: Floats) -> SlopeCover:
+def _retried(system: System, part: Seen, cuts: Floats) -> SlopeCover:
     """Enclose f' over the boxes between the cuts, all in one part, each as it needs."""
     grid, boxes = grid_of(part), cuts.size - 1
 
@@ -96,7 +98,7 @@ def _retried(system: System, part: FirstImpact, cuts: Floats) -> SlopeCover:
     def alone(k: int) -> SlopeCover:
         return _alone(system, cuts[k], cuts[k + 1])
 
-    if part.flight.precision > LEAST:
+    if part.bits > COVER_BITS:
         return _joined([alone(k) for k in range(boxes)])
     return _joined(_by_halves(boxes, together, alone))
 
@@ -126,33 +128,33 @@ def _by_halves(
 
 def _alone(system: System, low: float, high: float) -> SlopeCover:
     """Ask for the launches from low to high, one phase or more, in multiprecision."""
-    phases = Fraction(low), Fraction(high)
-    thin = low == high
-    parts = [locate(system, phases)] if thin else cover_by_impacts(system, phases)
-    columns: tuple[list[Range], list[Range], list[Range]] = [], [], []
+    parts = _impacts(system, (Fraction(low), Fraction(high)))
+    found = []
     for part in parts:
-        of = part.flight.phases
-        bits = _POINT + part.places
-        time = impact_time(part, of, bits) if thin else time_range(part, of)
-        flight = part.thin(of, bits) if thin else part.part(of)
-        slope, curvature = flight.slope_and_curvature(time)
-        found = time, (slope.inf, slope.sup), (curvature.inf, curvature.sup)
-        for column, one in zip(columns, found, strict=True):
-            column.append(one)
-    times, slopes, curvatures = (IntervalArray([hull(column)]) for column in columns)
-    last = float_down(min(part.window[0] for part in parts))
-    needed = max(part.flight.precision for part in parts)
+        of = part.flights.phases
+        places = (1 / part.windows[0][0]).__ceil__().bit_length() - 1
+        branch = Branch([("", part.proved())], _POINT + places)
+        found.append((branch.flight(*of)[1], branch.slope(*of), branch.curvature(*of)))
+    times, slopes, curvatures = (IntervalArray([hull(x)]) for x in zip(*found, strict=True))
+    last = float_down(min(part.windows[0][0] for part in parts))
+    needed = max(COVER_BITS, *(part.bits for part in parts))
     boxes = IntervalArray.from_floats([low], [high])
     return SlopeCover(boxes, times, slopes, curvatures, np.array([last]), np.array([needed]))
 
 
-def grid_of(impact: FirstImpact) -> list[float]:
+def grid_of(impact: Seen) -> list[float]:
     """Return the times before the window of a transversal first impact."""
-    return [float(time) for time in impact.known[1:]]
+    return [float(time) for time in impact.excluded]
 
 
-def _share(part: FirstImpact, phases: Range, boxes: int) -> int:
-    low, high = part.flight.phases
+def _impacts(system: System, phases: Range) -> list[Seen]:
+    """Return the transversal first impacts of phases, in parts."""
+    flights = FlightBox.plastic(system.place, phases)
+    return cover_by(flights, floats=False)
+
+
+def _share(part: Seen, phases: Range, boxes: int) -> int:
+    low, high = part.flights.phases
     return max(1, round(boxes * (high - low) / (phases[1] - phases[0])))
 
 
@@ -185,47 +187,3 @@ def _in_binary64(system: System, grid: Sequence[float], cuts: Floats) -> SlopeCo
         raise ArithmeticError("two enclosures of the same slopes are disjoint")
     bits = np.full(boxes, BINARY64)
     return SlopeCover(launches.phases, times, narrower, curvatures, last, bits)
-
-
-@dataclass(frozen=True)
-class SlopeExtremes:
-    """Bounds (lower, upper) on the minimum and on the maximum of f', and the cover behind them."""
-
-    minimum: tuple[float, float]
-    maximum: tuple[float, float]
-    cover: SlopeCover
-
-
-def slope_extremes(system: System, phases: Range, boxes: int = 8) -> SlopeExtremes:
-    """Enclose the extremes of f' over `phases` in binary64, by monotonicity where f'' has a sign.
-
-    On a box with f'' > 0 or f'' < 0, f' lies between its values at the two cuts; on others in
-    the cover's enclosure. The values at cuts, of thin phases and tight times, are attained. So
-    where f'' has one sign on all boxes, nothing is lost but the rounding of two evaluations.
-    """
-    over = slope_cover(system, phases, boxes)
-    lower = over.boxes.inf
-    ends = IntervalArray([phases[0], phases[1]])
-    cuts = IntervalArray.from_floats(
-        np.concatenate((ends.inf[:1], lower[1:], ends.inf[1:])),
-        np.concatenate((ends.sup[:1], lower[1:], ends.sup[1:])),
-    )
-    last = np.append(over.last, over.last[-1])
-
-    def together(low: int, high: int) -> IntervalArray:
-        thin = Launches(system, cuts[low:high])
-        about = find_times(system, thin.phases.mid)
-        return thin.slopes(enclose_times(thin, last[low:high], (about, about)))
-
-    def alone(k: int) -> IntervalArray:
-        return _alone(system, cuts.inf[k], cuts.sup[k]).slopes
-
-    at_cuts = IntervalArray.concatenate(_by_halves(len(cuts), together, alone))
-    one_sign = over.curvatures.certainly_positive() | over.curvatures.certainly_negative()
-    others = over.slopes[~one_sign]
-    low, high = at_cuts.inf, at_cuts.sup
-    return SlopeExtremes(
-        (float(np.concatenate((low, others.inf)).min()), float(high.min())),
-        (float(low.max()), float(np.concatenate((high, others.sup)).max())),
-        over,
-    )

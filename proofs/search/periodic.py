@@ -14,10 +14,10 @@ from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.traces import escape_rate
 from proofs.methods.words import Words
 from proofs.motion.horseshoe_map import ImpactMap
-from proofs.motion.impact import HORIZON
 from proofs.motion.phase import turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Tell
 from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces

@@ -12,26 +12,24 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from intervals import Interval, Undecided
-from proofs.motion.flight import Flight
-from proofs.motion.impact import HORIZON, locate
-from proofs.motion.phase import turn as full_turn
+from intervals import Undecided
 from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
 from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
+from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import clock, launch_acceleration, slope
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
 from proofs.trusted.paper.s4_single.below import BelowWindows
-from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Solution, records
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, records
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
-from proofs.trusted.parameters import PAPER, Parameters, Place
+from proofs.trusted.parameters import PAPER, Parameters
 
 _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
@@ -61,23 +59,17 @@ class Single:
         first: or with its first impact, n periods later, at the parameters of the certificate.
         """
         phase = bracket(system, of.n, of.phase, self.prover.bits)
-        flight = Flight(system, phase, self.prover.bits + 60)
-        time = _inside(flight, of.n) if early else None
-        whole = full_turn(flight.precision) * of.n
-        factor: Interval = slope(flight.start, clock(flight.eta, whole))
-        push: Interval = launch_acceleration(flight.start)
-        at = Place.plastic(system.eta, system.nu)
-        bounds = (factor.inf, factor.sup), (push.inf, push.sup)
-        return self._add(
-            "single-solution",
-            Solution(at, of.n, phase, *bounds, time, first),
-            eta=str(system.eta),
-            nu=str(system.nu),
-            n=str(of.n),
-            phase=texts(phase),
-            early=None if time is None else str(time),
-            flight=self.prover.add_impact(locate(system, phase)) if first else None,
-        )
+        motion = Motion(system.place, phase, self.prover.bits + 60)
+        witness = {
+            "eta": str(system.eta),
+            "nu": str(system.nu),
+            "n": str(of.n),
+            "phase": texts(phase),
+            "early": str(_inside(motion, of.n)) if early else None,
+            "flight": self.prover.impact(phase)[0] if first else None,
+        }
+        name, self.found[name] = self.prover.derive("single-solution", witness)
+        return name
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
         """Record all windows in eta >= low at which stable orbits exist, for nu in (0, 1)."""
@@ -152,11 +144,11 @@ class Single:
         return tuple(windows), steps
 
 
-def _inside(flight: Flight, n: int) -> Fraction:
+def _inside(motion: Motion, n: int) -> Fraction:
     """Return a time before n table periods at which the mass would be inside the table."""
     times = [round(TURN * step / _TIMES, 6) for step in range(1, _TIMES * n)]
-    best = min(times, key=lambda time: flight.gap(time).sup)
-    if not flight.gap(best).certainly_negative():
+    best = min(times, key=lambda time: motion.gap_of((time, time), 0).hi)
+    if motion.gap_of((best, best), 0).hi >= 0:
         raise Undecided("no earlier impact is seen")
     return best
 

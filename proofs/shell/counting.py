@@ -172,9 +172,8 @@ def _number(by: str, bits: str) -> _Rule:
 
 def _impact(frame: FrameType, value: Any) -> dict[Kind, int]:
     """Count a set of launches whose impact is found to be one, by the precision it took."""
-    row = IMPACTS[bisect_left(_PRECISIONS, value.flight.precision)]
-    by = _column(value.flight.phi) or INTERVALS
-    return {Kind(row, by): 1} if value.transversal else {}
+    row = IMPACTS[bisect_left(_PRECISIONS, value.bits)]
+    return {Kind(row, CHECKER if value.bits else FLOATS): 1} if value.transversal else {}
 
 
 def _one(what: str) -> _Rule:
@@ -223,7 +222,7 @@ _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
     "proofs.trusted.paper.s4_single.orbits.excess": _formula,
     "proofs.trusted.paper.s4_single.orbits.distance": _formula,
     "proofs.trusted.kernel.expression.Tape.evaluate": _formula,
-    "proofs.motion.impact.march": _impact,
+    "proofs.motion.witness.march": _impact,
     "proofs.motion.slope_cover._in_binary64": (
         lambda frame, cover: {Kind(IMPACTS[0], ARRAYS): len(cover.boxes)}
     ),

@@ -15,8 +15,7 @@ from typing import Any
 
 from intervals import IntervalError
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.motion.impact import NoImpact
-from proofs.motion.rebound import Impossible
+from proofs.motion.witness import Impossible, NoImpact
 from proofs.stress.cases import Answer, Case, Ranges, Truth
 
 _TURN_BITS = 800

@@ -10,10 +10,10 @@ import numpy as np
 
 from intervals import IntervalArray
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.motion.image import PossibleImages, image
-from proofs.motion.rebound import rebound
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
+from proofs.search.image import PossibleImages, image
+from proofs.search.rebound import rebound
 from proofs.stress.cases import Answer, Case, Truth
 from proofs.stress.truth import Launched
 from proofs.stress.truth import first_impact as true_impact

@@ -17,7 +17,7 @@ from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_a
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Range, increasing, show_range, within
+from proofs.trusted.numbers import TURN, Range, increasing, mean_values, show_range, within
 from proofs.trusted.parameters import Place
 
 COVER_BITS = 64
@@ -53,18 +53,12 @@ def brackets(gap_of: Gap, time: Range) -> bool:
     return low.lo > 0 > high.hi
 
 
-def mean_values(first: Range, last: Range, derivative: Range, width: Fraction) -> Range:
-    """Enclose a function on an interval, from its ends and the range of its derivative."""
-    down, up = min(derivative[0], _ZERO) * width, max(derivative[1], _ZERO) * width
-    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
-
-
 def fall(gap_of: Gap, time: Range) -> Enclosure:
     """Enclose gap' on an interval of times: directly, and by the mean value theorem."""
     direct = gap_of(time, 1)
     first, last = (gap_of((end, end), 1).range for end in time)
     low, high = mean_values(first, last, gap_of(time, 2).range, time[1] - time[0])
-    return direct.meet(Enclosure.of(low, high, direct.bits))
+    return direct.meet(type(direct).of(low, high, direct.bits))
 
 
 def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
@@ -279,20 +273,19 @@ def _rounded(bits: int) -> int:
     return min(MAX_BITS, -(-bits // 16) * 16)
 
 
-def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
-    """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
+def bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
+    """Return the motion, at the precision of a bracket in which all launches in `phases` impact.
 
     In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
     lower end and gap < 0 at the upper one bracket it.
     """
-    time, window, motion = time_of.range(), step.windows[0], step.motion
-    if not within(time, window):
+    if not within(time, step.windows[0]):
         raise Unproved("a bracket leaves the window of the first impact")
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
-        inner = replace(motion, phases=phases, bits=min(factor * bits, MAX_BITS))
+        inner = replace(step.motion, phases=phases, bits=min(factor * bits, MAX_BITS))
         if any(brackets(gap_of, time) for gap_of in (inner.gap_of, inner.sharp_gap)):
-            return inner, time
+            return inner
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
 

@@ -14,7 +14,7 @@ from mpmath import mpf
 import proofs
 from intervals import Undecided
 from proofs import Oscillator, oscillator
-from proofs.motion.impact import NoImpact
+from proofs.motion.witness import NoImpact
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference

@@ -302,7 +302,7 @@ def test_what_is_across_is_the_error_its_digits_or_the_size():
 def test_a_library_has_the_same_colour_everywhere():
     known = {style(f"{form}{name}") for form in ("", "natural, ") for name in PEERS}
     assert len(known) == len(PEERS) and None not in known
-    assert style(precision.ARRAY) is style(OURS) is style("certified map (motion.image)") is None
+    assert style(precision.ARRAY) is style(OURS) is style("certified map (search.image)") is None
 
 
 @pytest.mark.slow

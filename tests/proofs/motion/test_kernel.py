@@ -9,11 +9,11 @@ from mpmath import mp, mpf
 
 from intervals import IntervalArray, Undecided
 from proofs.motion import kernel
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import HORIZON
+from proofs.motion.covering import cover_by
 from proofs.motion.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
-from proofs.motion.slope_cover import BINARY64, cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.slope_cover import BINARY64, cut, grid_of, slope_cover
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, FlightBox
 from proofs.search.steps import Prover
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -76,6 +76,11 @@ def _ratio(x):
 
 def holds(x, value, spare=Fraction(1, 10**40)):
     return Fraction(float(x.inf)) - spare <= value <= Fraction(float(x.sup)) + spare
+
+
+def grid_over(system, phases):
+    """Times before every first impact."""
+    return grid_of(cover_by(FlightBox.plastic(system.place, phases))[0])
 
 
 def launches_of(system, cuts):
@@ -150,40 +155,9 @@ def test_the_excess_falls_with_the_square_of_the_number_of_boxes():
     assert losses[2] < losses[1] / 10
 
 
-@pytest.mark.parametrize("boxes", [1, 8, 50])
-@pytest.mark.parametrize("phases", [I0, I1])
-def test_extremes_within_1e_11(phases, boxes):
-    found = slope_extremes(PAPER, phases, boxes)
-    allowed = Fraction(1, 10**11)
-    for bounds, text in zip((found.minimum, found.maximum), TRUE_EXTREMES[phases], strict=True):
-        low, high = map(Fraction, bounds)
-        assert low <= Fraction(text) + Fraction(1, 10**18)
-        assert high >= Fraction(text) - Fraction(1, 10**18)
-        assert Fraction(text) - low < allowed
-        assert high - Fraction(text) < allowed
-
-
-@pytest.mark.slow
-def test_extremes_where_the_second_derivative_changes_sign():
-    system = System(Fraction("0.15"), Fraction("-0.15"))
-    phases = Fraction("0.98"), Fraction("1.03")
-    found = slope_extremes(system, phases, 7)
-    curvatures = found.cover.curvatures
-    assert curvatures.certainly_positive().any()
-    assert curvatures.certainly_negative().any()
-    samples = [
-        true_impact(system, phases[0] + (phases[1] - phases[0]) * Fraction(k, 20))[1]
-        for k in range(21)
-    ]
-    assert Fraction(found.minimum[0]) <= min(samples) < min(samples[0], samples[-1])
-    assert Fraction(found.maximum[1]) >= max(samples)
-    assert found.minimum[1] - found.minimum[0] < 1e-2
-    assert found.minimum[0] <= found.minimum[1] <= found.maximum[1]
-
-
 @pytest.mark.slow
 def test_two_chunks_or_more_give_the_same_boxes():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
+    grid = grid_over(PAPER, I0)
     boxes = 2 * CHUNK // len(grid) + 5
     cover = slope_cover(PAPER, I0, boxes, grid)
     assert len(cover.slopes) == boxes
@@ -209,7 +183,7 @@ def test_a_grazing_phase_is_refused():
     with pytest.raises(Undecided):
         slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 64)
     # even if the grid is one that serves the launches on one side of it
-    grid = grid_of(cover_by_impacts(PAPER, I1)[0])
+    grid = grid_over(PAPER, I1)
     with pytest.raises(Undecided, match=r"box \d+ of 256"):
         slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 256, grid)
 
@@ -225,12 +199,12 @@ WRONG_GRIDS = {
 @pytest.mark.parametrize("change, message", WRONG_GRIDS.values(), ids=WRONG_GRIDS)
 def test_a_wrong_grid_is_refused(change, message):
     with pytest.raises(Undecided, match=message):
-        slope_cover(PAPER, I0, 64, change(grid_of(cover_by_impacts(PAPER, I0)[0])))
+        slope_cover(PAPER, I0, 64, change(grid_over(PAPER, I0)))
 
 
 def test_a_grid_that_jumps_over_an_impact_is_refused():
     # at the last time the gap of every launch is > 0 again: two zeros lie in between
-    cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
+    cuts, grid = cut(I0, 64), grid_over(PAPER, I0)
     launches = launches_of(PAPER, cuts)
     times = (26.0 + k / 8 for k in range(400))
     again = next(t for t in times if launches.heights(np.full(64, t)).certainly_positive().all())
@@ -250,7 +224,7 @@ def test_a_time_just_after_the_impact_is_refused():
     phase = Fraction("2.1")
     time = float(true_impact(OTHER, phase)[0])
     launches = Launches(OTHER, IntervalArray([phase]))
-    grid = grid_of(cover_by_impacts(OTHER, (phase, phase + Fraction(1, 50)))[0])
+    grid = grid_over(OTHER, (phase, phase + Fraction(1, 50)))
     exclude_impacts(launches, [*grid, time - 1e-6])
     with pytest.raises(Undecided, match="not excluded"):
         exclude_impacts(launches, [*grid, time + 1e-9])
@@ -259,7 +233,10 @@ def test_a_time_just_after_the_impact_is_refused():
 def test_the_first_failing_box_is_named_in_any_chunk(monkeypatch):
     # here later launches land earlier, the first after 2.20, the last after 2.12
     phases = Fraction("2.1"), Fraction("2.13")
-    cuts, grid = cut(phases, 256), [*grid_of(cover_by_impacts(OTHER, phases)[0]), 2.15]
+    cuts, grid = (
+        cut(phases, 256),
+        [*grid_over(OTHER, phases), 2.15],
+    )
     launches = launches_of(OTHER, cuts)
     messages = []
     for chunk in (CHUNK, 10 * len(grid)):
@@ -272,7 +249,7 @@ def test_the_first_failing_box_is_named_in_any_chunk(monkeypatch):
 
 
 def test_a_bracket_that_begins_before_the_window_is_refused():
-    cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
+    cuts, grid = cut(I0, 64), grid_over(PAPER, I0)
     launches = launches_of(PAPER, cuts)
     last, high = np.full(64, grid[-1]), find_times(PAPER, cuts)[1:] + 1e-2
     prove_brackets(launches, last, last, high)
@@ -289,7 +266,7 @@ def test_no_grid_at_all_is_refused(grid):
 def test_brackets_that_miss_are_refused():
     cuts = cut(I0, 64)
     launches = launches_of(PAPER, cuts)
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
+    grid = grid_over(PAPER, I0)
     exclude_impacts(launches, grid)
     last, times = np.full(64, grid[-1]), find_times(PAPER, cuts)
     low, high = times[:-1] - 1e-2, times[1:] + 1e-2

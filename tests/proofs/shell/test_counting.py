@@ -16,9 +16,10 @@ from intervals import Interval, IntervalArray, Jet
 from proofs import impact, period_doubling, resonance, single_impact
 from proofs.methods.extremes import extremes
 from proofs.motion import single_orbits
-from proofs.motion.covering import cover_by_impacts
+from proofs.motion.covering import cover_by
 from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
+from proofs.motion.witness import FlightBox
 from proofs.shell import counting
 from proofs.shell.counting import (
     ARRAYS,
@@ -41,7 +42,7 @@ from proofs.shell.counting import (
 )
 from proofs.trusted import equations
 from proofs.trusted.equations import clock, gap, launch, slope
-from proofs.trusted.kernel.arithmetic import Dual, rational
+from proofs.trusted.kernel.arithmetic import Dual, Enclosure, rational
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.test_stats import AT, CASES, COMMANDS, by, shown
@@ -173,7 +174,7 @@ def watch(monkeypatch):
 def _evaluated(value, start, now, order=0):
     """The row and the number of an evaluation of the gap, by its arguments."""
     numbers = [*start[1:4], *now]
-    kind = INTERVALS if any(isinstance(x, Interval | Dual) for x in numbers) else FLOATS
+    kind = CHECKER if any(isinstance(x, Enclosure | Dual) for x in numbers) else FLOATS
     plain = order == 0 and not any(isinstance(x, Dual) for x in numbers)
     return {(GAP if plain else RATES, kind): 1}
 
@@ -189,11 +190,11 @@ def test_the_map_s_evaluations_are_those_that_wrappers_count(arguments, status, 
     assert impact.main(arguments) == status
     for what in (GAP, RATES):
         by_kind = {column: rows[what][column] for column in COLUMNS}
-        expected = {column: calls[what, column] for column in (FLOATS, INTERVALS)}
-        assert by_kind == {ARRAYS: 0, CHECKER: 0, **expected}
-    assert rows.get(SLOPE, {INTERVALS: 0})[INTERVALS] == slopes[Interval]
-    assert rows.get(MATRIX, {INTERVALS: 0})[INTERVALS] == matrices[""]
-    assert slopes[Interval] + matrices[""] > 0 or status or "4.64" in arguments
+        expected = {column: calls[what, column] for column in (FLOATS, CHECKER)}
+        assert by_kind == {ARRAYS: 0, INTERVALS: 0, **expected}
+    assert rows.get(SLOPE, {CHECKER: 0})[CHECKER] == slopes[Enclosure]
+    assert rows.get(MATRIX, {CHECKER: 0})[CHECKER] == matrices[""]
+    assert slopes[Enclosure] + matrices[""] > 0 or status or "4.64" in arguments
 
 
 @pytest.mark.slow
@@ -225,7 +226,7 @@ def test_other_formulas_are_those_that_wrappers_count(watch, monkeypatch, capsys
 
 def test_each_bisection_makes_one_part_more():
     with counted() as counts:
-        parts = cover_by_impacts(SYSTEM, (Fraction("0.5"), Fraction("1.15")))
+        parts = cover_by(FlightBox.plastic(SYSTEM.place, (Fraction("0.5"), Fraction("1.15"))))
     assert counts[Kind(BISECTIONS)] == len(parts) - 1 > 0
 
 
@@ -234,10 +235,10 @@ def test_each_piece_of_a_range_is_asked_for_its_slope_once():
 
     def slope(low, high):
         asked.append((low, high))
-        x = Interval(low, high)
-        return 3 * x * x - 1  # of x^3 - x
+        slopes = 3 * low * low - 1, 3 * high * high - 1  # of x^3 - x
+        return (-1, max(slopes)) if low < 0 < high else (min(slopes), max(slopes))
 
     with counted() as counts:
-        extremes(lambda x: Interval(x) ** 3 - Interval(x), slope, [*map(Fraction, (-1, 0, 1))])
+        extremes(lambda x: (x**3 - x,) * 2, slope, [*map(Fraction, (-1, 0, 1))])
     pieces, halved = counts[Kind(PARTS)], counts[Kind(BISECTIONS)]
     assert pieces == halved + 2 > 2 and len(asked) == len(set(asked)) == pieces + halved

@@ -11,7 +11,7 @@ from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray
 from proofs.benchmark import peers
-from proofs.motion.impact import NoImpact
+from proofs.motion.witness import NoImpact
 from proofs.stress import __main__ as command
 from proofs.stress import arithmetic, motions, report
 from proofs.stress.__main__ import main

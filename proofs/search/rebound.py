@@ -4,27 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
-from intervals import DomainError, Undecided
+from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
+from proofs.motion.brackets import transversal_impact
 from proofs.motion.covering import halves
 from proofs.motion.digits import to_digits
-from proofs.motion.flight import Flight
-from proofs.motion.image import Image, image, separation_phase
-from proofs.motion.impact import HORIZON, NoImpact, Unsettled
-from proofs.motion.phase import lifted
-from proofs.motion.restitution import Arrival, Rebounds, next_impact
+from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, FlightBox, Impossible, NoImpact, Unsettled
+from proofs.search.evidence import FAILED, floats_first
+from proofs.search.image import Image, image
 from proofs.trusted.equations import arrival
+from proofs.trusted.flights import COVER_BITS, Motion, bits_for, lifted
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
+from proofs.trusted.paper.s33_restitution.rebounds import Entries, next_states
 
 _PARTS = 128
 _ZERO = (Fraction(0), Fraction(0))
-Jacobian = tuple[tuple[Range, Range], tuple[Range, Range]]
-
-
-class Impossible(ValueError):
-    """No mass above the table can have this velocity before an impact at this phase."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,7 @@ class Rebound:
     flight: Range
     phase: Range
     velocity: Range
-    jacobian: Jacobian
+    jacobian: Entries
     sticking: bool = False
     dwell: Range | None = None
 
@@ -58,69 +56,93 @@ def rebound(
     parts on which the first impact is one smooth function. Raises Impossible where a state may
     not exist, NoImpact where none follows up to the horizon, Undecided where nothing can be said.
     """
-    states = Rebounds(system, phases, velocities=velocities, epsilon=(epsilon, epsilon))
+    eta, nu, epsilons = ((x, x) for x in (system.eta, system.nu, epsilon))
+    states = FlightBox((eta, nu, epsilons), phases, velocities)
     _require_possible(states)
     if epsilon == 0:
         plastic = image(system, phases, digits=digits, horizon=horizon)
         if isinstance(plastic, Image) and plastic.sticking:
-            return _after_sticking(system, plastic, digits)
-    if states.single:
+            return _after_sticking(system, plastic)
+    if not states.widths:
         return _at_point(states, digits, horizon)
     return _over_box(states, horizon)
 
 
-def _require_possible(states: Rebounds) -> None:
+def _require_possible(states: FlightBox) -> None:
     """Raise Impossible unless gap' <= 0 before each impact: the mass comes from above.
 
     One state is looked at ever more closely; where its closing speed may be 0, Undecided says so.
     """
-    for precision in (64, 256, 1024):
-        speed = replace(states, precision=precision).closing_speed
-        if speed.inf >= 0:
+    for bits in (COVER_BITS, 4 * COVER_BITS, 16 * COVER_BITS):
+        start = states.start(bits)
+        speed = states.closing_speed(start, bits)
+        if speed.lo >= 0:
             return
-        if speed.sup < 0:
+        if speed.hi < 0:
             break
     else:
-        if states.single:
+        if not states.widths:
             raise Undecided("the closing speed is 0, or too close to it to tell its sign")
-    limit = -states.start.rate / states.eta
-    if states.system.side < 0:
-        bound = f"gamma is at most {floor_text(limit.inf)}"
+    low, high = (-start.rate / start.eta).range
+    if states.side < 0:
+        bound = f"gamma is at most {floor_text(low)}"
     else:
-        bound = f"gamma is at least {ceil_text(limit.sup)}"
+        bound = f"gamma is at least {ceil_text(high)}"
     raise Impossible(
         f"physically impossible: the mass would come from inside the table; {bound} before an "
         "impact at every phase given"
     )
 
 
-def _at_point(states: Rebounds, digits: int, horizon: Fraction) -> Rebound:
+class NextState(NamedTuple):
+    """The times of flight, and what `next_states` returns: phases are on the line less turns."""
+
+    flight: Range
+    turns: int
+    phase: Range
+    velocity: Range
+    derivative: Entries
+
+
+def next_state(states: FlightBox, bits: int, horizon: Fraction) -> NextState:
+    """Enclose F and DF over a box of states."""
+
+    def make(floats: bool) -> NextState:
+        found, time = transversal_impact(states, bits, horizon=horizon, floats=floats)
+        box = states.phases, states.velocities or _ZERO
+        return NextState(time, *next_states(states.sides, box, found.times, time))
+
+    return floats_first(make)
+
+
+def _at_point(states: FlightBox, digits: int, horizon: Fraction) -> Rebound:
     found = to_digits(
         digits,
-        lambda bits: next_impact(states, bits=bits, horizon=horizon),
+        lambda bits: next_state(states, bits, horizon),
         lambda x: (x.flight, x.phase, x.velocity, *sum(x.derivative, ())),
         final=(Undecided,),
     )
     return Rebound(found.flight, found.phase, found.velocity, found.derivative)
 
 
-def _after_sticking(system: System, plastic: Image, digits: int) -> Rebound:
+def _after_sticking(system: System, plastic: Image) -> Rebound:
     """Add to the plastic image of sticking phases the velocity at the end of their one flight."""
-    bits = digits * 10 // 3 + 50
-    flight = Flight(system, separation_phase(system, bits), bits, separating=True)
-    velocity = arrival(flight.start, flight.clock(*plastic.flight))[1]
-    bounds = velocity.inf, velocity.sup
+    bits = bits_for(plastic.flight)
+    at = system.place
+    motion = Motion(at, separation_phase(system, bits), bits)
+    velocity = arrival(motion.start(), motion.clock(plastic.flight))[1]
+    bounds = velocity.range
     none = (_ZERO, _ZERO)
     return Rebound(plastic.flight, plastic.phase, bounds, (none, none), True, plastic.dwell)
 
 
-def _over_box(states: Rebounds, horizon: Fraction) -> Rebound:
-    def decide(part: Rebounds) -> Arrival | None:
+def _over_box(states: FlightBox, horizon: Fraction) -> Rebound:
+    def decide(part: FlightBox) -> NextState | None:
         try:
-            return next_impact(part, horizon=horizon)
+            return next_state(part, COVER_BITS, horizon)
         except (NoImpact, Unsettled):
             raise
-        except (Undecided, DomainError):
+        except FAILED:
             return None
 
     try:
@@ -140,11 +162,11 @@ def _over_box(states: Rebounds, horizon: Fraction) -> Rebound:
     )
 
 
-def _split(part: Rebounds) -> tuple[Rebounds, Rebounds]:
+def _split(part: FlightBox) -> tuple[FlightBox, FlightBox]:
     """Halve the longer side of a box of states."""
-    by_phase, by_velocity = (ends[1] - ends[0] for ends in (part.phases, part.velocities))
+    by_phase, by_velocity = (ends[1] - ends[0] for ends in (part.phases, part.velocities or _ZERO))
     if by_phase >= by_velocity:
         low, high = halves(part.phases)
         return replace(part, phases=low), replace(part, phases=high)
-    low, high = halves(part.velocities)
+    low, high = halves(part.velocities or _ZERO)
     return replace(part, velocities=low), replace(part, velocities=high)
