@@ -12,8 +12,8 @@ in notebooks. What cannot be proved raises `intervals.Undecided`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from html import escape
 
@@ -22,7 +22,7 @@ from intervals.exact import whole
 from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
-from proofs.search.evidence import Evidence, Proof
+from proofs.search.evidence import FAILED, Evidence, Proof, Proved
 from proofs.search.image import Image, PossibleImages, image
 from proofs.search.rebound import Rebound, rebound
 from proofs.search.s33_steps import ReboundProver
@@ -79,6 +79,18 @@ class Answer:
 
     bounds: tuple[tuple[str, Bounds], ...]
     sticks: bool
+    _prove: Callable[[], Proved] = field(compare=False, repr=False)
+
+    @property
+    def certificate(self) -> str:
+        """A certificate of it that `python -m proofs.check` accepts; of the flight, if it sticks.
+
+        Raises Undecided where the checker's rules do not go as far as the bounds here.
+        """
+        try:
+            return render(groups.certificate(*self._prove()))
+        except FAILED as failure:
+            raise Undecided(str(failure)) from None
 
     def __getitem__(self, name: str) -> Bounds:
         """Return the enclosure of that name; KeyError says which there are."""
@@ -255,7 +267,8 @@ def _answer(found: Image | Rebound, digits: int) -> Answer:
         values += zip(_DERIVATIVES, entries, strict=True)
     else:
         values.append(("slope", found.slope))
-    return Answer(tuple((name, Bounds(*ends, digits)) for name, ends in values), found.sticking)
+    bounds = tuple((name, Bounds(*ends, digits)) for name, ends in values)
+    return Answer(bounds, found.sticking, found.prove)
 
 
 def _certified(

@@ -13,11 +13,14 @@ from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.parameters import Place
 from proofs.trusted.rules import find_rule
 
 _Made = TypeVar("_Made")
 Tell = Callable[[str], None]
 Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
+Steps = dict[str, dict[str, Any]]
+Proved = tuple[Place, Steps, list[str]]  # oscillators, steps, and those that are claimed
 # What a proof that does not succeed raises; Malformed: what floats saw is no witness of a rule.
 FAILED = (Undecided, DomainError, Unproved, Malformed)
 

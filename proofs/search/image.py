@@ -27,7 +27,7 @@ from proofs.motion.witness import (
     locate,
     march,
 )
-from proofs.search.evidence import FAILED, floats_first
+from proofs.search.evidence import FAILED, Proved, floats_first
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import COVER_BITS, Motion, phase_after
@@ -47,7 +47,7 @@ class Image:
 
     If `sticking`, all of them stick first: they dwell on the table until the separation phase,
     the flight starts there, and f is constant. Phases are mod 2 pi, the lower end in [0, 2 pi).
-    prove: makes a step that says so, and returns the prover and the step's name.
+    prove: makes steps that say so.
     """
 
     flight: Range
@@ -55,7 +55,7 @@ class Image:
     slope: Range
     sticking: bool
     dwell: Range | None = None
-    prove: Callable[[], tuple[Prover, str]] | None = field(default=None, compare=False, repr=False)
+    prove: Callable[[], Proved] = field(kw_only=True, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -121,8 +121,8 @@ def _at_point(prover: Prover, phases: Range) -> Image:
         ).proved()
     )
 
-    def prove() -> tuple[Prover, str]:
-        return prover, prover.point(phases[0])[0]
+    def prove() -> Proved:
+        return prover.claimed(prover.point(phases[0])[0])
 
     def at_precision(bits: int) -> Image:
         motion, time = Branch([("", found)], bits).flight(*phases)
@@ -139,7 +139,7 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
         name, found = prover.seen_or_proved(partial(_separation, prover, bits))
         arrival = phase_after(Fraction(0), found.arrival, bits)
         dwell = _dwell(phases, found.phase, bits)
-        return Image(found.time, arrival, zero, True, dwell, lambda: (prover, name))
+        return Image(found.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
 
     def bounds(found: Image) -> Iterable[Range]:
         yield from (found.flight, found.phase)
@@ -192,8 +192,8 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
     images = extremes(image_at, branch.slope, branch.ends, most=_PIECES)
     arrival = (images.minimum[0], images.maximum[1])
 
-    def prove() -> tuple[Prover, str]:
-        return prover, prover.slopes([*phases])[0]
+    def prove() -> Proved:
+        return prover.claimed(prover.slopes([*phases])[0])
 
     return Image(
         (flights.minimum[0], flights.maximum[1]),

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
@@ -14,12 +16,15 @@ from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, FlightBox, Impossible, NoImpact, Unsettled
-from proofs.search.evidence import FAILED, floats_first
+from proofs.search.evidence import FAILED, Proved, concluded, floats_first
 from proofs.search.image import Image, image
+from proofs.trusted.certificate import texts
 from proofs.trusted.equations import arrival
 from proofs.trusted.flights import COVER_BITS, Motion, bits_for, lifted
+from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
 from proofs.trusted.paper.s33_restitution.rebounds import Entries, next_states
+from proofs.trusted.parameters import Place
 
 _PARTS = 128
 _ZERO = (Fraction(0), Fraction(0))
@@ -30,7 +35,8 @@ class Rebound:
     """The next impact of all states given: bounds on flight, phase, velocity gamma, and DF.
 
     jacobian: rows (phase, velocity), columns (phi, gamma). If `sticking`, which takes epsilon = 0,
-    all of them dwell on the table until the separation phase and fly from there: DF = 0.
+    all of them dwell on the table until the separation phase and fly from there: DF = 0. prove:
+    makes steps that say so, of the flight alone if `sticking`.
     """
 
     flight: Range
@@ -39,6 +45,7 @@ class Rebound:
     jacobian: Entries
     sticking: bool = False
     dwell: Range | None = None
+    prove: Callable[[], Proved] = field(kw_only=True, compare=False, repr=False)
 
 
 def rebound(
@@ -94,9 +101,18 @@ def _require_possible(states: FlightBox) -> None:
     )
 
 
-class NextState(NamedTuple):
-    """The times of flight, and what `next_states` returns: phases are on the line less turns."""
+def witness(flights: FlightBox, times: tuple[Fraction, ...], impact: Range) -> dict[str, list[str]]:
+    """Return what rule `rebound` takes."""
+    names = "eta", "nu", "epsilon"
+    sides = {name: texts(side) for name, side in zip(names, flights.sides, strict=True)}
+    states = {"phases": texts(flights.phases), "velocities": texts(flights.velocities or _ZERO)}
+    return {**sides, **states, "times": texts(times), "impact": texts(impact)}
 
+
+class NextState(NamedTuple):
+    """What rule `rebound` takes, and what `next_states` returns: phases are less turns."""
+
+    witness: dict[str, list[str]]
     flight: Range
     turns: int
     phase: Range
@@ -110,7 +126,8 @@ def next_state(states: FlightBox, bits: int, horizon: Fraction) -> NextState:
     def make(floats: bool) -> NextState:
         found, time = transversal_impact(states, bits, horizon=horizon, floats=floats)
         box = states.phases, states.velocities or _ZERO
-        return NextState(time, *next_states(states.sides, box, found.times, time))
+        taken = witness(states, found.times, time)
+        return NextState(taken, time, *next_states(states.sides, box, found.times, time))
 
     return floats_first(make)
 
@@ -122,7 +139,17 @@ def _at_point(states: FlightBox, digits: int, horizon: Fraction) -> Rebound:
         lambda x: (x.flight, x.phase, x.velocity, *sum(x.derivative, ())),
         final=(Undecided,),
     )
-    return Rebound(found.flight, found.phase, found.velocity, found.derivative)
+    prove = partial(_proved, states, [found])
+    return Rebound(found.flight, found.phase, found.velocity, found.derivative, prove=prove)
+
+
+def _proved(states: FlightBox, parts: Sequence[NextState]) -> Proved:
+    """Prove what F does on each part (rule rebound)."""
+    at, steps = Place(*states.sides), dict[str, dict[str, Any]]()
+    for number, part in enumerate(parts, 1):
+        concluded("rebound", part.witness, Context(at))
+        steps[f"rebound-{number}"] = {"rule": "rebound", "witness": part.witness}
+    return at, steps, [*steps]
 
 
 def _after_sticking(system: System, plastic: Image) -> Rebound:
@@ -133,7 +160,15 @@ def _after_sticking(system: System, plastic: Image) -> Rebound:
     velocity = arrival(motion.start(), motion.clock(plastic.flight))[1]
     bounds = velocity.range
     none = (_ZERO, _ZERO)
-    return Rebound(plastic.flight, plastic.phase, bounds, (none, none), True, plastic.dwell)
+    return Rebound(
+        plastic.flight,
+        plastic.phase,
+        bounds,
+        (none, none),
+        True,
+        plastic.dwell,
+        prove=plastic.prove,
+    )
 
 
 def _over_box(states: FlightBox, horizon: Fraction) -> Rebound:
@@ -159,6 +194,7 @@ def _over_box(states: FlightBox, horizon: Fraction) -> Rebound:
         hull([lifted(one.phase, one.turns - found[0].turns, 64) for one in found]),
         hull([one.velocity for one in found]),
         ((p, q), (r, s)),
+        prove=partial(_proved, states, found),
     )
 
 

@@ -18,6 +18,7 @@ from intervals.errors import Undecided
 from proofs.motion.brackets import transversal_impact
 from proofs.motion.witness import FlightBox
 from proofs.search.evidence import FAILED, concluded
+from proofs.search.rebound import witness
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -94,20 +95,11 @@ class ReboundProver:
         return self._names[wanted], self.get(self._names[wanted], Rebound)
 
     def _rebound(self, at: Place, phases: Range, velocities: Range, floats: bool) -> str:
+        flights = FlightBox(at.sides, phases, velocities)
         found, time = transversal_impact(
-            FlightBox(at.sides, phases, velocities),
-            self.plain.bits,
-            horizon=self.plain.horizon,
-            floats=floats,
+            flights, self.plain.bits, horizon=self.plain.horizon, floats=floats
         )
-        return self.derive(
-            "rebound",
-            **{name: texts(getattr(at, name)) for name in ("eta", "nu", "epsilon")},
-            phases=texts(phases),
-            velocities=texts(velocities),
-            times=texts(found.times),
-            impact=texts(time),
-        )
+        return self.derive("rebound", **witness(flights, found.times, time))
 
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""

@@ -20,7 +20,7 @@ from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Seen, locate
-from proofs.search.evidence import FAILED, concluded, floats_first
+from proofs.search.evidence import FAILED, Proved, concluded, floats_first
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -85,6 +85,10 @@ class Prover:
         name = self.add(rule, witness)
         self.known[name] = conclusion
         return name, conclusion
+
+    def claimed(self, name: str) -> Proved:
+        """Return the steps so far, that one claimed."""
+        return self.at, self.steps, [name]
 
     def seen_or_proved(self, make: Callable[[bool], _Made]) -> _Made:
         """Make steps by what floats see; where the rules deny that, by the checker's numbers."""
