@@ -14,7 +14,6 @@ from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
 from proofs.motion.kernel import Launches, enclose_times
 from proofs.motion.many import float_clock, float_launch
-from proofs.motion.phase import turn
 from proofs.motion.slope_cover import SlopeCover
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, gap, launch, slope
@@ -22,6 +21,11 @@ from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters
 
 _STEPS = 5  # of Newton's method, from within a box of the covers
+
+
+def turn(precision: int) -> Interval:
+    """Enclose 2 pi."""
+    return Interval.pi(precision=precision) * 2
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,7 @@ from intervals import Interval, Undecided
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.traces import escape_rate
 from proofs.methods.words import Words
-from proofs.motion.horseshoe_map import ImpactMap
-from proofs.motion.phase import turn
+from proofs.motion.horseshoe_map import ImpactMap, turn
 from proofs.motion.slope_cover import slope_cover
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
