@@ -103,10 +103,10 @@ def impact_times(flights: FlightBox, window: Range, bits: int, halvings: int) ->
     unit = (high - low) / count
 
     def after(k: int) -> float:
-        return float(gap_of((low + k * unit,) * 2, 0).lo)
+        return float(gap_of((low + k * unit,) * 2, 0).range[0])
 
     def before(k: int) -> float:
-        return float(-gap_of((high - k * unit,) * 2, 0).hi)
+        return float(-gap_of((high - k * unit,) * 2, 0).range[1])
 
     return low + last_positive(after, count) * unit, high - last_positive(before, count) * unit
 

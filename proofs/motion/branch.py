@@ -39,9 +39,8 @@ class Branch:
     @property
     def ends(self) -> list[Fraction]:
         """The ends of the parts, in order."""
-        return [part.motion.phases[0] for _, part in self.parts] + [
-            self.parts[-1][1].motion.phases[1]
-        ]
+        phases = [part.motion.phases for _, part in self.parts]
+        return [*(low for low, _ in phases), phases[-1][1]]
 
     def part(self, phases: Range) -> tuple[str, FirstImpact]:
         """Return the part that these phases lie in, with its name."""

@@ -31,7 +31,7 @@ _AGAIN = 16  # of the finest steps to a window: they may be longer for some of t
 
 
 class _Part(NamedTuple):
-    """FlightBox, how often they were cut, at which precision they are asked, what is excluded."""
+    """Flights, how often they were cut, at which precision they are asked, what is excluded."""
 
     flights: FlightBox
     cuts: int
@@ -103,8 +103,8 @@ def bits_needed(flights: FlightBox, horizon: Fraction = HORIZON) -> int:
     """Return the bits at which the middle one of the launches is decided, the least if none."""
     middle = sum(flights.phases, Fraction(0)) / 2
     try:
-        one = replace(flights, phases=(middle, middle))
-        return locate(one, horizon=horizon, floats=False).bits
+        launch = replace(flights, phases=(middle, middle))
+        return locate(launch, horizon=horizon, floats=False).bits
     except Undecided:
         return COVER_BITS
 

@@ -45,7 +45,7 @@ _TINIEST = Fraction(1, 2**200)
 _ATTEMPTS = 8
 MOST_BITS = _ATTEMPTS * COVER_BITS  # until a launch counts as grazing or sticking
 _HALVINGS = 4  # of a window, as the rule halves it
-_LIKELY = Fraction(3, 8)  # of bend w^2: up to 1/2 a step of 2 w may not be closed; few of them are
+_LIKELY = 0.375  # of bend w^2: up to 1/2 a step of 2 w may not be closed; few of them are
 _PATIENCE = 4  # steps after one that was too long, until a longer one is tried whatever the bend
 _CLOSE = Fraction(1, 1000)  # of times to that of a touch
 _TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
@@ -146,13 +146,10 @@ class FlightBox:
 
         eta = p/q: after q turns of the table mass and table are where they were, as fast.
         """
-        (eta, last), turns = self.sides[0], self.sides[0][0].denominator
-        time = math.tau * turns
-        if (
-            self.velocities is not None
-            or eta < last
-            or not times[0] - _CLOSE <= time <= times[1] + _CLOSE
-        ):
+        eta, last = self.sides[0]
+        time = math.tau * (turns := eta.denominator)
+        near = eta == last and times[0] - _CLOSE <= time <= times[1] + _CLOSE
+        if self.velocities is not None or not near:
             return ""
         return (
             f"at time 2 pi {turns} = {time:.9g} mass and table are where they were at the launch, "
@@ -192,7 +189,7 @@ class Seen(NamedTuple):
         return up_to(self.windows[0][0], self.times)
 
     def proved(self) -> FirstImpact:
-        """Prove it, for plastic impacts, as the rule does; raises Unproved where it is not so."""
+        """Prove it as the rule does, for the launches that leave after plastic impacts."""
         eta, nu, _ = self.flights.sides
         bits = max(self.bits, bits_for_pieces(self.times))
         motion = Motion(Place(eta, nu), self.flights.phases, bits)
@@ -249,22 +246,28 @@ def march(
         if stays_up(gap_of, (now, ahead), min(value.lo, following.lo), bend):
             if single and windows:
                 raise unsettled()
-            hopeless = patience > 0 and following.lo <= bend.hi * (_LIKELY * step**2)
+            hopeless = patience > 0 and following.lo <= bend.hi * _LIKELY * float(step) ** 2
             step, allowed, patience = (step if hopeless else 2 * step), least, patience - 1
         elif step > allowed:
             step, patience = max(step / 2, allowed), _PATIENCE
             continue
         else:
-            begin = now
-            if windows and windows[-1][1] == now:
-                begin, _ = windows.pop()
-                times.pop()
-            windows.append((begin, ahead))
+            begin = _open(windows, times, ahead)
             step = allowed = min(2 * allowed, max(16 * least, (ahead - begin) / 8))
         times.append(ahead)
         value = following
     transversal = len(windows) == 1 and falls(gap_of, windows[0], _HALVINGS)
     return Seen(flights, bits, tuple(times), tuple(windows), transversal)
+
+
+def _open(windows: list[Range], times: list[Fraction], ahead: Fraction) -> Fraction:
+    """Add the time until `ahead` to the last window, or begin one; return when it began."""
+    begin = times[-1]
+    if windows and windows[-1][1] == begin:
+        begin, _ = windows.pop()
+        times.pop()
+    windows.append((begin, ahead))
+    return begin
 
 
 def _require_leaving(flights: FlightBox, start: Launch, bits: int) -> None:
@@ -286,13 +289,7 @@ def first_step(gap_of: Gap, orders: Sequence[int]) -> Fraction:
     raise Undecided("a phase sticks, or it is not decided whether it does")
 
 
-def locate(
-    flights: FlightBox,
-    *,
-    horizon: Fraction = HORIZON,
-    floats: bool = True,
-    attempts: int = _ATTEMPTS,
-) -> Seen:
+def locate(flights: FlightBox, *, horizon: Fraction = HORIZON, floats: bool = True) -> Seen:
     """Return the transversal first impact of (nearly) one launch, with the least bits it needs.
 
     Close to grazing or to the onset of sticking steps and rounding must be finer: what is excluded
@@ -300,7 +297,7 @@ def locate(
     the launch is too close to one.
     """
     excluded: Sequence[Fraction] = ()
-    for attempt in range(attempts):
+    for attempt in range(_ATTEMPTS):
         bits = FLOATS if floats and attempt < 2 else COVER_BITS * (attempt + 1)
         finest = Fraction(1, 2 ** (3 + 10 * attempt))
         try:
@@ -316,8 +313,5 @@ def locate(
                 return found
             excluded = found.excluded
     seen = flights.touch_near((excluded[-1], excluded[-1])) if excluded else ""
-    name = f"phase {float(flights.phases[0]):.12g}"
-    why = seen and f": {seen}"
-    raise Undecided(
-        f"{name}{why}" if why else f"{name} grazes, or starts to stick, to within what was tried"
-    )
+    why = f": {seen}" if seen else " grazes, or starts to stick, to within what was tried"
+    raise Undecided(f"phase {float(flights.phases[0]):.12g}{why}")
