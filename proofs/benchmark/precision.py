@@ -36,7 +36,6 @@ PLANS = {
     "quick": Plan(Budget(2, 0.1), Budget(1, 4.0), 2, (4,)),
     "full": Plan(Budget(5, 0.1), Budget(3, 20.0), 1, (0, 1, 2, 3, 4)),
 }
-ARRAY = "IntervalArray"
 _FORMS = ("natural", "mean value", "Taylor 2", "Taylor 3", "Taylor 4")
 _DIGITS = (15, 30, 50, 100, 200, 300)
 _WIDTH = "digits: -log10 of the width"
@@ -88,13 +87,12 @@ def of_main_job(mode: str, tell: Tell) -> Iterator[Section]:
     tell("the kernel")
     sizes = [2.0**k for k in range(0, 13, plan.stride)]
     of = partial(Curve, "no earlier impact on I0 and I1", unit="boxes", sizes=sizes)
-    ways = [of(ARRAY, run=tasks.excluded_at_once)]
-    ways += [of(name, run=partial(tasks.excluded, name)) for name in libraries()[1:]]
+    ways = [of(name, run=partial(tasks.excluded, name)) for name in libraries()]
     yield section(
-        "The kernel of all covers: gap > 0 at each time of a grid and on each piece between, over "
+        "What all covers rest on: gap > 0 at each time of a grid and on each piece between, over "
         "each box; sine and cosine and the comparisons are included.",
         [sweep(ways, plan.many)],
-        Diagram("kernel", "The kernel in binary64: earlier impacts excluded", "boxes", "size"),
+        Diagram("kernel", "Earlier impacts excluded, to 53 bits", "boxes", "size"),
     )
 
 
@@ -106,12 +104,9 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
     of = partial(Curve, f"f' on I0 and I1, {where}", unit="boxes", sizes=sizes, against="error")
     works = []
     for order in plan.orders if digits and digits > 30 else range(len(_FORMS)):
-        names = libraries()[0 if digits else 1 :]
-        runs = {name: partial(tasks.by_library, name, order, digits) for name in names}
-        if not digits:
-            runs = {ARRAY: partial(tasks.by_bounds, tasks.at_once, order), **runs}
-            if by_codac:
-                runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
+        runs = {name: partial(tasks.by_library, name, order, digits) for name in libraries()}
+        if by_codac and not digits:
+            runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
         form = partial(of, floor=floor, least=order + 0.8)  # the excess: boxes^-(order + 1)
         ways = [form(f"{_FORMS[order]}, {name}", run=run) for name, run in runs.items()]
         works.append(sweep(ways, plan.many))
@@ -120,7 +115,7 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
     return section(
         "Bounds of f' over I0 and I1 by the natural, the mean-value and Taylor forms. Boxes, grids "
         "and brackets are given to all alike; each excludes earlier impacts, proves the brackets, "
-        "both to 53 bits, and encloses f', box by box; arrays do all boxes at once.",
+        "both to 53 bits, and encloses f', box by box.",
         works,
         Diagram(f"slopes-{name}", title, across, panels=True),
     )

@@ -29,7 +29,6 @@ from intervals import Interval
 from intervals._engine import by_mpmath
 
 GAP, RATES, SLOPE, SECOND, MATRIX = "gap", "gap', gap'', along jets", "f'", "f''", "DF"
-GRID = "gap and gap'', phases x times"
 FORMULAS = "other formulas"
 PARTS, BISECTIONS, CELLS = "parts of covers", "bisections", "cells of partitions"
 ALGEBRA = "questions to sympy"
@@ -40,7 +39,7 @@ IMPACTS, NUMBERS = (
     (*(f"{what}, to {bits} bits" for bits in _PRECISIONS), f"{what}, more bits")
     for what in ("first impacts", "numbers")
 )
-EQUATIONS = (GAP, RATES, SLOPE, SECOND, MATRIX, GRID)
+EQUATIONS = (GAP, RATES, SLOPE, SECOND, MATRIX)
 ROWS = (
     *(*EQUATIONS, FORMULAS, *IMPACTS, PARTS, BISECTIONS, CELLS, *NUMBERS, ALGEBRA),
     *(MADE, CHECKED, WORK),
@@ -223,10 +222,6 @@ _RESULTS: dict[str, _Rule] = {  # what returns something; None is an exception
     "proofs.trusted.paper.s4_single.orbits.distance": _formula,
     "proofs.trusted.kernel.expression.Tape.evaluate": _formula,
     "proofs.motion.witness.march": _impact,
-    "proofs.motion.slope_cover._in_binary64": (
-        lambda frame, cover: {Kind(IMPACTS[0], ARRAYS): len(cover.boxes)}
-    ),
-    "intervals.bilinear.bilinear": _boxes(GRID),
     "intervals.cover.cover": _one(PARTS),
     "proofs.motion.covering.halves": _one(BISECTIONS),
     "proofs.methods.extremes.extremes": _pieces,

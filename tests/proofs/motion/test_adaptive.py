@@ -15,7 +15,6 @@ from proofs.horseshoe import main as horseshoe
 from proofs.motion.brackets import impact_time, impact_times, last_positive
 from proofs.motion.candidate import next_impact
 from proofs.motion.covering import bits_needed, cover_by, steps_for
-from proofs.motion.slope_cover import BINARY64, slope_cover
 from proofs.motion.system import System
 from proofs.motion.witness import FLOATS, FlightBox, Sticks, Unsettled, locate, march
 from proofs.search.image import Image, image
@@ -186,31 +185,6 @@ def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, caps
     slopes = [short_flight(PAPER, x, ONSET - x)[1] for x in map(Fraction, right)]
     assert low <= min(slopes)
     assert -Fraction(5, 2) < low <= high < -Fraction(19, 10)
-
-
-# -- boxes ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_boxes_that_binary64_does_not_decide_are_asked_alone():
-    # towards the onset the gap drowns in rounding: the last boxes need more
-    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
-    cover = slope_cover(PAPER, phases, 8)
-    kinds = set(cover.bits.tolist())
-    assert kinds == {BINARY64, COVER_BITS}
-    order = cover.bits.tolist()
-    assert order == sorted(order)
-    low, high = cover.boxes.inf, cover.boxes.sup
-    assert (low[1:] <= high[:-1]).all() and (low[1:] >= np.nextafter(high[:-1], 0)).all()
-    for k in range(len(order)):
-        for x in (low[k], (low[k] + high[k]) / 2, high[k]):
-            phase = Fraction(float(x))
-            if not phases[0] <= phase <= phases[1]:
-                continue
-            time, slope = short_flight(PAPER, phase, ONSET - phase)
-            assert cover.times.inf[k] <= time <= cover.times.sup[k]
-            assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
-            assert cover.last[k] < time
 
 
 # -- where nothing helps -------------------------------------------------------------------------

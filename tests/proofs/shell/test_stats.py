@@ -26,7 +26,6 @@ from proofs.shell.counting import (
     FLOATS,
     FORMULAS,
     GAP,
-    GRID,
     INTERVALS,
     MADE,
     MATRIX,
@@ -250,7 +249,7 @@ def test_binary64_takes_no_more_bits(capsys):
     fast = shown(capsys, orbits, "--word", "01", "--fast")
     exact = shown(capsys, orbits, "--word", "01", "--digits", "60")
     assert NUMBERS[3] not in fast and exact[NUMBERS[3]][INTERVALS] > 0
-    assert fast[GRID] == exact[GRID]  # the horseshoe is proved once, in binary64
+    assert fast[GAP][CHECKER] == exact[GAP][CHECKER]  # the horseshoe is proved once
 
 
 # -- nothing again ---------------------------------------------------------------------------------
