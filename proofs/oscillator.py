@@ -8,6 +8,8 @@ in notebooks. What cannot be proved raises `intervals.Undecided`.
     >>> oscillator = Oscillator("0.2121", "-0.2")
     >>> print(oscillator.slope("1.13", digits=6))
     [5.29635330, 5.29635331]
+
+What `image` answers has a `certificate`, as a theorem has: `python -m proofs.check` accepts it.
 """
 
 from __future__ import annotations
