@@ -189,12 +189,17 @@ class Seen(NamedTuple):
         return up_to(self.windows[0][0], self.times)
 
     def proved(self) -> FirstImpact:
-        """Prove it as the rule does, for the launches that leave after plastic impacts."""
+        """Prove it as the rule does, for the launches that leave after plastic impacts.
+
+        Raises Unproved where less is proved than is seen.
+        """
         eta, nu, _ = self.flights.sides
         bits = max(self.bits, bits_for_pieces(self.times))
         motion = Motion(Place(eta, nu), self.flights.phases, bits)
-        windows = first_windows(motion.gap_of, self.times, *self.flights.orders)
-        return FirstImpact(motion.at, motion, *windows)
+        windows, transversal = first_windows(motion.gap_of, self.times, *self.flights.orders)
+        if self.transversal and not transversal:
+            raise Unproved("the first impact is not proved transversal")
+        return FirstImpact(motion.at, motion, windows, transversal)
 
 
 def up_to(last: Fraction, times: Sequence[Fraction]) -> list[Fraction]:

@@ -155,20 +155,11 @@ def _proved(states: FlightBox, parts: Sequence[NextState]) -> Proved:
 def _after_sticking(system: System, plastic: Image) -> Rebound:
     """Add to the plastic image of sticking phases the velocity at the end of their one flight."""
     bits = bits_for(plastic.flight)
-    at = system.place
-    motion = Motion(at, separation_phase(system, bits), bits)
-    velocity = arrival(motion.start(), motion.clock(plastic.flight))[1]
-    bounds = velocity.range
-    none = (_ZERO, _ZERO)
-    return Rebound(
-        plastic.flight,
-        plastic.phase,
-        bounds,
-        (none, none),
-        True,
-        plastic.dwell,
-        prove=plastic.prove,
-    )
+    motion = Motion(system.place, separation_phase(system, bits), bits)
+    velocity = arrival(motion.start(), motion.clock(plastic.flight))[1].range
+    still = (_ZERO, _ZERO), (_ZERO, _ZERO)
+    arrived, dwell, prove = (plastic.flight, plastic.phase, velocity), plastic.dwell, plastic.prove
+    return Rebound(*arrived, still, sticking=True, dwell=dwell, prove=prove)
 
 
 def _over_box(states: FlightBox, horizon: Fraction) -> Rebound:
