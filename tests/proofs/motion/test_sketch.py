@@ -42,6 +42,7 @@ def test_operations_are_about_those_of_enclosures(first, second):
     assert all(alike(*pair) for pair in pairs)
 
 
+@settings(deadline=None)
 @given(st.floats(0.1, 3), st.floats(0.01, 0.5), st.floats(0.5, 3))
 def test_the_lemmas_on_flights_take_them(height, width, bend):
     """gap = height - time^2 bend / 2, by hand."""

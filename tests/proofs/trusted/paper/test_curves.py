@@ -322,7 +322,7 @@ def test_all_curves_from_the_search_to_the_checker(epsilon, count):
     of = replace(PAPER, epsilon=F(epsilon))
     made = produce({"curves": BEYOND["curves"]}, of, digits=20)
     report = check(made.certificate)
-    assert [claim.verdict for claim in report.claims] == [Verdict.VERIFIED] * 3
+    assert {claim.verdict for claim in report.claims} == {Verdict.VERIFIED}
     points = next(line for line in made.lines if line.id == "C3").quantities
     assert sum(name.startswith("eta_") for name in points) == count
     assert all(high - low < F(1, 10**12) for low, high in points.values())
