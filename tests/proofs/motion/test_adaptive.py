@@ -13,6 +13,7 @@ from mpmath import mp, mpf
 from intervals import Undecided
 from proofs.horseshoe import main as horseshoe
 from proofs.motion.brackets import impact_time, impact_times, last_positive
+from proofs.motion.branch import Branch
 from proofs.motion.candidate import next_impact
 from proofs.motion.covering import bits_needed, cover_by, steps_for
 from proofs.motion.system import System
@@ -23,6 +24,7 @@ from proofs.stress.grazing import graze
 from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import COVER_BITS
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER as FACTS
 from tests.proofs.trusted.paper import reference
@@ -355,3 +357,15 @@ def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
         assert abs(part.windows[0][1] - other.windows[0][1]) < Fraction(1, 2)
         witness = {"phases": in_json(part.flights.phases), "times": in_json(part.times)}
         assert trusted.first_impact(Context(FACTS), Reader(witness)).transversal
+
+
+def test_what_is_seen_and_not_proved_is_refused():
+    seen = march(flights(PAPER, Fraction("1.19"), Fraction("1.21")), COVER_BITS)  # some graze
+    assert not seen.transversal
+    with pytest.raises(Unproved, match="not transversal"):
+        Branch([("", seen.proved())], 60)
+    with pytest.raises(Unproved, match="not proved transversal"):
+        seen._replace(transversal=True).proved()
+    early = seen._replace(times=seen.times[:-1])
+    with pytest.raises(Unproved, match="negative at the last time"):
+        early.proved()
