@@ -21,10 +21,10 @@ from argparse import Namespace
 from fractions import Fraction
 
 from intervals import IntervalError, Undecided
-from proofs.motion.image import Image, PossibleImages, image
-from proofs.motion.impact import HORIZON, NoImpact
-from proofs.motion.rebound import Impossible, Rebound, rebound
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, Impossible, NoImpact
+from proofs.search.image import Image, PossibleImages, image
+from proofs.search.rebound import Rebound, rebound
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, horizon, number
 from proofs.trusted.numbers import TURN, Range, show

@@ -8,11 +8,14 @@ in notebooks. What cannot be proved raises `intervals.Undecided`.
     >>> oscillator = Oscillator("0.2121", "-0.2")
     >>> print(oscillator.slope("1.13", digits=6))
     [5.29635330, 5.29635331]
+
+What `image` answers has a `certificate`, as a theorem has: `python -m proofs.check` accepts it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from fractions import Fraction
 from html import escape
 
@@ -20,11 +23,11 @@ from intervals import Undecided, decimal_bounds
 from intervals.exact import whole
 from proofs.map import Ends, Exact, ends_of, exact
 from proofs.motion.digits import MOST_DIGITS
-from proofs.motion.image import Image, PossibleImages, image
-from proofs.motion.impact import HORIZON
-from proofs.motion.rebound import Rebound, rebound
 from proofs.motion.system import System
-from proofs.search.evidence import Evidence, Proof
+from proofs.motion.witness import HORIZON
+from proofs.search.evidence import FAILED, Evidence, Proof, Proved
+from proofs.search.image import Image, PossibleImages, image
+from proofs.search.rebound import Rebound, rebound
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
@@ -76,6 +79,18 @@ class Answer:
 
     bounds: tuple[tuple[str, Bounds], ...]
     sticks: bool
+    _prove: Callable[[], Proved] = field(compare=False, repr=False)
+
+    @property
+    def certificate(self) -> str:
+        """A certificate of it that `python -m proofs.check` accepts; of the flight, if it sticks.
+
+        Raises Undecided where the checker's rules do not go as far as the bounds here.
+        """
+        try:
+            return render(groups.certificate(*self._prove()))
+        except FAILED as failure:
+            raise Undecided(str(failure)) from None
 
     def __getitem__(self, name: str) -> Bounds:
         """Return the enclosure of that name; KeyError says which there are."""
@@ -217,7 +232,8 @@ def _answer(found: Image | Rebound, digits: int) -> Answer:
         values += zip(_DERIVATIVES, entries, strict=True)
     else:
         values.append(("slope", found.slope))
-    return Answer(tuple((name, Bounds(*ends, digits)) for name, ends in values), found.sticking)
+    bounds = tuple((name, Bounds(*ends, digits)) for name, ends in values)
+    return Answer(bounds, found.sticking, found.prove)
 
 
 def _certified(

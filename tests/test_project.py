@@ -42,7 +42,7 @@ def test_packages_are_typed_and_complete():
 
 
 def test_the_readme_s_table_names_things_that_exist():
-    from proofs.motion import image
+    from proofs.search import image
     from proofs.trusted import equations
     from proofs.trusted.parameters import Parameters
 

@@ -33,7 +33,6 @@ PLANS = {
     "quick": Plan(Budget(2, 0.1), 2, (4,)),
     "full": Plan(Budget(5, 0.1), 1, (0, 1, 2, 3, 4)),
 }
-ARRAY = "IntervalArray"
 _FORMS = ("natural", "mean value", "Taylor 2", "Taylor 3", "Taylor 4")
 _DIGITS = (15, 30, 50, 100, 200, 300)
 _WIDTH = "digits: -log10 of the width"
@@ -86,25 +85,18 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
     of = partial(Curve, f"f' on I0 and I1, {where}", unit="boxes", sizes=sizes, against="error")
     works = []
     for order in plan.orders if digits and digits > 30 else range(len(_FORMS)):
-        names = libraries()[0 if digits else 1 :]
-        runs = {name: partial(tasks.by_library, name, order, digits) for name in names}
-        if not digits:
-            runs = {ARRAY: partial(tasks.by_bounds, tasks.at_once, order), **runs}
-            if by_codac:
-                runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
+        runs = {name: partial(tasks.by_library, name, order, digits) for name in libraries()}
+        if by_codac and not digits:
+            runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
         form = partial(of, floor=floor, least=order + 0.8)  # the excess: boxes^-(order + 1)
         ways = [form(f"{_FORMS[order]}, {name}", run=run) for name, run in runs.items()]
         works.append(sweep(ways, plan.many))
-    if not digits:
-        monotone = of(f"monotonicity, {ARRAY}", sizes=(8,), run=tasks.extremes)
-        works.append(sweep([monotone], plan.many))
     name, title = where.replace(" ", "-"), f"Slope bounds {'at' if digits else 'in'} {where}"
     across = "error: by how much the bounds of f' miss its extremes [1]"
     return section(
         "Bounds of f' over I0 and I1 by the natural, the mean-value and Taylor forms. Boxes, grids "
         "and brackets are given to all alike; each excludes earlier impacts, proves the brackets, "
-        "both to 53 bits, and encloses f', box by box; arrays do all boxes at once. Monotonicity "
-        "proves f'' > 0 and takes f' at the ends.",
+        "both to 53 bits, and encloses f', box by box.",
         works,
         Diagram(f"slopes-{name}", title, across, panels=True),
     )
@@ -115,7 +107,7 @@ def _flights(plan: Plan) -> Section:
     proved = [
         of(f"the grid given, {name}", run=partial(tasks.flights, name)) for name in libraries()
     ]
-    proved.append(of("certified map (motion.image)", run=tasks.images))
+    proved.append(of("certified map (search.image)", run=tasks.images))
     guess = partial(of, proved=False, against="")
     steps, tolerances = [10.0**-k for k in range(1, 7)], [10.0**-k for k in range(3, 14, 2)]
     march = guess("algorithm A.1", unit="step", sizes=steps, run=tasks.marches, least=0.8)

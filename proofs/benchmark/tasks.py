@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from intervals import IntervalArray, Undecided
-from intervals.taylor import polynomial_range
-from proofs.benchmark.peers import OURS, Range, arithmetic
-from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, coefficients, first_impact
-from proofs.motion import candidate, kernel
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.image import Image, image
-from proofs.motion.impact import HORIZON, locate
+from intervals import Undecided
+from intervals.rounding import float_down, float_up
+from proofs.benchmark.peers import Range, arithmetic
+from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, first_impact
+from proofs.motion import candidate
+from proofs.motion.branch import Branch
+from proofs.motion.covering import cover_by
 from proofs.motion.marching import march
-from proofs.motion.slope_cover import cut, grid_of, slope_cover, slope_extremes
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, FlightBox, Seen, locate
+from proofs.search.image import Image, image
 
 SYSTEM = System(ETA, NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
@@ -58,6 +58,10 @@ def loss(found: Sequence[Range]) -> float:
     return float(min(losses)) if min(losses) < 0 else float(max(losses))
 
 
+def _flights(phases: Range) -> FlightBox:
+    return FlightBox.plastic(SYSTEM.place, phases)
+
+
 @cache
 def works(boxes: int) -> list[Work]:
     """Return what is given to all; Undecided if the kernel does not find it."""
@@ -66,14 +70,29 @@ def works(boxes: int) -> list[Work]:
 
 @cache
 def work(domain: Range, boxes: int) -> Work:
-    """Return the work of one domain, on times before every impact that a scalar proof finds."""
-    grid = grid_of(cover_by_impacts(SYSTEM, domain)[0])
-    times, cuts = slope_cover(SYSTEM, domain, boxes, grid).times, cut(domain, boxes)
-    low, high = times.inf * (1 - _OPENING), times.sup * (1 + _OPENING)
-    brackets = list(zip(low.tolist(), high.tolist(), strict=True))
-    centres = kernel.find_times(SYSTEM, 0.5 * (cuts[:-1] + cuts[1:])).tolist()
-    ends = kernel.find_times(SYSTEM, np.array([float(end) for end in domain])).tolist()
-    return Work(domain, cuts.tolist(), grid, brackets, centres, ends)
+    """Return the work of one domain, on times before every impact that the lemmas find."""
+    (seen,) = cover_by(_flights(domain))
+    branch = Branch([("", seen.proved())], _SIGN_BITS)
+    low, high = domain
+    cuts = [float_down(low), *np.linspace(float(low), float(high), boxes + 1)[1:-1], float_up(high)]
+    exact = [low, *map(Fraction, cuts[1:-1]), high]
+    times = [branch.flight(*ends)[1] for ends in pairwise(exact)]
+    brackets = [(float(x) * (1 - _OPENING), float(y) * (1 + _OPENING)) for x, y in times]
+    centres = [_about((x + y) / 2) for x, y in pairwise(cuts)]
+    return Work(domain, cuts, _grid(seen), brackets, centres, [*map(_about, map(float, domain))])
+
+
+def _grid(seen: Seen) -> list[float]:
+    """Return the times before the window of an impact."""
+    return [float(time) for time in seen.excluded]
+
+
+def _about(phase: float) -> float:
+    """Return about the time of the first impact."""
+    found = candidate.next_impact(SYSTEM, phase)
+    if found is None:
+        raise Undecided("no impact is seen")
+    return found[0]
 
 
 def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
@@ -91,33 +110,6 @@ def by_library(library: str, order: int, digits: float | None, boxes: float) -> 
 def monotone(library: str, digits: float) -> float:
     """Prove f'' > 0 on 8 boxes, and enclose f' at the ends."""
     return by_library(library, MONOTONE, digits, _MONOTONE_BOXES)
-
-
-def at_once(given: Work, order: int) -> Range:
-    """Do the work for all boxes at once, in arrays of binary64."""
-    of = replace(arithmetic(OURS, _SIGN_BITS), number=lambda low, high: low)  # exact numbers
-    launches, about = _launches(given), np.array(given.centres)
-    kernel.exclude_impacts(launches, given.grid)
-    last = np.full(len(about), given.grid[-1])
-    low, high = np.array(given.brackets).T
-    kernel.prove_brackets(launches, last, low, high)
-    terms = coefficients(of, launches.phases, IntervalArray.from_floats(low, high), order)
-    if order:
-        thin = kernel.enclose_times(launches.centre, last, (about, about))
-        terms[:-1] = coefficients(of, launches.centre.phases, thin, order - 1)
-    found = polynomial_range(terms, launches.offset) if order else terms[0]
-    return Fraction(float(found.inf.min())), Fraction(float(found.sup.max()))
-
-
-def _launches(given: Work) -> kernel.Launches:
-    cuts = np.array(given.cuts)
-    return kernel.Launches(SYSTEM, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
-
-
-def extremes(_: float) -> float:
-    """Bound f' by monotonicity, in binary64."""
-    found = [slope_extremes(SYSTEM, domain) for domain in DOMAINS]
-    return loss([(Fraction(x.minimum[0]), Fraction(x.maximum[1])) for x in found])
 
 
 def main_job_slopes(digits: float) -> float:
@@ -166,9 +158,7 @@ def flights(library: str, digits: float) -> float:
 @cache
 def _given(phase: Fraction) -> tuple[list[float], float]:
     """Return times before the impact, and about the time of it."""
-    impact, about = locate(SYSTEM, (phase, phase)), candidate.next_impact(SYSTEM, float(phase))
-    grid = [float(time) for time in impact.times[1:] if time <= impact.window[0]]
-    return grid, about[0] if about else 0.0
+    return _grid(locate(_flights((phase, phase)))), _about(float(phase))
 
 
 def marches(step: float) -> float:

@@ -8,45 +8,29 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from math import inf
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from intervals.errors import DomainError, Undecided
-
-if TYPE_CHECKING:
-    from intervals import Interval
-
-Range = tuple[Fraction, Fraction]
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range, mean_values
 
 
 class Extremes(NamedTuple):
     """g at points low = x_0 < ... < x_n = high, and enclosures of g over the n pieces between."""
 
     points: tuple[Fraction, ...]
-    values: tuple[Interval, ...]
-    pieces: tuple[Interval, ...]
+    values: tuple[Range, ...]
+    pieces: tuple[Range, ...]
 
     @property
     def minimum(self) -> Range:
         """Bounds on min g: the least lower bound of a piece, the least upper one at a point."""
-        return min(p.inf for p in self.pieces), min(v.sup for v in self.values)
+        return min(low for low, _ in self.pieces), min(high for _, high in self.values)
 
     @property
     def maximum(self) -> Range:
         """Bounds on max g."""
-        return max(v.inf for v in self.values), max(p.sup for p in self.pieces)
-
-
-def piece_range(left: Interval, right: Interval, slope: Interval, width: Fraction) -> Interval:
-    """Enclose g over [x, x + width] from g(x), g(x + width) and g' over the piece.
-
-    g lies in g(x) + g' [0, w] and in g(x + w) - g' [0, w] (mean value theorem, both ends); where
-    g' has one sign, the intersection is the hull of the two values: no loss by monotonicity.
-    """
-    reach = slope * type(slope)(0, width, precision=slope.precision)
-    common = (left + reach).intersection(right - reach)
-    if common is None:
-        raise Undecided("the enclosures of a piece contradict each other")
-    return common
+        return max(low for low, _ in self.values), max(high for _, high in self.pieces)
 
 
 class _Piece(NamedTuple):
@@ -55,13 +39,13 @@ class _Piece(NamedTuple):
     order: Fraction | float
     low: Fraction
     high: Fraction
-    values: Interval | None
+    values: Range | None
     obstacle: str = ""
 
 
 def extremes(
-    g: Callable[[Fraction], Interval],
-    dg: Callable[[Fraction, Fraction], Interval],
+    g: Callable[[Fraction], Range],
+    dg: Callable[[Fraction, Fraction], Range],
     points: Sequence[Fraction],
     tolerance: Fraction = Fraction(1, 10**12),
     most: int = 400,
@@ -70,15 +54,15 @@ def extremes(
 
     A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
     or where values of g elsewhere make it useless for both extremes; of the others, that of the
-    widest range is halved, first those on which dg raises DomainError. When there are `most`
+    widest range is halved, first those on which dg raises. When there are `most`
     pieces, they stay as wide as they are: the bounds hold all the same. Raises Undecided if dg
     has no answer then.
     """
-    known: dict[Fraction, Interval] = {}
+    known: dict[Fraction, Range] = {}
     done: list[_Piece] = []
     waiting: list[_Piece] = []
 
-    def at(x: Fraction) -> Interval:
+    def at(x: Fraction) -> Range:
         if x not in known:
             known[x] = g(x)
         return known[x]
@@ -86,19 +70,20 @@ def extremes(
     def examine(low: Fraction, high: Fraction) -> None:
         try:
             slope = dg(low, high)
-        except DomainError as error:
+        except (DomainError, Unproved) as error:
             heappush(waiting, _Piece(-inf, low, high, None, str(error)))
             return
-        values = piece_range(at(low), at(high), slope, high - low)
-        piece = _Piece(-values.wid, low, high, values)
-        if not slope.contains_zero() or values.wid < tolerance:
+        values = mean_values(at(low), at(high), slope, high - low)
+        width = values[1] - values[0]
+        piece = _Piece(-width, low, high, values)
+        if not slope[0] <= 0 <= slope[1] or width < tolerance:
             done.append(piece)
         else:
             heappush(waiting, piece)
 
-    def useless(values: Interval) -> bool:
-        least, greatest = min(v.sup for v in known.values()), max(v.inf for v in known.values())
-        return least <= values.inf and values.sup <= greatest
+    def useless(values: Range) -> bool:
+        least, greatest = min(v[1] for v in known.values()), max(v[0] for v in known.values())
+        return least <= values[0] and values[1] <= greatest
 
     for low, high in pairwise(points):
         examine(low, high)

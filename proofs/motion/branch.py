@@ -2,58 +2,86 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from itertools import pairwise
 
-from proofs.motion.flight import Flight
-from proofs.motion.impact import FirstImpact, impact_time, time_range
-from proofs.trusted.numbers import Range
+from proofs.motion.brackets import halvings_for, impact_time, impact_times
+from proofs.motion.witness import FLOATS, FlightBox
+from proofs.trusted.certificate import texts
+from proofs.trusted.flights import FirstImpact, Motion, bracketed
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.numbers import Range, within
 
-if TYPE_CHECKING:
-    from intervals import Interval
+_SPARE = 5  # halvings of a window beyond the width of the phases
 
 
 @dataclass(frozen=True)
 class Branch:
     """f on an interval that is cut into parts, each with a transversal first impact: f is C^1.
 
-    Times of one launch are enclosed to 2^(1 - bits), those of an interval of launches as the
-    gap's signs allow; each is found once.
+    parts: the steps that prove it, with their names. Times of one launch are bracketed to
+    2^(1 - bits), those of an interval of launches as the gap's signs allow, as floats show them if
+    wanted; each is found once, and proved by `bracketed`.
     """
 
-    parts: tuple[FirstImpact, ...]
+    parts: Sequence[tuple[str, FirstImpact]]
     bits: int
-    _times: dict[Range, Range] = field(default_factory=dict, repr=False, compare=False)
+    floats: bool = True
+    _known: dict[Range, tuple[Motion, Range]] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """Raise Unproved where a part is not proved transversal."""
+        if not all(part.transversal for _, part in self.parts):
+            raise Unproved("the first impact is not transversal")
 
     @property
     def ends(self) -> list[Fraction]:
         """The ends of the parts, in order."""
-        return [p.flight.phases[0] for p in self.parts] + [self.parts[-1].flight.phases[1]]
+        phases = [part.motion.phases for _, part in self.parts]
+        return [*(low for low, _ in phases), phases[-1][1]]
 
-    def part(self, low: Fraction, high: Fraction) -> FirstImpact:
-        """Return the part that [low, high] lies in."""
-        return next(
-            p for p in self.parts if p.flight.phases[0] <= low and high <= p.flight.phases[1]
-        )
+    def part(self, phases: Range) -> tuple[str, FirstImpact]:
+        """Return the part that these phases lie in, with its name."""
+        return next(each for each in self.parts if within(phases, each[1].motion.phases))
 
-    def time(self, low: Fraction, high: Fraction) -> Range:
-        """Enclose the impact times of all launches in [low, high], a subset of one part."""
-        key = low, high
-        if key not in self._times:
-            part = self.part(low, high)
-            thin = low == high
-            self._times[key] = impact_time(part, key, self.bits) if thin else time_range(part, key)
-        return self._times[key]
+    def flight(self, low: Fraction, high: Fraction) -> tuple[Motion, Range]:
+        """Return the launches in [low, high], a subset of one part, and when they have impacts."""
+        phases = low, high
+        if phases not in self._known:
+            _, part = self.part(phases)
+            flights, window = FlightBox.plastic(part.at, phases), part.windows[0]
+            if low == high:
+                time = impact_time(flights, window, self.bits)
+            else:
+                bits = FLOATS if self.floats else part.motion.bits
+                halvings = halvings_for(window, high - low, _SPARE)
+                time = impact_times(flights, window, bits, halvings)
+            self._known[phases] = bracketed(part, phases, time), time
+        return self._known[phases]
 
-    def _flight(self, low: Fraction, high: Fraction) -> Flight:
-        part, phases = self.part(low, high), (low, high)
-        return part.thin(phases, self.bits) if low == high else part.part(phases)
-
-    def slope(self, low: Fraction, high: Fraction) -> Interval:
+    def slope(self, low: Fraction, high: Fraction) -> Range:
         """Enclose f' over [low, high], a subset of one part."""
-        return self._flight(low, high).slope(self.time(low, high))
+        motion, time = self.flight(low, high)
+        return motion.slope(time).range
 
-    def curvature(self, low: Fraction, high: Fraction) -> Interval:
+    def curvature(self, low: Fraction, high: Fraction) -> Range:
         """Enclose f'' over [low, high], a subset of one part."""
-        return self._flight(low, high).slope_and_curvature(self.time(low, high))[1]
+        motion, time = self.flight(low, high)
+        return motion.curvature(time).range
+
+    def witness(self, cuts: Sequence[Fraction]) -> dict[str, object]:
+        """Return what rule `slope-range` takes."""
+        return {
+            "points": [self.bracket(x, x, phase=str(x)) for x in cuts],
+            "pieces": [self.bracket(*piece) for piece in pairwise(cuts)],
+        }
+
+    def bracket(self, low: Fraction, high: Fraction, **more: str) -> dict[str, object]:
+        """Return what a rule takes: the step about these flights, and when they have impacts."""
+        return {
+            "flight": self.part((low, high))[0],
+            **more,
+            "time": texts(self.flight(low, high)[1]),
+        }

@@ -1,137 +1,112 @@
-"""Phases cut until the first impact of every part is decided, each part at its precision."""
+"""Phases cut until the first impact of every part is seen, each part at its precision."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from intervals.cover import PartsExhausted, cover
 from intervals.errors import Undecided
-from proofs.motion.flight import Flight, Numbers, interval
-from proofs.motion.impact import (
+from proofs.motion.witness import (
+    BLIND,
+    FLOATS,
     HORIZON,
-    LEAST,
-    FirstImpact,
+    FlightBox,
     NoImpact,
+    Seen,
     Sticks,
     Unsettled,
-    first_impact,
     locate,
     march,
     name_of,
     up_to,
 )
-from proofs.motion.system import System
+from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.numbers import Range
 
 _MOST_HALVINGS = 128  # of a time step: thinner sets of phases are as good as one phase
 _AGAIN = 16  # of the finest steps to a window: they may be longer for some of the launches
 
 
-def cover_by_impacts(
-    system: System,
-    phases: Range,
-    *,
-    horizon: Fraction = HORIZON,
-    limit: int = 200,
-    numbers: Numbers = interval,
-) -> list[FirstImpact]:
-    """Cut `phases` until the first impact is transversal on every part; Undecided if it is not."""
-    return cover_by(
-        system,
-        phases,
-        lambda found: found.transversal,
-        obstacle="grazing",
-        horizon=horizon,
-        limit=limit,
-        numbers=numbers,
-    )
-
-
 class _Part(NamedTuple):
-    """Launch phases, how often they were cut, and the precision at which they are asked.
+    """Flights, how often they were cut, at which precision they are asked, what is excluded."""
 
-    known: times as `march` takes them, or none: what is excluded for all is so for some.
-    """
-
-    phases: Range
-    cuts: int = 0
-    precision: int = LEAST
-    known: tuple[Fraction, ...] = ()
+    flights: FlightBox
+    cuts: int
+    bits: int
+    excluded: Sequence[Fraction] = ()
 
 
 def cover_by(
-    system: System,
-    phases: Range,
-    accept: Callable[[FirstImpact], bool],
+    flights: FlightBox,
+    accept: Callable[[Seen], bool] = lambda found: found.transversal,
     *,
-    obstacle: str,
+    obstacle: str = "grazing",
     horizon: Fraction = HORIZON,
-    limit: int = 400,
-    numbers: Numbers = interval,
-) -> list[FirstImpact]:
-    """Cut `phases` until `accept` takes the first impact of every part, each at its precision.
+    limit: int = 200,
+    floats: bool = True,
+) -> list[Seen]:
+    """Cut phases until `accept` takes the first impact of every part, each at its precision.
 
     After two cuts, and every four more, a part that is not taken is asked again at the precision
-    that its middle launch needs; else its width is to blame and it is cut. Undecided names a
-    phase near which nothing helps, `obstacle` being the likely reason; a part without impact up
-    to the horizon is cut four times before that is taken for an answer.
+    that its middle launch needs, if not in floats; else its width is to blame and it is cut.
+    Undecided names a phase near which nothing helps, `obstacle` being the likely reason; a part
+    without impact up to the horizon is cut four times before that is taken for an answer.
     """
-
     excluded: dict[Range, list[Fraction]] = {}
 
-    def decide(part: _Part) -> FirstImpact | None:
-        low = part.phases[0]
-        most, failure = 16, Undecided(f"{obstacle} near phase {float(low):.9g}")
+    def decide(part: _Part) -> Seen | None:
+        phases = part.flights.phases
+        most, failure = 16, Undecided(f"{obstacle} near phase {float(phases[0]):.9g}")
         try:
-            flight = Flight(system, part.phases, part.precision, numbers=numbers)
-            finest = steps_for(part.phases)
-            if len(part.known) > 1:
-                found = march(flight, part.known, horizon, finest)
-            else:
-                found = first_impact(flight, horizon, finest)
+            finest = steps_for(phases)
+            found = march(part.flights, part.bits, horizon, finest, part.excluded)
             if accept(found):
                 return found
-            excluded[part.phases] = found.known
+            excluded[phases] = found.excluded
         except Sticks:
             raise
         except NoImpact as error:
             most, failure = 4, error
         except Unsettled as error:
-            most, failure, excluded[part.phases] = (1 if error.hopeless else 4), error, error.known
-        except Undecided as error:
-            failure = error
+            most, failure = (1 if error.hopeless else 4), error
+            excluded[phases] = error.excluded
+        except (Undecided, *BLIND) as error:
+            failure = Undecided(str(error))
         if part.cuts >= most:
             raise failure
         return None
 
-    def split(part: _Part) -> Iterable[_Part]:
-        if part.cuts % 4 == 2 and numbers is interval:
-            needed = precision_for(system, part.phases, horizon)
-            if needed > part.precision:
-                return [part._replace(precision=needed)]
-        known = tuple(excluded.pop(part.phases, part.known))
-        if known:
-            known = tuple(up_to(known[-1] - _AGAIN * steps_for(part.phases), known))
-        return [_Part(x, part.cuts + 1, part.precision, known) for x in halves(part.phases)]
+    def split(part: _Part) -> list[_Part]:
+        phases = part.flights.phases
+        if part.bits and part.cuts % 4 == 2:
+            needed = bits_needed(part.flights, horizon)
+            if needed > part.bits:
+                return [part._replace(bits=needed)]
+        times = excluded.pop(phases, part.excluded)
+        kept = up_to(times[-1] - _AGAIN * steps_for(phases), times) if times else ()
+        return [
+            _Part(replace(part.flights, phases=half), part.cuts + 1, part.bits, kept)
+            for half in halves(phases)
+        ]
 
+    first = _Part(flights, 0, FLOATS if floats else COVER_BITS)
     try:
-        return [found for _, found in cover([_Part(phases)], decide, split, limit=limit)]
+        return [found for _, found in cover([first], decide, split, limit=limit)]
     except PartsExhausted:
-        raise Undecided(f"{limit} parts of {name_of(phases)} do not suffice") from None
+        raise Undecided(f"{limit} parts of {name_of(flights.phases)} do not suffice") from None
 
 
-def precision_for(system: System, phases: Range, horizon: Fraction = HORIZON) -> int:
-    """Return the precision at which the middle one of the launches is decided, the least if none.
-
-    A choice, never evidence.
-    """
-    middle = (phases[0] + phases[1]) / 2
+def bits_needed(flights: FlightBox, horizon: Fraction = HORIZON) -> int:
+    """Return the bits at which the middle one of the launches is decided, the least if none."""
+    middle = sum(flights.phases, Fraction(0)) / 2
     try:
-        return locate(system, (middle, middle), horizon=horizon).flight.precision
+        launch = replace(flights, phases=(middle, middle))
+        return locate(launch, horizon=horizon, floats=False).bits
     except Undecided:
-        return LEAST
+        return COVER_BITS
 
 
 def steps_for(phases: Range) -> Fraction:

@@ -1,4 +1,4 @@
-"""As many digits as are asked for: precision is doubled until all bounds have them."""
+"""As many digits as are asked for: precision grows until all bounds have them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from intervals.errors import DomainError, Undecided
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range, agree
 
 MOST_DIGITS = 1000  # that can be asked for
@@ -16,7 +17,7 @@ _Answer = TypeVar("_Answer")
 
 def bits_for(digits: int, attempt: int = 0) -> int:
     """Return the binary places for so many significant digits, at first or at a later attempt."""
-    return (digits * 10 // 3 + 20) << attempt
+    return digits * 10 // 3 + (20 << 2 * attempt)
 
 
 def around(value: Fraction, bits: int) -> Range:
@@ -43,7 +44,7 @@ def to_digits(
             found = make(bits_for(digits, attempt))
         except final:
             raise
-        except (Undecided, DomainError) as failure:  # a slow impact asks for more bits
+        except (Undecided, DomainError, Unproved) as failure:  # a slow impact asks for more bits
             reason = str(failure)
             continue
         if all(agree(each, digits + 1) for each in bounds(found)):

@@ -10,18 +10,25 @@ from typing import NamedTuple
 import numpy as np
 
 from intervals import Interval, IntervalArray, Undecided
+from intervals.rounding import float_down, float_up
 from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
 from proofs.motion.kernel import Launches, enclose_times
-from proofs.motion.many import float_clock, float_launch
-from proofs.motion.phase import turn
-from proofs.motion.slope_cover import SlopeCover
+from proofs.motion.many import float_clock, float_launch, next_impacts
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.trusted.equations import Clock, Launch, gap, launch, slope
+from proofs.trusted.flights import FirstImpact
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters
 
-_STEPS = 5  # of Newton's method, from within a box of the covers
+_STEPS = 5  # of Newton's method, from between two phases of the grid
+_GRID = 17  # phases of a part whose flights are seen first
+
+
+def turn(precision: int) -> Interval:
+    """Enclose 2 pi."""
+    return Interval.pi(precision=precision) * 2
 
 
 @dataclass(frozen=True)
@@ -29,11 +36,12 @@ class ImpactMap:
     """f on I0 and I1 for `proofs.methods.orbits`: the horseshoe `of`, proved elsewhere.
 
     On I_j, f(phi) is phi + t - 2 pi turns[j], t the time of the first impact, and covers I.
+    parts: transversal first impacts on all of I0 and I1, rounded outward to binary64, in order.
     """
 
     of: Parameters
     expansion: Fraction
-    covers: tuple[SlopeCover, SlopeCover]
+    parts: tuple[FirstImpact, ...]
     turns: tuple[int, int]
 
     @property
@@ -47,26 +55,38 @@ class ImpactMap:
         return System(self.of.eta, self.of.nu)
 
     @cached_property
-    def _table(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Of the boxes of both covers: both ends, last times of their grids, middle times."""
-        rows = ((c.boxes.inf, c.boxes.sup, c.last, c.times.mid) for c in self.covers)
-        lower, upper, last, times = (np.concatenate(part) for part in zip(*rows, strict=True))
-        return lower, upper, last, times
+    def _table(self) -> tuple[Floats, Floats, Floats]:
+        """Of the parts: both ends, and times up to which no impact follows."""
+        phases = [part.motion.phases for part in self.parts]
+        lower = np.array([float_up(low) for low, _ in phases])
+        upper = np.array([float_down(high) for _, high in phases])
+        return lower, upper, np.array([float_down(part.windows[0][0]) for part in self.parts])
 
-    def _look_up(self, x: Floats) -> tuple[Floats, Floats]:
-        """Return a time up to which no impact follows a launch at x, and about that of the first.
+    @cached_property
+    def _seen(self) -> tuple[Floats, Floats]:
+        """Increasing phases, and about the times of their first impacts."""
+        lower, upper, _ = self._table
+        phases = np.linspace(lower, upper, _GRID, axis=1).ravel()
+        times = next_impacts(
+            self.system.side, float(self.of.eta), float(self.of.nu), phases, float(HORIZON)
+        ).times
+        if np.isnan(times).any():
+            raise Undecided("in floating point a phase sticks, or never impacts")
+        return phases, times
 
-        x must lie in a box: it is in the last one that does not begin after it.
+    def _last(self, x: Floats) -> Floats:
+        """Return times up to which no impact follows launches at x: each in the last part that does
+        not begin after it.
         """
-        lower, upper, last, times = self._table
+        lower, upper, last = self._table
         index = np.searchsorted(lower, x, side="right") - 1
         if not ((lower[index] <= x) & (x <= upper[index])).all():
             raise ValueError("a phase outside I0 and I1")
-        return last[index], times[index]
+        return last[index]
 
     def _flights(self, x: Floats) -> tuple[Floats, Floats]:
-        """Return about the time of flight after x and f', by Newton's method from the covers."""
-        t = self._look_up(x)[1]
+        """Return about the time of flight after x and f', by Newton's method from what is seen."""
+        t = np.interp(x, *self._seen)
         start = float_launch(self.system, x)
         for _ in range(_STEPS):
             now = float_clock(self.system, t)
@@ -81,14 +101,14 @@ class ImpactMap:
     def defects(self, symbols: Symbols, x: Floats, y: Floats) -> IntervalArray:
         """Enclose f(x) - y."""
         t, phases = self._flights(x)[0], IntervalArray.from_floats(x)
-        times = enclose_times(Launches(self.system, phases), self._look_up(x)[0], (t, t))
+        times = enclose_times(Launches(self.system, phases), self._last(x), (t, t))
         whole = IntervalArray([turn(100) * count for count in self.turns])[symbols]
         return times - whole + phases - IntervalArray.from_floats(y)
 
     def germs(self, symbols: Symbols, boxes: IntervalArray) -> ImpactGerms:
-        """Return f near the boxes; a box over two of a cover has no impact before either's last."""
+        """Return f near the boxes; a box over two parts has no impact before either's last time."""
         (t, slopes), launches = self._flights(boxes.mid), Launches(self.system, boxes)
-        last = np.minimum(self._look_up(boxes.inf)[0], self._look_up(boxes.sup)[0])
+        last = np.minimum(self._last(boxes.inf), self._last(boxes.sup))
         times = enclose_times(launches, last, (t, t), 2.0 * np.abs(slopes - 1.0) * boxes.rad)
         return ImpactGerms(self.system, launches, times, self.turns, symbols)
 

@@ -1,42 +1,30 @@
-"""The subdivision kernel: f' and the first impact over thousands of boxes of phases, in binary64.
-
-A phase interval is cut into N boxes, an IntervalArray. One grid of times serves all of them, on
-which phase and time separate: the gap is lift A(t) + rate B(t) + D(t), so that sine and cosine
-are taken of N phases and of the times alone, and the boxes x times are one `bilinear` form.
+"""f' and impact times after thousands of boxes of phases, in binary64, all boxes at once.
 
 Search (`find_...`) uses floats; what it returns is then proved, or Undecided is raised.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals import IntervalArray, Jet, Undecided
-from intervals.bilinear import bilinear
-from intervals.rounding import outward, outward_sum
-from proofs.motion.candidate import next_impact
-from proofs.motion.impact import HORIZON
-from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-CHUNK = 1 << 19  # forms x boxes at once, a byte each: longer rows cost less
 _TIGHT = 2.0**-48  # the first attempt at half the relative width of a time bracket
 _ATTEMPTS = 12
 
 
 @dataclass(frozen=True)
 class Launches:
-    """All launches from the boxes of phases, shape (n,): `Flight` for many sets of phases."""
+    """All launches from the boxes of phases, shape (n,): `FlightBox` for many sets of phases."""
 
     system: System
     phases: IntervalArray
@@ -75,7 +63,7 @@ class Launches:
         return at_centre + along * self.offset
 
     def speeds(self, times: IntervalArray, now: Clock | None = None) -> IntervalArray:
-        """Enclose gap' over box i and the times in times[i], as `Flight.fall` does.
+        """Enclose gap' over box i and the times in times[i], as `flights.fall` does.
 
         now: the clock at these times, if it is there already.
         """
@@ -99,118 +87,6 @@ class Launches:
         first: IntervalArray = slope(self.start, now, self.speeds(times, now))
         return first
 
-    def slopes_and_curvatures(self, times: IntervalArray) -> tuple[IntervalArray, IntervalArray]:
-        """Enclose f' and f'' likewise, as `Flight.slope_and_curvature` does."""
-        now = self.clock(times)
-        fall = self.speeds(times, now)
-        first: IntervalArray = slope(self.start, now, fall)
-        faster = first - 1
-        change = gap(self._tangent, now, 1).derivative() + gap(self.start, now, 2) * faster
-        along = self.clock(Jet(times, faster))
-        return first, slope(self._tangent, along, Jet(fall, change)).derivative()
-
-
-# -- the grid: no impact before ------------------------------------------------------------------
-
-
-def exclude_impacts(launches: Launches, times: Sequence[float]) -> None:
-    """Prove that gap > 0 on (0, t_n] after every launch, where 0 < t_1 < ... < t_n are `times`.
-
-    On [0, t_1] by the double zero: gap(0) = gap'(0) = 0, so gap'' > 0 there gives gap > 0. On
-    [t_j, t_{j+1}] by the chord: gap >= min(gap(t_j), gap(t_{j+1})) - w^2/8 max(0, gap''), so that
-    all is proved if both gaps, and both less v gap'' for some v >= w^2/8, are > 0.
-    Raises Undecided with the first box on which one of these fails.
-    """
-    grid = np.array([0.0, *times])
-    if not (grid.size > 1 and np.isfinite(grid).all() and (np.diff(grid) > 0.0).all()):
-        raise ValueError("the times must be finite, positive and increasing, and at least one")
-    by_lift, by_rate, rest = _forms(launches.system, grid)
-    start = launches.start
-    size = max(1, CHUNK // len(rest))
-    for begin in range(0, len(launches.phases), size):
-        part = slice(begin, begin + size)
-        positive = bilinear((by_lift, by_rate), (start.lift[part], start.rate[part]), rest)
-        _require(launches, positive[:1], begin, _STICKS)
-        _require(launches, positive, begin, _NOT_EXCLUDED)
-
-
-def _forms(system: System, grid: Floats) -> IntervalArray:
-    """Return what must be > 0: forms (A, B, D), shape (3, 3 n - 1), each for lift A + rate B + D.
-
-    With h_j = gap(t_j), and b_j = v gap'' on piece j, from t_{j-1} to t_j, where v >= w^2/8, they
-    are b_1, then h_1, ..., h_n, then h_j - b_j for j = 2, ..., n, then h_{j-1} - b_j for these.
-    """
-    n = grid.size - 1
-    times = IntervalArray.from_floats(  # the ends of the pieces, then the pieces
-        np.concatenate((grid[1:], grid[:-1])), np.concatenate((grid[1:], grid[1:]))
-    )
-    # both frequencies at once: sines and cosines of so few numbers cost as much as of twice as many
-    waves = IntervalArray.concatenate([system.eta * times, times]).sincos()
-    one = IntervalArray.from_floats(np.ones(2 * n))
-    functions = IntervalArray.concatenate([*waves, one]).reshape(5, 2, n)
-    forms = (_coefficients(system) * functions).sum(axis=1)
-    widths = outward_sum(np.diff(grid))
-    bends = forms[:, 1] * IntervalArray.from_floats(outward(0.125 * widths * widths))
-    heights, later = forms[:, 0], bends[:, 1:]
-    return IntervalArray.concatenate(
-        [bends[:, :1], heights, heights[:, 1:] - later, heights[:, :-1] - later], axis=1
-    )
-
-
-_LAUNCH = ("lift",), ("rate",), ()
-_FUNCTIONS = ("mass_sin",), ("table_sin",), ("mass_cos",), ("table_cos",), ()
-
-
-@lru_cache(maxsize=64)
-def _coefficients(system: System) -> IntervalArray:
-    """Return c, shape (3, 5, 2, 1), of gap and gap'', the sums over i, k of c_ik x_i f_k.
-
-    x is lift, rate, 1, and f is sin(eta t), sin(t), cos(eta t), cos(t), 1.
-    """
-    names = "lift", "rate", *Clock._fields
-    lift, rate, *functions = (_Polynomial({(name,): Fraction(1)}) for name in names)
-    start, now = Launch(system.side, system.eta, lift, rate), Clock(*functions)
-    found = [gap(start, now, order).terms for order in (0, 2)]
-    table = [[tuple(sorted((*x, *f))) for f in _FUNCTIONS] for x in _LAUNCH]
-    if not set().union(*found) <= set().union(*table):
-        raise ValueError("the gap is not a form in the launch and the functions of time")
-    return IntervalArray([[[[terms.get(x, 0)] for terms in found] for x in row] for row in table])
-
-
-@dataclass(frozen=True)
-class _Polynomial:
-    """The sum of coefficients times monomials, by the sorted names of a monomial's variables."""
-
-    terms: dict[tuple[str, ...], Fraction]
-
-    def __mul__(self, factor: _Polynomial | Fraction | int) -> _Polynomial:
-        product: dict[tuple[str, ...], Fraction] = {}
-        for x, a in self.terms.items():
-            for y, b in _polynomial(factor).terms.items():
-                name = tuple(sorted((*x, *y)))
-                product[name] = product.get(name, Fraction(0)) + a * b
-        return _Polynomial(product)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, divisor: Fraction) -> _Polynomial:
-        return self * (1 / divisor)
-
-    def __add__(self, other: _Polynomial | int) -> _Polynomial:
-        added = _polynomial(other).terms
-        known = {**self.terms, **added}
-        return _Polynomial({x: self.terms.get(x, Fraction(0)) + added.get(x, 0) for x in known})
-
-    def __sub__(self, other: _Polynomial | int) -> _Polynomial:
-        return self + -other
-
-    def __neg__(self) -> _Polynomial:
-        return self * -1
-
-
-def _polynomial(value: _Polynomial | Fraction | int) -> _Polynomial:
-    return value if isinstance(value, _Polynomial) else _Polynomial({(): Fraction(value)})
-
 
 # -- the brackets: an impact here ----------------------------------------------------------------
 
@@ -233,27 +109,6 @@ def _signs(launches: Launches, low: Floats, high: Floats) -> Mask:
     """Return masks, shape (2, n): on which boxes gap(low) > 0, and on which gap(high) < 0."""
     heights = launches.heights(np.stack((low, high)))
     return np.stack((heights[0].certainly_positive(), heights[1].certainly_negative()))
-
-
-def find_times(system: System, phases: Floats) -> Floats:
-    """Return about the time of the first impact after each of increasing phases: a candidate.
-
-    Newton's method from the chord between the outermost two; Undecided if these have none.
-    """
-    outer = [next_impact(system, float(phase), float(HORIZON)) for phase in phases[[0, -1]]]
-    if outer[0] is None or outer[1] is None:
-        raise Undecided("in floating point an end of the phases sticks, or never impacts")
-    start = float_launch(system, phases)
-    share = (phases - phases[0]) / max(float(phases[-1] - phases[0]), 1e-300)
-    times = np.asarray(outer[0][0] + share * (outer[1][0] - outer[0][0]))
-    for _ in range(_ATTEMPTS):
-        now = float_clock(system, times)
-        with np.errstate(all="ignore"):
-            step = gap(start, now) / gap(start, now, 1)
-        times = np.clip(times - np.nan_to_num(step), 0.0, float(HORIZON))
-        if not np.max(np.abs(step)) > 1e-9:
-            break
-    return times
 
 
 def enclose_times(
@@ -301,7 +156,3 @@ def _require(launches: Launches, holds: Mask, begin: int, reason: str) -> None:
         f"{reason}: box {index} of {len(launches.phases)}, "
         f"phases [{float(box.inf):.12g}, {float(box.sup):.12g}]"
     )
-
-
-_STICKS = "a phase sticks, or the first time is too late for gap'' > 0"
-_NOT_EXCLUDED = "an impact before the last time of the grid is not excluded"

@@ -2,48 +2,61 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
-from intervals import Interval, Undecided
-from proofs.motion.flight import Flight
-from proofs.motion.image import separation_phase
-from proofs.motion.impact import impact_time, locate
+from intervals import Undecided
+from proofs.motion.brackets import impact_time, middle
+from proofs.motion.digits import around
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON, FlightBox, NoImpact, locate
 from proofs.trusted.certificate import texts
+from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.arithmetic import Enclosure
-from proofs.trusted.numbers import Phases, Range
-from proofs.trusted.paper.s34_circle.landing import NeverImpacts, closest_approach
-from proofs.trusted.parameters import Place
-from proofs.trusted.windows import BITS
+from proofs.trusted.kernel.arithmetic import rational
+from proofs.trusted.numbers import Range
 
 NEWTON = 6  # steps
+_ROOM = 40  # bits
 
 
-def separation(system: System, bits: int) -> dict[str, object]:
+def separation_phase(system: System, bits: int) -> Range:
+    """Bracket the phase phi_s at which a sticking mass leaves, in [0, 2 pi), to 2^(1 - bits).
+
+    It is the zero of the launch acceleration at which that increases: the sine is the paper's
+    eta^2 / (nu (1 - eta^2)), the cosine has the sign of 1 - eta^2. Raises NoImpact if the mass
+    never leaves, Undecided too close to the parameters where that begins.
+    """
+    sine = system.separation_sine
+    if system.sticking_arc == "all" or sine is None:
+        raise NoImpact("the mass sticks to the table forever")
+    guess = math.asin(max(-1.0, min(1.0, float(sine))))
+    phase = Fraction((guess if system.eta < 1 else math.pi - guess) % math.tau)
+    places, at = bits + _ROOM, system.place
+    for _ in range(places.bit_length()):
+        sin, cos = map(middle, rational(phase, places).sincos())
+        phase = round((phase - (sin - sine) / cos) * 2**places) / Fraction(2**places)
+    ends = around(phase, bits)
+    low, high = (launch_acceleration(Motion(at, (x, x), 2 * places).start()) for x in ends)
+    if not low.hi < 0 < high.lo or ends[0] < 0:
+        raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
+    return ends
+
+
+def separation(
+    system: System, bits: int, floats: bool = True, horizon: Fraction = HORIZON
+) -> dict[str, object]:
     """Bracket the end of the sticking arc, and the flight from it, to about 2^-bits.
 
     The window of the impact is the last piece of the times.
     """
-    if system.sticking_arc != "some":
-        raise Undecided("the mass sticks nowhere, or everywhere: there is no separation phase")
-    unit = Fraction(1, 2**bits)
-    centre = round(separation_phase(system, bits + 20)[0] / unit) * unit
-    phase = centre - unit, centre + unit
-    found = locate(system, phase, separating=True)
-    time = impact_time(found, phase, bits - 10)
-    times = [*(each for each in found.times[1:] if each <= found.window[0]), found.window[1]]
-    return {"phase": texts(phase), "times": texts(times), "time": texts(time)}
-
-
-def prove_never(system: System, phases: Range) -> NeverImpacts:
-    """Prove that no flight from some phases near pi/2 ends."""
-    flight, half_turn = Flight(system, phases, BITS), Interval.pi(precision=BITS)
-    nu = Interval(system.nu, precision=BITS)
-    bounds = closest_approach(system.eta, nu, flight.start, flight.phi - half_turn / 2, half_turn)
-    if not all(bound.certainly_positive() for bound in bounds):
-        raise Undecided("an impact is not excluded")
-    return NeverImpacts(Place.plastic(system.eta, system.nu), Phases(*phases))
+    if system.sticking_arc == "none":
+        raise Undecided("the mass sticks nowhere: there is no separation phase")
+    phase = separation_phase(system, bits)
+    at = system.place
+    found = locate(FlightBox.plastic(at, phase, separating=True), floats=floats, horizon=horizon)
+    time = impact_time(found.flights, found.windows[0], bits - 10)
+    return {"phase": texts(phase), "times": texts(found.times), "time": texts(time)}
 
 
 def zero(motion: Motion, time: Fraction, order: int) -> Fraction:
@@ -55,11 +68,6 @@ def zero(motion: Motion, time: Fraction, order: int) -> Fraction:
         if abs(time - before) * 2 ** (motion.bits // 2) < 1:  # the error is about its square
             break
     return time
-
-
-def middle(x: Enclosure) -> Fraction:
-    """Return about the number that is enclosed."""
-    return Fraction(x.lo + x.hi, 2 << x.bits)
 
 
 def short(value: Fraction, places: int) -> Fraction:

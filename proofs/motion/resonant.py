@@ -15,9 +15,9 @@ from fractions import Fraction
 
 from intervals import Interval, Undecided, atan
 from proofs.motion.digits import to_digits
-from proofs.motion.phase import on_circle
-from proofs.motion.rebound import Impossible
+from proofs.motion.witness import Impossible
 from proofs.trusted.equations import Clock, arrival, closing, launch
+from proofs.trusted.flights import phase_after
 from proofs.trusted.numbers import Range
 
 _MOST_IMPACTS = 20_000  # one by one, until the series converges
@@ -98,7 +98,7 @@ def _at_precision(
 
 
 def _on_circle(phase: Interval) -> Range:
-    return on_circle((phase.inf, phase.sup), phase.precision)
+    return phase_after(Fraction(0), (phase.inf, phase.sup), phase.precision)
 
 
 def angles(kick: Interval, epsilon: Fraction) -> Interval:

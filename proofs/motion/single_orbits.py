@@ -11,13 +11,12 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from intervals import DomainError, Interval, Undecided
-from proofs.motion.flight import Flight
-from proofs.motion.impact import first_impact
-from proofs.motion.phase import on_circle
-from proofs.motion.phase import turn as full_turn
+from intervals import Interval, Undecided
 from proofs.motion.system import System
+from proofs.motion.witness import FlightBox, march
 from proofs.trusted.equations import Launch, launch, launch_acceleration, sincos
+from proofs.trusted.flights import COVER_BITS, phase_after
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s4_single.orbits import records
 
@@ -117,7 +116,7 @@ def _at_rest(system: System, n: int, precision: int) -> list[SingleImpact]:
     phase = Interval(-system.nu, precision=precision) * Interval.pi(precision=precision) / 2
     touched = "the mass, at rest at x = 0, is touched without relative velocity"
     reason = _STICKS if system.nu > 0 else touched
-    reduced = on_circle((phase.inf, phase.sup), precision)
+    reduced = phase_after(Fraction(0), (phase.inf, phase.sup), precision)
     return [SingleImpact(n, reduced, None, False, False, reason)]
 
 
@@ -137,7 +136,7 @@ def _judged(
     precision = phase.precision
     eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
     factor = multiplier(eta, nu, phase.sincos(), orbit)
-    reduced = on_circle((phase.inf, phase.sup), precision)
+    reduced = phase_after(Fraction(0), (phase.inf, phase.sup), precision)
     admissible, reason = _admissible(system, n, reduced, bits)
     stable: bool | None = False
     if admissible is not False:
@@ -185,20 +184,22 @@ def _known_records(eta: Fraction, most: int) -> frozenset[int]:
 
 def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
     """Decide by the first impact of the flight, in ever smaller steps of time."""
-    whole, reason = full_turn(128) * n, "the flight is too long to follow"
+    whole, reason = Interval.pi(precision=128) * (2 * n), "the flight is too long to follow"
     if whole.sup > _LONGEST:
         return None, reason
+    flights = FlightBox.plastic(system.place, phase)
     for attempt in range(_ATTEMPTS):
-        flight = Flight(system, phase, 64 * (attempt + 1))
+        finest = Fraction(1, 2 ** (3 + 3 * attempt))
         try:
-            found = first_impact(flight, whole.sup + 1, Fraction(1, 2 ** (3 + 3 * attempt)))
-        except (Undecided, DomainError) as failure:
+            found = march(flights, COVER_BITS * (attempt + 1), whole.sup + 1, finest)
+            proved = found.proved()
+        except (Undecided, Unproved) as failure:
             reason = str(failure)
             continue
-        begin, end = found.window
+        begin, end = proved.windows[-1]
         if end < whole.inf:
             return False, "an earlier impact"
-        if found.transversal and begin < whole.inf and whole.sup < end:
+        if proved.transversal and begin < whole.inf and whole.sup < end:
             return True, "the first impact"
         reason = "the first impact is not told from one after n periods"
     return None, reason

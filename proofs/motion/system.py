@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from proofs.trusted.parameters import Place
+
 
 @dataclass(frozen=True)
 class System:
@@ -24,6 +26,11 @@ class System:
     def side(self) -> int:
         """The sign of nu: flight means side * (scaled distance) > 0. side = -1 is p > 0."""
         return 1 if self.nu > 0 else -1
+
+    @cached_property
+    def place(self) -> Place:
+        """The same as what conclusions are about, with plastic impacts."""
+        return Place.plastic(self.eta, self.nu)
 
     @cached_property
     def separation_sine(self) -> Fraction | None:

@@ -15,8 +15,8 @@ from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.budget import EFFORT, FASTEST, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.loops import loops

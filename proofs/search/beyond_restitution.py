@@ -12,8 +12,8 @@ from types import MappingProxyType
 
 from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.beyond import too_fast
 from proofs.search.budget import EFFORT, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each

@@ -17,7 +17,7 @@ from intervals import Interval, Undecided
 from proofs.methods.arcs import follow, thin
 from proofs.methods.formulas import enclosed
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
-from proofs.motion.single_flight import SingleFlight
+from proofs.motion.single_flight import touching_once
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence, Tell
 from proofs.trusted.certificate import texts
@@ -34,6 +34,7 @@ from proofs.trusted.paper.beyond.grazing import (
     TIME,
     GrazingCurve,
     P,
+    gap_along,
     nu_squared,
     ratio,
     touch,
@@ -143,8 +144,8 @@ class Curves:
                 low - _NEAR < point[ETA] < high + _NEAR for point in crossings.values()
             ):
                 raise Undecided("a long piece next to another curve")
-            flight = SingleFlight.of(n, ratio(epsilon), side, piece)
-            times[piece] = flight.touching_once(piece.hull(ETA)[TIME])
+            gap_of = gap_along(n, ratio(epsilon), side, piece)
+            times[piece] = touching_once(gap_of, 1 if epsilon else 2, piece.hull(ETA)[TIME], n)
 
         start = newton(formula, run[0].guess, axis=ETA)[0]
         traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)

@@ -5,17 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from intervals import DomainError, Undecided
+from proofs.motion.witness import Unsettled
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.parameters import Place
 from proofs.trusted.rules import find_rule
 
+_Made = TypeVar("_Made")
 Tell = Callable[[str], None]
 Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
+Steps = dict[str, dict[str, Any]]
+Proved = tuple[Place, Steps, list[str]]  # oscillators, steps, and those that are claimed
 # What a proof that does not succeed raises; Malformed: what floats saw is no witness of a rule.
 FAILED = (Undecided, DomainError, Unproved, Malformed)
 
@@ -32,6 +37,16 @@ class Evidence:
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     proofs: dict[str, Proof] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
+
+
+def floats_first(make: Callable[[bool], _Made]) -> _Made:
+    """Return what can be made by what floats see; where that fails, by the checker's numbers."""
+    try:
+        return make(True)
+    except FAILED as failure:
+        if isinstance(failure, Unsettled) and failure.hopeless:
+            raise
+    return make(False)
 
 
 def concluded(rule: str, witness: dict[str, Any], context: Context) -> Any:

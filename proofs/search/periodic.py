@@ -10,18 +10,19 @@ from functools import partial
 from itertools import islice
 
 from intervals import Interval, Undecided
+from intervals.rounding import float_down, float_up
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.traces import escape_rate
 from proofs.methods.words import Words
-from proofs.motion.horseshoe_map import ImpactMap
-from proofs.motion.impact import HORIZON
-from proofs.motion.phase import turn
-from proofs.motion.slope_cover import slope_cover
+from proofs.motion.branch import Branch
+from proofs.motion.horseshoe_map import ImpactMap, turn
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Tell
 from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
+from proofs.trusted.flights import FirstImpact
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s31_horseshoe import ROWS
 from proofs.trusted.paper.staying import StayingSet
@@ -30,7 +31,6 @@ from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Verdict
 
 _TRIES = 12  # of sets that are found
-_BOXES = 16  # of each branch, for the proof that f is C^1 there
 _AT_ONCE = 4000  # orbits
 _DIGITS = 14
 
@@ -80,17 +80,19 @@ def own_horseshoe(of: Parameters) -> ImpactMap:
 
 def _impact_map(of: Parameters, least: Fraction, images: Sequence[Range]) -> ImpactMap:
     """Return the map, images being those of the left ends of I0 and I1; |f'| >= least there."""
-    system = System(of.eta, of.nu)
-    covers = slope_cover(system, of.left, _BOXES), slope_cover(system, of.right, _BOXES)
-    turns = []
-    for cover, domain, ends in zip(covers, (of.left, of.right), images, strict=True):
-        image = Interval(*ends)
-        whole = (cover.times[0].item() + domain[0] - image) / turn(53)
+    prover = Prover(System(of.eta, of.nu), _DIGITS, HORIZON)
+    turns, parts = list[int](), list[FirstImpact]()
+    for domain, ends in zip((of.left, of.right), images, strict=True):
+        around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
+        found = prover.impacts(around)
+        time = Branch(found, prover.bits).flight(domain[0], domain[0])[1]
+        whole = (Interval(*time) + domain[0] - Interval(*ends)) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):
             raise ArithmeticError("an impact is at another phase than it was proved to be")
         turns.append(count)
-    return ImpactMap(of, least, covers, (turns[0], turns[1]))
+        parts += [part for _, part in found]
+    return ImpactMap(of, least, tuple(parts), (turns[0], turns[1]))
 
 
 def _refusal(why: str, corrected: StayingSet | None) -> str:

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from intervals import DomainError, Undecided
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.derivations import prove_rows
 from proofs.search.evidence import Evidence, Proof
 from proofs.search.s34_circle import prove_longest

@@ -15,8 +15,8 @@ from itertools import islice
 from typing import TypeVar
 
 from proofs.motion.candidate import next_impact
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.repair import grid, nearest_sets
 from proofs.search.steps import Prover

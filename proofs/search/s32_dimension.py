@@ -15,16 +15,14 @@ from typing import Any
 from intervals import Undecided
 from proofs.methods.dimension import POINTS, Images, Remembered, boundary, ellipses, enough_arcs
 from proofs.methods.eigenfunction import candidate
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import HORIZON
 from proofs.motion.inverse import InverseBranch
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
 from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
 from proofs.search.s34_staying import prove_full_shifts
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import Reader, texts
-from proofs.trusted.flights import FirstImpact
+from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -67,12 +65,10 @@ class _Run:
     def letter(self, domain: Phases) -> tuple[list[str], Letter]:
         """Prove the first impact transversal on all of a domain, once."""
         if domain not in self.letters:
-            found = cover_by_impacts(self.prover.system, domain)
-            names = [self.prover.add_impact(part) for part in found]
-            proved = [self.prover.context.step(Reader(name), FirstImpact) for name in names]
-            cuts = (domain[0], *(part.flight.phases[1] for part in found))
+            names, proved = zip(*self.prover.impacts(domain), strict=True)
+            cuts = (domain[0], *(part.motion.phases[1] for part in proved))
             turns = InverseBranch(self.prover.system, domain).turns
-            self.letters[domain] = names, Letter(cuts, tuple(proved), turns)
+            self.letters[domain] = [*names], Letter(cuts, proved, turns)
         return self.letters[domain]
 
     def repeller(

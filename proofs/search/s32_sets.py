@@ -13,8 +13,8 @@ from functools import cache
 from itertools import islice
 
 from proofs.motion.candidate import next_impact
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover

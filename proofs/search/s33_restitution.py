@@ -12,8 +12,8 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
 from proofs.search.s33_rectangles import (

@@ -15,10 +15,10 @@ from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
-from proofs.motion.flight import Numbers
-from proofs.motion.restitution import Rebounds, locate_impact
-from proofs.motion.system import System
+from proofs.motion.brackets import transversal_impact
+from proofs.motion.witness import FlightBox
 from proofs.search.evidence import FAILED, concluded
+from proofs.search.rebound import witness
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -94,27 +94,12 @@ class ReboundProver:
             self._names[wanted] = self.plain.seen_or_proved(make)
         return self._names[wanted], self.get(self._names[wanted], Rebound)
 
-    def _rebound(self, at: Place, phases: Range, velocities: Range, numbers: Numbers) -> str:
-        etas, nus, epsilons = at.sides
-        eta, nu = ((low + high) / 2 for low, high in (etas, nus))
-        flight = Rebounds(
-            System(eta, nu),
-            phases,
-            numbers=numbers,
-            velocities=velocities,
-            epsilon=epsilons,
-            eta_reach=etas[1] - eta,
-            nu_reach=nus[1] - nu,
+    def _rebound(self, at: Place, phases: Range, velocities: Range, floats: bool) -> str:
+        flights = FlightBox(at.sides, phases, velocities)
+        found, time = transversal_impact(
+            flights, self.plain.bits, horizon=self.plain.horizon, floats=floats
         )
-        found, time = locate_impact(flight, bits=self.plain.bits, horizon=self.plain.horizon)
-        return self.derive(
-            "rebound",
-            **{name: texts(getattr(at, name)) for name in ("eta", "nu", "epsilon")},
-            phases=texts(phases),
-            velocities=texts(velocities),
-            times=texts(found.times[1:]),
-            impact=texts(time),
-        )
+        return self.derive("rebound", **witness(flights, found.times, time))
 
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""

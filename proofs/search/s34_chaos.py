@@ -14,9 +14,9 @@ from itertools import pairwise
 
 from intervals import Undecided
 from proofs.methods.subshifts import Subshift, largest_subshift, tower
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates
+from proofs.motion.witness import HORIZON
 from proofs.search.budget import FASTEST
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_staying import prove_staying

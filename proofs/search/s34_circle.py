@@ -16,11 +16,11 @@ from functools import partial
 from typing import TypeVar
 
 from intervals import Undecided
-from proofs.motion.impact import HORIZON
-from proofs.motion.landing import prove_never, separation
+from proofs.motion.landing import separation
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
-from proofs.search.evidence import FAILED, Evidence
+from proofs.search.evidence import FAILED, Evidence, concluded
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover
@@ -89,7 +89,12 @@ class _Run:
 
 def prove_arc(prover: Prover) -> tuple[str, Separation]:
     """Prove where the mass sticks and where it lands after it separates (rule separation)."""
-    return prover.derive("separation", separation(prover.system, prover.bits + 30))
+
+    def make(floats: bool) -> tuple[str, Separation]:
+        witness = separation(prover.system, prover.bits + 30, floats)
+        return prover.derive("separation", witness)
+
+    return prover.seen_or_proved(make)
 
 
 def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
@@ -102,7 +107,7 @@ def prove_longest(prover: Prover) -> tuple[str, NeverImpacts]:
     while high - low > 1:
         middle = (low + high) // 2
         try:
-            prove_never(prover.system, around(middle))
+            concluded("never-impacts", {"phases": texts(around(middle))}, prover.context)
             low = middle
         except FAILED:
             high = middle

@@ -15,10 +15,10 @@ from itertools import islice
 from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.covering import halves
-from proofs.motion.impact import HORIZON
 from proofs.motion.simulate import TURNS
 from proofs.motion.system import System
 from proofs.motion.transients import INITIAL_STATES, Summary, transients
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver

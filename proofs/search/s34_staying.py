@@ -9,11 +9,11 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
+from proofs.motion.brackets import middle, transversal_impact
 from proofs.motion.candidate import next_impact
-from proofs.motion.impact import impact_time, locate
-from proofs.motion.phase import phase_after
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
+from proofs.trusted.flights import Motion, bits_for, phase_after
 from proofs.trusted.numbers import Phases, Range, within
 from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.slopes import SlopeRange
@@ -245,7 +245,7 @@ def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fract
 
 def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
     """Return about (f(phase), f'(phase))."""
-    impact = locate(prover.system, (phase, phase), horizon=prover.horizon)
-    time = impact_time(impact, (phase, phase), prover.bits)
-    slope = impact.thin((phase, phase), prover.bits).slope(time).mid
-    return phase_after(phase, time, prover.bits)[0], slope
+    launch = prover.flights((phase, phase))
+    _, time = transversal_impact(launch, prover.bits, horizon=prover.horizon)
+    slope = Motion(prover.at, (phase, phase), bits_for(time)).slope(time)
+    return phase_after(phase, time, prover.bits)[0], middle(slope)

@@ -15,10 +15,11 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from intervals import Undecided
-from proofs.motion.impact import HORIZON
-from proofs.motion.landing import NEWTON, middle, short, zero
+from proofs.motion.brackets import middle
+from proofs.motion.landing import NEWTON, short, zero
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, search_each
 from proofs.search.s34_chaos import prove_covering
 from proofs.search.s34_laps import FINE, Images, Laps, flight, record, rise

@@ -8,30 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from intervals import Interval, Undecided
-from proofs.motion.flight import Flight
-from proofs.motion.impact import HORIZON, locate
-from proofs.motion.phase import turn as full_turn
+from intervals import Undecided
 from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
 from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
+from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import clock, launch_acceleration, slope
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
-from proofs.trusted.paper.s4_single.below import BelowWindows
-from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, Solution, records
-from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
-from proofs.trusted.parameters import PAPER, Parameters, Place
+from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, records
+from proofs.trusted.parameters import PAPER, Parameters
 
 _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
@@ -43,15 +38,12 @@ _HALF = Fraction(1, 2)
 
 @dataclass
 class Single:
-    """Collects the steps of this group, each with its conclusion."""
+    """Proves the steps of this group."""
 
     prover: Prover
-    found: dict[str, Conclusion] = field(default_factory=dict)
 
-    def _add(self, rule: str, conclusion: Conclusion, **witness: Any) -> str:
-        name = self.prover.add(rule, witness)
-        self.found[name] = conclusion
-        return name
+    def _derive(self, rule: str, **witness: Any) -> str:
+        return self.prover.derive(rule, witness)[0]
 
     def solution(
         self, system: System, of: SingleImpact, early: bool = False, first: bool = False
@@ -61,22 +53,15 @@ class Single:
         first: or with its first impact, n periods later, at the parameters of the certificate.
         """
         phase = bracket(system, of.n, of.phase, self.prover.bits)
-        flight = Flight(system, phase, self.prover.bits + 60)
-        time = _inside(flight, of.n) if early else None
-        whole = full_turn(flight.precision) * of.n
-        factor: Interval = slope(flight.start, clock(flight.eta, whole))
-        push: Interval = launch_acceleration(flight.start)
-        at = Place.plastic(system.eta, system.nu)
-        bounds = (factor.inf, factor.sup), (push.inf, push.sup)
-        return self._add(
+        motion = Motion(system.place, phase, self.prover.bits + 60)
+        return self._derive(
             "single-solution",
-            Solution(at, of.n, phase, *bounds, time, first),
             eta=str(system.eta),
             nu=str(system.nu),
             n=str(of.n),
             phase=texts(phase),
-            early=None if time is None else str(time),
-            flight=self.prover.add_impact(locate(system, phase)) if first else None,
+            early=str(_inside(motion, of.n)) if early else None,
+            flight=self.prover.impact(phase)[0] if first else None,
         )
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
@@ -87,9 +72,8 @@ class Single:
             if stick[0] <= low:
                 break
             ends.append((eta_end(nu, n, FLIP, self.prover.bits), stick))
-        return self._add(
+        return self._derive(
             "single-eta-windows",
-            EtaWindows(nu, low, tuple(ends)),
             nu=str(nu),
             low=str(low),
             ends=[texts([*flip, *stick]) for flip, stick in ends],
@@ -109,9 +93,8 @@ class Single:
             n += 1
         later = eta_end(nu, 1, SADDLE, bits, (3 * _HALF, Fraction(2)))
         graze, touch = graze_end(nu, float(later[1]), bits)
-        return self._add(
+        return self._derive(
             "single-below-windows",
-            BelowWindows(nu, low, tuple(ends), (later, graze)),
             nu=str(nu),
             low=str(low),
             ends=[texts([*first, *(last if last[0] < last[1] else ())]) for first, last in ends],
@@ -123,40 +106,36 @@ class Single:
         """Record all windows in nu at which stable orbits exist."""
         kept = list(records(eta, eta.denominator))
         short = [n for n in kept if n * eta < 1]
-        later = tuple(n for n in kept if n * eta > 1)
         least = range(1, (_HALF / eta).__ceil__())
-        above, above_steps = self._windows(eta, least, (STICK, FLIP))
-        below, below_steps = self._windows(eta, short, (SADDLE, STICK))
-        times = [earlier(eta, n) for n in later]
+        times = [earlier(eta, n) for n in kept if n * eta > 1]
         if None in times:
             raise Undecided("no earlier impact is seen after a long flight")
-        return self._add(
+        return self._derive(
             "single-nu-windows",
-            NuWindows(eta, above, below, later),
             eta=str(eta),
-            above=above_steps,
-            below=below_steps,
+            above=self._windows(eta, least, (STICK, FLIP)),
+            below=self._windows(eta, short, (SADDLE, STICK)),
             early=[str(time) for time in times],
         )
 
     def _windows(
         self, eta: Fraction, periods: Sequence[int], ends: tuple[int, int]
-    ) -> tuple[tuple[Window, ...], list[list[list[str] | None]]]:
-        one = (Fraction(1), Fraction(1))
-        windows, steps = [], []
-        for n in periods:
-            first, last = (nu_end(eta, n, end, self.prover.bits) for end in ends)
-            steps.append([None if pair is None else texts(pair) for pair in (first, last)])
-            if first is not None:
-                windows.append((n, first, last or one))
-        return tuple(windows), steps
+    ) -> list[list[list[str] | None]]:
+        """Return the two ends of the window of each period, None where there is none."""
+        return [
+            [
+                pair and texts(pair)
+                for pair in (nu_end(eta, n, end, self.prover.bits) for end in ends)
+            ]
+            for n in periods
+        ]
 
 
-def _inside(flight: Flight, n: int) -> Fraction:
+def _inside(motion: Motion, n: int) -> Fraction:
     """Return a time before n table periods at which the mass would be inside the table."""
     times = [round(TURN * step / _TIMES, 6) for step in range(1, _TIMES * n)]
-    best = min(times, key=lambda time: flight.gap(time).sup)
-    if not flight.gap(best).certainly_negative():
+    best = min(times, key=lambda time: motion.gap_of((time, time), 0).hi)
+    if motion.gap_of((best, best), 0).hi >= 0:
         raise Undecided("no earlier impact is seen")
     return best
 
@@ -233,5 +212,5 @@ def prove(
         names = _FIND[row.id](single) if row.id in _FIND else []
         proved = [formulas.prove(need) for need in row.needs]
         rest = [each for each in proved if each is not None]
-        evidence.proofs[row.id] = [*rest, *((name, single.found[name]) for name in names)]
+        evidence.proofs[row.id] = [*rest, *((name, prover.known[name]) for name in names)]
     return evidence

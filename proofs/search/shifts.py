@@ -13,8 +13,9 @@ from itertools import combinations, groupby, islice, pairwise
 
 from intervals import Undecided
 from proofs.motion.candidate import next_impact
-from proofs.motion.covering import cover_by_impacts
+from proofs.motion.covering import cover_by
 from proofs.motion.system import System
+from proofs.motion.witness import FlightBox
 from proofs.search.budget import reach
 from proofs.search.portrait import Check, Seen, stretches
 from proofs.search.repair import rounded_slopes
@@ -199,7 +200,8 @@ def _evenly(domain: Range, count: int) -> list[float]:
 def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:
     """Whether the first impacts of each set are proved in one piece."""
     try:
-        return all(len(cover_by_impacts(system, each, limit=4)) == 1 for each in sets)
+        at = system.place
+        return all(len(cover_by(FlightBox.plastic(at, each), limit=4)) == 1 for each in sets)
     except Undecided:
         return False
 

@@ -1,8 +1,8 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-The steps are those of `proofs.trusted.flights`, by the same names. A witness is what floats show;
-the checker's rule concludes from it, and where it does not, from what intervals prove. So few boxes
-need neither mpmath nor numpy.
+The steps are those of `proofs.trusted.flights`, by the same names. A witness is what its lemmas say
+of floats; the checker's rule concludes from it, and where it does not, from what they say of the
+checker's numbers. So neither mpmath nor numpy is needed.
 """
 
 from __future__ import annotations
@@ -12,18 +12,17 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
-from itertools import pairwise
 from typing import Any, TypeVar
 
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.branch import Branch
-from proofs.motion.covering import cover_by, cover_by_impacts
-from proofs.motion.flight import Numbers, interval, sketch
-from proofs.motion.impact import FirstImpact, impact_time, locate
+from proofs.motion.covering import cover_by
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, concluded
+from proofs.motion.witness import FlightBox, Seen, locate
+from proofs.search.evidence import FAILED, Proved, concluded, floats_first
 from proofs.trusted.certificate import texts
+from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -49,7 +48,7 @@ class Prover:
     @property
     def at(self) -> Place:
         """The oscillator that conclusions are about."""
-        return Place.plastic(self.system.eta, self.system.nu)
+        return self.system.place
 
     @property
     def bits(self) -> int:
@@ -87,65 +86,80 @@ class Prover:
         self.known[name] = conclusion
         return name, conclusion
 
-    def seen_or_proved(self, make: Callable[[Numbers], _Made]) -> _Made:
-        """Make steps by what floats see; where the rules deny that, by what intervals prove."""
-        try:
-            with self.undone():
-                return make(sketch)
-        except FAILED:
-            return make(interval)
+    def claimed(self, name: str) -> Proved:
+        """Return the steps so far, that one claimed."""
+        return self.at, self.steps, [name]
 
-    def add_impact(self, found: FirstImpact) -> str:
+    def seen_or_proved(self, make: Callable[[bool], _Made]) -> _Made:
+        """Make steps by what floats see; where the rules deny that, by the checker's numbers."""
+
+        def made(floats: bool) -> _Made:
+            with self.undone():
+                return make(floats)
+
+        return floats_first(made)
+
+    def add_impact(self, found: Seen) -> tuple[str, FirstImpact]:
         """Prove a first impact (rule first-impact)."""
-        phases, times = texts(found.flight.phases), texts(found.times[1:])
-        return self.derive("first-impact", {"phases": phases, "times": times})[0]
+        phases, times = texts(found.flights.phases), texts(found.times)
+        return self.derive("first-impact", {"phases": phases, "times": times})
+
+    def flights(self, phases: Range) -> FlightBox:
+        """Return all launches of some phases."""
+        return FlightBox.plastic(self.at, phases)
+
+    def impacts(self, phases: Range) -> list[tuple[str, FirstImpact]]:
+        """Prove transversal first impacts on parts of an interval, in order."""
+        return self.seen_or_proved(partial(self._impacts, phases))
+
+    def _impacts(self, phases: Range, floats: bool) -> list[tuple[str, FirstImpact]]:
+        parts = cover_by(self.flights(phases), horizon=self.horizon, floats=floats)
+        return [self.add_impact(part) for part in parts]
+
+    def impact(self, phases: Range) -> tuple[str, FirstImpact]:
+        """Prove the transversal first impact of (nearly) one launch."""
+        return self.seen_or_proved(partial(self._impact, phases))
+
+    def _impact(self, phases: Range, floats: bool) -> tuple[str, FirstImpact]:
+        return self.add_impact(locate(self.flights(phases), horizon=self.horizon, floats=floats))
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
         return self.seen_or_proved(partial(self._slopes, points))
 
-    def _slopes(self, points: list[Fraction], numbers: Numbers) -> tuple[str, SlopeRange]:
-        domain = points[0], points[-1]
-        parts = cover_by_impacts(self.system, domain, horizon=self.horizon, numbers=numbers)
-        names = {part: self.add_impact(part) for part in parts}
-        branch = Branch(tuple(parts), self.bits)
+    def _slopes(self, points: list[Fraction], floats: bool) -> tuple[str, SlopeRange]:
+        parts = self._impacts((points[0], points[-1]), floats)
+        branch = Branch(parts, self.bits, floats)
         cuts = sorted({*points, *branch.ends})
         found = extremes(lambda x: branch.slope(x, x), branch.curvature, cuts)
-
-        def bracket(low: Fraction, high: Fraction, **more: str) -> dict[str, Any]:
-            flight, time = names[branch.part(low, high)], branch.time(low, high)
-            return {"flight": flight, **more, "time": texts(time)}
-
-        witness = {
-            "points": [bracket(x, x, phase=str(x)) for x in found.points],
-            "pieces": [bracket(*piece) for piece in pairwise(found.points)],
-        }
-        return self.derive("slope-range", witness)
+        return self.derive("slope-range", branch.witness(found.points))
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
         return self.seen_or_proved(partial(self._avoids, phases, target))
 
-    def _avoids(self, phases: Range, target: Range, numbers: Numbers) -> tuple[str, Avoids]:
-        def accept(found: FirstImpact) -> bool:
-            return not any(meets(found.flight.phases, window, target) for window in found.windows)
+    def _avoids(self, phases: Range, target: Range, floats: bool) -> tuple[str, Avoids]:
+        def accept(found: Seen) -> bool:
+            return not any(meets(found.flights.phases, window, target) for window in found.windows)
 
-        why = f"an impact in {show_range(target)} is possible"
         parts = cover_by(
-            self.system, phases, accept, obstacle=why, horizon=self.horizon, numbers=numbers
+            self.flights(phases),
+            accept,
+            obstacle=f"an impact in {show_range(target)} is possible",
+            horizon=self.horizon,
+            limit=400,
+            floats=floats,
         )
-        flights = [self.add_impact(part) for part in parts]
+        flights = [self.add_impact(part)[0] for part in parts]
         return self.derive("avoids", {"flights": flights, "target": texts(target)})
 
     def point(self, phase: Fraction) -> tuple[str, Impact]:
         """Enclose f and f' at one phase (rule point)."""
         return self.seen_or_proved(partial(self._point, phase))
 
-    def _point(self, phase: Fraction, numbers: Numbers) -> tuple[str, Impact]:
-        impact = locate(self.system, (phase, phase), horizon=self.horizon, numbers=numbers)
-        time = impact_time(impact, (phase, phase), self.bits)
-        flight = self.add_impact(impact)
-        return self.derive("point", {"flight": flight, "phase": str(phase), "time": texts(time)})
+    def _point(self, phase: Fraction, floats: bool) -> tuple[str, Impact]:
+        branch = Branch([self._impact((phase, phase), floats)], self.bits, floats)
+        return self.derive("point", branch.bracket(phase, phase, phase=str(phase)))
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""

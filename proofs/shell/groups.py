@@ -14,11 +14,18 @@ from typing import Any, NamedTuple
 from intervals import decimal_bounds
 from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
-from proofs.trusted.certificate import SCHEMA, Reader, parameters_to_json, render, used_steps
+from proofs.trusted.certificate import (
+    SCHEMA,
+    Reader,
+    box_to_json,
+    parameters_to_json,
+    render,
+    used_steps,
+)
 from proofs.trusted.manifest import BESIDE
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import BEYOND, GROUPS, find
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Row, Verdict
 
 PROVERS: Mapping[str, str] = MappingProxyType(
@@ -97,16 +104,22 @@ def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Li
 
 
 def certificate(
-    of: Parameters, steps: Mapping[str, dict[str, Any]], entries: Sequence[dict[str, Any]]
+    of: Parameters | Place,
+    steps: Mapping[str, dict[str, Any]],
+    claims: Sequence[dict[str, Any]] | Sequence[str],
 ) -> dict[str, Any]:
-    """Assemble a certificate; steps that nothing uses are left out."""
-    needed = used_steps(Reader(dict(steps)), {name for entry in entries for name in entry["proof"]})
+    """Assemble a certificate; steps that nothing uses are left out.
+
+    claims: entries about a statement's numbers; about a box of oscillators, names of steps.
+    """
+    proofs = ([claim] if isinstance(claim, str) else claim["proof"] for claim in claims)
+    needed = used_steps(Reader(dict(steps)), {name for proof in proofs for name in proof})
     return {
         "schema": SCHEMA,
-        "parameters": parameters_to_json(of),
+        "parameters": box_to_json(of) if isinstance(of, Place) else parameters_to_json(of),
         "functions": {},
         "steps": {name: step for name, step in steps.items() if name in needed},
-        "claims": list(entries),
+        "claims": list(claims),
     }
 
 

@@ -14,7 +14,7 @@ from proofs.benchmark.peers import Arithmetic
 from proofs.stress.arithmetic import function, operation
 from proofs.stress.cases import ETA, NU, Case, Draw, System
 from proofs.stress.grazing import graze, separation_point
-from proofs.stress.motions import CoverCase, ImageCase, ReboundCase
+from proofs.stress.motions import ImageCase, ReboundCase
 
 _CIRCLE = Fraction(62831, 10000)
 
@@ -154,20 +154,6 @@ def _intervals(draw: Draw, _: Arithmetic) -> Case:
     return ImageCase(draw.family, *of, low, low + width, digits=12, horizon=Fraction(100))
 
 
-def _kernel(draw: Draw, _: Arithmetic) -> Case:
-    """Boxes of all sizes, easy ones and next to grazing ones."""
-    boxes = draw.choice((1, 4, 16, 64))
-    if draw.random() < 0.5:
-        of, phase = _graze(draw)
-        low = phase + draw.tiny(2, 9) * draw.sign()
-        high = low + abs(low - phase) / draw.choice((3, 1000))
-    else:
-        of = draw.system()
-        low = draw.phase()
-        high = low + draw.tiny(2, 9)
-    return CoverCase(draw.family, *of, low, high, boxes)
-
-
 class Family(NamedTuple):
     """share: how many of 100 cases belong to it."""
 
@@ -195,7 +181,6 @@ FAMILIES = [
     Family("restitution", 2, "epsilon next to 0 and to 1", _restitution),
     Family("chatter", 2, "impacts of speed 1e-2 to 1e-30", _chatter),
     Family("intervals", 2, "launch phases from one ulp to the whole circle", _intervals),
-    Family("kernel", 1, "boxes in binary64, retried where it does not decide", _kernel),
 ]
 
 

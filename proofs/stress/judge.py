@@ -13,8 +13,7 @@ from time import perf_counter
 
 from intervals import IntervalError
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.motion.impact import NoImpact
-from proofs.motion.rebound import Impossible
+from proofs.motion.witness import Impossible, NoImpact
 from proofs.stress.cases import Answer, Case, Ranges, Truth
 
 _TURN_BITS = 800

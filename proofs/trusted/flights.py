@@ -197,20 +197,19 @@ def _rounded(bits: int) -> int:
     return min(MAX_BITS, -(-bits // 16) * 16)
 
 
-def bracketed(step: FirstImpact, phases: Range, time_of: Reader) -> tuple[Motion, Range]:
-    """Return the motion, and the bracket read: all launches in `phases` have their impacts there.
+def bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
+    """Return the motion, at the precision of a bracket in which all launches in `phases` impact.
 
     In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
     lower end and gap < 0 at the upper one bracket it.
     """
-    time, window, motion = time_of.range(), step.windows[0], step.motion
-    if not within(time, window):
+    if not within(time, step.windows[0]):
         raise Unproved("a bracket leaves the window of the first impact")
     bits = bits_for(time)
     for factor in (1, 2, 4):  # a slow impact needs more
-        inner = replace(motion, phases=phases, bits=min(factor * bits, MAX_BITS))
+        inner = replace(step.motion, phases=phases, bits=min(factor * bits, MAX_BITS))
         if any(brackets(gap_of, time) for gap_of in (inner.gap_of, inner.sharp_gap)):
-            return inner, time
+            return inner
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
 

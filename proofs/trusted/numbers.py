@@ -125,6 +125,12 @@ def covered(whole: Range, parts: Iterable[Range]) -> bool:
     return whole[1] <= reached
 
 
+def mean_values(first: Range, last: Range, derivative: Range, width: Fraction) -> Range:
+    """Enclose a function on an interval, from its ends and the range of its derivative."""
+    down, up = min(derivative[0], Fraction(0)) * width, max(derivative[1], Fraction(0)) * width
+    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
+
+
 def hull(ranges: Sequence[Range]) -> Range:
     """Return the smallest range that contains all."""
     return min(low for low, _ in ranges), max(high for _, high in ranges)

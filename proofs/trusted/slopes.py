@@ -19,7 +19,6 @@ from proofs.trusted.flights import (
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.gaps import mean_values
 from proofs.trusted.numbers import (
     TURN,
     Phase,
@@ -29,6 +28,7 @@ from proofs.trusted.numbers import (
     ceil_text,
     floor_text,
     increasing,
+    mean_values,
     show,
     show_range,
 )
@@ -255,9 +255,9 @@ def point(context: Context, reader: Reader) -> Impact:
 def _launched(context: Context, reader: Reader) -> tuple[Fraction, Range, Range]:
     """Return the phase of a {flight, phase, time}, f' there, and f as `phase_after` has it."""
     flight, phase_of, time_of = reader.fields("flight", "phase", "time")
-    phase = phase_of.number()
+    phase, time = phase_of.number(), time_of.range()
     step = transversal_step(context, flight, (phase, phase))
-    motion, time = bracketed(step, (phase, phase), time_of)
+    motion = bracketed(step, (phase, phase), time)
     return phase, motion.slope(time).range, phase_after(phase, time, motion.bits)
 
 
@@ -280,7 +280,8 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
         piece = phases[index], phases[index + 1]
         if piece[0] >= piece[1]:
             raise points_of.fail("phases must increase")
-        motion, time = bracketed(transversal_step(context, flight, piece), piece, time_of)
+        time = time_of.range()
+        motion = bracketed(transversal_step(context, flight, piece), piece, time)
         bend, width = motion.curvature(time).range, piece[1] - piece[0]
         pieces.append(mean_values(slopes[index], slopes[index + 1], bend, width))
     return SlopeRange(context.place, phases, slopes, images, tuple(pieces))

@@ -14,8 +14,11 @@ from mpmath import mpf
 import proofs
 from intervals import Undecided
 from proofs import Oscillator, oscillator
-from proofs.motion.impact import NoImpact
+from proofs.motion.system import System
+from proofs.motion.witness import NoImpact
+from proofs.search.rebound import rebound
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.paper import reference
 
@@ -144,3 +147,43 @@ def test_the_package_stays_light_until_it_is_asked():
     assert done.stdout == "Oscillator('0.2', '-0.2')\n"
     with pytest.raises(AttributeError, match="Oscilator"):
         proofs.Oscilator  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("ask", "rule", "forge"),
+    [
+        (lambda: PLASTIC.image("1.13"), "point", ('"phase": "113/100"', '"phase": "57/50"')),
+        (lambda: PLASTIC.image(LEFT), "slope-range", ('"phase": "11/10"', '"phase": "27/25"')),
+        (lambda: PLASTIC.image("4"), "separation", ('"eta": [', '"eta": ["1/7",')),
+        (lambda: RESTITUTING.image("1.12", "-0.2"), "rebound", ('"-1/5"', '"-1/4"')),
+        (
+            lambda: RESTITUTING.image(["1.11", "1.12"], ["-0.3", "-0.25"]),
+            "rebound",
+            ('"111/100"', '"1"'),
+        ),
+    ],
+)
+def test_an_answer_comes_with_a_certificate(ask, rule, forge):
+    certificate = ask().certificate
+    assert f'"rule": "{rule}"' in certificate
+    assert check(certificate).sentences
+    forged = certificate.replace(*forge)
+    assert forged != certificate
+    with pytest.raises((Rejected, Malformed)):
+        check(forged)
+
+
+def test_the_certificate_is_about_what_is_answered():
+    for answer in (PLASTIC.image("1.13", digits=40), RESTITUTING.image("1.12", "-0.2", digits=40)):
+        (found,) = check(answer.certificate).conclusions
+        phase = found.image if hasattr(found, "image") else found.phase
+        ends = answer["phase"].lower, answer["phase"].upper
+        assert phase[0] <= ends[1] and ends[0] <= phase[1] < phase[0] + Fraction(1, 10**12)
+
+
+def test_what_no_rule_says_has_no_certificate():
+    elastic = rebound(
+        System(Fraction(1, 5), Fraction(-1, 5)), (Fraction(1),) * 2, (Fraction(0),) * 2, Fraction(1)
+    )
+    with pytest.raises(Unproved, match="epsilon"):
+        elastic.prove()

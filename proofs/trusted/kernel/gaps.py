@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, mean_values
 
 _HALVINGS = 4  # of a window, to prove that the gap falls
 _ZERO = Fraction(0)
@@ -39,18 +39,12 @@ def brackets(gap_of: Gap, time: Range) -> bool:
     return low.lo > 0 > high.hi
 
 
-def mean_values(first: Range, last: Range, derivative: Range, width: Fraction) -> Range:
-    """Enclose a function on an interval, from its ends and the range of its derivative."""
-    down, up = min(derivative[0], _ZERO) * width, max(derivative[1], _ZERO) * width
-    return max(first[0] + down, last[0] - up), min(first[1] + up, last[1] - down)
-
-
 def fall(gap_of: Gap, time: Range) -> Enclosure:
     """Enclose gap' on an interval of times: directly, and by the mean value theorem."""
     direct = gap_of(time, 1)
     first, last = (gap_of((end, end), 1).range for end in time)
     low, high = mean_values(first, last, gap_of(time, 2).range, time[1] - time[0])
-    return direct.meet(Enclosure.of(low, high, direct.bits))
+    return direct.meet(type(direct).of(low, high, direct.bits))
 
 
 def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:

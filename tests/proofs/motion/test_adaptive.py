@@ -12,28 +12,19 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs.horseshoe import main as horseshoe
+from proofs.motion.brackets import impact_time, impact_times, last_positive
+from proofs.motion.branch import Branch
 from proofs.motion.candidate import next_impact
-from proofs.motion.covering import cover_by, cover_by_impacts, precision_for, steps_for
-from proofs.motion.flight import Flight
-from proofs.motion.image import Image, image
-from proofs.motion.impact import (
-    LEAST,
-    Sticks,
-    Unsettled,
-    first_impact,
-    impact_time,
-    last_positive,
-    locate,
-    march,
-    narrowed,
-    time_range,
-)
-from proofs.motion.slope_cover import BINARY64, slope_cover, slope_extremes
+from proofs.motion.covering import bits_needed, cover_by, steps_for
 from proofs.motion.system import System
+from proofs.motion.witness import FLOATS, FlightBox, Sticks, Unsettled, locate, march
+from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
-from proofs.trusted import flights
+from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import gap
+from proofs.trusted.flights import COVER_BITS
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER as FACTS
 from tests.calls import calls
@@ -82,6 +73,11 @@ def short_flight(system, phase, about):
 ONSET, SEPARATION = ends(PAPER)
 
 
+def flights(system, low, high=None):
+    """The flights from phases of an interval, or from one phase."""
+    return FlightBox.plastic(system.place, (low, low if high is None else high))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "share"),
@@ -111,35 +107,35 @@ def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
 
 
 def test_precision_grows_where_it_must():
-    usual = Fraction("1.11"), Fraction("1.15")
-    assert precision_for(PAPER, usual) == LEAST
-    assert {part.flight.precision for part in cover_by_impacts(PAPER, usual)} == {LEAST}
+    usual = flights(PAPER, Fraction("1.11"), Fraction("1.15"))
+    assert bits_needed(usual) == COVER_BITS
+    assert {part.bits for part in cover_by(usual, floats=False)} == {COVER_BITS}
+    assert {part.bits for part in cover_by(usual)} == {FLOATS}
     needed = []
     for exponent in (1, 6, 12, 24):
         low = ONSET - Fraction(1, 10**exponent)
-        phases = low, low + Fraction(1, 10 ** (exponent + 3))
-        parts = cover_by_impacts(PAPER, phases)
-        assert parts[0].flight.phases[0] == phases[0]
-        assert parts[-1].flight.phases[1] == phases[1]
-        assert all(part.transversal for part in parts)
-        needed.append(max(part.flight.precision for part in parts))
-    assert needed[0] == LEAST and needed == sorted(needed) and needed[-1] > needed[1] > LEAST
+        high = low + Fraction(1, 10 ** (exponent + 3))
+        parts = cover_by(flights(PAPER, low, high), floats=False)
+        assert (parts[0].flights.phases[0], parts[-1].flights.phases[1]) == (low, high)
+        assert all(part.transversal and part.proved().transversal for part in parts)
+        needed.append(max(part.bits for part in parts))
+    assert needed[0] == COVER_BITS and needed == sorted(needed)
+    assert needed[-1] > needed[1] > COVER_BITS
 
 
 def test_times_after_thin_phases_are_no_longer_than_a_file_takes():
     low = Fraction("1.11")
-    phases = low, low + Fraction(1, 10**500)
-    (part,) = cover_by_impacts(PAPER, phases)
+    (part,) = cover_by(flights(PAPER, low, low + Fraction(1, 10**500)))
     assert part.transversal and max(len(str(time)) for time in part.times) < 3000
-    early, late = time_range(part, phases)
-    assert part.window[0] <= early < late <= part.window[1]
+    early, late = impact_times(part.flights, part.windows[0], COVER_BITS, 300)
+    assert part.windows[0][0] <= early < late <= part.windows[0][1]
 
 
 @pytest.mark.slow
 def test_width_is_not_answered_with_precision():
     # a grazing phase in the interval: no precision helps
     with pytest.raises(Undecided, match="grazing near"):
-        cover_by_impacts(PAPER, (Fraction("1.199"), Fraction("1.2")))
+        cover_by(flights(PAPER, Fraction("1.199"), Fraction("1.2")))
 
 
 @pytest.mark.slow
@@ -173,7 +169,7 @@ def test_sticking_is_no_reason_of_its_own():
         for point in (ONSET + Fraction(1, 10**exponent), SEPARATION - Fraction(1, 10**exponent)):
             assert image(PAPER, (point, point), digits=10).sticking
             with pytest.raises(Sticks):
-                locate(PAPER, (point, point))
+                locate(flights(PAPER, point), floats=False)
 
 
 @pytest.mark.slow
@@ -194,41 +190,6 @@ def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, caps
     assert -Fraction(5, 2) < low <= high < -Fraction(19, 10)
 
 
-# -- boxes ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_boxes_that_binary64_does_not_decide_are_asked_alone():
-    # towards the onset the gap drowns in rounding: the last boxes need more
-    phases = ONSET - Fraction(1, 10), ONSET - Fraction(3, 100)
-    cover = slope_cover(PAPER, phases, 8)
-    kinds = set(cover.bits.tolist())
-    assert kinds == {BINARY64, LEAST}
-    order = cover.bits.tolist()
-    assert order == sorted(order)
-    low, high = cover.boxes.inf, cover.boxes.sup
-    assert (low[1:] <= high[:-1]).all() and (low[1:] >= np.nextafter(high[:-1], 0)).all()
-    for k in range(len(order)):
-        for x in (low[k], (low[k] + high[k]) / 2, high[k]):
-            phase = Fraction(float(x))
-            if not phases[0] <= phase <= phases[1]:
-                continue
-            time, slope = short_flight(PAPER, phase, ONSET - phase)
-            assert cover.times.inf[k] <= time <= cover.times.sup[k]
-            assert cover.slopes.inf[k] <= slope <= cover.slopes.sup[k]
-            assert cover.last[k] < time
-
-
-@pytest.mark.slow
-def test_extremes_where_binary64_decides_nothing():
-    phases = ONSET - Fraction(1, 10**6), ONSET - Fraction(9, 10**7)
-    found = slope_extremes(PAPER, phases, 4)
-    assert (found.cover.bits > BINARY64).all()
-    slopes = [short_flight(PAPER, x, Fraction(1, 10**6))[1] for x in phases]
-    assert Fraction(found.minimum[0]) <= min(slopes) and max(slopes) <= Fraction(found.maximum[1])
-    assert np.isfinite([*found.minimum, *found.maximum]).all()
-
-
 # -- where nothing helps -------------------------------------------------------------------------
 
 
@@ -241,14 +202,14 @@ def test_touches_without_end_are_refused_after_one_cut(eta):
         image(system, phases, horizon=horizon)
     assert refused.value.hopeless
     with calls(gap) as once, pytest.raises(Unsettled):
-        first_impact(Flight(system, phases), horizon, steps_for(phases))
+        march(flights(system, *phases), COVER_BITS, horizon, steps_for(phases))
     assert 0 < counts["gap"] < 3 * once["gap"]
 
 
 def test_some_open_windows_are_not_hopeless():
     system = System(Fraction(1), Fraction("-0.2"))
     with pytest.raises(Unsettled) as refused:
-        first_impact(Flight(system, (Fraction("1.11"), Fraction("1.15"))), Fraction(50))
+        march(flights(system, Fraction("1.11"), Fraction("1.15")), COVER_BITS, Fraction(50))
     assert not refused.value.hopeless
 
 
@@ -281,19 +242,20 @@ def in_json(values):
 def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
     eta, nu, phase = graze(2)
     point = phase + side * Fraction(1, 10**exponent)
-    found = locate(System(eta, nu), (point, point))
+    found = locate(flights(System(eta, nu), point))
     assert found.transversal and len(found.windows) == 1
-    assert list(found.times) == sorted(set(found.times)) and found.times[0] == 0
-    witness = {"phases": in_json(found.flight.phases), "times": in_json(found.times[1:])}
+    assert list(found.times) == sorted(set(found.times)) and found.times[0] > 0
+    witness = {"phases": in_json(found.flights.phases), "times": in_json(found.times)}
     of = replace(FACTS, eta=eta, nu=nu)
-    derived = flights.first_impact(Context(of), Reader(witness))
+    derived = trusted.first_impact(Context(of), Reader(witness))
     assert derived.transversal and derived.windows == found.windows
+    assert (found.proved().windows, found.proved().transversal) == (found.windows, True)
 
 
 def test_both_sides_of_grazing_are_far_apart():
     eta, nu, phase = graze(2)
-    before, after = (
-        locate(System(eta, nu), (phase + side * Fraction(1, 10**30),) * 2).window
+    (before,), (after,) = (
+        locate(flights(System(eta, nu), phase + side * Fraction(1, 10**30))).windows
         for side in (-1, 1)
     )
     assert before[1] < after[0] - 1 or after[1] < before[0] - 1
@@ -301,47 +263,51 @@ def test_both_sides_of_grazing_are_far_apart():
 
 @pytest.fixture
 def asked(monkeypatch):
-    """(precision, time) of each gap that is evaluated."""
-    found, sound = [], Flight.gap
+    """(bits, time) of each gap that is evaluated."""
+    found, sound = [], FlightBox.gap_of
 
-    def gap(self, low, high=None, order=0):
-        found.append((self.precision, low))
-        return sound(self, low, high, order)
+    def gap_of(self, bits, start=None):
+        plain = sound(self, bits, start)
 
-    monkeypatch.setattr(Flight, "gap", gap)
+        def spied(time, order):
+            found.append((bits, time[0]))
+            return plain(time, order)
+
+        return spied
+
+    monkeypatch.setattr(FlightBox, "gap_of", gap_of)
     return found
 
 
-def test_only_the_open_window_is_looked_at_again(asked):
+@pytest.mark.parametrize("floats", [True, False])
+def test_only_the_open_window_is_looked_at_again(floats, asked):
     eta, nu, phase = graze(2)
-    point = phase - Fraction(1, 10**20)
-    found = locate(System(eta, nu), (point, point))
-    finer = [time for bits, time in asked if bits == found.flight.precision]
-    first = min(time for time in found.times if time in set(finer))
-    assert found.flight.precision > 2 * LEAST
-    assert first > found.times[3]  # what was excluded is not asked again
-    beginning = [time for bits, time in asked if time <= found.times[3]]
-    assert len(beginning) < 12
+    found = locate(flights(System(eta, nu), phase - Fraction(1, 10**20)), floats=floats)
+    finer = [time for bits, time in asked if bits == found.bits and time > 0]
+    assert found.bits > 2 * COVER_BITS
+    assert min(finer) > found.times[2]  # what was excluded is not asked again
+    beginning = [time for bits, time in asked if time <= found.times[2]]
+    assert len(beginning) < 24
 
 
 @pytest.mark.parametrize("single", [True, False])
 def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
     eta, nu, phase = graze(2)
-    flight = Flight(System(eta, nu), (phase, phase))
-    start = [Fraction(0), Fraction(1, 64)]
+    box, start = flights(System(eta, nu), phase), [Fraction(1, 64)]
     about = (
         next_impact(System(eta, nu), float(phase) + 1e-3),
         next_impact(System(eta, nu), float(phase) - 1e-3),
     )
     horizon = Fraction(min(one[0] for one in about)) + 5
     with pytest.raises(Unsettled) as refused:
-        march(flight, start, horizon, Fraction(1, 8), single=single)
-    known, latest = refused.value.known, max(time for _, time in asked)
+        march(box, COVER_BITS, horizon, Fraction(1, 8), start, single=single)
+    excluded, latest = refused.value.excluded, max(time for _, time in asked)
     assert (latest >= horizon - 1) != single  # a window left behind ends a single search
-    assert known[:2] == start and known == sorted(set(known))
-    assert known[-1] < horizon - 4
-    assert all(flight.gap(time).certainly_positive() for time in known[1:])
+    assert excluded[:1] == start and excluded == sorted(set(excluded))
+    assert excluded[-1] < horizon - 4
+    gap_of = box.gap_of(COVER_BITS)
+    assert all(gap_of((time, time), 0).lo > 0 for time in excluded)
 
 
 @pytest.mark.parametrize("shape", [lambda x: x, math.sinh, lambda x: math.atan(1e3 * x)])
@@ -358,51 +324,49 @@ def test_the_last_positive_value_is_found_in_few_steps(shape):
     assert last_positive(lambda k: -1.0 - k, 2**40) == 0
 
 
-def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
-    part = Fraction("1.11"), Fraction("1.12")
-    found = first_impact(Flight(PAPER, part))
-    low, high = narrowed(found.flight, found.window, 16)
-    ends = [locate(PAPER, (x, x)) for x in part]
-    times = [t for x, end in zip(part, ends, strict=True) for t in impact_time(end, (x, x), 40)]
-    assert found.window[0] < low < min(times) and max(times) < high < found.window[1]
-    last = (found.window[1] - found.window[0]) / 2**16
-    assert found.flight.gap(low).inf > 0 >= found.flight.gap(low + last).inf
-    assert found.flight.gap(high).sup < 0 <= found.flight.gap(high - last).sup
+@pytest.mark.parametrize("bits", [FLOATS, COVER_BITS])
+def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
+    box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
+    (window,) = march(box, bits).windows
+    low, high = impact_times(box, window, bits, 16)
+    ends = [flights(PAPER, x) for x in box.phases]
+    times = [t for end in ends for t in impact_time(end, locate(end).windows[0], 40)]
+    assert window[0] < low < min(times) and max(times) < high < window[1]
+    last, gap_of = (window[1] - window[0]) / 2**16, box.gap_of(2 * COVER_BITS)
+    signs = [gap_of((x, x), 0) for x in (low, low + last, high, high - last)]
+    assert signs[0].lo > 0 >= signs[1].lo and signs[2].hi < 0 <= signs[3].hi
 
 
 def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
-    phases = Fraction("1.21"), Fraction("1.27")
-    thin = Fraction(1, 50)
-
-    def parts():
-        return cover_by(
-            PAPER, phases, lambda found: found.transversal and width(found) < thin, obstacle="width"
-        )
+    phases, thin = (Fraction("1.21"), Fraction("1.27")), Fraction(1, 50)
 
     def width(found):
-        return found.flight.phases[1] - found.flight.phases[0]
+        return found.flights.phases[1] - found.flights.phases[0]
 
     with calls(gap) as cut:
-        found = parts()
+        found = cover_by(
+            flights(PAPER, *phases),
+            lambda found: found.transversal and width(found) < thin,
+            obstacle="width",
+        )
     assert len(found) == 4
     with calls(gap) as afresh:
-        alone = [
-            first_impact(Flight(PAPER, part.flight.phases), finest=steps_for(part.flight.phases))
-            for part in found
-        ]
+        alone = [march(x.flights, FLOATS, finest=steps_for(x.flights.phases)) for x in found]
     assert 0 < cut["gap"] < afresh["gap"]
     for part, other in zip(found, alone, strict=True):
         assert set(part.windows) <= set(pairwise(part.times))
-        assert abs(part.window[1] - other.window[1]) < Fraction(1, 2)
-        witness = {"phases": in_json(part.flight.phases), "times": in_json(part.times[1:])}
-        assert flights.first_impact(Context(FACTS), Reader(witness)).transversal
+        assert abs(part.windows[0][1] - other.windows[0][1]) < Fraction(1, 2)
+        witness = {"phases": in_json(part.flights.phases), "times": in_json(part.times)}
+        assert trusted.first_impact(Context(FACTS), Reader(witness)).transversal
 
 
-@pytest.mark.parametrize(("eta", "nu"), [("0.2121", "-0.2"), ("1.7", "0.4"), ("6", "-0.1")])
-def test_the_bend_is_that_of_all_times(eta, nu):
-    system = System(Fraction(eta), Fraction(nu))
-    flight = Flight(system, (Fraction("1.11"), Fraction("1.15")))
-    bends = [flight.gap(Fraction(k, 16), order=2) for k in range(400)]
-    low, high = min(each.inf for each in bends), max(each.sup for each in bends)
-    assert flight.bend.inf <= low and high <= flight.bend.sup
-    assert flight.bend.wid < 3 * (high - low)
+def test_what_is_seen_and_not_proved_is_refused():
+    seen = march(flights(PAPER, Fraction("1.19"), Fraction("1.21")), COVER_BITS)  # some graze
+    assert not seen.transversal
+    with pytest.raises(Unproved, match="not transversal"):
+        Branch([("", seen.proved())], 60)
+    with pytest.raises(Unproved, match="not proved transversal"):
+        seen._replace(transversal=True).proved()
+    early = seen._replace(times=seen.times[:-1])
+    with pytest.raises(Unproved, match="negative at the last time"):
+        early.proved()

@@ -8,13 +8,11 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import IntervalArray, Undecided
-from proofs.motion import kernel
-from proofs.motion.covering import cover_by_impacts
-from proofs.motion.impact import HORIZON
-from proofs.motion.kernel import CHUNK, Launches, exclude_impacts, find_times, prove_brackets
-from proofs.motion.slope_cover import BINARY64, cut, grid_of, slope_cover, slope_extremes
+from proofs.motion.candidate import next_impact
+from proofs.motion.covering import cover_by
+from proofs.motion.kernel import Launches, enclose_times, prove_brackets
 from proofs.motion.system import System
-from proofs.search.steps import Prover
+from proofs.motion.witness import FlightBox
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 OTHER = System(Fraction("0.31"), Fraction("0.4"))  # p < 0: the mass flies above the table
@@ -22,10 +20,6 @@ I0, I1 = (
     (Fraction("1.11"), Fraction("1.15")),
     (Fraction("1.27"), Fraction("1.32")),
 )
-TRUE_EXTREMES = {
-    I0: ("4.7269475378464088834", "6.1848695882061817003"),
-    I1: ("4.3078032000324800005", "6.0559611942783438474"),
-}
 CASES = [(PAPER, I0), (PAPER, I1), (OTHER, (Fraction("2.1"), Fraction("2.13")))]
 
 
@@ -82,112 +76,39 @@ def launches_of(system, cuts):
     return Launches(system, IntervalArray.from_floats(cuts[:-1], cuts[1:]))
 
 
-def box_with(cover, phase):
-    index = int(np.searchsorted(cover.boxes.inf, float(phase), side="right")) - 1
-    return max(index, 0)
+def cut(phases, boxes):
+    return np.linspace(*map(float, phases), boxes + 1)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("boxes", [1, 7, 64, 1024])
+def last_times(system, phases, boxes):
+    """A time before every first impact, for each box."""
+    (found,) = cover_by(FlightBox.plastic(system.place, phases))
+    return np.full(boxes, float(found.proved().windows[0][0]))
+
+
+def about(system, phases):
+    return np.array([next_impact(system, float(phase))[0] for phase in phases])
+
+
+@pytest.mark.parametrize(
+    "boxes",
+    [1, 7, pytest.param(64, marks=pytest.mark.slow), pytest.param(512, marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize(("system", "phases"), CASES)
 def test_true_slopes_and_times_are_enclosed(system, phases, boxes):
-    cover = slope_cover(system, phases, boxes)
-    rng = random.Random(0)  # the same for all numbers of boxes: true impacts take long
-    low, high = phases
-    inner = [low + (high - low) * Fraction(rng.randrange(1, 10**9), 10**9) for _ in range(6)]
-    for phase in (low, high, *inner, Fraction(float(cover.boxes.sup[boxes // 2]))):
-        if not low <= phase <= high:
-            continue
+    cuts = cut(phases, boxes)
+    launches, times = launches_of(system, cuts), about(system, cuts)
+    around = np.minimum(times[:-1], times[1:]), np.maximum(times[:-1], times[1:])
+    spread = np.abs(times[1:] - times[:-1])
+    found = enclose_times(launches, last_times(system, phases, boxes), around, spread)
+    slopes = launches.slopes(found)
+    rng = random.Random(0)
+    for _ in range(6):
+        i, share = rng.randrange(boxes), Fraction(rng.randrange(1001), 1000)
+        phase = Fraction(cuts[i]) + (Fraction(cuts[i + 1]) - Fraction(cuts[i])) * share
         time, slope = true_impact(system, phase)
-        i = box_with(cover, phase)
-        i -= Fraction(float(cover.boxes.inf[i])) > phase
-        assert holds(cover.boxes[i], phase, 0)
-        assert holds(cover.times[i], time)
-        assert holds(cover.slopes[i], slope)
-        assert cover.last[i] < float(time)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("system", "phases"), CASES)
-def test_the_second_derivative_is_enclosed(system, phases):
-    cover = slope_cover(system, phases, 16)
-    step = Fraction(1, 10**9)
-    for i in (0, 5, 15):
-        middle = Fraction(float(cover.boxes.mid[i]))
-        (_, before), (_, after) = (true_impact(system, middle + s) for s in (-step, step))
-        second = (after - before) / (2 * step)
-        assert holds(cover.curvatures[i], second, Fraction(1, 10**8))
-
-
-@pytest.mark.parametrize("boxes", [1, 7, 64, 1024])
-def test_the_boxes_cover_the_phases(boxes):
-    cover = slope_cover(PAPER, I0, boxes)
-    low, high = cover.boxes.inf, cover.boxes.sup
-    assert len(cover.boxes) == boxes
-    assert Fraction(float(low[0])) <= I0[0]
-    assert Fraction(float(high[-1])) >= I0[1]
-    assert (low[1:] == high[:-1]).all()
-
-
-@pytest.mark.parametrize("phases", [I0, I1])
-@pytest.mark.parametrize("boxes", [1, 64, 1024])
-def test_the_union_contains_the_multiprecision_path(phases, boxes):
-    low, high = slope_cover(PAPER, phases, boxes).bounds
-    exact = Prover(PAPER, 30, HORIZON).slopes(list(phases))[1]
-    for enclosure in exact.slopes:
-        assert Fraction(low) <= enclosure[0]
-        assert enclosure[1] <= Fraction(high)
-
-
-def test_the_excess_falls_with_the_square_of_the_number_of_boxes():
-    true_low, true_high = (float(x) for x in TRUE_EXTREMES[I1])
-    losses = []
-    for boxes in (64, 256, 1024):
-        low, high = slope_cover(PAPER, I1, boxes).bounds
-        losses.append(max(true_low - low, high - true_high))
-    assert losses[0] < 1e-3
-    assert losses[1] < losses[0] / 10
-    assert losses[2] < losses[1] / 10
-
-
-@pytest.mark.parametrize("boxes", [1, 8, 50])
-@pytest.mark.parametrize("phases", [I0, I1])
-def test_extremes_within_1e_11(phases, boxes):
-    found = slope_extremes(PAPER, phases, boxes)
-    allowed = Fraction(1, 10**11)
-    for bounds, text in zip((found.minimum, found.maximum), TRUE_EXTREMES[phases], strict=True):
-        low, high = map(Fraction, bounds)
-        assert low <= Fraction(text) + Fraction(1, 10**18)
-        assert high >= Fraction(text) - Fraction(1, 10**18)
-        assert Fraction(text) - low < allowed
-        assert high - Fraction(text) < allowed
-
-
-@pytest.mark.slow
-def test_extremes_where_the_second_derivative_changes_sign():
-    system = System(Fraction("0.15"), Fraction("-0.15"))
-    phases = Fraction("0.98"), Fraction("1.03")
-    found = slope_extremes(system, phases, 7)
-    curvatures = found.cover.curvatures
-    assert curvatures.certainly_positive().any()
-    assert curvatures.certainly_negative().any()
-    samples = [
-        true_impact(system, phases[0] + (phases[1] - phases[0]) * Fraction(k, 20))[1]
-        for k in range(21)
-    ]
-    assert Fraction(found.minimum[0]) <= min(samples) < min(samples[0], samples[-1])
-    assert Fraction(found.maximum[1]) >= max(samples)
-    assert found.minimum[1] - found.minimum[0] < 1e-2
-    assert found.minimum[0] <= found.minimum[1] <= found.maximum[1]
-
-
-@pytest.mark.slow
-def test_two_chunks_or_more_give_the_same_boxes():
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    boxes = 2 * CHUNK // len(grid) + 5
-    cover = slope_cover(PAPER, I0, boxes, grid)
-    assert len(cover.slopes) == boxes
-    assert (cover.bits == BINARY64).all()
+        assert holds(found[i], time) and holds(slopes[i], slope)
+        assert (found.sup - found.inf < 4 * spread + 1e-9).all()
 
 
 def test_heights_are_those_of_every_phase_of_a_box():
@@ -204,95 +125,29 @@ def test_heights_are_those_of_every_phase_of_a_box():
 # -- refusals ------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-def test_a_grazing_phase_is_refused():
-    with pytest.raises(Undecided):
-        slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 64)
-    # even if the grid is one that serves the launches on one side of it
-    grid = grid_of(cover_by_impacts(PAPER, I1)[0])
-    with pytest.raises(Undecided, match=r"box \d+ of 256"):
-        slope_cover(PAPER, (Fraction("1.17"), Fraction("1.2")), 256, grid)
-
-
-WRONG_GRIDS = {
-    "ends too early": (lambda grid: grid[:-3], r"gap' < 0 is not proved.*box 0 of 64"),
-    "goes past the impact": (lambda grid: [*grid, 25.28], "not excluded"),
-    "too coarse for the chord": (lambda grid: [grid[0], grid[-1]], "not excluded"),
-    "starts too late": (lambda grid: [t for t in grid if t >= 4.0], "sticks"),
-}
-
-
-@pytest.mark.parametrize("change, message", WRONG_GRIDS.values(), ids=WRONG_GRIDS)
-def test_a_wrong_grid_is_refused(change, message):
-    with pytest.raises(Undecided, match=message):
-        slope_cover(PAPER, I0, 64, change(grid_of(cover_by_impacts(PAPER, I0)[0])))
-
-
-def test_a_grid_that_jumps_over_an_impact_is_refused():
-    # at the last time the gap of every launch is > 0 again: two zeros lie in between
-    cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
-    launches = launches_of(PAPER, cuts)
-    times = (26.0 + k / 8 for k in range(400))
-    again = next(t for t in times if launches.heights(np.full(64, t)).certainly_positive().all())
-    with pytest.raises(Undecided, match="not excluded"):
-        exclude_impacts(launches, [*grid, again])
-
-
-def test_a_first_piece_on_which_the_acceleration_dips_below_0_is_refused():
-    # after about one turn of the table the acceleration is what it was at launch
-    launches = Launches(PAPER, IntervalArray([I0]))
-    with pytest.raises(Undecided, match="sticks"):
-        exclude_impacts(launches, [6.25])
-
-
-def test_a_time_just_after_the_impact_is_refused():
-    # gap'' < 0 there, so that no chord bound looks at it
-    phase = Fraction("2.1")
-    time = float(true_impact(OTHER, phase)[0])
-    launches = Launches(OTHER, IntervalArray([phase]))
-    grid = grid_of(cover_by_impacts(OTHER, (phase, phase + Fraction(1, 50)))[0])
-    exclude_impacts(launches, [*grid, time - 1e-6])
-    with pytest.raises(Undecided, match="not excluded"):
-        exclude_impacts(launches, [*grid, time + 1e-9])
-
-
-def test_the_first_failing_box_is_named_in_any_chunk(monkeypatch):
-    # here later launches land earlier, the first after 2.20, the last after 2.12
-    phases = Fraction("2.1"), Fraction("2.13")
-    cuts, grid = cut(phases, 256), [*grid_of(cover_by_impacts(OTHER, phases)[0]), 2.15]
-    launches = launches_of(OTHER, cuts)
-    messages = []
-    for chunk in (CHUNK, 10 * len(grid)):
-        monkeypatch.setattr(kernel, "CHUNK", chunk)
-        with pytest.raises(Undecided) as refused:
-            exclude_impacts(launches, grid)
-        messages.append(str(refused.value))
-    assert messages[0] == messages[1]
-    assert "box 0 " not in messages[0]
+def brackets_of(system, phases, boxes=64):
+    """Launches, last times, and brackets that are proved."""
+    cuts = cut(phases, boxes)
+    last, times = last_times(system, phases, boxes), about(system, cuts)
+    low, high = np.minimum(times[:-1], times[1:]) - 1e-2, np.maximum(times[:-1], times[1:]) + 1e-2
+    return launches_of(system, cuts), last, low, high
 
 
 def test_a_bracket_that_begins_before_the_window_is_refused():
-    cuts, grid = cut(I0, 64), grid_of(cover_by_impacts(PAPER, I0)[0])
-    launches = launches_of(PAPER, cuts)
-    last, high = np.full(64, grid[-1]), find_times(PAPER, cuts)[1:] + 1e-2
+    launches, last, _, high = brackets_of(PAPER, I0)
     prove_brackets(launches, last, last, high)
     with pytest.raises(Undecided, match="not one"):
         prove_brackets(launches, last, last - 0.125, high)
 
 
-@pytest.mark.parametrize("grid", [[], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [1.0, float("nan")]])
-def test_no_grid_at_all_is_refused(grid):
-    with pytest.raises(ValueError, match="times"):
-        slope_cover(PAPER, I0, 4, grid)
+def test_a_window_in_which_the_gap_rises_is_refused():
+    launches, last, low, high = brackets_of(PAPER, I0)
+    with pytest.raises(Undecided, match=r"gap' < 0 is not proved.*box 0 of 64"):
+        prove_brackets(launches, last - 4, low, high)
 
 
 def test_brackets_that_miss_are_refused():
-    cuts = cut(I0, 64)
-    launches = launches_of(PAPER, cuts)
-    grid = grid_of(cover_by_impacts(PAPER, I0)[0])
-    exclude_impacts(launches, grid)
-    last, times = np.full(64, grid[-1]), find_times(PAPER, cuts)
-    low, high = times[:-1] - 1e-2, times[1:] + 1e-2
+    launches, last, low, high = brackets_of(PAPER, I0)
     prove_brackets(launches, last, low, high)
     for index in (0, 20, 63):
         for ends in ((low + 2e-2, high), (low, high - 2e-2), (high, low), (low * np.nan, high)):
@@ -301,23 +156,3 @@ def test_brackets_that_miss_are_refused():
                 one[index] = end[index]
             with pytest.raises(Undecided, match=f"box {index} of 64"):
                 prove_brackets(launches, last, *moved)
-
-
-def test_a_sticking_launch_is_refused():
-    sticks = (Fraction("-1.0"), Fraction("-0.9"))  # sin < -0.2355
-    assert PAPER.sticking_arc == "some"
-    stick = System(Fraction("0.2121"), Fraction("0.2"))
-    for system, phases in ((PAPER, sticks), (stick, (Fraction("4.5"), Fraction("4.6")))):
-        with pytest.raises(Undecided):
-            slope_cover(system, phases, 16)
-        with pytest.raises(Undecided, match=r"sticks.*box 0 of 16"):
-            slope_cover(system, phases, 16, [0.5, 1.0])
-
-
-def test_bad_input_is_refused():
-    with pytest.raises(ValueError, match="box"):
-        slope_cover(PAPER, I0, 0)
-    with pytest.raises(ValueError, match="low < high"):
-        slope_cover(PAPER, (I0[1], I0[0]), 4)
-    with pytest.raises(ValueError, match="more boxes"):
-        cut((Fraction(1), 1 + Fraction(1, 2**50)), 100)

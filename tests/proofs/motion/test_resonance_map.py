@@ -9,10 +9,10 @@ from mpmath import mp, mpf
 
 from intervals import Interval
 from proofs import resonance
-from proofs.motion.rebound import Impossible, rebound
 from proofs.motion.resonant import TooManyImpacts, angles, motion
 from proofs.motion.system import System
 from proofs.report import subharmonics
+from proofs.search.rebound import Impossible, rebound
 
 
 def answer(capsys, **state):

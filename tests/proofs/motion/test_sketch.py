@@ -1,4 +1,4 @@
-"""Floats that stand for intervals in a search: like these, and never believed."""
+"""Floats that stand for the checker's numbers in a search: like these, and never believed."""
 
 import math
 from fractions import Fraction
@@ -7,46 +7,62 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from intervals import DomainError, Interval
-from proofs.motion import flight
-from proofs.motion.impact import HORIZON
+from intervals import DomainError
 from proofs.motion.sketch import Sketch
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.gaps import falls, stays_up
 from proofs.trusted.parameters import PAPER
 
 ends = st.lists(st.fractions(-9, 9, max_denominator=999), min_size=2, max_size=2).map(sorted)
 
 
 def alike(seen, proved):
-    """Whether a sketch has about the ends of an interval."""
-    pairs = (seen.inf, proved.inf), (seen.sup, proved.sup)
+    """Whether a sketch has about the ends of an enclosure."""
+    pairs = zip(seen.range, proved.range, strict=True)
     return all(math.isclose(x, y, rel_tol=1e-9, abs_tol=1e-9) for x, y in pairs)
 
 
 @pytest.mark.slow
 @settings(deadline=None)
 @given(ends, ends)
-def test_operations_are_about_those_of_intervals(first, second):
-    (x, y), (u, v) = ([kind(*ends) for ends in (first, second)] for kind in (Sketch, Interval))
+def test_operations_are_about_those_of_enclosures(first, second):
+    (x, y), (u, v) = (
+        [kind.of(*ends, 80) for ends in (first, second)] for kind in (Sketch, Enclosure)
+    )
     pairs = [(x + y, u + v), (x - y, u - v), (x * y, u * v), (-x, -u), (2 - x, 2 - u)]
-    pairs += [(Fraction(1, 3) * x + 1, u / 3 + 1), (x**2, u * u), (Sketch(x.mid), Interval(u.mid))]
-    pairs += [*zip(x.sincos(), u.sincos(), strict=True), (Sketch(x.wid), Interval(u.wid))]
-    if y.mig > 0.01:
-        pairs += [(x / y, u / v), (1 / y, 1 / v), (Sketch(y.mig), Interval(v.mig))]
+    pairs += [(Fraction(1, 3) * x + 1, u * Fraction(1, 3) + 1), (x**2, u**2)]
+    pairs += zip(x.sincos(), u.sincos(), strict=True)
+    if min(y.lo, -y.hi) > 0.01 or y.lo > 0.01:
+        pairs += [(x / y, u / v), (1 / y, 1 / v)]
+    if max(x.lo, y.lo) < min(x.hi, y.hi):
+        pairs += [(x.meet(y), u.meet(v))]
     assert all(alike(*pair) for pair in pairs)
-    assert x.contains_zero() == u.contains_zero()
-    assert x.certainly_positive() == u.certainly_positive()
-    assert x.certainly_negative() == u.certainly_negative()
+
+
+@settings(deadline=None)
+@given(st.floats(0.1, 3), st.floats(0.01, 0.5), st.floats(0.5, 3))
+def test_the_lemmas_on_flights_take_them(height, width, bend):
+    """gap = height - time^2 bend / 2, by hand."""
+
+    def gap_of(time, order):
+        t = Sketch.of(*time)
+        return (height - t * t * (bend / 2), -(t * bend), Sketch(-bend, -bend))[order]
+
+    time = Fraction(1), 1 + Fraction(width)
+    ends = [height - float(x) ** 2 * bend / 2 for x in time]
+    assert stays_up(gap_of, time, min(ends)) == (min(ends) > 0)
+    assert falls(gap_of, time)
 
 
 def test_what_a_float_is_too_small_for_is_refused():
     for make in (
-        lambda: Sketch(Fraction(10) ** 400),
-        lambda: 1 / Sketch(Fraction(-1), Fraction(1)),
-        lambda: Sketch(math.inf).sincos(),
-        lambda: Sketch(math.nan).sincos(),
+        lambda: Sketch.of(Fraction(10) ** 400, 0),
+        lambda: 1 / Sketch(-1.0, 1.0),
+        lambda: Sketch(math.inf, math.inf).sincos(),
+        lambda: Sketch(math.nan, math.nan).sincos(),
     ):
         with pytest.raises(DomainError):
             make()
@@ -63,44 +79,38 @@ JOBS = {
 }
 
 
-def by_intervals(monkeypatch, job):
-    """What is proved where floats are no help."""
-    with monkeypatch.context() as patch:
-        patch.setattr(Sketch, "certainly_positive", lambda self: False)
-        made = prover()
-        return JOBS[job](made), made.steps
+def blind(*_):
+    raise DomainError("floats are no help")
 
 
 @pytest.mark.parametrize("job", JOBS)
-def test_the_witness_is_that_of_intervals(job, monkeypatch):
-    made = prover()
-    found = JOBS[job](made)
-    assert (found, made.steps) == by_intervals(monkeypatch, job)
+def test_what_is_concluded_is_what_the_checker_s_numbers_see(job, monkeypatch):
+    _, found = JOBS[job](prover())
+    monkeypatch.setattr(Sketch, "sincos", blind)
+    assert JOBS[job](prover())[1] == found
 
 
 @pytest.mark.parametrize("job", JOBS)
 @pytest.mark.parametrize(
     ("name", "lie"),
     [
-        ("certainly_positive", lambda self: True),
-        ("certainly_negative", lambda self: True),
         ("sincos", lambda self: (Sketch(0.5, 0.6), Sketch(0.7, 0.8))),
-        ("__mul__", lambda self, other: Sketch(1)),
+        ("__mul__", lambda self, other: Sketch(1.0, 1.0)),
+        ("__sub__", lambda self, other: Sketch(-1.0, 1.0)),
     ],
 )
 def test_a_sketch_that_is_wrong_is_not_believed(name, lie, job, monkeypatch):
-    """The rules refuse what it shows, and intervals find the proof."""
-    expected = by_intervals(monkeypatch, job)
+    """The rules refuse what it shows, and the checker's numbers find the proof."""
+    _, expected = JOBS[job](prover())
     monkeypatch.setattr(Sketch, name, lie)
-    made = prover()
-    assert (JOBS[job](made), made.steps) == expected
+    assert JOBS[job](prover())[1] == expected
 
 
 def test_floats_alone_conclude_nothing(monkeypatch):
-    """Where intervals are not asked, a lie ends without a conclusion."""
+    """Where the checker's numbers are not asked, a lie ends without a conclusion."""
     plain = Sketch.sincos
-    monkeypatch.setattr(Sketch, "sincos", lambda self: plain(self * Fraction("1.001")))
+    monkeypatch.setattr(Sketch, "sincos", lambda self: plain(self * Fraction("1.1")))
     made = prover()
     with pytest.raises(Unproved):
-        made._point(Fraction("1.13"), flight.sketch)
+        made._point(Fraction("1.13"), True)
     assert "point-1" not in made.known

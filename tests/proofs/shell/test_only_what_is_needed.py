@@ -5,7 +5,7 @@ import pytest
 from intervals.cover import cover
 from proofs.methods.basin import Mesh
 from proofs.methods.derive import simplest
-from proofs.motion.impact import march
+from proofs.motion.witness import march
 from proofs.shell import groups
 from proofs.trusted import rules
 from proofs.trusted.equations import gap, return_map_derivative, slope

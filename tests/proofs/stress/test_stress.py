@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray
 from proofs.benchmark.peers import FLINT, arithmetic
-from proofs.motion.impact import NoImpact
+from proofs.motion.witness import NoImpact
 from proofs.stress import __main__ as command
 from proofs.stress import arithmetic as drawn
 from proofs.stress import motions, report
@@ -19,7 +19,7 @@ from proofs.stress.arithmetic import FunctionCase, OperationCase
 from proofs.stress.families import FAMILIES, cases
 from proofs.stress.grazing import GRAZES, graze, separation_point
 from proofs.stress.judge import Outcome, TookTooLong, judge, limited
-from proofs.stress.motions import CoverCase, ImageCase, ReboundCase
+from proofs.stress.motions import ImageCase, ReboundCase
 from proofs.stress.truth import BITS, Launched, first_impact
 from tests.proofs.trusted.paper import reference
 
@@ -163,9 +163,8 @@ SEVERAL = ImageCase("intervals", ETA, NU, Fraction("1.17"), Fraction("1.2"), dig
 REBOUND = ReboundCase(
     "restitution", ETA, NU, *[Fraction("1.11")] * 2, Fraction("0.1"), Fraction("-0.5")
 )
-COVER = CoverCase("kernel", ETA, NU, Fraction("1.27"), Fraction("1.32"), 4)
 SOUND = [
-    *(SINE, EXP, point("1.11"), REBOUND, COVER),
+    *(SINE, EXP, point("1.11"), REBOUND),
     OperationCase("operations", 53, False, "/", *map(Fraction, (1, 2, 3, 7))),
     OperationCase("operations", 53, True, "*", *map(Fraction, (-1, 2, -3, 7))),
     ImageCase("intervals", ETA, NU, Fraction("1.27"), Fraction("1.32"), digits=12),
@@ -197,8 +196,6 @@ DEFECTS = [  # what is broken, how, and a case on which it shows
     *((motions, "rebound", lambda x, q=q: replace(x, **{q: up(getattr(x, q))}), REBOUND)
       for q in ("flight", "phase", "velocity")),
     *((motions, "rebound", lambda x, k=k: moved_entry(x, k), REBOUND) for k in range(4)),
-    *((motions, "slope_cover", lambda x, q=q: replace(x, **{q: getattr(x, q) + 1}), COVER)
-      for q in ("times", "slopes")),
     (motions, "image", lambda x: replace(x, images=x.images[:1]), SEVERAL),
     (Interval, "sin", lambda x: x * (1 + Fraction(1, 2**48)), SINE),
     (IntervalArray, "exp", lambda x: x * (1 + Fraction(1, 2**48)), EXP),
@@ -353,7 +350,6 @@ HARD = [  # shrunk from random cases on which the library is weakest
               *[Fraction("6.04542391200064212730138120793999696716995844")] * 2, digits=10),
     ImageCase("short flights", ETA, NU,
               *[Fraction("3.379354048768637588086548941897511685422")] * 2, digits=12),
-    CoverCase("kernel", Fraction("0.9"), Fraction("-0.3"), Fraction(30, 13), Fraction("2.31"), 16),
 ]  # fmt: skip
 
 

@@ -19,7 +19,7 @@ REFUSED += (
     "proofs.methods",
     "proofs.search.s31_horseshoe",
     "proofs.search.steps",
-    "proofs.motion.impact",
+    "proofs.motion",
 )
 
 ALONE = f"""

@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
@@ -21,11 +22,21 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.slopes import meets
-from tests.proofs.motion.test_phase import TURNS, numbers
 from tests.proofs.trusted.paper import reference
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
 IMPACT_115 = {"phases": ["23/20", "23/20"], "times": [*TO_25, "251/10", "126/5", "51/2"]}
+
+
+def true_turn():
+    ctx.prec = 400
+    man, exp = (2 * arb.pi()).mid().man_exp()
+    return Fraction(int(man)) * Fraction(2) ** int(exp)
+
+
+TURN = true_turn()  # to 1e-118
+TURNS = [k * TURN for k in range(-1, 170)]
+numbers = st.fractions(0, 1000, max_denominator=10**6)
 
 # -- witnesses -------------------------------------------------------------------------------------
 
@@ -310,6 +321,17 @@ def test_phase_after_is_the_phase_mod_a_turn(phase, time):
     low, high = phase_after(Fraction(phase), (Fraction(time), Fraction(time)), 80)
     true = exact((mpf(phase) + mpf(time)) % (2 * mp.pi))
     assert low <= true <= high < low + Fraction(1, 10**15)
+
+
+@pytest.mark.slow
+@settings(deadline=None)
+@given(numbers, numbers, st.fractions(0, 3, max_denominator=1000))
+def test_phase_after_encloses_the_phase(phase, time, width):
+    low, high = phase_after(phase, (time, time + width), 100)
+    true = (phase + time) % TURN
+    slack = Fraction(1, 10**20)
+    assert any(low <= true + k * TURN <= low + slack for k in (0, 1))  # 1 where it is undecided
+    assert high - low < width + slack
 
 
 @pytest.mark.parametrize("turns", [1, 2, 4, 100])

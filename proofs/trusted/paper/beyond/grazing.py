@@ -181,7 +181,7 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
 
 
 def _touches_once(of: GrazingCurve, piece: Piece, times: Sequence[Fraction]) -> None:
-    gap_of = _gap_along(of, piece)
+    gap_of = gap_along(of.n, ratio(of.epsilon), of.side, piece)
     whole = (pi(COVER_BITS) * (2 * of.n)).range
     windows, _ = first_windows(gap_of, times, 1 if of.epsilon else 2)
     if len(windows) != 2:
@@ -193,17 +193,17 @@ def _touches_once(of: GrazingCurve, piece: Piece, times: Sequence[Fraction]) -> 
         raise Unproved("the impact is not proved to be transversal")
 
 
-def _gap_along(of: GrazingCurve, piece: Piece) -> Gap:
+def gap_along(n: int, q: Fraction, side: int, piece: Piece) -> Gap:
     """Return the gap of all (eta, p) in a piece, enclosed directly and by the mean value theorem:
     the p - slope (eta - middle) do not depend on eta.
     """
-    bits, q, side = COVER_BITS, ratio(of.epsilon), of.side
+    bits = COVER_BITS
     (low, high), (mean, _) = piece.box[ETA], centre_of(piece.box)[ETA : P + 1]
     own, middle = Enclosure.of(low, high, bits), rational(mean, bits)
     slope, one = (rational(x, bits) for x in (piece.slope[P], Fraction(1)))
     eta, p = Dual(own, one), Dual(Enclosure.of(*piece.hull(ETA)[P], bits), slope)
-    moving = single_launch(of.n, q, side, (eta, p), pi(bits))
-    still = single_launch(of.n, q, side, (middle, Enclosure.of(*piece.box[P], bits)), pi(bits))
+    moving = single_launch(n, q, side, (eta, p), pi(bits))
+    still = single_launch(n, q, side, (middle, Enclosure.of(*piece.box[P], bits)), pi(bits))
 
     def gap_of(time: Range, order: int) -> Enclosure:
         t = Enclosure.of(*time, bits)

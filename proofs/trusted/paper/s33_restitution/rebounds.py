@@ -6,6 +6,7 @@ state before the next impact; its phase is taken on the line, less a fixed numbe
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -123,13 +124,27 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     )
     at, times = Place(*(side.range() for side in box_of)), read_times(times_of)
     phases, velocities = read_phases(phases_of), velocities_of.range()
-    impact = impact_of.range()
+    found = next_states(at.sides, (phases, velocities), times, impact_of.range())
+    return Rebound(at, phases, velocities, *found)
+
+
+def next_states(
+    sides: tuple[Range, Range, Range],
+    states: tuple[Range, Range],
+    times: Sequence[Fraction],
+    impact: Range,
+) -> tuple[int, Range, Range, Entries]:
+    """Return turns, phase, velocity and derivative as rule `rebound` concludes them.
+
+    sides: the ranges of eta > 0, of nu, which has one sign, and of epsilon >= 0.
+    """
+    (phases, velocities), side = states, 1 if sides[1][0] > 0 else -1
     bits = max(bits_for(impact), bits_for_pieces(times))
     eta, nu, epsilon, phi, gamma = (
-        Enclosure.of(*values, bits) for values in (*at.sides, phases, velocities)
+        Enclosure.of(*values, bits) for values in (*sides, phases, velocities)
     )
-    start = launch_with_restitution(at.side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
-    if (at.side * closing(start, gamma)).lo < 0:
+    start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
+    if (side * closing(start, gamma)).lo < 0:
         raise Unproved("the states are not proved possible: the mass would come from the table")
 
     def gap_of(time: Range, order: int) -> Enclosure:
@@ -152,7 +167,7 @@ def rebound(context: Context, reader: Reader) -> Rebound:
     on_line, moved = _centred(start, nu, (phases, kick), impact, falling)
     phase = lifted(common((early, late), on_line), -turns, bits)
     derivative = (p.range, q.range), (r.range, s.range)
-    return Rebound(at, phases, velocities, turns, phase, common(direct, moved), derivative)
+    return turns, phase, common(direct, moved), derivative
 
 
 def _centred(

@@ -131,7 +131,8 @@ def separation(context: Context, reader: Reader) -> Separation:
     step = FirstImpact(at, motion, *first_windows(motion.gap_of, times, 3))
     if not step.transversal:
         raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
-    thin, time = bracketed(step, phase, time_of)
+    time = time_of.range()
+    thin = bracketed(step, phase, time)
     quarters = phase[0] / pi(bits).range[0] * 2
     ends = (pi(bits) * ((quarters - 1) // 2 * 2 + 1)).range  # of the arc, added: an odd half turn
     impact = phase[0] + time[0], phase[1] + time[1]

@@ -12,9 +12,9 @@ from fractions import Fraction as F
 import pytest
 from mpmath import mpf
 
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover

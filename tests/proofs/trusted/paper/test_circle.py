@@ -14,10 +14,8 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from intervals import Undecided
-from proofs.motion.impact import HORIZON
-from proofs.motion.landing import prove_never
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.report.figures.transients import bars
 from proofs.search import s34_circle as circle
 from proofs.search.evidence import Evidence
@@ -333,8 +331,6 @@ def test_other_intervals_are_refused(never, change, of):
     of, phases = replace(PAPER, **of), tuple(map(Fraction, change(*never[1].phases)))
     with pytest.raises((Unproved, Malformed)):
         apply("never-impacts", {"phases": texts(phases)}, of=of)
-    with pytest.raises((Undecided, Unproved)):
-        prove_never(System(of.eta, of.nu), phases)
 
 
 def test_another_frequency_has_another_interval(never):

@@ -12,8 +12,8 @@ from itertools import pairwise, product
 
 import pytest
 
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence
 from proofs.search.s34_whole import prove, prove_grazes
 from proofs.search.steps import Prover

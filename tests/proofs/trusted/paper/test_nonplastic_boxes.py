@@ -8,8 +8,8 @@ from itertools import product
 import pytest
 
 from proofs.__main__ import main
-from proofs.motion.impact import HORIZON
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import (

@@ -278,7 +278,7 @@ def test_windows_at_an_amplitude_beyond_the_lemmas_are_not_proved():
     """At nu = -0.09 some are, and n = 2 sticks before 1/2; at -0.31 nothing is said."""
     steps = s4_single.Single(s4_single.Prover(s4_single.System(PAPER.eta, PAPER.nu), 20, 100))
     name = steps.below_windows(Fraction("-0.09"), Fraction("0.2"))
-    own = steps.found[name]
+    own = steps.prover.known[name]
     assert derived("single-below-windows", steps.prover.steps[name]["witness"]) == own
     assert 1.98 < own.late[0][0] < own.late[1][1] < 2
     with pytest.raises(Unproved, match="-3/10"):

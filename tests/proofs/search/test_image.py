@@ -7,9 +7,9 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
-from proofs.motion.image import Image, PossibleImages, image, separation_phase
-from proofs.motion.impact import NoImpact
 from proofs.motion.system import System
+from proofs.motion.witness import NoImpact
+from proofs.search.image import Image, PossibleImages, image, separation_phase
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

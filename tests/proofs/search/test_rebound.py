@@ -8,8 +8,8 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs import impact
-from proofs.motion.rebound import Impossible, rebound
 from proofs.motion.system import System
+from proofs.search.rebound import Impossible, rebound
 from tests.proofs.trusted.paper import reference
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
