@@ -27,7 +27,7 @@ from typing import Any
 from intervals import decorations as of
 from intervals.decorations import COM, DAC, EMPTY, ILL, TRV, Decoration, End, Image, infinite
 from intervals.exact import Exact, decimal_down, decimal_up, fraction
-from intervals.functions import DOMAINS, Elementary
+from intervals.functions import REALS, TABLE, Elementary
 from intervals.interval import Interval
 
 
@@ -173,7 +173,7 @@ class Decorated(Elementary):
 
     def rootn(self, n: int) -> Decorated:
         """Return the real n-th root, n >= 1, for even n of x >= 0."""
-        domain = of.REALS if n % 2 else DOMAINS["sqrt"]
+        domain = REALS if n % 2 else TABLE["sqrt"].domain
         return _operation(lambda x: of.monotone(methodcaller("rootn", n), x, domain))(self)
 
     def hypot(self, other: Any) -> Decorated:

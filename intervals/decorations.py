@@ -15,7 +15,7 @@ from operator import methodcaller
 from typing import Any, TypeAlias
 
 from intervals.errors import DomainError
-from intervals.functions import DOMAINS, Domain
+from intervals.functions import REALS, STEPS, TABLE, Domain
 from intervals.interval import Interval
 
 
@@ -34,10 +34,6 @@ Set: TypeAlias = Any  # a Decorated, whose module imports this one
 End: TypeAlias = Fraction | float  # a float is an infinity
 Image: TypeAlias = tuple[End, End, Decoration]
 EMPTY: Image = (inf, -inf, TRV)
-REALS = Domain(None, None, closed=True)
-_STEPS = {"floor", "ceil", "trunc", "round_ties_to_even", "round_ties_to_away", "sign"}
-_BELOW = {"exp": 0, "exp2": 0, "exp10": 0, "expm1": -1, "sign": -1, "tanh": -1}  # limits at -oo
-_ABOVE = {"sign": 1, "tanh": 1}  # and at oo; others are infinite, but for atan
 
 
 def infinite(*ends: End) -> bool:
@@ -91,10 +87,10 @@ def _point(end: End, x: Set) -> Interval:
 
 def named(name: str, x: Set) -> Image:
     """Return the image under a function that is monotone on its domain."""
-    end = Interval.pi(precision=x.precision) / 2 if name == "atan" else inf
-    limits = _BELOW.get(name, -end), _ABOVE.get(name, end)
-    image = monotone(methodcaller(name), x, DOMAINS.get(name, REALS), limits)
-    return _stairs(methodcaller(name), x, *image[:2]) if name in _STEPS else image
+    quarter = Interval.pi(precision=x.precision) / 2
+    limits = (-quarter, quarter) if name == "atan" else TABLE[name].limits
+    image = monotone(methodcaller(name), x, TABLE[name].domain, limits)
+    return _stairs(methodcaller(name), x, *image[:2]) if name in STEPS else image
 
 
 def monotone(

@@ -40,7 +40,7 @@ from intervals.elementary.tightest import DOWN, UP
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
 from intervals.exact import Exact, fraction, pair
-from intervals.functions import DECREASING, DOMAINS, Elementary
+from intervals.functions import DOMAINS, TABLE, Elementary
 from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
 from intervals.relations import Overlap, Relations, overlap_state
 
@@ -326,7 +326,7 @@ class Interval(Relations[bool], Elementary):
         if name in DOMAINS and not self._inside(name):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         left, right = self._lo, self._hi
-        if name in DECREASING:
+        if TABLE[name].falls:
             left, right = right, left
         low, high = _POINTS[name](left, self.precision)
         if left != right:

@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from intervals.exact import is_time, whole
+from intervals.functions import TABLE
 from intervals.rows import integer_rows
 
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
@@ -43,23 +44,17 @@ _OPERATORS: dict[Any, Callable[..., Any]] = _ARITHMETIC | {
     np.greater_equal: operator.ge,
 }
 _METHODS: dict[Any, str] = {
+    getattr(np, spelled): name
+    for name in TABLE
+    if hasattr(np, spelled := f"arc{name[1:]}" if name[0] == "a" else name)
+} | {
     np.square: "sqr",
     np.reciprocal: "recip",
-    np.arcsin: "asin",
-    np.arccos: "acos",
-    np.arctan: "atan",
-    np.arcsinh: "asinh",
-    np.arccosh: "acosh",
-    np.arctanh: "atanh",
     np.arctan2: "atan2",
     np.rint: "round_ties_to_even",
-} | {
-    getattr(np, name): name
-    for name in (
-        *("sqrt", "cbrt", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p"),
-        *("sin", "cos", "tan", "sinh", "cosh", "tanh"),
-        *("floor", "ceil", "trunc", "sign", "hypot", "minimum", "maximum"),
-    )
+    np.hypot: "hypot",
+    np.minimum: "minimum",
+    np.maximum: "maximum",
 }
 _REDUCTIONS = {np.add: "sum", np.multiply: "prod"}
 

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from intervals.array import IntervalArray
+from intervals.functions import TABLE
 from intervals.generic import where
 from intervals.interval import Interval
 from intervals.rounding import MAX
@@ -134,37 +135,36 @@ def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
     return IntervalArray._of_rows(np.where(proved, candidate, MAX))
 
 
+def _power(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:
+    """Return a superset of the hull of {x in U: x^n in Z}, n != 0."""
+    return root(z, u, n) if n > 0 else root(1 / z, u, -n)
+
+
+def _leg(z: IntervalArray, u: IntervalArray, v: IntervalArray) -> IntervalArray:
+    """Return a superset of the hull of {x in U: x^2 + y^2 = w^2 for some w in Z, y in V}."""
+    return either_sign((z.maximum(0).sqr() - v.sqr()).maximum(0).sqrt(), u)
+
+
 _HALF, _NONE = _PI / 2, 0 * _PI
 REVERSE: dict[str, tuple[Callable[..., IntervalArray], ...]] = {  # one for each argument
+    name: (function.undo,) for name, function in TABLE.items() if function.undo
+} | {
     "__neg__": (lambda z, u: -z,),
     "__add__": (lambda z, u, v: z - v, lambda z, u, v: z - u),
     "__sub__": (lambda z, u, v: z + v, lambda z, u, v: u - z),
     "__mul__": (lambda z, u, v: quotient(z, v, u), quotient),
     "__truediv__": (lambda z, u, v: z * v, lambda z, u, v: quotient(u, z, v)),
     "__abs__": (lambda z, u: either_sign(z.maximum(0), u),),
-    "__pow__": (root,),
-    "pow": (lambda z, u, q: z.pow(1 / q),),
+    "__pow__": (_power,),
+    "pow": (
+        lambda z, u, v: z.pow(1 / v),
+        lambda z, u, v: quotient(_logarithm(z), u.log(), v),
+    ),
+    "hypot": (_leg, lambda z, u, v: _leg(z, v, u)),
     "rootn": (lambda z, u, n: z**n,),
-    "sqrt": (lambda z, u: z.sqr(),),
-    "cbrt": (lambda z, u: z**3,),
     "exp": (lambda z, u: _logarithm(z),),
-    "exp2": (lambda z, u: z.log2(),),
-    "exp10": (lambda z, u: z.log10(),),
-    "expm1": (lambda z, u: z.log1p(),),
-    "log": (lambda z, u: z.exp(),),
-    "log2": (lambda z, u: z.exp2(),),
-    "log10": (lambda z, u: z.exp10(),),
-    "log1p": (lambda z, u: z.expm1(),),
     "sin": (lambda z, u: branches(z.asin(), u, -1, _NONE),),
     "cos": (lambda z, u: branches(z.asin(), u, -1, _HALF),),
     "tan": (lambda z, u: branches(z.atan(), u, 1, _NONE),),
-    "asin": (lambda z, u: z.sin(),),
-    "acos": (lambda z, u: z.cos(),),
-    "atan": (lambda z, u: z.tan(),),
-    "sinh": (lambda z, u: z.asinh(),),
     "cosh": (lambda z, u: either_sign(z.maximum(1).acosh(), u),),
-    "tanh": (lambda z, u: z.atanh(),),
-    "asinh": (lambda z, u: z.sinh(),),
-    "acosh": (lambda z, u: z.cosh(),),
-    "atanh": (lambda z, u: z.tanh(),),
 }

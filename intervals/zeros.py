@@ -29,8 +29,9 @@ from intervals.branch import (
     select,
     split,
 )
-from intervals.contractor import Formula, contracted, record
+from intervals.contractor import contracted
 from intervals.errors import DomainError
+from intervals.formula import Formula
 from intervals.generic import meet
 from intervals.interval import Interval
 from intervals.krawczyk import SystemResult, contract, krawczyk
@@ -71,11 +72,15 @@ def zeros(
     nothing = select(given, slice(0))
     found, small = [nothing], [nothing]
     waiting = given
-    formulas = _formulas(f, where, len(given))
+    f = Formula(f, len(given))
+    demands = [_demand(f, IntervalArray([0]))]
+    if where is not None:
+        region = IntervalArray.from_floats([0.0], [MAX])
+        demands.append(_demand(Formula(where, len(given)), region))
     while len(waiting[0]):
         limit -= len(waiting[0])
-        for formula in formulas:
-            waiting = _cut(formula, waiting)
+        for demand in demands:
+            waiting = _cut(demand, waiting)
         if not len(waiting[0]):
             break
         more, waiting = _round(f, waiting)
@@ -92,11 +97,8 @@ def zeros(
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
 
 
-def _formulas(f: Function, where: Function | None, count: int) -> list[Demand]:
-    """Return f = 0 and g >= 0 as far as they can be recorded."""
-    demands = ((f, IntervalArray([0])), (where, IntervalArray.from_floats([0.0], [MAX])))
-    recorded = ((g and record(g, count), target) for g, target in demands)
-    return [(formula, [target] * len(formula.outputs)) for formula, target in recorded if formula]
+def _demand(formula: Formula, target: IntervalArray) -> Demand:
+    return formula, [target] * len(formula.outputs)
 
 
 def _cut(demand: Demand, boxes: Boxes) -> Boxes:

@@ -32,7 +32,8 @@ import numpy as np
 from intervals import IntervalArray, Undecided
 from intervals.array import Mask
 from intervals.branch import Bounds, Boxes, concatenated, evaluated, larger
-from intervals.contractor import Formula, contracted, record
+from intervals.contractor import contracted
+from intervals.formula import Formula, NoFormula
 from intervals.generic import meet, middle, where
 from intervals.rounding import MAX
 from intervals.systems import Function, components, inverses, jacobian
@@ -70,12 +71,12 @@ class CyclicSystem:
             pairs = zip(components(self.f(*z[:d])), z[d:], strict=True)
             return [value - following for value, following in pairs]
 
-        return record(difference, 2 * d)
+        return _recorded(difference, 2 * d)
 
     @cached_property
     def region(self) -> Formula | None:
         """The function g, if there is one and it can be undone."""
-        return self.g and record(self.g, self.size)
+        return self.g and _recorded(self.g, self.size)
 
     def solutions(self, given: IntervalArray, limit: int) -> IntervalArray:
         """Return the boxes of the theorem.
@@ -178,6 +179,14 @@ class CyclicSystem:
         _, rows = jacobian(self.f, tuple(x.reshape(-1) for x in _coordinates(boxes)))
         matrix = stacked([stacked(column) for column in zip(*rows, strict=True)])
         return matrix.reshape(*boxes.shape, self.size)
+
+
+def _recorded(f: Function, variables: int) -> Formula | None:
+    """Return f as a formula, None where it looks at its arguments as sets."""
+    try:
+        return Formula(f, variables)
+    except NoFormula:
+        return None
 
 
 def turned(boxes: IntervalArray, by: int) -> IntervalArray:

@@ -279,7 +279,7 @@ def test_bounds_of_boxes_that_are_done_are_kept(monkeypatch):
         return np.array([bounds[pair] for pair in ends], dtype=float), 5.0, boxes
 
     monkeypatch.setattr(search, "_bounds", scripted)
-    assert search._least(None, Interval(0, 1), lambda found: found - 1, 100) == (4.8, 5.0)
+    assert search._least(None, one_box(Interval(0, 1)), lambda found: found - 1, 100) == (4.8, 5.0)
 
 
 def test_a_pole_has_no_range():
