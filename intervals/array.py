@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
@@ -256,22 +256,38 @@ class IntervalArray(Relations[Mask], Elementary):
     def __array__(self, *_arguments: Any, **_options: Any) -> NoReturn:
         raise TypeError("an IntervalArray is no array of numbers: take .inf, .sup or .mid")
 
-    def sum(self, axis: int | None = None) -> IntervalArray:
-        """Return the sums over an axis, or over all elements."""
-        with _quiet():
-            return _make(sum_rows(*self._along(axis)))
+    def sum(
+        self, axis: int | tuple[int, ...] | None = None, *, keepdims: bool = False, initial: Any = 0
+    ) -> IntervalArray:
+        """Return the sums over some axes, or over all elements; `initial` is added to each."""
+        result = self._reduced(sum_rows, axis, keepdims)
+        return result if type(initial) is int and initial == 0 else result + initial
 
-    def prod(self, axis: int | None = None) -> IntervalArray:
-        """Return the products over an axis, or over all elements."""
-        with _quiet():
-            return _make(product_rows(*self._along(axis)))
+    def prod(
+        self, axis: int | tuple[int, ...] | None = None, *, keepdims: bool = False, initial: Any = 1
+    ) -> IntervalArray:
+        """Return the products over some axes, or over all elements, times `initial`."""
+        return self._reduced(product_rows, axis, keepdims) * initial
 
-    def _along(self, axis: int | None) -> tuple[Rows, int]:
+    def _reduced(
+        self, reduction: Callable[[Rows, int], Rows], axis: Any, keepdims: bool
+    ) -> IntervalArray:
+        rows, place, shape = self._rows, 0, (1,) * self.ndim
         if axis is None:
-            return self._rows.reshape(2, -1), 0
-        if not -self.ndim <= axis < self.ndim:
+            rows = rows.reshape(2, -1)
+        elif isinstance(axis, tuple):
+            front = range(len(axis))
+            rows = joined(*(np.moveaxis(row, axis, front) for row in rows))
+            rows = rows.reshape(2, -1, *rows.shape[len(axis) + 1 :])
+            shape = self.inf.sum(axis=axis, keepdims=True).shape
+        elif -self.ndim <= axis < self.ndim:
+            place = axis % self.ndim
+            shape = (*self.shape[:place], 1, *self.shape[place + 1 :])
+        else:
             raise np.exceptions.AxisError(axis, self.ndim)
-        return self._rows, axis % self.ndim
+        with _quiet():
+            reduced = reduction(rows, place)
+        return _make(reduced.reshape(2, *shape) if keepdims else reduced)
 
     def __matmul__(self, other: IntervalArray) -> IntervalArray:
         """Return the matrix product, with numpy's rules for vectors and stacks."""
@@ -359,6 +375,10 @@ class IntervalArray(Relations[Mask], Elementary):
         return _make(in_blocks(partial(power, n=n), self._rows))
 
     def __rpow__(self, base: Operand) -> IntervalArray:
+        if isinstance(base, float):  # which Fraction.__pow__ makes of itself
+            raise TypeError(
+                f"{base!r} is a float: write pow(Fraction(p, q), x) of intervals for p/q"
+            )
         rows = _rows_of(base)
         return NotImplemented if rows is None else _make(rows).pow(self)
 

@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cmp_to_key
+from numbers import Number
+from operator import index
 from typing import Any
 
 from mpmath.libmp import (
@@ -39,7 +41,7 @@ from intervals.elementary.steps import STEPS
 from intervals.elementary.tightest import DOWN, UP
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
-from intervals.exact import Exact, fraction, pair
+from intervals.exact import Exact, fraction, pair, refuse_equality
 from intervals.functions import DOMAINS, TABLE, Elementary
 from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
 from intervals.relations import Overlap, Relations, overlap_state
@@ -76,7 +78,7 @@ class Interval(Relations[bool], Elementary):
 
     def __init__(self, lower: Exact, upper: Exact | None = None, *, precision: int = 53) -> None:
         low, high = pair(lower, upper)
-        self.precision = _checked(precision)
+        self.precision = precision = _checked(precision)
         self._lo = rounded(low, precision, DOWN)
         self._hi = rounded(high, precision, UP)
 
@@ -183,8 +185,8 @@ class Interval(Relations[bool], Elementary):
             return _make(raw, raw, self.precision)
         if isinstance(value, Fraction):
             return Interval(value, precision=self.precision)
-        if isinstance(value, float):
-            raise TypeError(f"{value!r} is a float, not a decimal: use Interval.from_float")
+        if isinstance(value, Number) and not isinstance(value, complex):
+            return Interval(fraction(value), precision=self.precision)  # type: ignore[arg-type]
         return None
 
     def __neg__(self) -> Interval:
@@ -317,6 +319,10 @@ class Interval(Relations[bool], Elementary):
         return _make(low, high, p)
 
     def __rpow__(self, base: Fraction | int) -> Interval:
+        if isinstance(base, float):  # which Fraction.__pow__ makes of itself
+            raise TypeError(
+                f"{base!r} is a float: write pow(Fraction(p, q), x) of intervals for p/q"
+            )
         other = self._other(base)
         return NotImplemented if other is None else other.pow(self)
 
@@ -503,9 +509,8 @@ class Interval(Relations[bool], Elementary):
 
         Comparing with a number raises TypeError: a quiet False would pass for a proof.
         """
-        if isinstance(other, int | float | Fraction):
-            raise TypeError("an Interval is no number: use contains, <, > or a second Interval")
         if not isinstance(other, Interval):
+            refuse_equality(other)
             return NotImplemented
         return self._lo == other._lo and self._hi == other._hi
 
@@ -547,6 +552,7 @@ class Interval(Relations[bool], Elementary):
 
 
 def _checked(precision: int) -> int:
+    precision = index(precision)
     if precision < 2:
         raise ValueError("precision is at least 2 bits")
     return precision

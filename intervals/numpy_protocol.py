@@ -20,6 +20,7 @@ from intervals.rows import integer_rows
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 
 
+_LONG = (np.longdouble, np.clongdouble)
 Kind: TypeAlias = Any  # the class IntervalArray, whose module imports this one
 
 
@@ -61,8 +62,9 @@ _REDUCTIONS = {np.add: "sum", np.multiply: "prod"}
 
 def apply_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_ufunc__` is asked for; TypeError for what intervals do not do."""
-    if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= {"axis"}:
-        return getattr(inputs[0], _REDUCTIONS[ufunc])(axis=options.get("axis", 0))
+    known = {"axis", "keepdims", "initial"}
+    if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= known:
+        return getattr(inputs[0], _REDUCTIONS[ufunc])(**{"axis": 0} | options)
     if method != "__call__" or options or not (ufunc in _OPERATORS or ufunc in _METHODS):
         asked = ".".join([ufunc.__name__, *([] if method == "__call__" else [method]), *options])
         raise TypeError(f"numpy.{asked} is not defined for IntervalArrays")
@@ -88,11 +90,21 @@ def object_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], o
     """Do what numpy does with objects of a kind; spans of time, ints to it, raise TypeError."""
     if any(map(is_time, inputs)):
         raise TypeError("spans of time are no numbers")
+    if any(getattr(x, "dtype", None) in _LONG for x in inputs):  # whose objects would ask again
+        raise TypeError(_HINT)
     known = kind, np.ndarray, np.generic
     if any(hasattr(x, "__array_ufunc__") and not isinstance(x, known) for x in inputs):
         return NotImplemented  # an IntervalArray or a jet, which is asked next
     objects = (np.array(x, dtype=object) if isinstance(x, kind) else x for x in inputs)
+    if method == "__call__" and ufunc in _METHODS and not options:
+        name, count = _METHODS[ufunc], len(inputs)
+        return np.frompyfunc(lambda x, *y: _called(kind, name, x, *y), count, 1)(*objects)
     return getattr(ufunc, method)(*objects, **options)
+
+
+def _called(kind: Kind, name: str, x: Any, *y: Any) -> Any:
+    """Return a function of objects of a kind, the first of which may be an exact number."""
+    return getattr(x if isinstance(x, kind) else kind(x), name)(*y)
 
 
 def _exact(kind: Kind, x: Any) -> Any:
@@ -146,6 +158,8 @@ _MOVING = _OF_ONE | _OF_MANY
 
 
 def _dot(x: Any, y: Any) -> Any:
+    if not (np.ndim(x) and np.ndim(y)):
+        return x * y
     if max(x.ndim, y.ndim) > 2:
         raise TypeError("numpy.dot of more than two axes is not defined for IntervalArrays: use @")
     return x @ y
@@ -155,11 +169,18 @@ def _inner(x: Any, y: Any) -> Any:
     return _dot(x, y.T)
 
 
-def _einsum(subscripts: str, *operands: Any) -> Any:
-    """Return the sums of products; all of these are there at once, so `@` is for matrices."""
+def _einsum(subscripts: str, *operands: Any, optimize: Any = False) -> Any:
+    """Return the sums of products; all of these are there at once, so `@` is for matrices.
+
+    No way to compute them is chosen: `optimize` is not heeded.
+    """
     inputs, arrow, output = subscripts.replace(" ", "").partition("->")
     letters = inputs.replace(",", "")
     output = output if arrow else "".join(sorted(c for c in letters if letters.count(c) == 1))
+    if not (letters + output).isalpha() or len(set(output)) < len(output):
+        raise ValueError(f"einsum takes letters here, each once in the output: {subscripts!r}")
+    if not set(output) <= set(letters):
+        raise ValueError(f"einsum has an output without an input: {subscripts!r}")
     order = output + "".join(sorted(set(letters) - set(output)))
     result: Any = 1
     for names, x in zip(inputs.split(","), operands, strict=True):
@@ -171,8 +192,9 @@ def _einsum(subscripts: str, *operands: Any) -> Any:
     return result
 
 
-def _mean(x: Any, axis: int | None = None) -> Any:
-    return x.sum(axis=axis) / (x.size if axis is None else x.shape[axis])
+def _mean(x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+    total = x.sum(axis=axis, keepdims=keepdims)
+    return total / (x.size // total.size if total.size else 1)
 
 
 def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
@@ -187,20 +209,20 @@ def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
 def _cumsum(x: Any, axis: int | None = None) -> Any:
     moved = x.reshape(-1) if axis is None else np.moveaxis(x, axis, 0)
     totals = list(accumulate(moved))
-    return np.moveaxis(np.stack(totals), 0, axis or 0) if totals else x
+    return np.moveaxis(np.stack(totals) if totals else moved, 0, axis or 0)
 
 
-def _largest(x: Any, axis: int | None = None) -> Any:
+def _largest(x: Any, axis: Any = None, **options: Any) -> Any:
     """Return the range of the largest element: it increases with each of them."""
-    return type(x).from_floats(x.inf.max(axis=axis), x.sup.max(axis=axis))
+    return type(x).from_floats(x.inf.max(axis=axis, **options), x.sup.max(axis=axis, **options))
 
 
 _ASKING: dict[Any, Callable[..., Any]] = {
     np.shape: lambda x: x.shape,
     np.ndim: lambda x: x.ndim,
     np.size: lambda x: x.size,
-    np.sum: lambda x, axis=None: x.sum(axis=axis),
-    np.prod: lambda x, axis=None: x.prod(axis=axis),
+    np.sum: lambda x, **options: x.sum(**options),
+    np.prod: lambda x, **options: x.prod(**options),
     np.dot: _dot,
     np.inner: _inner,
     np.outer: lambda x, y: x.reshape(-1, 1) * y.reshape(1, -1),
@@ -211,7 +233,7 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.cumsum: _cumsum,
     np.trace: lambda x, offset=0: np.diagonal(x, offset).sum(axis=-1),
     np.max: _largest,
-    np.min: lambda x, axis=None: -_largest(-x, axis),
+    np.min: lambda x, axis=None, **options: -_largest(-x, axis, **options),
     np.clip: lambda x, low, high: x.maximum(low).minimum(high),
     np.zeros_like: lambda x: 0 * x,
     np.ones_like: lambda x: type(x).from_floats(np.ones(x.shape)),

@@ -7,6 +7,7 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 
 import json
 from collections.abc import Callable
+from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, prod
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.errors import DomainError
-from intervals.exact import fraction, whole
+from intervals.exact import fraction, no_decimal, whole
 from intervals.rounding import (
     BEYOND,
     ETA,
@@ -229,13 +230,15 @@ def scalar_rows(value: object) -> Rows | None:
     """
     if isinstance(value, np.ndarray) and value.dtype.kind in "iu":
         return integer_rows(value)
-    if isinstance(value, float | np.floating | np.ndarray):
+    if isinstance(value, float | np.floating):
+        raise no_decimal(value, "from_floats")
+    if isinstance(value, np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
     if isinstance(value, np.generic) and whole(value) is None:  # else numpy asks again
         raise TypeError(f"not an interval or an exact number: {value!r}")
     if type(value) is int or type(value) is Fraction:
         return _rational_rows(value)
-    if isinstance(value, int | Fraction | np.integer) or _is_interval(value):
+    if isinstance(value, int | Fraction | np.integer | Decimal) or _is_interval(value):
         return np.array(_enclosure(value))
     return None
 
@@ -258,11 +261,15 @@ def integer_rows(values: NDArray[Any]) -> Rows:
 
 def _is_interval(value: object) -> bool:
     """Return whether `value` has exact endpoints `inf` and `sup`, as an Interval has."""
+    if hasattr(value, "decoration"):
+        raise TypeError(f"{value} would lose its decoration: take its .interval")
     return isinstance(getattr(value, "inf", None), Fraction)
 
 
 def exact_rows(values: Any) -> Rows:
     """Return rows of (nested lists of) exact numbers and pairs, as `IntervalArray.from_exact`."""
+    if isinstance(values, np.ndarray) and not values.size:
+        return np.empty((2, *values.shape))
     pairs = np.array(_nested(values), dtype=np.float64)
     if pairs.size == 0:
         pairs = pairs.reshape(*pairs.shape, 2)
@@ -320,7 +327,7 @@ def _endpoint(value: Any, name: str) -> Fraction:
         end: Fraction = getattr(value, name)
         return end
     if isinstance(value, float | np.floating):
-        raise TypeError(f"{value!r} is a float, not a decimal: a string, or from_floats")
+        raise no_decimal(value, "from_floats")
     return fraction(value)
 
 
