@@ -6,6 +6,7 @@ import operator
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 import numpy as np
@@ -18,7 +19,15 @@ from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
 from intervals.reductions import matrix_product, product_rows, sum_rows
 from intervals.relations import Relations, overlap_state
-from intervals.rounding import Rows, all_of, bounded, joined, outward_sum, require_subnormals
+from intervals.rounding import (
+    MAX,
+    Rows,
+    all_of,
+    extended,
+    joined,
+    outward_sum,
+    require_subnormals,
+)
 from intervals.rows import (
     STEPS,
     aligned,
@@ -48,15 +57,14 @@ np.empty(4_000_000)
 
 
 class IntervalArray(Relations[Mask], Elementary):
-    """An array of sets {x real : inf <= x <= sup}, with finite binary64 `inf <= sup` elementwise.
+    """An array of sets {x real : inf <= x <= sup}, inf <= sup in binary64 or infinite.
 
     `IntervalArray(values)` is `from_exact`; binary64 numbers enter through `from_floats`. Shapes
     broadcast as in numpy, whose own functions know the class (np.sin(X), np.concatenate, X @ Y).
     The other operand may be an IntervalArray, an int, an array of ints, a Fraction or an Interval
     (enclosed as tightly as binary64 allows); a float raises TypeError. Every operation returns
-    elementwise a superset of {op(x, y) : x in X, y in Y} (the inclusion principle); where a bound
-    would leave the range of binary64 it raises OverflowError. An array does not change after it
-    is made.
+    elementwise a superset of {op(x, y) : x in X, y in Y} (the inclusion principle); a bound that
+    would leave the range of binary64 is infinite. An array does not change after it is made.
     """
 
     __slots__ = ("_rows",)
@@ -110,8 +118,16 @@ class IntervalArray(Relations[Mask], Elementary):
 
     @property
     def mid(self) -> Rows:
-        """Binary64 numbers in the intervals, the midpoints up to rounding."""
-        return np.asarray(np.clip(0.5 * self.inf + 0.5 * self.sup, self.inf, self.sup))
+        """Binary64 numbers in the intervals, the midpoints up to rounding.
+
+        Of what is not bounded 0, or the largest number that is on its side.
+        """
+        low, high = self.inf, self.sup
+        with _quiet():
+            middle = 0.5 * low + 0.5 * high
+        if not np.isfinite(middle).all():
+            middle = np.clip(np.where(np.isnan(middle), 0.0, middle), -MAX, MAX)
+        return np.asarray(np.clip(middle, low, high))
 
     @property
     def wid(self) -> Rows:
@@ -145,7 +161,7 @@ class IntervalArray(Relations[Mask], Elementary):
     def intersection(self, other: Operand) -> IntervalArray | None:
         """Return the common parts, None if any is empty: `disjoint` says where."""
         rows = np.minimum(*self._pair(other))
-        return None if (rows[1] < -rows[0]).any() else _make(bounded(rows))
+        return None if (rows[1] < -rows[0]).any() else _make(extended(rows, rows))
 
     def bisect(self) -> tuple[IntervalArray, IntervalArray]:
         """Return two arrays, the halves of each interval, cut at `mid`."""
@@ -197,10 +213,12 @@ class IntervalArray(Relations[Mask], Elementary):
         return _make(self._rows.reshape(2, *shape))
 
     def item(self) -> Interval:
-        """Return the only element, exactly, as an Interval."""
+        """Return the only element, exactly, as an Interval; OverflowError if it is not bounded."""
         from intervals.interval import Interval
 
         low, high = self.inf.item(), self.sup.item()
+        if not high - low < inf:
+            raise OverflowError(f"not bounded: {self}")
         return Interval.from_float(low).hull(Interval.from_float(high))
 
     def tolist(self) -> Any:
@@ -261,13 +279,16 @@ class IntervalArray(Relations[Mask], Elementary):
     ) -> IntervalArray:
         """Return the sums over some axes, or over all elements; `initial` is added to each."""
         result = self._reduced(sum_rows, axis, keepdims)
-        return result if type(initial) is int and initial == 0 else result + initial
+        if type(initial) is not int or initial != 0:
+            result = result + initial
+        return result
 
     def prod(
         self, axis: int | tuple[int, ...] | None = None, *, keepdims: bool = False, initial: Any = 1
     ) -> IntervalArray:
         """Return the products over some axes, or over all elements, times `initial`."""
-        return self._reduced(product_rows, axis, keepdims) * initial
+        result: IntervalArray = self._reduced(product_rows, axis, keepdims) * initial
+        return result
 
     def _reduced(
         self, reduction: Callable[[Rows, int], Rows], axis: Any, keepdims: bool
@@ -339,12 +360,15 @@ class IntervalArray(Relations[Mask], Elementary):
     def __mul__(self, other: Operand) -> IntervalArray:
         """Return the products; those by the ints 0 and +-2^k are exact."""
         number = None if isinstance(other, IntervalArray) else whole(other)  # numpy's abs wraps
-        if number is not None and abs(number) & (abs(number) - 1) == 0:
+        if number is not None and (size := abs(number)) & (size - 1) == 0 and size < 2**1024:
             if number == 1:
                 return self
+            if number == 0:
+                return _make(np.zeros_like(self._rows))
             rows = self._rows if number >= 0 else self._rows[::-1]
             with _quiet():
-                return _make(bounded(rows * float(abs(number))))
+                rows = np.maximum(rows * float(size), -MAX)
+                return _make(extended(rows, rows))
         factor = _rows_of(other)
         if factor is None:
             return NotImplemented

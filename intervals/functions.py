@@ -207,6 +207,7 @@ atan = Function(
     "Return the arc tangent in (-pi/2, pi/2).",
     slope=lambda u: 1 / (1 + u.sqr()),
     undo=lambda z, u: z.tan(),
+    limits=(-1.5707963267948968, 1.5707963267948968),  # and a little more
 )
 sinh = Function(
     "sinh", "Return the hyperbolic sine.", slope=lambda u: u.cosh(), undo=lambda z, u: z.asinh()

@@ -7,6 +7,7 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -19,7 +20,6 @@ from numpy.typing import NDArray
 from intervals.errors import DomainError
 from intervals.exact import fraction, no_decimal, whole
 from intervals.rounding import (
-    BEYOND,
     ETA,
     MAX,
     ULP,
@@ -31,6 +31,7 @@ from intervals.rounding import (
     joined,
     outward,
     outward_sum,
+    towards,
 )
 
 _BLOCK = 16384  # elements at a time
@@ -66,7 +67,8 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     first, ends = operands[0], _BY_ENDS.get(operation)
     if ends and 0 < first.size <= 2 * _FEW and first.shape == operands[-1].shape:
         columns = [column for x in operands for column in x.reshape(2, -1).tolist()]
-        return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
+        with suppress(OverflowError):
+            return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
     with np.errstate(all="ignore"):
         return _in_blocks(operation, *operands)
 
@@ -99,12 +101,16 @@ def product(a: Rows, b: Rows) -> Rows:
     if is_thin(a):
         a, b = b, a
     if not is_thin(b):
-        return outward(_hull_of_four(a[0] * b[0], a[1] * b[1], a[0] * b[1], a[1] * b[0]))
+        return _outward_of_four(a, b, np.multiply)
     if is_thin(a):
         point = a[1] * b[1]
         return outward(joined(-point, point))
     scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
-    return outward(np.maximum(scaled, -scaled[::-1]))
+    return outward(_of_point(scaled), lambda: _of_point(_without_nan(scaled, a, b)))
+
+
+def _of_point(scaled: Rows) -> Rows:
+    return np.maximum(scaled, -scaled[::-1])
 
 
 def quotient(a: Rows, b: Rows) -> Rows:
@@ -116,7 +122,26 @@ def quotient(a: Rows, b: Rows) -> Rows:
     if not all_of(np.minimum(b[0], b[1]) < _ZERO):
         raise DomainError(_ZERO_INSIDE)
     a, b = aligned(a, b)
-    return outward(_hull_of_four(a[0] / b[0], a[1] / b[1], a[0] / b[1], a[1] / b[0]))
+    return _outward_of_four(a, b, np.divide)
+
+
+def _outward_of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows]) -> Rows:
+    """Return rows of the hull of the four results at ends, of which those that are NaN stand for 0.
+
+    0 inf: 0 times numbers. inf / inf: x / y tends to 0 with y, so that 0 is a bound of the others.
+    """
+    ends = ((a[0], b[0]), (a[1], b[1]), (a[0], b[1]), (a[1], b[0]))
+    candidates = [operation(x, y) for x, y in ends]
+    return outward(
+        _hull_of_four(*candidates),
+        lambda: _hull_of_four(*(_without_nan(x, a, b) for x in candidates)),
+    )
+
+
+def _without_nan(x: Rows, *operands: Rows) -> Rows:
+    if any(np.isnan(operand).any() for operand in operands):
+        raise FloatingPointError("a bound is not a number")
+    return np.where(np.isnan(x), 0.0, x)
 
 
 def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
@@ -145,8 +170,8 @@ def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
     x, y = max(r, s, -p, -q), max(p, q, -r, -s)
     x += abs(x) * ULP + ETA
     y += abs(y) * ULP + ETA
-    if not (x < MAX and y < MAX):
-        raise OverflowError(BEYOND)
+    if not (x < MAX and y < MAX):  # nor NaN: infinities are done by arrays
+        raise OverflowError
     return x, y
 
 
@@ -333,7 +358,8 @@ def _endpoint(value: Any, name: str) -> Fraction:
 
 def _enclosure(value: Any) -> tuple[float, float]:
     """Return (-lower, upper), the tightest, of an exact number or an Interval."""
-    return -float_down(_endpoint(value, "inf")), float_up(_endpoint(value, "sup"))
+    low, high = _endpoint(value, "inf"), _endpoint(value, "sup")
+    return -towards(low, float_down), towards(high, float_up)
 
 
 def float_rows(lower: Any, upper: Any) -> Rows:
@@ -341,10 +367,9 @@ def float_rows(lower: Any, upper: Any) -> Rows:
     low = high = _binary64(lower)
     if upper is not lower:
         low, high = np.broadcast_arrays(low, _binary64(upper))
-    rows = joined(-low, high)
-    if not (np.isfinite(rows).all() and (low <= high).all()):
-        raise ValueError("bounds must be finite, with lower <= upper")
-    return rows
+    if not ((low <= high) & (low < inf) & (high > -inf)).all():
+        raise ValueError("bounds must be numbers or infinite, with lower <= upper")
+    return joined(-low, high)
 
 
 def _binary64(values: Any) -> NDArray[np.float64]:
@@ -370,7 +395,7 @@ class End:
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, value: Fraction) -> None:
-        self.down, self.up = _towards(value, float_down), _towards(value, float_up)
+        self.down, self.up = towards(value, float_down), towards(value, float_up)
 
     def __gt__(self, x: Any) -> Any:
         return x < self.up
@@ -386,14 +411,6 @@ class End:
 
     def __eq__(self, x: object) -> Any:
         return (self.down == x) & (self.up == x)
-
-
-def _towards(value: Fraction, rounded: Callable[[Fraction], float]) -> float:
-    """Return the binary64 number next to `value`, an infinity where there is none."""
-    try:
-        return rounded(value)
-    except OverflowError:
-        return inf if value > 0 else -inf
 
 
 def ends(value: Any) -> tuple[End, End]:

@@ -1,3 +1,4 @@
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -88,12 +89,21 @@ def test_a_margin_of_the_size_of_the_sets_is_seen(width):
 def test_overflow_is_refused():
     big = IntervalArray.from_floats([1e308, 1.0])
     wide = IntervalArray.from_floats([-1e308, 1.0], [1e308, 1.0])
+    one = IntervalArray([1, 1])
     for left, right, constant in (
-        *(([big], [big], big), ([big, big], [big, -big], big), ([wide], [wide], wide)),
-        ([big], [IntervalArray([1])], big),  # a sum that is nearly out of range, too
+        ([big], [big], big),
+        ([big, big], [big, -big], big),
     ):
         with pytest.raises(OverflowError):
             bilinear(left, right, constant)
+    unbounded = IntervalArray.from_floats([-math.inf, 1.0], [math.inf, 1.0])
+    for left, right, constant in (
+        ([one], [one], unbounded),
+        ([wide], [wide], wide),
+    ):
+        assert bilinear(left, right, constant).tolist()[0] == [False, False]
+    with pytest.raises(OverflowError):
+        bilinear([unbounded], [one], one)
 
 
 def test_bad_shapes_are_refused():
