@@ -14,7 +14,7 @@ from intervals.exact import decimal_bounds, decimal_down, decimal_up, fraction
 from intervals.functions import *  # noqa: F403 - the table
 
 if TYPE_CHECKING:
-    from intervals.array import IntervalArray
+    from intervals.array import IntervalArray, TightArray
     from intervals.complex import ComplexInterval
     from intervals.decorated import Decorated
     from intervals.decorations import Decoration
@@ -34,6 +34,7 @@ _HOMES = {
     "IntervalArray": "array",
     "Jet": "jet",
     "Overlap": "relations",
+    "TightArray": "array",
 }
 
 __all__ = [
@@ -47,6 +48,7 @@ __all__ = [
     "IntervalError",
     "Jet",
     "Overlap",
+    "TightArray",
     "Undecided",
     "decimal_bounds",
     "decimal_down",

@@ -11,7 +11,7 @@ from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, prod
+from math import frexp, inf, prod
 from typing import Any
 
 import numpy as np
@@ -37,6 +37,9 @@ from intervals.rounding import (
 _BLOCK = 16384  # elements at a time
 _FEW = 10  # intervals: they are done sooner without numpy
 _ZERO = constant(0.0)
+_HALF, _TAIL = 2.0**26, np.array((1 << 27) - 1)
+_LOW, _HIGH = 2.0**-400, 2.0**400
+_LEAST, _MOST = constant(_LOW), constant(_HIGH)
 _ZERO_INSIDE = "division by an interval that contains 0"
 
 
@@ -88,8 +91,14 @@ def _in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
 
 
 def total(a: Rows, b: Rows) -> Rows:
-    """Return rows that contain x + y for x in A, y in B."""
-    return outward_sum(a + b)
+    """Return rows that contain x + y for x in A, y in B; of short numbers the exact ones, if short.
+
+    s = fl(a + b) is exact if s - a and s - b are b and a: that of the larger one has no rounding.
+    """
+    s = a + b
+    if _short(a) and _short(b) and all_of((s - a == b) & (s - b == a)):
+        return s
+    return outward_sum(s)
 
 
 def product(a: Rows, b: Rows) -> Rows:
@@ -98,14 +107,18 @@ def product(a: Rows, b: Rows) -> Rows:
     With a = (-l, u) and b = (-m, v): a0 b0 = l m, a1 b1 = u v, a0 b1 = -l v, a1 b0 = -u m, and
     x y lies between the least and the largest of l m, u v, l v, u m.
     """
+    exact = _short(a) and _short(b) and _halves(a) and _halves(b)
     if is_thin(a):
         a, b = b, a
     if not is_thin(b):
-        return _outward_of_four(a, b, np.multiply)
+        return _of_four(a, b, np.multiply, exact=exact)
     if is_thin(a):
         point = a[1] * b[1]
-        return outward(joined(-point, point))
+        rows = joined(-point, point)
+        return rows if exact else outward(rows)
     scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
+    if exact:
+        return _of_point(scaled)
     return outward(_of_point(scaled), lambda: _of_point(_without_nan(scaled, a, b)))
 
 
@@ -119,23 +132,55 @@ def quotient(a: Rows, b: Rows) -> Rows:
     Monotone in x and in y, x / y lies between the least and the largest of the four quotients
     of endpoints; the signs are those of the products.
     """
+    a, b = dividends(a, b)
+    exact = False
+    if _short(a) and _short(b) and _halves(b):
+        quotients = a[:, np.newaxis] / b
+        exact = _halves(quotients) and all_of(quotients * b == a[:, np.newaxis])
+    return _of_four(a, b, np.divide, exact=exact)
+
+
+def dividends(a: Rows, b: Rows) -> tuple[Rows, Rows]:
+    """Return both, aligned; DomainError if 0 is in a divisor."""
     if not all_of(np.minimum(b[0], b[1]) < _ZERO):
         raise DomainError(_ZERO_INSIDE)
-    a, b = aligned(a, b)
-    return _outward_of_four(a, b, np.divide)
+    return aligned(a, b)
 
 
-def _outward_of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows]) -> Rows:
+def _of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows], *, exact: bool) -> Rows:
     """Return rows of the hull of the four results at ends, of which those that are NaN stand for 0.
 
     0 inf: 0 times numbers. inf / inf: x / y tends to 0 with y, so that 0 is a bound of the others.
     """
     ends = ((a[0], b[0]), (a[1], b[1]), (a[0], b[1]), (a[1], b[0]))
     candidates = [operation(x, y) for x, y in ends]
-    return outward(
-        _hull_of_four(*candidates),
-        lambda: _hull_of_four(*(_without_nan(x, a, b) for x in candidates)),
-    )
+    rows = _hull_of_four(*candidates)
+    if exact:
+        return rows
+    return outward(rows, lambda: _hull_of_four(*(_without_nan(x, a, b) for x in candidates)))
+
+
+def _short(rows: Rows) -> bool:
+    """Return whether the first and the last number have at most 26 bits: a guess at all of them."""
+    return bool(rows.size) and _is_half(rows.item(0)) and _is_half(rows.item(rows.size - 1))
+
+
+def _is_half(x: float) -> bool:
+    return frexp(x)[0] * _HALF % 1.0 == 0.0
+
+
+def _is_fit(x: float) -> bool:
+    return _is_half(x) and (x == 0.0 or _LOW < abs(x) < _HIGH)
+
+
+def _halves(rows: Rows) -> bool:
+    """Return whether all have at most 26 bits and are 0 or of moderate size.
+
+    Then their products are exact: 52 bits, above 2^-800.
+    """
+    size = np.abs(rows)
+    fit = ((size >= _LEAST) & (size <= _MOST)) | (size == _ZERO)
+    return all_of(fit) and not (rows.view(np.int64) & _TAIL).any()
 
 
 def _without_nan(x: Rows, *operands: Rows) -> Rows:
@@ -155,14 +200,30 @@ def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
     return np.maximum(rows, others, out=rows)
 
 
+def _total(a: float, b: float, c: float, d: float) -> tuple[float, float]:
+    x, y = a + c, b + d
+    if not (x - a == c and x - c == a):
+        x += abs(x) * ULP
+    if not (y - b == d and y - d == b):
+        y += abs(y) * ULP
+    return _finite(x, y)
+
+
 def _product(a: float, b: float, c: float, d: float) -> tuple[float, float]:
-    return _outermost(a * c, b * d, a * d, b * c)
+    p, q, r, s = a * c, b * d, a * d, b * c
+    if all(map(_is_fit, (a, b, c, d))):
+        return max(r, s, -p, -q), max(p, q, -r, -s)
+    return _outermost(p, q, r, s)
 
 
 def _quotient(a: float, b: float, c: float, d: float) -> tuple[float, float]:
     if not (c < 0.0 or d < 0.0):
         raise DomainError(_ZERO_INSIDE)
-    return _outermost(a / c, b / d, a / d, b / c)
+    p, q, r, s = a / c, b / d, a / d, b / c
+    products = ((p, c, a), (q, d, b), (r, d, a), (s, c, b))
+    if all(_is_fit(x) and _is_fit(y) and x * y == z for x, y, z in products):
+        return max(r, s, -p, -q), max(p, q, -r, -s)
+    return _outermost(p, q, r, s)
 
 
 def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
@@ -170,12 +231,16 @@ def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
     x, y = max(r, s, -p, -q), max(p, q, -r, -s)
     x += abs(x) * ULP + ETA
     y += abs(y) * ULP + ETA
+    return _finite(x, y)
+
+
+def _finite(x: float, y: float) -> tuple[float, float]:
     if not (x < MAX and y < MAX):  # nor NaN: infinities are done by arrays
         raise OverflowError
     return x, y
 
 
-_BY_ENDS = {product: _product, quotient: _quotient}
+_BY_ENDS = {total: _total, product: _product, quotient: _quotient}
 
 
 def magnitude(rows: Rows) -> Rows:
@@ -190,21 +255,33 @@ def power(rows: Rows, n: int) -> Rows:
     On the rows p of X (n odd) or |X| (n even), t_n = p |p|^(n-1) is the row of the result. An upper
     bound r of t_k gives the upper bounds r |r| of t_(2k) = t_k |t_k| and r |p| of t_(k+1).
     """
+    return powers(rows, n, _above)
+
+
+def _above(x: Rows, y: Rows) -> Rows:
+    """Return upper bounds of the products of numbers."""
+    exact = _short(x) and _halves(x) and _halves(y)
+    return x * y if exact else outward(x * y)
+
+
+def powers(rows: Rows, n: int, above: Callable[[Rows, Rows], Rows]) -> Rows:
+    """Do the same, given upper bounds of x y for numbers."""
     rows = rows if n % 2 else magnitude(rows)
     size = np.abs(rows)
     result = rows
     for bit in bin(n)[3:]:
-        result = outward(result * np.abs(result))
+        result = above(result, np.abs(result))
         if bit == "1":
-            result = outward(result * size)
+            result = above(result, size)
     return result if n % 2 else nonnegative(result)
 
 
 def square_root(rows: Rows) -> Rows:
     """Return rows that contain sqrt x, x >= 0 (IEEE's is correctly rounded)."""
     roots = np.sqrt(np.abs(rows))
+    exact = _short(roots) and _halves(roots) and all_of(roots * roots == np.abs(rows))
     np.negative(roots[0], out=roots[0, ...])
-    return nonnegative(outward(roots))
+    return roots if exact else nonnegative(outward(roots))
 
 
 def nonnegative(rows: Rows) -> Rows:
