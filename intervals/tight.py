@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from intervals.rounding import MAX, Rows, constant, outward, require_nearest
-from intervals.rows import dividends, nonnegative, powers
+from intervals.rounding import MAX, Rows, all_of, constant, outward, require_nearest
+from intervals.rows import dividends, is_thin, nonnegative, powers
 
-_SPLIT = constant(2.0**27 + 1)
+_SPLIT, _NEXT = constant(2.0**27 + 1), constant(2.0**-53 * (1 + 2.0**-52))
 _SMALL, _LARGE = constant(2.0**-900), constant(2.0**900)
 
 
@@ -78,8 +78,12 @@ def _above(x: Rows, y: Rows) -> Rows:
 
 
 def _corners(a: Rows, b: Rows) -> tuple[Rows, Rows]:
-    """Return x and y, the pairs of ends, with a first axis; see `rows` for the signs of x y."""
-    x, y = np.broadcast_arrays(a, b)
+    """Return x and y, pairs of ends, with a first axis; see `rows` for the signs of x y."""
+    a, b = np.broadcast_arrays(a, b)
+    if is_thin(b):
+        ends = a[1:] if is_thin(a) else np.stack((-a[0], a[1]))
+        return ends, b[1:]
+    x, y = a, b
     return np.stack((x[0], x[1], -x[0], -x[1])), np.stack((y[0], y[1], y[1], y[0]))
 
 
@@ -95,10 +99,20 @@ def _hull(values: Rows, errors: Rows) -> Rows:
 
 
 def _least(rows: Rows, errors: Rows) -> Rows:
-    """Return the least bounds; those of `outward` where the error is NaN and the row finite."""
-    bounds = np.maximum(np.where(errors > 0.0, np.nextafter(rows, np.inf), rows), -MAX)
-    unknown = np.isnan(errors) & np.isfinite(rows)
-    if unknown.any():
+    """Return the least bounds; those of `outward` where the error is NaN and the row finite.
+
+    For |y| >= 2^-900, y + u (1 + 2 u) |y| rounds to the number above y: Rump, Zimmermann, Boldo,
+    Melquiond 2009, Computing predecessor and successor in rounding to nearest.
+    """
+    size = np.abs(rows)
+    plain = size >= _SMALL
+    step = size * _NEXT
+    step *= errors > 0.0
+    bounds = np.maximum(rows + step, -MAX)
+    if not all_of(plain & (errors == errors)):  # noqa: PLR0124 - NaN
+        bounds = np.where(plain | ~(errors > 0.0), bounds, np.nextafter(rows, np.inf))
+        bounds = np.where(size == np.inf, np.maximum(rows, -MAX), bounds)
+        unknown = np.isnan(errors) & (size < np.inf)
         bounds = np.where(unknown, outward(rows.copy()), bounds)
     return bounds
 
