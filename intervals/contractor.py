@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from math import inf, nextafter
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -25,6 +26,7 @@ from intervals.branch import Boxes, Given, as_box, one_box
 from intervals.errors import DomainError
 from intervals.exact import Exact
 from intervals.formula import Formula, Step
+from intervals.functions import DOMAINS, TABLE, Domain
 from intervals.interval import Interval
 from intervals.reverse import REVERSE
 from intervals.systems import Function
@@ -56,7 +58,8 @@ def contracted(
     """
     empty: Mask = np.zeros(len(boxes[0]), dtype=bool)
     for _ in range(sweeps):
-        left = _forward(formula, boxes)
+        left, outside = _forward(formula, boxes)
+        empty |= outside
         for output, target in zip(formula.outputs, targets, strict=True):
             empty |= _cut(left, output, target)
         for place in range(len(formula.steps) - 1, formula.variables - 1, -1):
@@ -69,13 +72,53 @@ def contracted(
     return boxes, empty
 
 
-def _forward(formula: Formula, boxes: Boxes) -> Values:
-    """Return enclosures of the values of all steps; of one shape, but for constants."""
+def _forward(formula: Formula, boxes: Boxes) -> tuple[Values, Mask]:
+    """Return enclosures of the values of all steps where f is defined, and where it is nowhere.
+
+    They are of one shape, but for constants. An argument is cut to the domain of its function.
+    """
     values = list(boxes)
+    outside: Mask = np.zeros(1, dtype=bool)
     for step in formula.steps[formula.variables :]:
-        operands = [values[i] for i in step.arguments]
-        values.append(_FORWARD.get(step.operation, Step.applied)(step, *operands))
-    return values
+        domain = _domain(step)
+        if domain is None:
+            operands = [values[i] for i in step.arguments]
+            values.append(_FORWARD.get(step.operation, Step.applied)(step, *operands))
+            continue
+        place, *others = step.arguments
+        inner, empty = _within(values[place], domain, closed=domain.closed)
+        result = step.applied(inner, *(values[i] for i in others))
+        if not domain.closed:  # where it was cut, f has no bound
+            cut = inner._rows < values[place]._rows
+            result = IntervalArray._of_rows(np.where(cut, inf, result._rows))
+        values[place] = _within(values[place], domain, closed=True)[0]
+        values.append(result)
+        outside = outside | empty
+    return values, outside
+
+
+def _domain(step: Step) -> Domain | None:
+    """Return the domain of the first argument where it is not the line."""
+    if step.operation == "pow" or (step.operation == "rootn" and step.details[0] % 2 == 0):
+        return TABLE["sqrt"].domain
+    return DOMAINS.get(step.operation)
+
+
+def _within(u: IntervalArray, domain: Domain, *, closed: bool) -> tuple[IntervalArray, Mask]:
+    """Return the part of U in the domain, or in its floats but the ends, and where there is none.
+
+    There it is a point of the domain.
+    """
+    low = -inf if domain.low is None else float(domain.low)
+    high = inf if domain.high is None else float(domain.high)
+    if not closed:
+        low, high = nextafter(low, inf), nextafter(high, -inf)
+    rows = np.stack((np.minimum(u._rows[0], -low), np.minimum(u._rows[1], high)))
+    empty: Mask = np.asarray(rows[1] < -rows[0])
+    if empty.any():
+        point = min(max(0.0, low), high)
+        rows = np.stack((np.where(empty, -point, rows[0]), np.where(empty, point, rows[1])))
+    return IntervalArray._of_rows(rows), empty
 
 
 def _constant(step: Step) -> IntervalArray:
