@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from intervals.formula import Formula
     from intervals.interval import Interval
     from intervals.jet import Jet
+    from intervals.operators import krawczyk
     from intervals.relations import Overlap
+    from intervals.zero_finder import zeros
 
     pi, e = Interval.pi, Interval.e
 
@@ -35,6 +37,8 @@ _HOMES = {
     "Jet": "jet",
     "Overlap": "relations",
     "TightArray": "array",
+    "krawczyk": "operators",
+    "zeros": "zero_finder",
 }
 
 __all__ = [
@@ -55,7 +59,9 @@ __all__ = [
     "decimal_up",
     "e",
     "fraction",
+    "krawczyk",
     "pi",
+    "zeros",
 ]
 __all__ += functions.__all__
 

@@ -169,6 +169,8 @@ class IntervalArray(Relations[Mask], Elementary):
         rows = np.minimum(*self._pair(other))
         return None if (rows[1] < -rows[0]).any() else self._like(extended(rows, rows))
 
+    __and__, __or__ = intersection, hull
+
     def bisect(self) -> tuple[IntervalArray, IntervalArray]:
         """Return two arrays, the halves of each interval, cut at `mid`."""
         middle = self.mid
@@ -214,9 +216,44 @@ class IntervalArray(Relations[Mask], Elementary):
             return self._like(self._rows[:, index])
         return self._like(joined(self._rows[0][index], self._rows[1][index]))
 
-    def reshape(self, *shape: int) -> IntervalArray:
+    def reshape(self, *shape: int | tuple[int, ...]) -> IntervalArray:
         """Return the same intervals in another shape."""
-        return self._like(self._rows.reshape(2, *shape))
+        sizes = shape[0] if len(shape) == 1 and isinstance(shape[0], tuple) else shape
+        return self._like(self._rows.reshape(2, *sizes))
+
+    def flatten(self) -> IntervalArray:
+        """Return the intervals along one axis."""
+        return self.reshape(-1)
+
+    def transpose(self, *axes: int) -> IntervalArray:
+        """Return the array with its axes in another order, the opposite one if none is given."""
+        order = axes or range(self.ndim)[::-1]
+        return self._like(self._rows.transpose(0, *(i % self.ndim + 1 for i in order)))
+
+    def copy(self) -> IntervalArray:
+        """Return the array, which does not change."""
+        return self
+
+    @property
+    def dtype(self) -> np.dtype[np.float64]:
+        """The type of the endpoints."""
+        return self._rows.dtype
+
+    def dot(self, other: Any) -> Any:
+        """Do as np.dot."""
+        return np.dot(self, other)
+
+    def mean(self, axis: Any = None, *, keepdims: bool = False) -> Any:
+        """Return the means over some axes, or over all elements."""
+        return np.mean(self, axis=axis, keepdims=keepdims)
+
+    def max(self, axis: Any = None, *, keepdims: bool = False) -> Any:
+        """Return the range of the largest element along some axes, or of all."""
+        return np.max(self, axis=axis, keepdims=keepdims)
+
+    def min(self, axis: Any = None, *, keepdims: bool = False) -> Any:
+        """Return the range of the smallest element along some axes, or of all."""
+        return np.min(self, axis=axis, keepdims=keepdims)
 
     def item(self) -> Interval:
         """Return the only element, exactly, as an Interval; OverflowError if it is not bounded."""
@@ -277,7 +314,7 @@ class IntervalArray(Relations[Mask], Elementary):
     def __array_function__(self, function: Any, _types: Any, arguments: Any, options: Any) -> Any:
         return numpy_protocol.apply_function(type(self), function, arguments, options)
 
-    def __array__(self, *_arguments: Any, **_options: Any) -> NoReturn:
+    def __array__(self, *_arguments: Any, **_options: Any) -> Any:
         raise TypeError("an IntervalArray is no array of numbers: take .inf, .sup or .mid")
 
     def sum(

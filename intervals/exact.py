@@ -1,5 +1,6 @@
 """Exact numbers in and out: decimal strings are rationals, printed decimals are outward bounds."""
 
+import re
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Number, Rational
@@ -8,6 +9,7 @@ from typing import Any
 Exact = int | Fraction | str | Decimal
 
 _LONGEST = 4000  # digits or exponent: beyond it a number is a typing error or an attack
+_UNCERTAIN = re.compile(r"([+-]?\d+(?:\.(\d*))?)\?(\d*)([ud]?)(e[+-]?\d+)?", re.ASCII)
 _PLACES = 60  # beyond the digits: farther from the point a decimal has an exponent
 
 
@@ -65,15 +67,30 @@ def is_time(value: object) -> bool:
 def pair(lower: Exact, upper: Exact | None) -> tuple[Fraction, Fraction]:
     """Return the ends that a constructor was given: two numbers, one, or text such as "[1.1, 1.2]".
 
-    Reversed ends raise ValueError.
+    "3.56?1" is 3.56 up to 1 in its last place, "3.56?" up to half a unit, "3.56?2u" at most 2 units
+    more, "3.56?2d" less, "3.56?1e-3" a thousandth (IEEE 1788). Reversed ends raise ValueError.
     """
-    if upper is None and isinstance(lower, str) and lower.strip().startswith("["):
-        lower, upper = _bracketed(lower.strip())
+    if upper is None and isinstance(lower, str):
+        if lower.strip().startswith("["):
+            lower, upper = _bracketed(lower.strip())
+        elif parts := _UNCERTAIN.fullmatch(lower.strip()):
+            return _uncertain(*parts.groups())
     low = fraction(lower)
     high = low if upper is None else fraction(upper)
     if low > high:
         raise ValueError(f"reversed interval: {lower} > {upper}")
     return low, high
+
+
+def _uncertain(
+    middle: str, places: str | None, units: str, side: str, exponent: str | None
+) -> tuple[Fraction, Fraction]:
+    """Return the ends of a decimal with an uncertainty in units of its last place."""
+    scale = fraction(f"1{exponent or 'e0'}")
+    unit = scale * Fraction(10) ** -len(places or "")
+    reach = (Fraction(int(units)) if units else Fraction(1, 2)) * unit
+    value = fraction(middle) * scale
+    return value - reach * (side != "u"), value + reach * (side != "d")
 
 
 def _bracketed(text: str) -> tuple[str, str]:

@@ -64,7 +64,7 @@ class Interval(Relations[bool], Elementary):
     Interval("0.2121") is the tightest enclosure of 2121/10000 at `precision` bits,
     Interval("1.11", "1.15") that of a range; ints, Fractions and "7/5" enter the same way. A
     float raises TypeError; Interval.from_float(x) takes the binary number itself. What `str`
-    prints, such as "[1.11, 1.15]", is read as well.
+    prints, such as "[1.11, 1.15]", is read as well, and "3.56?1". Interval(X) is X.
 
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
@@ -76,9 +76,21 @@ class Interval(Relations[bool], Elementary):
     _hi: _Raw
     precision: int
 
-    def __init__(self, lower: Exact, upper: Exact | None = None, *, precision: int = 53) -> None:
+    def __init__(
+        self,
+        lower: Exact | Interval,
+        upper: Exact | Interval | None = None,
+        *,
+        precision: int | None = None,
+    ) -> None:
+        if isinstance(lower, Interval) or isinstance(upper, Interval):
+            upper = lower if upper is None else upper
+            given = [x for x in (lower, upper) if isinstance(x, Interval)]
+            precision = precision or max(x.precision for x in given)
+            lower = lower.inf if isinstance(lower, Interval) else lower
+            upper = upper.sup if isinstance(upper, Interval) else upper
         low, high = pair(lower, upper)
-        self.precision = precision = _checked(precision)
+        self.precision = precision = _checked(53 if precision is None else precision)
         self._lo = rounded(low, precision, DOWN)
         self._hi = rounded(high, precision, UP)
 
@@ -93,6 +105,12 @@ class Interval(Relations[bool], Elementary):
             raise ValueError(f"not a finite binary64 number: {value!r}")
         raw = from_bits(number)
         return _outward(raw, raw, _checked(precision))
+
+    @classmethod
+    def from_midpoint(cls, mid: Exact, rad: Exact, *, precision: int = 53) -> Interval:
+        """Enclose [mid - rad, mid + rad], rad >= 0."""
+        m, r = fraction(mid), fraction(rad)
+        return cls(m - r, m + r, precision=precision)
 
     @classmethod
     def pi(cls, *, precision: int = 53) -> Interval:
@@ -158,6 +176,12 @@ class Interval(Relations[bool], Elementary):
         if mpf_lt(high, low):
             return None
         return _outward(low, high, max(self.precision, other.precision))
+
+    __and__, __or__ = intersection, hull
+
+    def __contains__(self, other: Interval | Exact) -> bool:
+        """Return whether an interval, or an exact number, lies in this one."""
+        return self.contains(other)
 
     def with_precision(self, precision: int) -> Interval:
         """Return an enclosure of this interval at another precision."""

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from importlib import import_module
 from itertools import accumulate
+from math import prod
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -145,6 +147,7 @@ _OF_ONE: dict[Any, tuple[str, ...]] = {
     np.take: ("indices", "axis"),
     np.delete: ("obj", "axis"),
     **dict.fromkeys((np.diag, np.tril, np.triu), ("k",)),
+    np.pad: ("pad_width", "mode"),  # with 0
     np.diagonal: ("offset", "axis1", "axis2"),
 }
 _OF_MANY: dict[Any, tuple[str, ...]] = {
@@ -217,6 +220,52 @@ def _largest(x: Any, axis: Any = None, **options: Any) -> Any:
     return type(x).from_floats(x.inf.max(axis=axis, **options), x.sup.max(axis=axis, **options))
 
 
+def _full_like(x: Any, value: Any) -> Any:
+    return 0 * x + type(x)(value)
+
+
+def _append(x: Any, y: Any, axis: int | None = None) -> Any:
+    parts = [x, y] if isinstance(y, type(x)) else [x, type(x)(y)]
+    return np.concatenate([np.ravel(part) for part in parts] if axis is None else parts, axis or 0)
+
+
+def _tensordot(x: Any, y: Any, axes: Any = 2) -> Any:
+    left, right = (range(-axes, 0), range(axes)) if isinstance(axes, int) else axes
+    left, right = ([i % v.ndim for i in np.atleast_1d(a)] for a, v in ((left, x), (right, y)))
+    rest = [[i for i in range(v.ndim) if i not in a] for a, v in ((left, x), (right, y))]
+    rows = np.transpose(x, rest[0] + left), np.transpose(y, right + rest[1])
+    outer = [x.shape[i] for i in rest[0]], [y.shape[i] for i in rest[1]]
+    inner = prod(x.shape[i] for i in left)
+    product = rows[0].reshape(prod(outer[0]), inner) @ rows[1].reshape(inner, prod(outer[1]))
+    return product.reshape(*outer[0], *outer[1])
+
+
+def _kron(x: Any, y: Any) -> Any:
+    n = max(x.ndim, y.ndim)
+    x, y = (v.reshape(*(1,) * (n - v.ndim), *v.shape) for v in (x, y))
+    blocks = x.reshape(*(s for size in x.shape for s in (size, 1)))
+    product = blocks * y.reshape(*(s for size in y.shape for s in (1, size)))
+    return product.reshape(*(a * b for a, b in zip(x.shape, y.shape, strict=True)))
+
+
+def _cross(x: Any, y: Any) -> Any:
+    if x.shape[-1] != 3 or y.shape[-1] != 3:
+        raise ValueError("a cross product is one of vectors of length 3")
+    (a, b, c), (u, v, w) = (np.moveaxis(z, -1, 0) for z in (x, y))
+    return np.stack((b * w - c * v, c * u - a * w, a * v - b * u), axis=-1)
+
+
+def _norm(x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+    return np.sqrt(x.sqr().sum(axis=axis, keepdims=keepdims))
+
+
+def _by_linalg(name: str) -> Callable[..., Any]:
+    def function(*arrays: Any) -> Any:
+        return getattr(import_module("intervals.linalg"), name)(*arrays)
+
+    return function
+
+
 _ASKING: dict[Any, Callable[..., Any]] = {
     np.shape: lambda x: x.shape,
     np.ndim: lambda x: x.ndim,
@@ -231,6 +280,15 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.mean: _mean,
     np.diff: _diff,
     np.cumsum: _cumsum,
+    np.full_like: _full_like,
+    np.append: _append,
+    np.tensordot: _tensordot,
+    np.kron: _kron,
+    np.cross: _cross,
+    np.linalg.norm: _norm,
+    np.linalg.solve: _by_linalg("solve"),
+    np.linalg.inv: _by_linalg("inverse"),
+    np.linalg.eigvals: _by_linalg("eigenvalues"),
     np.trace: lambda x, offset=0: np.diagonal(x, offset).sum(axis=-1),
     np.max: _largest,
     np.min: lambda x, axis=None, **options: -_largest(-x, axis, **options),

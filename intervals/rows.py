@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.errors import DomainError
-from intervals.exact import fraction, no_decimal, whole
+from intervals.exact import fraction, no_decimal, pair, whole
 from intervals.rounding import (
     ETA,
     MAX,
@@ -372,6 +372,8 @@ def exact_rows(values: Any) -> Rows:
     """Return rows of (nested lists of) exact numbers and pairs, as `IntervalArray.from_exact`."""
     if isinstance(values, np.ndarray) and not values.size:
         return np.empty((2, *values.shape))
+    if isinstance(rows := getattr(values, "_rows", None), np.ndarray):
+        return rows
     pairs = np.array(_nested(values), dtype=np.float64)
     if pairs.size == 0:
         pairs = pairs.reshape(*pairs.shape, 2)
@@ -435,7 +437,10 @@ def _endpoint(value: Any, name: str) -> Fraction:
 
 def _enclosure(value: Any) -> tuple[float, float]:
     """Return (-lower, upper), the tightest, of an exact number or an Interval."""
-    low, high = _endpoint(value, "inf"), _endpoint(value, "sup")
+    if isinstance(value, str):
+        low, high = pair(value, None)
+    else:
+        low, high = _endpoint(value, "inf"), _endpoint(value, "sup")
     return -towards(low, float_down), towards(high, float_up)
 
 

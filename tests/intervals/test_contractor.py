@@ -13,7 +13,7 @@ from intervals.formula import Formula
 from intervals.newton import Roots
 from intervals.reverse import quotient, root
 from intervals.shaving import shaved
-from intervals.zeros import zeros
+from intervals.zero_finder import zeros
 from tests.intervals.boxes import for_all
 
 NAMES = {  # ends between which boxes are drawn

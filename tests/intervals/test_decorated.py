@@ -208,7 +208,7 @@ def test_text_pickle_and_copies(ends, decoration, precision):
 
 
 def test_errors():
-    for text in ("[1, 2]_ill", "[1, 2]_good", "[2, 1]", "[inf]", "[1, 2, 3]", "[nai]_trv", "1?"):
+    for text in ("[1, 2]_ill", "[1, 2]_good", "[2, 1]", "[inf]", "[1, 2, 3]", "[nai]_trv", "1??"):
         with pytest.raises(ValueError):
             Decorated(text)
     for text in ("[empty]_com", "[1, inf]_com", "[1, inf", "[a, b]"):

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 import intervals
 from intervals import ComplexInterval, Decorated, Formula, Interval, IntervalArray, Jet
 from intervals.contractor import contract
-from intervals.krawczyk import krawczyk, newton_system
 from intervals.newton import Roots, derivative, newton
+from intervals.operators import krawczyk, newton_system
 from intervals.search import range_of, sign_of
 from intervals.taylor import taylor
-from intervals.zeros import zeros
+from intervals.zero_finder import zeros
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from tests.intervals.boxes import for_all
 from tests.proofs.trusted.kernel.test_formulas import expressions, formula, points

@@ -15,7 +15,7 @@ from intervals.array import IntervalArray
 from intervals.branch import clusters, evaluated, one_box, split
 from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
-from intervals.zeros import _examined, zeros
+from intervals.zero_finder import _examined, zeros
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all
 from tests.intervals.claims import from_roots, holds, horner
@@ -166,7 +166,7 @@ def test_large_boxes_and_values_beyond_binary64():
     for f, box, roots in (
         (lambda x: x * x - 4, huge.hull(-huge), [-2, 2]),
         (lambda x: x**3 - 8, huge.hull(-huge), [2]),
-        (lambda x: x.exp() - 1, Interval(-(10**6), 10**6), [0]),
+        (lambda x: (x - 1).exp() - 1, Interval(-(10**6), 10**6), [1]),
     ):
         results = zeros(f, box)
         assert outcomes(results) == [Roots.UNIQUE] * len(roots)

@@ -15,7 +15,7 @@ from time import process_time
 from typing import NamedTuple
 
 from intervals.newton import Roots
-from intervals.zeros import zeros
+from intervals.zero_finder import zeros
 from proofs.benchmark.page import environment
 from proofs.benchmark.zeros.systems import System, systems
 from proofs.report.markup import markdown_table

@@ -37,8 +37,8 @@ from intervals.formula import Formula
 from intervals.generic import meet
 from intervals.interval import Interval
 from intervals.jet import Jet
-from intervals.krawczyk import SystemResult, contract, krawczyk
 from intervals.newton import Roots
+from intervals.operators import SystemResult, contract, krawczyk
 from intervals.rounding import MAX
 from intervals.shaving import shaved
 from intervals.systems import Function, components
