@@ -333,6 +333,30 @@ def test_unbounded_arrays_contain_what_decorated_sets_are(name, x, y):
     assert expected.inf == -math.inf or low > -math.inf or expected.inf < -MAX * (1 - 1e-15)
 
 
+INSIDE = st.sampled_from([-1e300, -1e9, -3.0, -1.0, 0.0, 0.25, 2.0, 1e9, 1e300])
+
+
+@for_all(
+    st.sampled_from(["pow", "hypot", "atan2", *ONE]),
+    UNBOUNDED,
+    UNBOUNDED,
+    INSIDE,
+    INSIDE,
+    tries=400,
+)
+def test_unbounded_arrays_contain_the_values_at_points(name, x, y, a, b):
+    sets = [IntervalArray.from_floats([low], [high]) for low, high in (x, y)]
+    if not (x[0] <= a <= x[1] and y[0] <= b <= y[1]):
+        return
+    count = 2 if name in ("pow", "hypot", "atan2") else 1
+    try:
+        found = getattr(sets[0], name)(*sets[1:count])
+        value = getattr(Interval.from_float(a), name)(*map(Interval.from_float, [b][: count - 1]))
+    except (DomainError, OverflowError):
+        return
+    assert found.contains(value).all()
+
+
 def test_division_by_zero_is_refused():
     for bounds in ((0.0, 0.0), (-1.0, 1.0), (0.0, 1.0), (-1.0, 0.0)):
         x = IntervalArray.from_floats([1.0, bounds[0]], [1.0, bounds[1]])
