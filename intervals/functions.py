@@ -9,15 +9,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib import import_module
 from math import inf
-from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeVar, overload
+from typing import Any, NamedTuple, Protocol, Self, TypeVar, overload
 
-if TYPE_CHECKING:
-    from intervals.analytic import Analytic
-    from intervals.interval import Interval
-
-    _N = TypeVar("_N", bound="Elementary | Analytic")
 _S = TypeVar("_S")
+
+
+class Number(Protocol):
+    """A number, or set of numbers, of a type that has the functions as methods."""
+
+    def exp(self) -> Any:
+        """Return e^x."""
+
+
+_N = TypeVar("_N", bound=Number)
 
 __all__ = [
     "acos",
@@ -96,7 +102,7 @@ class Function:
         TABLE[self.name] = self
 
     @overload
-    def __call__(self, x: int | Fraction) -> Interval: ...
+    def __call__(self, x: int | Fraction) -> Any: ...
     @overload
     def __call__(self, x: _N) -> _N: ...
     def __call__(self, x: Any) -> Any:
@@ -111,9 +117,7 @@ def _with_methods(name: str, x: Any) -> Any:
     if hasattr(x, name):
         return x
     if isinstance(x, int | Fraction):
-        from intervals.interval import Interval
-
-        return Interval(x)
+        return import_module("intervals.interval").Interval(x)
     raise TypeError(f"{name} takes an Interval, IntervalArray, Jet or exact number, not {x!r}")
 
 

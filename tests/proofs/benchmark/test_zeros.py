@@ -78,7 +78,10 @@ def test_transcriptions_have_published_zeros(name):
 
 def test_a_wrong_count_is_noticed(monkeypatch, tmp_path, capsys):
     """A known number that is one off ends with status 3; an undecided double zero with 1."""
-    boggs, double = SYSTEMS["Boggs"], System("double", "", lambda x: x**2, [Interval(-1, 1)], 1)
+    boggs, double = (
+        SYSTEMS["Boggs"],
+        System("double", "", lambda x: (2 * x**2 - 1) ** 2, [Interval(0, 1)], 1),
+    )
     for known, status in ((3, 0), (2, 3), (4, 3)):
         monkeypatch.setattr(command, "systems", lambda n=known: [boggs._replace(known=n)])
         assert command.main(["--out", str(tmp_path), "--quiet"]) == status
