@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ def quotient(z: IntervalArray, v: IntervalArray, u: IntervalArray) -> IntervalAr
     if not through.any():
         return z / v
     rows = (z / IntervalArray._of_rows(np.where(through, _ONE._rows, v._rows)))._rows
-    rows = np.where(through, MAX, rows)
+    rows = np.where(through, inf, rows)
     beside = through & ~np.asarray(z.contains_zero())
     if beside.any():
         low, high = _beside(*(x if x.size == 1 else x[beside] for x in (z, v, u)))
@@ -54,12 +55,14 @@ def _beside(z: IntervalArray, v: IntervalArray, u: IntervalArray) -> Any:
     z, v = where(negative, -z, z), where(negative, -v, v)
     least = IntervalArray.from_floats(z.inf)
     below, above = v.inf < 0, v.sup > 0
-    left = (least / IntervalArray.from_floats(np.where(below, v.inf, -1.0))).sup
-    right = (least / IntervalArray.from_floats(np.where(above, v.sup, 1.0))).inf
-    left, right = np.where(below, left, -MAX), np.where(above, right, MAX)
+    low, high = np.isfinite(v.inf), np.isfinite(v.sup)
+    left = (least / IntervalArray.from_floats(np.where(below & low, v.inf, -1.0))).sup
+    right = (least / IntervalArray.from_floats(np.where(above & high, v.sup, 1.0))).inf
+    left = np.where(below, np.where(low, left, 0.0), -inf)
+    right = np.where(above, np.where(high, right, 0.0), inf)
     only_right = u.inf > left
     only_left = (u.sup < right) & ~only_right
-    return np.where(only_right, right, -MAX), np.where(only_left, left, MAX)
+    return np.where(only_right, right, -inf), np.where(only_left, left, inf)
 
 
 def either_sign(root: IntervalArray, u: IntervalArray) -> IntervalArray:
@@ -73,7 +76,7 @@ def either_sign(root: IntervalArray, u: IntervalArray) -> IntervalArray:
 def _logarithm(z: IntervalArray) -> IntervalArray:
     """Return a superset of {x: exp x in Z}: Z may reach down to 0 and below."""
     low, high = z.maximum(_TINY).log()._rows
-    return IntervalArray._of_rows(np.stack((np.where(z.inf > 0, low, MAX), high)))
+    return IntervalArray._of_rows(np.stack((np.where(z.inf > 0, low, inf), high)))
 
 
 def branches(root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalArray) -> Any:
@@ -84,11 +87,11 @@ def branches(root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalAr
     and two after it are tried. The least number >= inf U is in the first part that is not left of
     inf U; likewise for sup U.
     """
-    places = np.rint(u.inf / np.pi + 0.5 * (shift.mid > 1))
-    low = _first(root, u, sign, shift, places)
-    places = np.rint(u.sup / np.pi + 0.5 * (shift.mid > 1))
-    high = -_first(-root, -u, sign, -shift, -places)
     near = (np.abs(u.inf) < _FAR) & (np.abs(u.sup) < _FAR)
+    places = np.rint(np.where(near, u.inf, 0.0) / np.pi + 0.5 * (shift.mid > 1))
+    low = _first(root, u, sign, shift, places)
+    places = np.rint(np.where(near, u.sup, 0.0) / np.pi + 0.5 * (shift.mid > 1))
+    high = -_first(-root, -u, sign, -shift, -places)
     part = IntervalArray.from_floats(
         np.where(low <= high, low, MAX), np.where(low <= high, high, MAX)
     )
@@ -132,7 +135,7 @@ def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
     candidate = np.where(rows > 0, size * (1 + _SLACK), below)
     proved = near & ((IntervalArray.from_floats(candidate) ** n).inf >= rows)
     proved |= (candidate == 0) & (rows <= 0)  # exact, where an enclosure of 0^n may reach below 0
-    return IntervalArray._of_rows(np.where(proved, candidate, MAX))
+    return IntervalArray._of_rows(np.where(proved, candidate, inf))
 
 
 def _power(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:

@@ -42,6 +42,10 @@ _LEAST_NORMAL = 2.0**-1022
 _ULP, _ETA, _MAX = map(constant, (ULP, ETA, MAX))
 
 
+class BeyondRange(OverflowError, ValueError):
+    """A number that is asked for, and is infinite."""
+
+
 def float_down(value: Fraction | int) -> float:
     """Return the largest finite binary64 number <= value.
 

@@ -23,6 +23,7 @@ from intervals.rounding import (
     ETA,
     MAX,
     ULP,
+    BeyondRange,
     Rows,
     all_of,
     constant,
@@ -449,8 +450,10 @@ def float_rows(lower: Any, upper: Any) -> Rows:
     low = high = _binary64(lower)
     if upper is not lower:
         low, high = np.broadcast_arrays(low, _binary64(upper))
-    if not ((low <= high) & (low < inf) & (high > -inf)).all():
+    if not (low <= high).all():
         raise ValueError("bounds must be numbers or infinite, with lower <= upper")
+    if (low == inf).any() or (high == -inf).any():
+        raise BeyondRange("an interval holds a number")
     return joined(-low, high)
 
 

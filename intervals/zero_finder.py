@@ -39,7 +39,6 @@ from intervals.interval import Interval
 from intervals.jet import Jet
 from intervals.newton import Roots
 from intervals.operators import SystemResult, contract, krawczyk
-from intervals.rounding import MAX
 from intervals.shaving import shaved
 from intervals.systems import Function, components
 
@@ -83,7 +82,7 @@ def zeros(
     f = Formula(f, len(given))
     demands = [_demand(f, IntervalArray([0]))]
     if where is not None:
-        region = IntervalArray.from_floats([0.0], [MAX])
+        region = IntervalArray.from_floats([0.0], [inf])
         demands.append(_demand(Formula(where, len(given)), region))
     while len(waiting[0]):
         limit -= len(waiting[0])

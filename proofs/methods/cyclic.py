@@ -13,7 +13,7 @@ coordinate of z_0: see `intervals.contractor` for why no solution is lost. (2) K
 for a larger part finds none in the given one, or exactly one, which is in its image. The variable
 z_i occurs in f(z_i) - z_(i+1) with the derivative J_i, and in f(z_(i-1)) - z_i with -1. So with C_i
 the columns of a matrix C that multiply f(z_i) - z_(i+1), the columns of C J that multiply z_i are
-C_i J_i - C_(i-1). The rest is the theorem of `intervals.krawczyk`.
+C_i J_i - C_(i-1). The rest is the theorem of `intervals.operators`.
 
 Source: Galias, Interval methods for rigorous investigations of periodic orbits, Int. J. Bifurcation
 Chaos 11 (2001).
@@ -35,7 +35,6 @@ from intervals.branch import Bounds, Boxes, concatenated, evaluated, larger
 from intervals.contractor import contracted
 from intervals.formula import Formula, NoFormula
 from intervals.generic import meet, middle, where
-from intervals.rounding import MAX
 from intervals.systems import Function, components, inverses, jacobian
 
 _AT_ONCE = 2048  # boxes that are contracted together
@@ -43,7 +42,7 @@ _MATRICES = 128  # of them at a time by Krawczyk's operator
 _PASSES = 16  # along the orbit, before a box is halved
 _NARROW = 1 / 8  # of the given box: where Krawczyk's operator is worth its price
 _SMALLEST = 2.0**-38
-_ZERO, _POSITIVE = IntervalArray([0]), IntervalArray.from_floats([0.0], [MAX])
+_ZERO, _POSITIVE = IntervalArray([0]), IntervalArray.from_floats([0.0], [inf])
 
 
 class Isolation(NamedTuple):

@@ -93,7 +93,7 @@ HARMLESS = {  # what was recorded, and where its zero is
     "text": (lambda x: x + 1 if str(x) == "1" else x - 1, 1),
     "loop": (lambda x: sum((x for _ in range(3)), 0) - 3, 1),
     "numpy": (lambda x: np.multiply(2, np.sqrt(x)) - 2, 1),
-    "array": (lambda x: list(np.array([[1, 1]]) @ np.array([x, x]) - 2), 1),
+    "array": (lambda x: np.array([[1, 1]]) @ np.array([x, x]) - 2, 1),
 }
 SOLVERS = {
     "zeros": lambda f: zeros(f, BOX),
