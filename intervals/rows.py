@@ -108,17 +108,16 @@ def product(a: Rows, b: Rows) -> Rows:
     With a = (-l, u) and b = (-m, v): a0 b0 = l m, a1 b1 = u v, a0 b1 = -l v, a1 b0 = -u m, and
     x y lies between the least and the largest of l m, u v, l v, u m.
     """
-    exact = _short(a) and _short(b) and _halves(a) and _halves(b)
     if is_thin(a):
         a, b = b, a
     if not is_thin(b):
-        return _of_four(a, b, np.multiply, exact=exact)
+        return _of_four(a, b, np.multiply, exact=_exact_factors(a, b))
     if is_thin(a):
         point = a[1] * b[1]
         rows = joined(-point, point)
-        return rows if exact else outward(rows)
+        return rows if _exact_factors(a[1], b[1]) else outward(rows)
     scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
-    if exact:
+    if _exact_factors(a, b[1]):
         return _of_point(scaled)
     return outward(_of_point(scaled), lambda: _of_point(_without_nan(scaled, a, b)))
 
@@ -164,6 +163,10 @@ def _of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows], *, exact
 def _short(rows: Rows) -> bool:
     """Return whether the first and the last number have at most 26 bits: a guess at all of them."""
     return bool(rows.size) and _is_half(rows.item(0)) and _is_half(rows.item(rows.size - 1))
+
+
+def _exact_factors(a: Rows, b: Rows) -> bool:
+    return _short(a) and _short(b) and _halves(a) and _halves(b)
 
 
 def _is_half(x: float) -> bool:
@@ -261,8 +264,7 @@ def power(rows: Rows, n: int) -> Rows:
 
 def _above(x: Rows, y: Rows) -> Rows:
     """Return upper bounds of the products of numbers."""
-    exact = _short(x) and _halves(x) and _halves(y)
-    return x * y if exact else outward(x * y)
+    return x * y if _exact_factors(x, y) else outward(x * y)
 
 
 def powers(rows: Rows, n: int, above: Callable[[Rows, Rows], Rows]) -> Rows:
