@@ -37,7 +37,7 @@ def no_decimal(value: Any, constructor: str = "from_float") -> TypeError:
     try:
         top, bottom = value.as_integer_ratio()
     except (ValueError, OverflowError):
-        return TypeError(f"{value!r} is no number")
+        return TypeError(f"{value!r} is no number: from_float takes finite ones")
     if Fraction(typed) == Fraction(top, bottom) and bottom < 1 << 20:
         meant = f"write Fraction({top}, {bottom})" if bottom > 1 else f"write {top}"
     else:
@@ -137,7 +137,7 @@ def _rounded(value: Fraction, digits: int, up: bool) -> str:
         integer, shift = integer // 10, shift - 1
     if abs(digits - shift) <= _PLACES + digits:
         return _placed(integer, shift)
-    text = str(abs(integer))
+    text = str(Decimal(abs(integer)))  # of any length, unlike str(int)
     point = f".{text[1:]}" if digits > 1 else ""
     return f"{'-' * (integer < 0)}{text[0]}{point}e{digits - shift - 1}"
 

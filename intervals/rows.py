@@ -66,7 +66,7 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     """Do an elementwise operation on aligned rows in blocks along the longest axis.
 
     The temporaries of a block stay in the cache, and small beside a large result. Few intervals
-    are done one by one, to the same bits (where the processor rounds to nearest), but sooner.
+    are done one by one, sooner, and to the same bits, or exactly where the numbers are short.
     """
     first, ends = operands[0], _BY_ENDS.get(operation)
     if ends and 0 < first.size <= 2 * _FEW and first.shape == operands[-1].shape:
