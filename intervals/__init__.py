@@ -8,118 +8,62 @@ rounded on the way. So what is shown for the result is shown for every number in
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from intervals import functions
 from intervals.errors import DomainError, IntervalError, Undecided
 from intervals.exact import decimal_bounds, decimal_down, decimal_up, fraction
+from intervals.functions import *  # noqa: F403 - the table
 
 if TYPE_CHECKING:
-    from intervals.array import IntervalArray
+    from intervals.array import IntervalArray, TightArray
     from intervals.complex import ComplexInterval
     from intervals.decorated import Decorated
     from intervals.decorations import Decoration
-    from intervals.functions import (
-        acos,
-        acosh,
-        asin,
-        asinh,
-        atan,
-        atan2,
-        atanh,
-        cbrt,
-        ceil,
-        cos,
-        cosh,
-        exp,
-        exp2,
-        exp10,
-        expm1,
-        floor,
-        hypot,
-        log,
-        log1p,
-        log2,
-        log10,
-        maximum,
-        minimum,
-        pow,
-        rootn,
-        round_ties_to_away,
-        round_ties_to_even,
-        sign,
-        sin,
-        sinh,
-        sqrt,
-        tan,
-        tanh,
-        trunc,
-    )
+    from intervals.formula import Formula
     from intervals.interval import Interval
     from intervals.jet import Jet
+    from intervals.operators import krawczyk
     from intervals.relations import Overlap
+    from intervals.zero_finder import zeros
 
     pi, e = Interval.pi, Interval.e
+
+_HOMES = {
+    "ComplexInterval": "complex",
+    "Decorated": "decorated",
+    "Decoration": "decorations",
+    "Formula": "formula",
+    "Interval": "interval",
+    "IntervalArray": "array",
+    "Jet": "jet",
+    "Overlap": "relations",
+    "TightArray": "array",
+    "krawczyk": "operators",
+    "zeros": "zero_finder",
+}
 
 __all__ = [
     "ComplexInterval",
     "Decorated",
     "Decoration",
     "DomainError",
+    "Formula",
     "Interval",
     "IntervalArray",
     "IntervalError",
     "Jet",
     "Overlap",
+    "TightArray",
     "Undecided",
-    "acos",
-    "acosh",
-    "asin",
-    "asinh",
-    "atan",
-    "atan2",
-    "atanh",
-    "cbrt",
-    "ceil",
-    "cos",
-    "cosh",
     "decimal_bounds",
     "decimal_down",
     "decimal_up",
     "e",
-    "exp",
-    "exp2",
-    "exp10",
-    "expm1",
-    "floor",
     "fraction",
-    "hypot",
-    "log",
-    "log1p",
-    "log2",
-    "log10",
-    "maximum",
-    "minimum",
+    "krawczyk",
     "pi",
-    "pow",
-    "rootn",
-    "round_ties_to_away",
-    "round_ties_to_even",
-    "sign",
-    "sin",
-    "sinh",
-    "sqrt",
-    "tan",
-    "tanh",
-    "trunc",
+    "zeros",
 ]
-
-_HOMES = {
-    "ComplexInterval": "complex",
-    "Decorated": "decorated",
-    "Decoration": "decorations",
-    "Interval": "interval",
-    "IntervalArray": "array",
-    "Jet": "jet",
-    "Overlap": "relations",
-}  # of the others: functions
+__all__ += functions.__all__
 
 
 def __getattr__(name: str) -> Any:
@@ -129,6 +73,6 @@ def __getattr__(name: str) -> Any:
     if name in ("pi", "e"):
         found = getattr(__getattr__("Interval"), name)
     else:
-        found = getattr(import_module(f"intervals.{_HOMES.get(name, 'functions')}"), name)
+        found = getattr(import_module(f"intervals.{_HOMES[name]}"), name)
     globals()[name] = found
     return found

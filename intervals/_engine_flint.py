@@ -24,7 +24,7 @@ from typing import Any, TypeAlias
 from flint import arb, ctx
 from mpmath.libmp import from_man_exp
 
-from intervals.functions import DECREASING, DOMAINS
+from intervals.functions import DOMAINS, STEPS, TABLE
 
 Ball: TypeAlias = Any  # flint.arb, which has no types
 Ends: TypeAlias = tuple[Ball, Ball]
@@ -47,9 +47,9 @@ _LIMITS = {  # where the values are finite
         if not domain.closed
     },
 }
-_NAMES = ("exp", "expm1", "log", "log1p", "atan", "asin", "acos", "sinh", "cosh", "tanh", "asinh")
+_OTHERS = {*STEPS, "sin", "cos", "tan"}  # not monotone, or exact
 _FUNCTIONS: dict[str, Callable[[Ball], Ball]] = {
-    **{name: getattr(arb, name) for name in (*_NAMES, "acosh", "atanh", "sqrt")},
+    **{name: getattr(arb, name) for name in {*TABLE} - _OTHERS if hasattr(arb, name)},
     "cbrt": methodcaller("root", 3),
     "exp2": partial(operator.pow, _TWO),
     "exp10": partial(operator.pow, _TEN),
@@ -292,7 +292,7 @@ def _power(self: Any, n: Any) -> Any:
 
 def _elementary(name: str) -> Method:
     """Return the method for a function that is monotone on its domain; outside it is NaN."""
-    function, falls, limits = _operator(_FUNCTIONS[name]), name in DECREASING, _LIMITS.get(name)
+    function, falls, limits = _operator(_FUNCTIONS[name]), TABLE[name].falls, _LIMITS.get(name)
 
     def method(self: Any) -> Any:
         low, high = _balls(self)

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from intervals.analytic import GUARD, Analytic
 from intervals.errors import DomainError
-from intervals.exact import Exact
+from intervals.exact import Exact, refuse_equality
 from intervals.interval import Interval
 
 Number: TypeAlias = "ComplexInterval | Interval | Fraction | int"
@@ -100,9 +100,8 @@ class ComplexInterval(Analytic):
 
     def __eq__(self, other: object) -> bool:
         """Return equality as sets; with a number it raises TypeError, as for an Interval."""
-        if isinstance(other, int | float | complex | Fraction):
-            raise TypeError("a box is no number: use contains, or a second ComplexInterval")
         if not isinstance(other, ComplexInterval):
+            refuse_equality(other)
             return NotImplemented
         return self.real == other.real and self.imag == other.imag
 

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from fractions import Fraction
-from typing import Any, NamedTuple, TypeAlias
+from math import inf, nextafter
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -25,159 +25,16 @@ from intervals.array import IntervalArray, Mask
 from intervals.branch import Boxes, Given, as_box, one_box
 from intervals.errors import DomainError
 from intervals.exact import Exact
-from intervals.functions import Elementary
+from intervals.formula import Formula, Step
+from intervals.functions import DOMAINS, TABLE, Domain
 from intervals.interval import Interval
-from intervals.numpy_protocol import jet_ufunc
 from intervals.reverse import REVERSE
-from intervals.systems import Function, components
+from intervals.systems import Function
 
 _SWEEPS = 2
 
-
-class Node(Elementary):
-    """An operation, a method of IntervalArray, on earlier nodes; a variable, or a constant."""
-
-    __slots__ = ("arguments", "details", "operation")
-
-    def __init__(self, operation: str, *arguments: Any, details: tuple[Any, ...] = ()) -> None:
-        self.operation = operation
-        self.arguments = [_node(u) for u in arguments]
-        self.details = details
-
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        return jet_ufunc(self, ufunc, method, inputs, options)
-
-    def __neg__(self) -> Node:
-        return Node("__neg__", self)
-
-    def __abs__(self) -> Node:
-        return Node("__abs__", self)
-
-    def __add__(self, other: Any) -> Node:
-        return Node("__add__", self, other)
-
-    def __radd__(self, other: Any) -> Node:
-        return Node("__add__", other, self)
-
-    def __sub__(self, other: Any) -> Node:
-        return Node("__sub__", self, other)
-
-    def __rsub__(self, other: Any) -> Node:
-        return Node("__sub__", other, self)
-
-    def __mul__(self, other: Any) -> Node:
-        return self.sqr() if other is self else Node("__mul__", self, other)
-
-    def __rmul__(self, other: Any) -> Node:
-        return Node("__mul__", other, self)
-
-    def __truediv__(self, other: Any) -> Node:
-        return Node("__truediv__", self, other)
-
-    def __rtruediv__(self, other: Any) -> Node:
-        return Node("__truediv__", other, self)
-
-    def __pow__(self, exponent: Any) -> Node:
-        if not isinstance(exponent, int):
-            return self.pow(exponent)
-        if exponent < 0:
-            return 1 / self**-exponent
-        return Node("__pow__", self, details=(exponent,)) if exponent else _node(1)
-
-    def __rpow__(self, base: Any) -> Node:
-        return _node(base).pow(self)
-
-    def _monotone(self, name: str) -> Node:
-        return Node(name, self)
-
-    def sin(self) -> Node:
-        """Return the sine."""
-        return Node("sin", self)
-
-    def cos(self) -> Node:
-        """Return the cosine."""
-        return Node("cos", self)
-
-    def tan(self) -> Node:
-        """Return the tangent."""
-        return Node("tan", self)
-
-    def sqr(self) -> Node:
-        """Return the square."""
-        return self**2
-
-    def recip(self) -> Node:
-        """Return 1 / x."""
-        return 1 / self
-
-    def sincos(self) -> tuple[Node, Node]:
-        """Return both."""
-        return self.sin(), self.cos()
-
-    def rootn(self, n: int) -> Node:
-        """Return the real n-th root."""
-        return Node("rootn", self, details=(n,))
-
-    def pow(self, exponent: Any) -> Node:
-        """Return the real power; one that is not constant is (exp of) a product."""
-        if isinstance(exponent, int | Fraction) and exponent:
-            return Node("pow", self, details=(Fraction(exponent),))
-        return Node("exp", self.log() * exponent)
-
-    def hypot(self, other: Any) -> Node:
-        """Return sqrt(x^2 + y^2)."""
-        return (self**2 + _node(other) ** 2).sqrt()
-
-    def atan2(self, x: Any) -> Node:
-        """Return the angle, which is not undone."""
-        return Node("atan2", self, x)
-
-    def minimum(self, other: Any) -> Node:
-        """Return the smaller, which is not undone."""
-        return Node("minimum", self, other)
-
-    def maximum(self, other: Any) -> Node:
-        """Return the larger, which is not undone."""
-        return Node("maximum", self, other)
-
-
-def _node(value: Any) -> Node:
-    """Return a node; an exact number as a constant."""
-    return value if isinstance(value, Node) else Node("constant", details=(IntervalArray([value]),))
-
-
 Contracted: TypeAlias = "tuple[Interval, ...] | None"
-Values: TypeAlias = dict[Node, IntervalArray]
-
-
-class Formula(NamedTuple):
-    """The nodes in an order in which arguments come first, the variables, the outputs."""
-
-    nodes: list[Node]
-    variables: list[Node]
-    outputs: list[Node]
-
-
-def record(f: Function, count: int) -> Formula | None:
-    """Return f of so many variables as a graph, None if f does what no graph can hold."""
-    variables = [Node("variable") for _ in range(count)]
-    with suppress(TypeError, AttributeError, ValueError, NotImplementedError):
-        outputs = [_node(y) for y in components(f(*variables))]
-        return Formula(_sorted(outputs), variables, outputs)
-    return None
-
-
-def _sorted(outputs: Sequence[Node]) -> list[Node]:
-    """Return the nodes under the outputs, arguments first; without recursion, as it may be deep."""
-    order: dict[Node, None] = {}
-    waiting = [(node, False) for node in outputs]
-    while waiting:
-        node, ready = waiting.pop()
-        if ready:
-            order.setdefault(node)
-        elif node not in order:
-            waiting += [(node, True), *((u, False) for u in node.arguments)]
-    return list(order)
+Values: TypeAlias = list[IntervalArray]
 
 
 def contract(f: Function, box: Given, targets: Sequence[Exact | Interval]) -> Contracted:
@@ -187,9 +44,7 @@ def contract(f: Function, box: Given, targets: Sequence[Exact | Interval]) -> Co
     if f is no formula of the functions of `intervals`.
     """
     given = one_box(box)
-    formula = record(f, len(given))
-    if formula is None:
-        raise TypeError("f is no formula that can be undone")
+    formula = Formula(f, len(given))
     boxes, empty = contracted(formula, given, [IntervalArray([t]) for t in targets])
     return None if empty.any() else as_box(boxes, 0)
 
@@ -203,12 +58,13 @@ def contracted(
     """
     empty: Mask = np.zeros(len(boxes[0]), dtype=bool)
     for _ in range(sweeps):
-        left = _forward(formula, boxes)
+        left, outside = _forward(formula, boxes)
+        empty |= outside
         for output, target in zip(formula.outputs, targets, strict=True):
             empty |= _cut(left, output, target)
-        for node in reversed(formula.nodes):
-            empty |= _backward(left, node)
-        smaller = tuple(left[v] for v in formula.variables)
+        for place in range(len(formula.steps) - 1, formula.variables - 1, -1):
+            empty |= _backward(formula, left, place)
+        smaller = tuple(left[: formula.variables])
         gained = any((4 * y.wid < 3 * x.wid).any() for x, y in zip(boxes, smaller, strict=True))
         boxes = smaller
         if not gained:
@@ -216,19 +72,61 @@ def contracted(
     return boxes, empty
 
 
-def _forward(formula: Formula, boxes: Boxes) -> Values:
-    """Return enclosures of the values of all nodes; of one shape, but for constants."""
-    values = dict(zip(formula.variables, boxes, strict=True))
-    for node in formula.nodes:
-        if node.operation == "constant":
-            values[node] = node.details[0]
-        elif node.operation != "variable":
-            operation = _FORWARD.get(node.operation) or getattr(IntervalArray, node.operation)
-            values[node] = operation(*(values[u] for u in node.arguments), *node.details)
-    return values
+def _forward(formula: Formula, boxes: Boxes) -> tuple[Values, Mask]:
+    """Return enclosures of the values of all steps where f is defined, and where it is nowhere.
+
+    They are of one shape, but for constants. An argument is cut to the domain of its function.
+    """
+    values = list(boxes)
+    outside: Mask = np.zeros(1, dtype=bool)
+    for step in formula.steps[formula.variables :]:
+        domain = _domain(step)
+        if domain is None:
+            operands = [values[i] for i in step.arguments]
+            values.append(_FORWARD.get(step.operation, Step.applied)(step, *operands))
+            continue
+        place, *others = step.arguments
+        inner, empty = _within(values[place], domain, closed=domain.closed)
+        result = step.applied(inner, *(values[i] for i in others))
+        if not domain.closed:  # where it was cut, f has no bound
+            cut = inner._rows < values[place]._rows
+            result = IntervalArray._of_rows(np.where(cut, inf, result._rows))
+        values[place] = _within(values[place], domain, closed=True)[0]
+        values.append(result)
+        outside = outside | empty
+    return values, outside
 
 
-def _exp(u: IntervalArray) -> IntervalArray:
+def _domain(step: Step) -> Domain | None:
+    """Return the domain of the first argument where it is not the line."""
+    if step.operation == "pow" or (step.operation == "rootn" and step.details[0] % 2 == 0):
+        return TABLE["sqrt"].domain
+    return DOMAINS.get(step.operation)
+
+
+def _within(u: IntervalArray, domain: Domain, *, closed: bool) -> tuple[IntervalArray, Mask]:
+    """Return the part of U in the domain, or in its floats but the ends, and where there is none.
+
+    There it is a point of the domain.
+    """
+    low = -inf if domain.low is None else float(domain.low)
+    high = inf if domain.high is None else float(domain.high)
+    if not closed:
+        low, high = nextafter(low, inf), nextafter(high, -inf)
+    rows = np.stack((np.minimum(u._rows[0], -low), np.minimum(u._rows[1], high)))
+    empty: Mask = np.asarray(rows[1] < -rows[0])
+    if empty.any():
+        point = min(max(0.0, low), high)
+        rows = np.stack((np.where(empty, -point, rows[0]), np.where(empty, point, rows[1])))
+    return IntervalArray._of_rows(rows), empty
+
+
+def _constant(step: Step) -> IntervalArray:
+    value = step.details[0]
+    return value if isinstance(value, IntervalArray) else IntervalArray([value])
+
+
+def _exp(_: Step, u: IntervalArray) -> IntervalArray:
     """Return enclosures of exp u, down to 0 where u < -650: there the kernels are slow."""
     low = u.inf < -650.0
     if not low.any():
@@ -237,26 +135,27 @@ def _exp(u: IntervalArray) -> IntervalArray:
     return IntervalArray._of_rows(np.stack((np.where(low, 0.0, rows[0]), rows[1])))
 
 
-_FORWARD = {"exp": _exp}
+_FORWARD: dict[str, Any] = {"exp": _exp, "constant": _constant}
 
 
-def _cut(left: Values, node: Node, part: IntervalArray) -> Mask:
-    """Cut what is left of a node; return where nothing is, and it stays as it was."""
-    value = left[node]._rows
+def _cut(left: Values, place: int, part: IntervalArray) -> Mask:
+    """Cut what is left of a step; return where nothing is, and it stays as it was."""
+    value = left[place]._rows
     rows = np.minimum(value, part._rows)
     empty: Mask = np.asarray(rows[1] < -rows[0])
     if empty.any():
         rows = np.where(empty, value, rows)
-    left[node] = IntervalArray._of_rows(rows)
+    left[place] = IntervalArray._of_rows(rows)
     return empty
 
 
-def _backward(left: Values, node: Node) -> Mask:
+def _backward(formula: Formula, left: Values, place: int) -> Mask:
     """Cut what is left of the arguments; a reverse operation without enclosure cuts nothing."""
     empty: Mask = np.zeros(1, dtype=bool)
-    for argument, rule in zip(node.arguments, REVERSE.get(node.operation, ()), strict=False):
-        if argument.operation != "constant":
+    operation, arguments, details = formula.steps[place]
+    for argument, rule in zip(arguments, REVERSE.get(operation, ()), strict=False):
+        if formula.steps[argument].operation != "constant":
             with suppress(DomainError, OverflowError):
-                part = rule(left[node], *(left[u] for u in node.arguments), *node.details)
+                part = rule(left[place], *(left[u] for u in arguments), *details)
                 empty = empty | _cut(left, argument, part)
     return empty

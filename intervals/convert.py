@@ -6,6 +6,7 @@ Each says by its type that it is meant as the number that it holds, unlike a flo
 from __future__ import annotations
 
 from decimal import Decimal
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from mpmath.ctx_mp_python import _constant
@@ -13,7 +14,7 @@ from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
 
 from intervals.complex import ComplexInterval
 from intervals.elementary.tightest import DOWN, UP, Raw
-from intervals.exact import decimal_down, decimal_up, fraction
+from intervals.exact import decimal_down, decimal_up
 from intervals.interval import Interval, _make
 
 if TYPE_CHECKING:
@@ -21,23 +22,47 @@ if TYPE_CHECKING:
 
 
 def interval(value: Any, *, precision: int | None = None) -> Interval:
-    """Enclose a Decimal, an mpf or interval of mpmath, an arb of python-flint.
+    """Enclose a Decimal, an mpf of mpmath, an arb of python-flint, a number of sympy.
 
     At `precision` bits it is the tightest enclosure. Without, it has 53, or as many as the number
     has itself: a point then stays what it is, unless it is a Decimal. Infinities and NaN raise
     ValueError, other types TypeError.
     """
     if isinstance(value, Decimal):
-        return Interval(fraction(str(value)), precision=precision or 53)
+        return Interval(value, precision=precision or 53)
+    if getattr(value, "is_Rational", False):  # sympy's
+        return Interval(Fraction(int(value.p), int(value.q)), precision=precision or 53)
+    if hasattr(value, "_mpi_"):
+        raise TypeError("mpmath's intervals are not rigorous: see unproved_mpi")
+    return _enclosed(value, precision)
+
+
+def unproved_mpi(value: Any, *, precision: int | None = None) -> Interval:
+    """Take an iv.mpf of mpmath as the interval that it is.
+
+    Operations of mpmath may have left out true values; what is proved is proved if they have not.
+    """
+    return _enclosed(value, precision)
+
+
+def sympy(x: Interval) -> Any:
+    """Return the same interval as one of sympy, with rational ends."""
+    from sympy import Interval as Closed
+    from sympy import Rational
+
+    return Closed(*(Rational(end.numerator, end.denominator) for end in (x.inf, x.sup)))
+
+
+def _enclosed(value: Any, precision: int | None) -> Interval:
     middle, low, high = _parts(value)
     bits = precision or max(53, *(raw[3] for raw in (middle, low, high)))
     return _make(mpf_add(middle, low, bits, DOWN), mpf_add(middle, high, bits, UP), bits)
 
 
 def complex_interval(value: Any, *, precision: int | None = None) -> ComplexInterval:
-    """Enclose an mpc or complex interval of mpmath, an acb of python-flint, as `interval` does."""
-    if not any(hasattr(value, name) for name in ("_mpc_", "_mpci_", "complex_rad")):
-        raise TypeError(f"not an mpc, an iv.mpc or an acb: {value!r}")
+    """Enclose an mpc of mpmath, an acb of python-flint, as `interval` does."""
+    if not any(hasattr(value, name) for name in ("_mpc_", "complex_rad")):
+        raise TypeError(f"not an mpc or an acb: {value!r}")
     parts = (interval(part, precision=precision) for part in (value.real, value.imag))
     return ComplexInterval(*parts)
 

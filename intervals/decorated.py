@@ -26,8 +26,8 @@ from typing import Any
 
 from intervals import decorations as of
 from intervals.decorations import COM, DAC, EMPTY, ILL, TRV, Decoration, End, Image, infinite
-from intervals.exact import Exact, decimal_down, decimal_up, fraction
-from intervals.functions import DOMAINS, Elementary
+from intervals.exact import Exact, decimal_down, decimal_up, fraction, refuse_equality
+from intervals.functions import REALS, TABLE, Elementary
 from intervals.interval import Interval
 
 
@@ -39,6 +39,8 @@ def _operation(image: Callable[..., Image]) -> Callable[..., Decorated]:
         operands = [_lifted(x, p) for x in arguments]
         empty = any(x.inf > x.sup for x in operands)
         low, high, known = EMPTY if empty else image(*operands)
+        if infinite(low, high):
+            known = min(known, DAC)
         return _make(low, high, min(known, *(x.decoration for x in operands)), p)
 
     return method
@@ -93,9 +95,10 @@ class Decorated(Elementary):
 
     def __eq__(self, other: object) -> bool:
         """Return whether set and decoration are the same; with a number it raises TypeError."""
-        if isinstance(other, int | float | Fraction):
-            raise TypeError("a set is no number: compare its ends, or a second Decorated")
-        return isinstance(other, Decorated) and self._key() == other._key()
+        if not isinstance(other, Decorated):
+            refuse_equality(other)
+            return NotImplemented
+        return self._key() == other._key()
 
     def __hash__(self) -> int:
         return hash(self._key())
@@ -173,7 +176,7 @@ class Decorated(Elementary):
 
     def rootn(self, n: int) -> Decorated:
         """Return the real n-th root, n >= 1, for even n of x >= 0."""
-        domain = of.REALS if n % 2 else DOMAINS["sqrt"]
+        domain = REALS if n % 2 else TABLE["sqrt"].domain
         return _operation(lambda x: of.monotone(methodcaller("rootn", n), x, domain))(self)
 
     def hypot(self, other: Any) -> Decorated:

@@ -15,7 +15,7 @@ from operator import methodcaller
 from typing import Any, TypeAlias
 
 from intervals.errors import DomainError
-from intervals.functions import DOMAINS, Domain
+from intervals.functions import REALS, STEPS, TABLE, Domain
 from intervals.interval import Interval
 
 
@@ -33,11 +33,8 @@ ILL, TRV, DEF, DAC, COM = Decoration
 Set: TypeAlias = Any  # a Decorated, whose module imports this one
 End: TypeAlias = Fraction | float  # a float is an infinity
 Image: TypeAlias = tuple[End, End, Decoration]
+_LARGE = Fraction(2**1024)
 EMPTY: Image = (inf, -inf, TRV)
-REALS = Domain(None, None, closed=True)
-_STEPS = {"floor", "ceil", "trunc", "round_ties_to_even", "round_ties_to_away", "sign"}
-_BELOW = {"exp": 0, "exp2": 0, "exp10": 0, "expm1": -1, "sign": -1, "tanh": -1}  # limits at -oo
-_ABOVE = {"sign": 1, "tanh": 1}  # and at oo; others are infinite, but for atan
 
 
 def infinite(*ends: End) -> bool:
@@ -91,10 +88,10 @@ def _point(end: End, x: Set) -> Interval:
 
 def named(name: str, x: Set) -> Image:
     """Return the image under a function that is monotone on its domain."""
-    end = Interval.pi(precision=x.precision) / 2 if name == "atan" else inf
-    limits = _BELOW.get(name, -end), _ABOVE.get(name, end)
-    image = monotone(methodcaller(name), x, DOMAINS.get(name, REALS), limits)
-    return _stairs(methodcaller(name), x, *image[:2]) if name in _STEPS else image
+    quarter = Interval.pi(precision=x.precision) / 2
+    limits = (-quarter, quarter) if name == "atan" else TABLE[name].limits
+    image = monotone(methodcaller(name), x, TABLE[name].domain, limits)
+    return _stairs(methodcaller(name), x, *image[:2]) if name in STEPS else image
 
 
 def monotone(
@@ -110,13 +107,26 @@ def monotone(
     holes = [not domain.closed and q in (first, last) for q in (low, high)]
     if low > high or (low == high and any(holes)):
         return EMPTY
-    values = [
-        limit if hole or infinite(q) else function(_point(q, x))
-        for q, hole, limit in zip((low, high), holes, limits, strict=True)
-    ]
-    bottom = min(v.inf if isinstance(v, Interval) else v for v in values)
-    top = max(v.sup if isinstance(v, Interval) else v for v in values)
-    return bottom, top, COM if (low, high) == (x.inf, x.sup) and not any(holes) else TRV
+    ends: list[End] = []
+    for q, hole, limit in zip((low, high), holes, limits, strict=True):
+        if hole or infinite(q):
+            ends += (limit.inf, limit.sup) if isinstance(limit, Interval) else (limit, limit)
+        else:
+            ends += _value(function, _point(q, x))
+    known = COM if (low, high) == (x.inf, x.sup) and not any(holes) else TRV
+    return min(ends), max(ends), known
+
+
+def _value(function: Callable[[Interval], Interval], q: Interval) -> tuple[End, End]:
+    """Return the ends of f(q), f increasing; of a value that Interval has not, oo for one of them.
+
+    Interval raises OverflowError beyond 2^2^30, where |q| > 1.
+    """
+    try:
+        value = function(q)
+    except OverflowError:
+        return (_LARGE, inf) if q.inf > 0 else (-inf, -_LARGE)
+    return value.inf, value.sup
 
 
 def _stairs(step: Callable[[Interval], Interval], x: Set, low: End, high: End) -> Image:
@@ -150,8 +160,9 @@ def power(x: Set, y: Set) -> Image:
     """Return x^y for x > 0, and 0^y = 0 for y > 0: where Interval has no bounds, exp(y log x)."""
     known = COM if x.inf > 0 or x.inf == 0 < y.inf else TRV
     if known is COM and not infinite(x.sup, y.inf, y.sup):
-        z = _hull(x).pow(_hull(y))
-        return z.inf, z.sup, known
+        with suppress(OverflowError):
+            z = _hull(x).pow(_hull(y))
+            return z.inf, z.sup, known
     powers, zero = (y * x.log()).exp(), Fraction(0)
     if x.inf <= 0 <= x.sup and y.sup > 0:
         return zero, max(powers.sup, zero), known

@@ -11,3 +11,10 @@ class DomainError(IntervalError):
 
 class Undecided(IntervalError):
     """A comparison or a proof step that the enclosures at hand do not decide."""
+
+
+HINT = (
+    "it stands for many numbers at once; use minimum, maximum, abs or sign, or split the box "
+    "where the function changes"
+)
+"""What to do instead of a branch in a function."""

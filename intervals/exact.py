@@ -1,30 +1,57 @@
 """Exact numbers in and out: decimal strings are rationals, printed decimals are outward bounds."""
 
+import re
 from decimal import Decimal
 from fractions import Fraction
-from numbers import Integral, Rational
+from numbers import Integral, Number, Rational
+from typing import Any
 
-Exact = int | Fraction | str
+Exact = int | Fraction | str | Decimal
 
 _LONGEST = 4000  # digits or exponent: beyond it a number is a typing error or an attack
+_UNCERTAIN = re.compile(r"([+-]?\d+(?:\.(\d*))?)\?(\d*)([ud]?)(e[+-]?\d+)?", re.ASCII)
+_PLACES = 60  # beyond the digits: farther from the point a decimal has an exponent
 
 
 def fraction(value: Exact) -> Fraction:
     """Return the exact rational that `value` denotes.
 
-    An int, a Fraction, or a string such as "0.2121", "-2e-3" or "7/5". A float raises
+    An int, a Fraction, a Decimal, or a string such as "0.2121", "-2e-3" or "7/5". A float raises
     TypeError: 0.2121 typed as a float is not 2121/10000, use `from_float` where the binary
     number itself is meant. Text that is no number raises ValueError.
     """
     if type(value) is Fraction:
         return value
-    if isinstance(value, str):
-        return _read(value)
+    if isinstance(value, str | Decimal):
+        return _read(str(value))
     if isinstance(value, float):
-        raise TypeError(f"{value!r} is a float, not a decimal: pass a string, or use from_float")
+        raise no_decimal(value)
     if not isinstance(value, Rational) or is_time(value):
         raise TypeError(f"{value!r} is not an int, a Fraction or a string")
     return Fraction(int(value.numerator), int(value.denominator))  # numpy's integers would wrap
+
+
+def no_decimal(value: Any, constructor: str = "from_float") -> TypeError:
+    """Return the error for a float, which says what to write."""
+    typed = repr(float(value))
+    try:
+        top, bottom = value.as_integer_ratio()
+    except (ValueError, OverflowError):
+        return TypeError(f"{value!r} is no number: from_float takes finite ones")
+    if Fraction(typed) == Fraction(top, bottom) and bottom < 1 << 20:
+        meant = f"write Fraction({top}, {bottom})" if bottom > 1 else f"write {top}"
+    else:
+        meant = f"write Fraction({typed!r}) for the decimal"
+    return TypeError(
+        f"{value!r} is a float, not a decimal: {meant}, a string, or use {constructor}"
+    )
+
+
+def refuse_equality(other: object) -> None:
+    """Raise TypeError for a number, a text or another kind of set: a quiet False would pass."""
+    names = ("__float__", "__complex__", "_mpi_", "inf", "real")
+    if isinstance(other, Number | str) or any(hasattr(other, name) for name in names):
+        raise TypeError("a set is no number: use contains, <, > or a second one of the same type")
 
 
 def whole(value: object) -> int | None:
@@ -40,15 +67,30 @@ def is_time(value: object) -> bool:
 def pair(lower: Exact, upper: Exact | None) -> tuple[Fraction, Fraction]:
     """Return the ends that a constructor was given: two numbers, one, or text such as "[1.1, 1.2]".
 
-    Reversed ends raise ValueError.
+    "3.56?1" is 3.56 up to 1 in its last place, "3.56?" up to half a unit, "3.56?2u" at most 2 units
+    more, "3.56?2d" less, "3.56?1e-3" a thousandth (IEEE 1788). Reversed ends raise ValueError.
     """
-    if upper is None and isinstance(lower, str) and lower.strip().startswith("["):
-        lower, upper = _bracketed(lower.strip())
+    if upper is None and isinstance(lower, str):
+        if lower.strip().startswith("["):
+            lower, upper = _bracketed(lower.strip())
+        elif parts := _UNCERTAIN.fullmatch(lower.strip()):
+            return _uncertain(*parts.groups())
     low = fraction(lower)
     high = low if upper is None else fraction(upper)
     if low > high:
         raise ValueError(f"reversed interval: {lower} > {upper}")
     return low, high
+
+
+def _uncertain(
+    middle: str, places: str | None, units: str, side: str, exponent: str | None
+) -> tuple[Fraction, Fraction]:
+    """Return the ends of a decimal with an uncertainty in units of its last place."""
+    scale = fraction(f"1{exponent or 'e0'}")
+    unit = scale * Fraction(10) ** -len(places or "")
+    reach = (Fraction(int(units)) if units else Fraction(1, 2)) * unit
+    value = fraction(middle) * scale
+    return value - reach * (side != "u"), value + reach * (side != "d")
 
 
 def _bracketed(text: str) -> tuple[str, str]:
@@ -72,24 +114,38 @@ def _read(text: str) -> Fraction:
     raise ValueError(f"a number of unreasonable size: {text[:20]}...")
 
 
-def _scaled(value: Fraction, digits: int) -> tuple[Fraction, int]:
-    """Return (value * 10^shift, shift) where the first has `digits` digits before the point."""
+def _rounded(value: Fraction, digits: int, up: bool) -> str:
+    """Return the next decimal of so many significant digits that is <= value, or >= value."""
     if digits < 1:
         raise ValueError("a decimal has at least one digit")
-    numerator, denominator = abs(value.numerator), value.denominator
-    # 10^(m-1) < |value| < 10^(m+1); Decimal(int) is exact and, unlike str(int), of any length
-    magnitude = Decimal(numerator).adjusted() - Decimal(denominator).adjusted()
-    if numerator >= denominator * Fraction(10) ** magnitude:
-        magnitude += 1
-    shift = digits - magnitude
-    return value * Fraction(10) ** shift, shift
-
-
-def _decimal(integer: int, shift: int, digits: int) -> str:
-    """Write integer * 10^-shift, where |integer| <= 10^digits, with `digits` significant digits."""
+    if value == 0:
+        return "0"
+    top, bottom = abs(value.numerator), value.denominator
+    places = (
+        (top.bit_length() - bottom.bit_length()) * 30103 // 100_000
+    )  # in front of the point, about
+    while not _below(top, bottom, places):
+        places += 1
+    while _below(top, bottom, places - 1):
+        places -= 1
+    shift = digits - places
+    factor = 10 ** abs(shift)
+    top, bottom = (top * factor, bottom) if shift > 0 else (top, bottom * factor)
+    signed = -top if value < 0 else top
+    integer = -(-signed // bottom) if up else signed // bottom
     if abs(integer) == 10**digits:
         integer, shift = integer // 10, shift - 1
-    return _placed(integer, shift)
+    if abs(digits - shift) <= _PLACES + digits:
+        return _placed(integer, shift)
+    text = str(Decimal(abs(integer)))  # of any length, unlike str(int)
+    point = f".{text[1:]}" if digits > 1 else ""
+    return f"{'-' * (integer < 0)}{text[0]}{point}e{digits - shift - 1}"
+
+
+def _below(top: int, bottom: int, places: int) -> bool:
+    """Return whether top / bottom < 10^places."""
+    factor: int = 10 ** abs(places)
+    return top < bottom * factor if places >= 0 else top * factor < bottom
 
 
 def _placed(integer: int, shift: int) -> str:
@@ -103,18 +159,12 @@ def _placed(integer: int, shift: int) -> str:
 
 def decimal_down(value: Fraction, digits: int) -> str:
     """Return the largest decimal of `digits` significant digits that is <= value."""
-    if value == 0:
-        return "0"
-    scaled, shift = _scaled(value, digits)
-    return _decimal(scaled.numerator // scaled.denominator, shift, digits)
+    return _rounded(value, digits, up=False)
 
 
 def decimal_up(value: Fraction, digits: int) -> str:
     """Return the smallest decimal of `digits` significant digits that is >= value."""
-    if value == 0:
-        return "0"
-    scaled, shift = _scaled(value, digits)
-    return _decimal(-(-scaled.numerator // scaled.denominator), shift, digits)
+    return _rounded(value, digits, up=True)
 
 
 def decimal_places(value: Fraction, places: int, *, up: bool = False) -> str:

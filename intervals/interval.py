@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cmp_to_key
+from numbers import Number
+from operator import index
 from typing import Any
 
 from mpmath.libmp import (
@@ -39,8 +41,8 @@ from intervals.elementary.steps import STEPS
 from intervals.elementary.tightest import DOWN, UP
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
-from intervals.exact import Exact, fraction, pair
-from intervals.functions import DECREASING, DOMAINS, Elementary
+from intervals.exact import Exact, fraction, pair, refuse_equality
+from intervals.functions import DOMAINS, TABLE, Elementary
 from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
 from intervals.relations import Overlap, Relations, overlap_state
 
@@ -62,7 +64,7 @@ class Interval(Relations[bool], Elementary):
     Interval("0.2121") is the tightest enclosure of 2121/10000 at `precision` bits,
     Interval("1.11", "1.15") that of a range; ints, Fractions and "7/5" enter the same way. A
     float raises TypeError; Interval.from_float(x) takes the binary number itself. What `str`
-    prints, such as "[1.11, 1.15]", is read as well.
+    prints, such as "[1.11, 1.15]", is read as well, and "3.56?1". Interval(X) is X.
 
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
@@ -74,9 +76,21 @@ class Interval(Relations[bool], Elementary):
     _hi: _Raw
     precision: int
 
-    def __init__(self, lower: Exact, upper: Exact | None = None, *, precision: int = 53) -> None:
+    def __init__(
+        self,
+        lower: Exact | Interval,
+        upper: Exact | Interval | None = None,
+        *,
+        precision: int | None = None,
+    ) -> None:
+        if isinstance(lower, Interval) or isinstance(upper, Interval):
+            upper = lower if upper is None else upper
+            given = [x for x in (lower, upper) if isinstance(x, Interval)]
+            precision = precision or max(x.precision for x in given)
+            lower = lower.inf if isinstance(lower, Interval) else lower
+            upper = upper.sup if isinstance(upper, Interval) else upper
         low, high = pair(lower, upper)
-        self.precision = _checked(precision)
+        self.precision = precision = _checked(53 if precision is None else precision)
         self._lo = rounded(low, precision, DOWN)
         self._hi = rounded(high, precision, UP)
 
@@ -91,6 +105,12 @@ class Interval(Relations[bool], Elementary):
             raise ValueError(f"not a finite binary64 number: {value!r}")
         raw = from_bits(number)
         return _outward(raw, raw, _checked(precision))
+
+    @classmethod
+    def from_midpoint(cls, mid: Exact, rad: Exact, *, precision: int = 53) -> Interval:
+        """Enclose [mid - rad, mid + rad], rad >= 0."""
+        m, r = fraction(mid), fraction(rad)
+        return cls(m - r, m + r, precision=precision)
 
     @classmethod
     def pi(cls, *, precision: int = 53) -> Interval:
@@ -157,6 +177,12 @@ class Interval(Relations[bool], Elementary):
             return None
         return _outward(low, high, max(self.precision, other.precision))
 
+    __and__, __or__ = intersection, hull
+
+    def __contains__(self, other: Interval | Exact) -> bool:
+        """Return whether an interval, or an exact number, lies in this one."""
+        return self.contains(other)
+
     def with_precision(self, precision: int) -> Interval:
         """Return an enclosure of this interval at another precision."""
         return _outward(self._lo, self._hi, _checked(precision))
@@ -183,8 +209,8 @@ class Interval(Relations[bool], Elementary):
             return _make(raw, raw, self.precision)
         if isinstance(value, Fraction):
             return Interval(value, precision=self.precision)
-        if isinstance(value, float):
-            raise TypeError(f"{value!r} is a float, not a decimal: use Interval.from_float")
+        if isinstance(value, Number) and not isinstance(value, complex):
+            return Interval(fraction(value), precision=self.precision)  # type: ignore[arg-type]
         return None
 
     def __neg__(self) -> Interval:
@@ -317,6 +343,10 @@ class Interval(Relations[bool], Elementary):
         return _make(low, high, p)
 
     def __rpow__(self, base: Fraction | int) -> Interval:
+        if isinstance(base, float):  # which Fraction.__pow__ makes of itself
+            raise TypeError(
+                f"{base!r} is a float: write pow(Fraction(p, q), x) of intervals for p/q"
+            )
         other = self._other(base)
         return NotImplemented if other is None else other.pow(self)
 
@@ -326,7 +356,7 @@ class Interval(Relations[bool], Elementary):
         if name in DOMAINS and not self._inside(name):
             raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
         left, right = self._lo, self._hi
-        if name in DECREASING:
+        if TABLE[name].falls:
             left, right = right, left
         low, high = _POINTS[name](left, self.precision)
         if left != right:
@@ -503,9 +533,8 @@ class Interval(Relations[bool], Elementary):
 
         Comparing with a number raises TypeError: a quiet False would pass for a proof.
         """
-        if isinstance(other, int | float | Fraction):
-            raise TypeError("an Interval is no number: use contains, <, > or a second Interval")
         if not isinstance(other, Interval):
+            refuse_equality(other)
             return NotImplemented
         return self._lo == other._lo and self._hi == other._hi
 
@@ -547,6 +576,7 @@ class Interval(Relations[bool], Elementary):
 
 
 def _checked(precision: int) -> int:
+    precision = index(precision)
     if precision < 2:
         raise ValueError("precision is at least 2 bits")
     return precision

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from math import factorial
-from typing import Any
+from typing import Any, NoReturn
 
-from intervals.errors import DomainError
-from intervals.functions import Elementary
+from intervals.errors import HINT, DomainError
+from intervals.functions import TABLE, Elementary
 from intervals.generic import where
 
 _NEAR = Fraction(1, 2**1000)
@@ -61,6 +61,12 @@ class Jet(Elementary):
             return None
         n = min(len(self.coefficients), len(other.coefficients))
         return self.coefficients[:n], other.coefficients[:n]
+
+    def _undefined(self, _other: object = None) -> NoReturn:
+        raise TypeError(f"a jet has no truth, order, place or parts: {HINT}")
+
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _undefined
+    __bool__ = __hash__ = __iter__ = _undefined
 
     def __neg__(self) -> Jet:
         return Jet(*(-c for c in self.coefficients))
@@ -122,7 +128,7 @@ class Jet(Elementary):
         return self._primitive(power, lambda u: exponent * u ** (exponent - 1))
 
     def __rpow__(self, base: Any) -> Jet:
-        return self._constant(base).pow(self)
+        return self.constant(base).pow(self)
 
     def sqr(self) -> Jet:
         """Return the square; its value has no dependency where the number type has `sqr`."""
@@ -135,7 +141,7 @@ class Jet(Elementary):
 
     # -- elementary functions: each is the solution of a differential equation --------------------
 
-    def _constant(self, value: Any) -> Jet:
+    def constant(self, value: Any) -> Jet:
         """Return the jet of a constant; a jet as it is."""
         return value if isinstance(value, Jet) else 0 * self + value
 
@@ -157,8 +163,8 @@ class Jet(Elementary):
 
     def _monotone(self, name: str) -> Jet:
         """Return the jet of the function of this name, from its slope, or of a step."""
-        value = getattr(self.value, name)()
-        return self._primitive(value, SLOPES[name]) if name in SLOPES else self._step(name, value)
+        value, slope = getattr(self.value, name)(), TABLE[name].slope
+        return self._primitive(value, slope) if slope else self._step(name, value)
 
     def _step(self, name: str, value: Any) -> Jet:
         """Return the jet of a function that is constant between its jumps.
@@ -178,7 +184,7 @@ class Jet(Elementary):
 
     def maximum(self, other: Any) -> Jet:
         """Return the jet of max(u, v); DomainError where u - v may be 0, unless of order 0."""
-        v = self._constant(other)
+        v = self.constant(other)
         largest = self.value.maximum(v.value)
         left = (self - v).sign().value.inf > 0
         pairs = list(zip(*(self._pairs(v) or ()), strict=True))[1:]
@@ -186,21 +192,16 @@ class Jet(Elementary):
 
     def minimum(self, other: Any) -> Jet:
         """Return the jet of min(u, v); DomainError where u - v may be 0, unless of order 0."""
-        return -(-self).maximum(-self._constant(other))
-
-    def _circle(self, first: Any, second: Any, sign: int) -> tuple[Jet, Jet]:
-        """Return (s, c) with s' = c u', c' = sign s u'."""
-        slopes = self._slopes()
-        s, c = [first], [second]
-        for k in range(1, len(slopes)):
-            s.append(_over(_convolution(slopes, c, k, 1), k))
-            c.append(_over(sign * _convolution(slopes, s, k, 1), k))
-        return Jet(*s), Jet(*c)
+        return -(-self).maximum(-self.constant(other))
 
     def sincos(self) -> tuple[Jet, Jet]:
         """Return (sin, cos): s' = c u', c' = -s u'."""
-        sin, cos = self.value.sincos()
-        return self._circle(sin, cos, -1)
+        slopes, (first, second) = self._slopes(), self.value.sincos()
+        s, c = [first], [second]
+        for k in range(1, len(slopes)):
+            s.append(_over(_convolution(slopes, c, k, 1), k))
+            c.append(_over(-_convolution(slopes, s, k, 1), k))
+        return Jet(*s), Jet(*c)
 
     def sin(self) -> Jet:
         """Return the jet of sin u."""
@@ -210,17 +211,9 @@ class Jet(Elementary):
         """Return the jet of cos u."""
         return self.sincos()[1]
 
-    def tan(self) -> Jet:
-        """Return the jet of tan u."""
-        return self._monotone("tan")
-
-    def sinh(self) -> Jet:
-        """Return the jet of sinh u: s' = c u'."""
-        return self._circle(self.value.sinh(), self.value.cosh(), 1)[0]
-
     def cosh(self) -> Jet:
-        """Return the jet of cosh u: c' = s u'."""
-        return self._circle(self.value.sinh(), self.value.cosh(), 1)[1]
+        """Return the jet of cosh u: y' = sinh(u) u'."""
+        return self._monotone("cosh")
 
     def exp(self) -> Jet:
         """Return the jet of exp u: y' = y u'."""
@@ -228,26 +221,6 @@ class Jet(Elementary):
         for k in range(1, len(slopes)):
             y.append(_over(_convolution(slopes, y, k, 1), k))
         return Jet(*y)
-
-    def expm1(self) -> Jet:
-        """Return the jet of exp(u) - 1."""
-        return self.exp()._with_value(self.value.expm1())
-
-    def exp2(self) -> Jet:
-        """Return the jet of 2^u = exp(u log 2)."""
-        return (self * self._constant(2).log()).exp()._with_value(self.value.exp2())
-
-    def exp10(self) -> Jet:
-        """Return the jet of 10^u = exp(u log 10)."""
-        return (self * self._constant(10).log()).exp()._with_value(self.value.exp10())
-
-    def log2(self) -> Jet:
-        """Return the jet of log u / log 2."""
-        return (self.log() / self._constant(2).log())._with_value(self.value.log2())
-
-    def log10(self) -> Jet:
-        """Return the jet of log u / log 10."""
-        return (self.log() / self._constant(10).log())._with_value(self.value.log10())
 
     def sqrt(self) -> Jet:
         """Return the jet of sqrt u, u > 0: y y = u."""
@@ -270,12 +243,16 @@ class Jet(Elementary):
         return Jet(*y)
 
     def rootn(self, n: int) -> Jet:
-        """Return the jet of the real n-th root of u != 0; u > 0 for even n."""
-        return abs(self).pow(Fraction(1, n)) * (1 if n % 2 == 0 else self.sign())
+        """Return the jet of the real n-th root y of u != 0, u > 0 for even n: n u y' = y u'."""
+        value = self.value.rootn(n)
+        if not self.order:
+            return Jet(value)
+        root = self if n % 2 == 0 else abs(self)
+        return (root.pow(Fraction(1, n)) * (1 if n % 2 == 0 else self.sign()))._with_value(value)
 
     def hypot(self, other: Any) -> Jet:
         """Return the jet of sqrt(u^2 + v^2), where it is not 0."""
-        v = self._constant(other)
+        v = self.constant(other)
         return (self.sqr() + v.sqr()).sqrt()._with_value(self.value.hypot(v.value))
 
     def atan2(self, x: Any) -> Jet:
@@ -283,7 +260,7 @@ class Jet(Elementary):
 
         DomainError where the box meets the cut y = 0, x <= 0, unless of order 0.
         """
-        v = self._constant(x)
+        v = self.constant(x)
         value = self.value.atan2(v.value)
         if not (self.order and v.order):
             return Jet(value)
@@ -295,21 +272,6 @@ class Jet(Elementary):
 
     def __repr__(self) -> str:
         return f"Jet({', '.join(map(repr, self.coefficients))})"
-
-
-SLOPES: dict[str, Callable[[Jet], Jet]] = {  # g where y' = g(u) u'
-    "log": lambda u: 1 / u,
-    "log1p": lambda u: 1 / (1 + u),
-    "cbrt": lambda u: 1 / (3 * u.cbrt().sqr()),
-    "tan": lambda u: 1 / u.cos().sqr(),
-    "asin": lambda u: 1 / (1 - u.sqr()).sqrt(),
-    "acos": lambda u: -1 / (1 - u.sqr()).sqrt(),
-    "atan": lambda u: 1 / (1 + u.sqr()),
-    "tanh": lambda u: 1 / u.cosh().sqr(),
-    "asinh": lambda u: 1 / (1 + u.sqr()).sqrt(),
-    "acosh": lambda u: 1 / (u.sqr() - 1).sqrt(),
-    "atanh": lambda u: 1 / (1 - u.sqr()),
-}
 
 
 def _everywhere(mask: Any) -> bool:

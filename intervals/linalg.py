@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,6 +57,8 @@ def solve(a: IntervalArray, b: IntervalArray) -> IntervalArray:
     inverse = _approximate_inverse(a.mid)
     c = IntervalArray.from_floats(inverse)
     rest = IntervalArray.from_floats(np.eye(n)) - c @ a
+    if not np.isfinite(rest.mag).all():
+        raise SingularMatrix("I - C A is beyond the range of binary64")
     weights, beta = _contraction(IntervalArray.from_floats(rest.mag))
     y = _points(inverse @ columns.mid)
     y = _points(y.mid + inverse @ (columns - a @ y).mid)
@@ -181,6 +184,8 @@ def _square(a: IntervalArray, v: IntervalArray, w: IntervalArray) -> tuple[Rows,
     matrix = w @ a @ v
     sizes = _moduli(matrix)
     mu = float(sizes.sum(axis=1).sup.max())
+    if not mu < inf:
+        return None
     others = IntervalArray.from_floats(np.where(np.eye(n) > 0, 0.0, sizes.sup)).sum(axis=1)
     slack = error * (Interval.from_float(mu) / (1 - Interval.from_float(eps)))
     radius = (others + slack).sup

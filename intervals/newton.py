@@ -2,11 +2,13 @@
 
 from collections.abc import Callable
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
+from intervals.formula import Formula, NoFormula
 from intervals.generic import ends, middle
 from intervals.interval import Interval
 from intervals.jet import Jet
+from intervals.systems import Function
 
 
 class Roots(Enum):
@@ -31,14 +33,15 @@ def derivative(f: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda x: f(Jet(x, x * 0 + 1)).derivative()
 
 
-def newton(
-    f: Callable[[Interval], Interval],
-    df: Callable[[Interval], Interval],
-    box: Interval,
-    *,
-    steps: int = 60,
-) -> NewtonResult:
-    """Decide existence and uniqueness of a zero of f in `box`, and contract the box.
+@overload
+def newton(f: Function, box: Interval, /, *, steps: int = 60) -> NewtonResult: ...
+@overload
+def newton(f: Function, df: Function, box: Interval, /, *, steps: int = 60) -> NewtonResult: ...
+def newton(f: Function, *given: Any, steps: int = 60) -> NewtonResult:
+    """Decide existence and uniqueness of a zero of f in a box, and contract the box.
+
+    newton(f, box) takes a formula; newton(f, df, box) also functions of Intervals, with Intervals
+    as values, that enclose a C^1 function and its derivative.
 
     Theorem (Moore; Neumaier 1990, 5.1). Let f be C^1 on X, m in X, and F' an enclosure of f'
     over X with 0 not in F'. N = m - F(m) / F' contains every zero of f in X. If N and X are
@@ -49,6 +52,13 @@ def newton(
     intersected one; uniqueness holds on that box, and as no zero is lost on the way to it, on
     the original box. Iteration ends when the box no longer shrinks by a quarter.
     """
+    *slope_of, box = given
+    try:
+        f = Formula(f, 1).only
+    except NoFormula:
+        if not slope_of:
+            raise
+    df = slope_of[0] if slope_of else derivative(f)
     proved = False
     reason = "the Newton image leaves the box"
     for _ in range(steps):
@@ -75,7 +85,7 @@ def newton(
     return NewtonResult(Roots.UNDECIDED, box, reason)
 
 
-def _changes_sign(f: Callable[[Interval], Interval], box: Interval) -> bool:
+def _changes_sign(f: Callable[..., Any], box: Interval) -> bool:
     """Whether f <= 0 at one end and f >= 0 at the other, so that f has a zero if continuous."""
     left, right = map(f, ends(box))
-    return (left.sup <= 0 <= right.inf) or (right.sup <= 0 <= left.inf)
+    return bool(left.sup <= 0 <= right.inf or right.sup <= 0 <= left.inf)

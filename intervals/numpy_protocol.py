@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from importlib import import_module
 from itertools import accumulate
+from math import prod
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from intervals.exact import is_time, whole
+from intervals.functions import TABLE
 from intervals.rows import integer_rows
 
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 
 
+_LONG = (np.longdouble, np.clongdouble)
 Kind: TypeAlias = Any  # the class IntervalArray, whose module imports this one
 
 
@@ -43,31 +47,26 @@ _OPERATORS: dict[Any, Callable[..., Any]] = _ARITHMETIC | {
     np.greater_equal: operator.ge,
 }
 _METHODS: dict[Any, str] = {
+    getattr(np, spelled): name
+    for name in TABLE
+    if hasattr(np, spelled := f"arc{name[1:]}" if name[0] == "a" else name)
+} | {
     np.square: "sqr",
     np.reciprocal: "recip",
-    np.arcsin: "asin",
-    np.arccos: "acos",
-    np.arctan: "atan",
-    np.arcsinh: "asinh",
-    np.arccosh: "acosh",
-    np.arctanh: "atanh",
     np.arctan2: "atan2",
     np.rint: "round_ties_to_even",
-} | {
-    getattr(np, name): name
-    for name in (
-        *("sqrt", "cbrt", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p"),
-        *("sin", "cos", "tan", "sinh", "cosh", "tanh"),
-        *("floor", "ceil", "trunc", "sign", "hypot", "minimum", "maximum"),
-    )
+    np.hypot: "hypot",
+    np.minimum: "minimum",
+    np.maximum: "maximum",
 }
 _REDUCTIONS = {np.add: "sum", np.multiply: "prod"}
 
 
 def apply_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], options: Any) -> Any:
     """Do what `__array_ufunc__` is asked for; TypeError for what intervals do not do."""
-    if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= {"axis"}:
-        return getattr(inputs[0], _REDUCTIONS[ufunc])(axis=options.get("axis", 0))
+    known = {"axis", "keepdims", "initial"}
+    if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= known:
+        return getattr(inputs[0], _REDUCTIONS[ufunc])(**{"axis": 0} | options)
     if method != "__call__" or options or not (ufunc in _OPERATORS or ufunc in _METHODS):
         asked = ".".join([ufunc.__name__, *([] if method == "__call__" else [method]), *options])
         raise TypeError(f"numpy.{asked} is not defined for IntervalArrays")
@@ -93,11 +92,21 @@ def object_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], o
     """Do what numpy does with objects of a kind; spans of time, ints to it, raise TypeError."""
     if any(map(is_time, inputs)):
         raise TypeError("spans of time are no numbers")
+    if any(getattr(x, "dtype", None) in _LONG for x in inputs):  # whose objects would ask again
+        raise TypeError(_HINT)
     known = kind, np.ndarray, np.generic
     if any(hasattr(x, "__array_ufunc__") and not isinstance(x, known) for x in inputs):
         return NotImplemented  # an IntervalArray or a jet, which is asked next
     objects = (np.array(x, dtype=object) if isinstance(x, kind) else x for x in inputs)
+    if method == "__call__" and ufunc in _METHODS and not options:
+        name, count = _METHODS[ufunc], len(inputs)
+        return np.frompyfunc(lambda x, *y: _called(kind, name, x, *y), count, 1)(*objects)
     return getattr(ufunc, method)(*objects, **options)
+
+
+def _called(kind: Kind, name: str, x: Any, *y: Any) -> Any:
+    """Return a function of objects of a kind, the first of which may be an exact number."""
+    return getattr(x if isinstance(x, kind) else kind(x), name)(*y)
 
 
 def _exact(kind: Kind, x: Any) -> Any:
@@ -138,6 +147,7 @@ _OF_ONE: dict[Any, tuple[str, ...]] = {
     np.take: ("indices", "axis"),
     np.delete: ("obj", "axis"),
     **dict.fromkeys((np.diag, np.tril, np.triu), ("k",)),
+    np.pad: ("pad_width", "mode"),  # with 0
     np.diagonal: ("offset", "axis1", "axis2"),
 }
 _OF_MANY: dict[Any, tuple[str, ...]] = {
@@ -151,6 +161,8 @@ _MOVING = _OF_ONE | _OF_MANY
 
 
 def _dot(x: Any, y: Any) -> Any:
+    if not (np.ndim(x) and np.ndim(y)):
+        return x * y
     if max(x.ndim, y.ndim) > 2:
         raise TypeError("numpy.dot of more than two axes is not defined for IntervalArrays: use @")
     return x @ y
@@ -160,11 +172,18 @@ def _inner(x: Any, y: Any) -> Any:
     return _dot(x, y.T)
 
 
-def _einsum(subscripts: str, *operands: Any) -> Any:
-    """Return the sums of products; all of these are there at once, so `@` is for matrices."""
+def _einsum(subscripts: str, *operands: Any, optimize: Any = False) -> Any:
+    """Return the sums of products; all of these are there at once, so `@` is for matrices.
+
+    No way to compute them is chosen: `optimize` is not heeded.
+    """
     inputs, arrow, output = subscripts.replace(" ", "").partition("->")
     letters = inputs.replace(",", "")
     output = output if arrow else "".join(sorted(c for c in letters if letters.count(c) == 1))
+    if not (letters + output).isalpha() or len(set(output)) < len(output):
+        raise ValueError(f"einsum takes letters here, each once in the output: {subscripts!r}")
+    if not set(output) <= set(letters):
+        raise ValueError(f"einsum has an output without an input: {subscripts!r}")
     order = output + "".join(sorted(set(letters) - set(output)))
     result: Any = 1
     for names, x in zip(inputs.split(","), operands, strict=True):
@@ -176,8 +195,9 @@ def _einsum(subscripts: str, *operands: Any) -> Any:
     return result
 
 
-def _mean(x: Any, axis: int | None = None) -> Any:
-    return x.sum(axis=axis) / (x.size if axis is None else x.shape[axis])
+def _mean(x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+    total = x.sum(axis=axis, keepdims=keepdims)
+    return total / (x.size // total.size if total.size else 1)
 
 
 def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
@@ -192,20 +212,66 @@ def _diff(x: Any, n: int = 1, axis: int = -1) -> Any:
 def _cumsum(x: Any, axis: int | None = None) -> Any:
     moved = x.reshape(-1) if axis is None else np.moveaxis(x, axis, 0)
     totals = list(accumulate(moved))
-    return np.moveaxis(np.stack(totals), 0, axis or 0) if totals else x
+    return np.moveaxis(np.stack(totals) if totals else moved, 0, axis or 0)
 
 
-def _largest(x: Any, axis: int | None = None) -> Any:
+def _largest(x: Any, axis: Any = None, **options: Any) -> Any:
     """Return the range of the largest element: it increases with each of them."""
-    return type(x).from_floats(x.inf.max(axis=axis), x.sup.max(axis=axis))
+    return type(x).from_floats(x.inf.max(axis=axis, **options), x.sup.max(axis=axis, **options))
+
+
+def _full_like(x: Any, value: Any) -> Any:
+    return 0 * x + type(x)(value)
+
+
+def _append(x: Any, y: Any, axis: int | None = None) -> Any:
+    parts = [x, y] if isinstance(y, type(x)) else [x, type(x)(y)]
+    return np.concatenate([np.ravel(part) for part in parts] if axis is None else parts, axis or 0)
+
+
+def _tensordot(x: Any, y: Any, axes: Any = 2) -> Any:
+    left, right = (range(-axes, 0), range(axes)) if isinstance(axes, int) else axes
+    left, right = ([i % v.ndim for i in np.atleast_1d(a)] for a, v in ((left, x), (right, y)))
+    rest = [[i for i in range(v.ndim) if i not in a] for a, v in ((left, x), (right, y))]
+    rows = np.transpose(x, rest[0] + left), np.transpose(y, right + rest[1])
+    outer = [x.shape[i] for i in rest[0]], [y.shape[i] for i in rest[1]]
+    inner = prod(x.shape[i] for i in left)
+    product = rows[0].reshape(prod(outer[0]), inner) @ rows[1].reshape(inner, prod(outer[1]))
+    return product.reshape(*outer[0], *outer[1])
+
+
+def _kron(x: Any, y: Any) -> Any:
+    n = max(x.ndim, y.ndim)
+    x, y = (v.reshape(*(1,) * (n - v.ndim), *v.shape) for v in (x, y))
+    blocks = x.reshape(*(s for size in x.shape for s in (size, 1)))
+    product = blocks * y.reshape(*(s for size in y.shape for s in (1, size)))
+    return product.reshape(*(a * b for a, b in zip(x.shape, y.shape, strict=True)))
+
+
+def _cross(x: Any, y: Any) -> Any:
+    if x.shape[-1] != 3 or y.shape[-1] != 3:
+        raise ValueError("a cross product is one of vectors of length 3")
+    (a, b, c), (u, v, w) = (np.moveaxis(z, -1, 0) for z in (x, y))
+    return np.stack((b * w - c * v, c * u - a * w, a * v - b * u), axis=-1)
+
+
+def _norm(x: Any, axis: Any = None, keepdims: bool = False) -> Any:
+    return np.sqrt(x.sqr().sum(axis=axis, keepdims=keepdims))
+
+
+def _by_linalg(name: str) -> Callable[..., Any]:
+    def function(*arrays: Any) -> Any:
+        return getattr(import_module("intervals.linalg"), name)(*arrays)
+
+    return function
 
 
 _ASKING: dict[Any, Callable[..., Any]] = {
     np.shape: lambda x: x.shape,
     np.ndim: lambda x: x.ndim,
     np.size: lambda x: x.size,
-    np.sum: lambda x, axis=None: x.sum(axis=axis),
-    np.prod: lambda x, axis=None: x.prod(axis=axis),
+    np.sum: lambda x, **options: x.sum(**options),
+    np.prod: lambda x, **options: x.prod(**options),
     np.dot: _dot,
     np.inner: _inner,
     np.outer: lambda x, y: x.reshape(-1, 1) * y.reshape(1, -1),
@@ -214,9 +280,18 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.mean: _mean,
     np.diff: _diff,
     np.cumsum: _cumsum,
+    np.full_like: _full_like,
+    np.append: _append,
+    np.tensordot: _tensordot,
+    np.kron: _kron,
+    np.cross: _cross,
+    np.linalg.norm: _norm,
+    np.linalg.solve: _by_linalg("solve"),
+    np.linalg.inv: _by_linalg("inverse"),
+    np.linalg.eigvals: _by_linalg("eigenvalues"),
     np.trace: lambda x, offset=0: np.diagonal(x, offset).sum(axis=-1),
     np.max: _largest,
-    np.min: lambda x, axis=None: -_largest(-x, axis),
+    np.min: lambda x, axis=None, **options: -_largest(-x, axis, **options),
     np.clip: lambda x, low, high: x.maximum(low).minimum(high),
     np.zeros_like: lambda x: 0 * x,
     np.ones_like: lambda x: type(x).from_floats(np.ones(x.shape)),

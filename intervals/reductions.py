@@ -5,30 +5,21 @@ inclusion principle holds for every bracketing.
 """
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
 from intervals.rounding import Rows
-from intervals.rows import product, total
+
+Operation: TypeAlias = Callable[[Rows, Rows], Rows]
 
 
-def sum_rows(rows: Rows, axis: int) -> Rows:
-    """Return rows of the sums over the element axis `axis` >= 0; the empty sum is 0.
+def pairwise(operation: Operation, rows: Rows, axis: int, neutral: tuple[float, float]) -> Rows:
+    """Return rows of the sums, or products, over the element axis `axis` >= 0.
 
-    Pairwise: n terms lose at most ceil(log2 n) outward steps.
+    Neighbours are combined until one is left: n terms lose at most ceil(log2 n) outward steps.
+    `neutral` are the rows of the empty combination.
     """
-    return _pairwise(total, rows, axis, (0.0, 0.0))
-
-
-def product_rows(rows: Rows, axis: int) -> Rows:
-    """Return rows of the products over the element axis `axis` >= 0; the empty product is 1."""
-    return _pairwise(product, rows, axis, (-1.0, 1.0))
-
-
-def _pairwise(
-    operation: Callable[[Rows, Rows], Rows], rows: Rows, axis: int, neutral: tuple[float, float]
-) -> Rows:
-    """Combine neighbours until one is left; `neutral` are the rows of the empty combination."""
     work = np.moveaxis(rows, axis + 1, 1)
     while work.shape[1] > 1:
         half = work.shape[1] // 2
@@ -42,7 +33,7 @@ def _pairwise(
     return empty
 
 
-def matrix_product(a: Rows, b: Rows) -> Rows:
+def matrix_product(a: Rows, b: Rows, total: Operation, product: Operation) -> Rows:
     """Return rows of A B for matrices (..., n, k) and (..., k, m); stacks of them broadcast.
 
     k products of a column and a row are added up one after the other.

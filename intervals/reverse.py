@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import inf
 from typing import Any
 
 import numpy as np
 
 from intervals.array import IntervalArray
+from intervals.functions import TABLE
 from intervals.generic import where
 from intervals.interval import Interval
 from intervals.rounding import MAX
@@ -34,7 +36,7 @@ def quotient(z: IntervalArray, v: IntervalArray, u: IntervalArray) -> IntervalAr
     if not through.any():
         return z / v
     rows = (z / IntervalArray._of_rows(np.where(through, _ONE._rows, v._rows)))._rows
-    rows = np.where(through, MAX, rows)
+    rows = np.where(through, inf, rows)
     beside = through & ~np.asarray(z.contains_zero())
     if beside.any():
         low, high = _beside(*(x if x.size == 1 else x[beside] for x in (z, v, u)))
@@ -53,12 +55,14 @@ def _beside(z: IntervalArray, v: IntervalArray, u: IntervalArray) -> Any:
     z, v = where(negative, -z, z), where(negative, -v, v)
     least = IntervalArray.from_floats(z.inf)
     below, above = v.inf < 0, v.sup > 0
-    left = (least / IntervalArray.from_floats(np.where(below, v.inf, -1.0))).sup
-    right = (least / IntervalArray.from_floats(np.where(above, v.sup, 1.0))).inf
-    left, right = np.where(below, left, -MAX), np.where(above, right, MAX)
+    low, high = np.isfinite(v.inf), np.isfinite(v.sup)
+    left = (least / IntervalArray.from_floats(np.where(below & low, v.inf, -1.0))).sup
+    right = (least / IntervalArray.from_floats(np.where(above & high, v.sup, 1.0))).inf
+    left = np.where(below, np.where(low, left, 0.0), -inf)
+    right = np.where(above, np.where(high, right, 0.0), inf)
     only_right = u.inf > left
     only_left = (u.sup < right) & ~only_right
-    return np.where(only_right, right, -MAX), np.where(only_left, left, MAX)
+    return np.where(only_right, right, -inf), np.where(only_left, left, inf)
 
 
 def either_sign(root: IntervalArray, u: IntervalArray) -> IntervalArray:
@@ -72,7 +76,7 @@ def either_sign(root: IntervalArray, u: IntervalArray) -> IntervalArray:
 def _logarithm(z: IntervalArray) -> IntervalArray:
     """Return a superset of {x: exp x in Z}: Z may reach down to 0 and below."""
     low, high = z.maximum(_TINY).log()._rows
-    return IntervalArray._of_rows(np.stack((np.where(z.inf > 0, low, MAX), high)))
+    return IntervalArray._of_rows(np.stack((np.where(z.inf > 0, low, inf), high)))
 
 
 def branches(root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalArray) -> Any:
@@ -83,11 +87,11 @@ def branches(root: IntervalArray, u: IntervalArray, sign: int, shift: IntervalAr
     and two after it are tried. The least number >= inf U is in the first part that is not left of
     inf U; likewise for sup U.
     """
-    places = np.rint(u.inf / np.pi + 0.5 * (shift.mid > 1))
-    low = _first(root, u, sign, shift, places)
-    places = np.rint(u.sup / np.pi + 0.5 * (shift.mid > 1))
-    high = -_first(-root, -u, sign, -shift, -places)
     near = (np.abs(u.inf) < _FAR) & (np.abs(u.sup) < _FAR)
+    places = np.rint(np.where(near, u.inf, 0.0) / np.pi + 0.5 * (shift.mid > 1))
+    low = _first(root, u, sign, shift, places)
+    places = np.rint(np.where(near, u.sup, 0.0) / np.pi + 0.5 * (shift.mid > 1))
+    high = -_first(-root, -u, sign, -shift, -places)
     part = IntervalArray.from_floats(
         np.where(low <= high, low, MAX), np.where(low <= high, high, MAX)
     )
@@ -131,40 +135,39 @@ def _odd_root(z: IntervalArray, n: int) -> IntervalArray:
     candidate = np.where(rows > 0, size * (1 + _SLACK), below)
     proved = near & ((IntervalArray.from_floats(candidate) ** n).inf >= rows)
     proved |= (candidate == 0) & (rows <= 0)  # exact, where an enclosure of 0^n may reach below 0
-    return IntervalArray._of_rows(np.where(proved, candidate, MAX))
+    return IntervalArray._of_rows(np.where(proved, candidate, inf))
+
+
+def _power(z: IntervalArray, u: IntervalArray, n: int) -> IntervalArray:
+    """Return a superset of the hull of {x in U: x^n in Z}, n != 0."""
+    return root(z, u, n) if n > 0 else root(1 / z, u, -n)
+
+
+def _leg(z: IntervalArray, u: IntervalArray, v: IntervalArray) -> IntervalArray:
+    """Return a superset of the hull of {x in U: x^2 + y^2 = w^2 for some w in Z, y in V}."""
+    return either_sign((z.maximum(0).sqr() - v.sqr()).maximum(0).sqrt(), u)
 
 
 _HALF, _NONE = _PI / 2, 0 * _PI
 REVERSE: dict[str, tuple[Callable[..., IntervalArray], ...]] = {  # one for each argument
+    name: (function.undo,) for name, function in TABLE.items() if function.undo
+} | {
     "__neg__": (lambda z, u: -z,),
     "__add__": (lambda z, u, v: z - v, lambda z, u, v: z - u),
     "__sub__": (lambda z, u, v: z + v, lambda z, u, v: u - z),
     "__mul__": (lambda z, u, v: quotient(z, v, u), quotient),
     "__truediv__": (lambda z, u, v: z * v, lambda z, u, v: quotient(u, z, v)),
     "__abs__": (lambda z, u: either_sign(z.maximum(0), u),),
-    "__pow__": (root,),
-    "pow": (lambda z, u, q: z.pow(1 / q),),
+    "__pow__": (_power,),
+    "pow": (
+        lambda z, u, v: z.pow(1 / v),
+        lambda z, u, v: quotient(_logarithm(z), u.log(), v),
+    ),
+    "hypot": (_leg, lambda z, u, v: _leg(z, v, u)),
     "rootn": (lambda z, u, n: z**n,),
-    "sqrt": (lambda z, u: z.sqr(),),
-    "cbrt": (lambda z, u: z**3,),
     "exp": (lambda z, u: _logarithm(z),),
-    "exp2": (lambda z, u: z.log2(),),
-    "exp10": (lambda z, u: z.log10(),),
-    "expm1": (lambda z, u: z.log1p(),),
-    "log": (lambda z, u: z.exp(),),
-    "log2": (lambda z, u: z.exp2(),),
-    "log10": (lambda z, u: z.exp10(),),
-    "log1p": (lambda z, u: z.expm1(),),
     "sin": (lambda z, u: branches(z.asin(), u, -1, _NONE),),
     "cos": (lambda z, u: branches(z.asin(), u, -1, _HALF),),
     "tan": (lambda z, u: branches(z.atan(), u, 1, _NONE),),
-    "asin": (lambda z, u: z.sin(),),
-    "acos": (lambda z, u: z.cos(),),
-    "atan": (lambda z, u: z.tan(),),
-    "sinh": (lambda z, u: z.asinh(),),
     "cosh": (lambda z, u: either_sign(z.maximum(1).acosh(), u),),
-    "tanh": (lambda z, u: z.atanh(),),
-    "asinh": (lambda z, u: z.sinh(),),
-    "acosh": (lambda z, u: z.cosh(),),
-    "atanh": (lambda z, u: z.tanh(),),
 }

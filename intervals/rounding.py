@@ -5,8 +5,9 @@ formula serves both. u = 2^-53 is half the spacing of binary64 at 1, eta = 2^-10
 positive number. Nothing here changes the rounding mode of the processor.
 """
 
+from collections.abc import Callable
 from fractions import Fraction
-from math import inf, nextafter
+from math import copysign, inf, nextafter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,10 @@ _LEAST_NORMAL = 2.0**-1022
 _ULP, _ETA, _MAX = map(constant, (ULP, ETA, MAX))
 
 
+class BeyondRange(OverflowError, ValueError):
+    """A number that is asked for, and is infinite."""
+
+
 def float_down(value: Fraction | int) -> float:
     """Return the largest finite binary64 number <= value.
 
@@ -69,7 +74,16 @@ def _finite(result: float) -> float:
     return result
 
 
-def outward(rows: Rows) -> Rows:
+def towards(value: Fraction, rounded: Callable[[Fraction], float]) -> float:
+    """Return the binary64 number, or infinity, next to `value`."""
+    try:
+        return rounded(value)
+    except OverflowError:
+        away = (value > 0) == (rounded is float_up)
+        return copysign(inf if away else MAX, 1 if value > 0 else -1)
+
+
+def outward(rows: Rows, otherwise: Callable[[], Rows] | None = None) -> Rows:
     """Replace each x in `rows` by an upper bound of the exact e that it was rounded from.
 
     Hypothesis: e <= x+, where x+ is the binary64 number after x; so it is if x is the result of
@@ -80,15 +94,19 @@ def outward(rows: Rows) -> Rows:
     below. Then x + g is a binary64 number and x+ <= x + g. Rounding is monotone in every mode
     and leaves binary64 numbers alone, so it suffices that fl(fl(|x| 2^-52) + eta) >= g, then
     y >= fl(x + g) = x + g. Normal x: |x| 2^-52 >= 2^(k-52) = g, which is a binary64 number, so
-    fl(|x| 2^-52) >= g, and adding eta does not lower it. Other x: g = eta. Overflow: e > MAX
-    leaves y >= MAX, which `bounded` refuses. Flushing to zero breaks eta, and is refused here.
+    fl(|x| 2^-52) >= g, and adding eta does not lower it. Other x: g = eta. Overflow: see
+    `extended`. Flushing to zero breaks eta, and is refused here.
+
+    Where x is NaN, as 0 times infinity is, it may be done again with other x: `otherwise()`.
     """
     require_subnormals()
     step = np.abs(rows)
     step *= _ULP
     step += _ETA
     rows += step
-    return bounded(rows)
+    if otherwise and not all_of(rows < _MAX) and np.isnan(step).any():
+        return outward(otherwise())
+    return extended(rows, step)
 
 
 def outward_sum(rows: Rows) -> Rows:
@@ -101,15 +119,24 @@ def outward_sum(rows: Rows) -> Rows:
     step = np.abs(rows)
     step *= _ULP
     rows += step
-    return bounded(rows)
+    return extended(rows, step)
+
+
+def extended(rows: Rows, step: Rows) -> Rows:
+    """Replace in `rows`, x + step, what no number bounds by infinity, in place.
+
+    e > MAX has made x, and so x + step, inf or (in the modes that round toward zero or down) MAX.
+    e < -MAX, of which x may be -inf, is bounded by -MAX; there step is inf, and x + step is NaN.
+    Where x was NaN nothing is known.
+    """
+    if not all_of(rows < _MAX):
+        below = np.isnan(rows) & (step == inf)
+        np.copyto(rows, np.where(below, -MAX, inf), where=~(rows < _MAX))
+    return rows
 
 
 def bounded(rows: Rows) -> Rows:
-    """Return `rows` if all -lower, upper are < MAX, else raise OverflowError; NaN is refused too.
-
-    A bound that overflowed is inf, or MAX in the modes that round toward zero or down. With
-    lower <= upper, both rows < MAX also exclude -inf.
-    """
+    """Return `rows` if all are < MAX, else raise OverflowError; NaN is refused too."""
     if not all_of(rows < _MAX):
         raise OverflowError(BEYOND)
     return rows

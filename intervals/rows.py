@@ -7,21 +7,23 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
+from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, prod
+from math import frexp, inf, prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from intervals.errors import DomainError
-from intervals.exact import fraction, whole
+from intervals.exact import fraction, no_decimal, pair, whole
 from intervals.rounding import (
-    BEYOND,
     ETA,
     MAX,
     ULP,
+    BeyondRange,
     Rows,
     all_of,
     constant,
@@ -30,11 +32,15 @@ from intervals.rounding import (
     joined,
     outward,
     outward_sum,
+    towards,
 )
 
 _BLOCK = 16384  # elements at a time
 _FEW = 10  # intervals: they are done sooner without numpy
 _ZERO = constant(0.0)
+_HALF, _TAIL = 2.0**26, np.array((1 << 27) - 1)
+_LOW, _HIGH = 2.0**-400, 2.0**400
+_LEAST, _MOST = constant(_LOW), constant(_HIGH)
 _ZERO_INSIDE = "division by an interval that contains 0"
 
 
@@ -60,12 +66,13 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     """Do an elementwise operation on aligned rows in blocks along the longest axis.
 
     The temporaries of a block stay in the cache, and small beside a large result. Few intervals
-    are done one by one, to the same bits (where the processor rounds to nearest), but sooner.
+    are done one by one, sooner, and to the same bits, or exactly where the numbers are short.
     """
     first, ends = operands[0], _BY_ENDS.get(operation)
     if ends and 0 < first.size <= 2 * _FEW and first.shape == operands[-1].shape:
         columns = [column for x in operands for column in x.reshape(2, -1).tolist()]
-        return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
+        with suppress(OverflowError):
+            return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
     with np.errstate(all="ignore"):
         return _in_blocks(operation, *operands)
 
@@ -85,8 +92,14 @@ def _in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
 
 
 def total(a: Rows, b: Rows) -> Rows:
-    """Return rows that contain x + y for x in A, y in B."""
-    return outward_sum(a + b)
+    """Return rows that contain x + y for x in A, y in B; of short numbers the exact ones, if short.
+
+    s = fl(a + b) is exact if s - a and s - b are b and a: that of the larger one has no rounding.
+    """
+    s = a + b
+    if _short(a) and _short(b) and all_of((s - a == b) & (s - b == a)):
+        return s
+    return outward_sum(s)
 
 
 def product(a: Rows, b: Rows) -> Rows:
@@ -98,12 +111,19 @@ def product(a: Rows, b: Rows) -> Rows:
     if is_thin(a):
         a, b = b, a
     if not is_thin(b):
-        return outward(_hull_of_four(a[0] * b[0], a[1] * b[1], a[0] * b[1], a[1] * b[0]))
+        return _of_four(a, b, np.multiply, exact=_exact_factors(a, b))
     if is_thin(a):
         point = a[1] * b[1]
-        return outward(joined(-point, point))
+        rows = joined(-point, point)
+        return rows if _exact_factors(a[1], b[1]) else outward(rows)
     scaled = a * b[1]  # (-l v, u v), reversed (u v, -l v): the bounds if v >= 0, if v < 0
-    return outward(np.maximum(scaled, -scaled[::-1]))
+    if _exact_factors(a, b[1]):
+        return _of_point(scaled)
+    return outward(_of_point(scaled), lambda: _of_point(_without_nan(scaled, a, b)))
+
+
+def _of_point(scaled: Rows) -> Rows:
+    return np.maximum(scaled, -scaled[::-1])
 
 
 def quotient(a: Rows, b: Rows) -> Rows:
@@ -112,10 +132,65 @@ def quotient(a: Rows, b: Rows) -> Rows:
     Monotone in x and in y, x / y lies between the least and the largest of the four quotients
     of endpoints; the signs are those of the products.
     """
+    a, b = dividends(a, b)
+    exact = False
+    if _short(a) and _short(b) and _halves(b):
+        quotients = a[:, np.newaxis] / b
+        exact = _halves(quotients) and all_of(quotients * b == a[:, np.newaxis])
+    return _of_four(a, b, np.divide, exact=exact)
+
+
+def dividends(a: Rows, b: Rows) -> tuple[Rows, Rows]:
+    """Return both, aligned; DomainError if 0 is in a divisor."""
     if not all_of(np.minimum(b[0], b[1]) < _ZERO):
         raise DomainError(_ZERO_INSIDE)
-    a, b = aligned(a, b)
-    return outward(_hull_of_four(a[0] / b[0], a[1] / b[1], a[0] / b[1], a[1] / b[0]))
+    return aligned(a, b)
+
+
+def _of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows], *, exact: bool) -> Rows:
+    """Return rows of the hull of the four results at ends, of which those that are NaN stand for 0.
+
+    0 inf: 0 times numbers. inf / inf: x / y tends to 0 with y, so that 0 is a bound of the others.
+    """
+    ends = ((a[0], b[0]), (a[1], b[1]), (a[0], b[1]), (a[1], b[0]))
+    candidates = [operation(x, y) for x, y in ends]
+    rows = _hull_of_four(*candidates)
+    if exact:
+        return rows
+    return outward(rows, lambda: _hull_of_four(*(_without_nan(x, a, b) for x in candidates)))
+
+
+def _short(rows: Rows) -> bool:
+    """Return whether the first and the last number have at most 26 bits: a guess at all of them."""
+    return bool(rows.size) and _is_half(rows.item(0)) and _is_half(rows.item(rows.size - 1))
+
+
+def _exact_factors(a: Rows, b: Rows) -> bool:
+    return _short(a) and _short(b) and _halves(a) and _halves(b)
+
+
+def _is_half(x: float) -> bool:
+    return frexp(x)[0] * _HALF % 1.0 == 0.0
+
+
+def _is_fit(x: float) -> bool:
+    return _is_half(x) and (x == 0.0 or _LOW < abs(x) < _HIGH)
+
+
+def _halves(rows: Rows) -> bool:
+    """Return whether all have at most 26 bits and are 0 or of moderate size.
+
+    Then their products are exact: 52 bits, above 2^-800.
+    """
+    size = np.abs(rows)
+    fit = ((size >= _LEAST) & (size <= _MOST)) | (size == _ZERO)
+    return all_of(fit) and not (rows.view(np.int64) & _TAIL).any()
+
+
+def _without_nan(x: Rows, *operands: Rows) -> Rows:
+    if any(np.isnan(operand).any() for operand in operands):
+        raise FloatingPointError("a bound is not a number")
+    return np.where(np.isnan(x), 0.0, x)
 
 
 def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
@@ -129,14 +204,30 @@ def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
     return np.maximum(rows, others, out=rows)
 
 
+def _total(a: float, b: float, c: float, d: float) -> tuple[float, float]:
+    x, y = a + c, b + d
+    if not (x - a == c and x - c == a):
+        x += abs(x) * ULP
+    if not (y - b == d and y - d == b):
+        y += abs(y) * ULP
+    return _finite(x, y)
+
+
 def _product(a: float, b: float, c: float, d: float) -> tuple[float, float]:
-    return _outermost(a * c, b * d, a * d, b * c)
+    p, q, r, s = a * c, b * d, a * d, b * c
+    if all(map(_is_fit, (a, b, c, d))):
+        return max(r, s, -p, -q), max(p, q, -r, -s)
+    return _outermost(p, q, r, s)
 
 
 def _quotient(a: float, b: float, c: float, d: float) -> tuple[float, float]:
     if not (c < 0.0 or d < 0.0):
         raise DomainError(_ZERO_INSIDE)
-    return _outermost(a / c, b / d, a / d, b / c)
+    p, q, r, s = a / c, b / d, a / d, b / c
+    products = ((p, c, a), (q, d, b), (r, d, a), (s, c, b))
+    if all(_is_fit(x) and _is_fit(y) and x * y == z for x, y, z in products):
+        return max(r, s, -p, -q), max(p, q, -r, -s)
+    return _outermost(p, q, r, s)
 
 
 def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
@@ -144,12 +235,16 @@ def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
     x, y = max(r, s, -p, -q), max(p, q, -r, -s)
     x += abs(x) * ULP + ETA
     y += abs(y) * ULP + ETA
-    if not (x < MAX and y < MAX):
-        raise OverflowError(BEYOND)
+    return _finite(x, y)
+
+
+def _finite(x: float, y: float) -> tuple[float, float]:
+    if not (x < MAX and y < MAX):  # nor NaN: infinities are done by arrays
+        raise OverflowError
     return x, y
 
 
-_BY_ENDS = {product: _product, quotient: _quotient}
+_BY_ENDS = {total: _total, product: _product, quotient: _quotient}
 
 
 def magnitude(rows: Rows) -> Rows:
@@ -164,21 +259,32 @@ def power(rows: Rows, n: int) -> Rows:
     On the rows p of X (n odd) or |X| (n even), t_n = p |p|^(n-1) is the row of the result. An upper
     bound r of t_k gives the upper bounds r |r| of t_(2k) = t_k |t_k| and r |p| of t_(k+1).
     """
+    return powers(rows, n, _above)
+
+
+def _above(x: Rows, y: Rows) -> Rows:
+    """Return upper bounds of the products of numbers."""
+    return x * y if _exact_factors(x, y) else outward(x * y)
+
+
+def powers(rows: Rows, n: int, above: Callable[[Rows, Rows], Rows]) -> Rows:
+    """Do the same, given upper bounds of x y for numbers."""
     rows = rows if n % 2 else magnitude(rows)
     size = np.abs(rows)
     result = rows
     for bit in bin(n)[3:]:
-        result = outward(result * np.abs(result))
+        result = above(result, np.abs(result))
         if bit == "1":
-            result = outward(result * size)
+            result = above(result, size)
     return result if n % 2 else nonnegative(result)
 
 
 def square_root(rows: Rows) -> Rows:
     """Return rows that contain sqrt x, x >= 0 (IEEE's is correctly rounded)."""
     roots = np.sqrt(np.abs(rows))
+    exact = _short(roots) and _halves(roots) and all_of(roots * roots == np.abs(rows))
     np.negative(roots[0], out=roots[0, ...])
-    return nonnegative(outward(roots))
+    return roots if exact else nonnegative(outward(roots))
 
 
 def nonnegative(rows: Rows) -> Rows:
@@ -229,13 +335,15 @@ def scalar_rows(value: object) -> Rows | None:
     """
     if isinstance(value, np.ndarray) and value.dtype.kind in "iu":
         return integer_rows(value)
-    if isinstance(value, float | np.floating | np.ndarray):
+    if isinstance(value, float | np.floating):
+        raise no_decimal(value, "from_floats")
+    if isinstance(value, np.ndarray):
         raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
     if isinstance(value, np.generic) and whole(value) is None:  # else numpy asks again
         raise TypeError(f"not an interval or an exact number: {value!r}")
     if type(value) is int or type(value) is Fraction:
         return _rational_rows(value)
-    if isinstance(value, int | Fraction | np.integer) or _is_interval(value):
+    if isinstance(value, int | Fraction | np.integer | Decimal) or _is_interval(value):
         return np.array(_enclosure(value))
     return None
 
@@ -258,11 +366,17 @@ def integer_rows(values: NDArray[Any]) -> Rows:
 
 def _is_interval(value: object) -> bool:
     """Return whether `value` has exact endpoints `inf` and `sup`, as an Interval has."""
+    if hasattr(value, "decoration"):
+        raise TypeError(f"{value} would lose its decoration: take its .interval")
     return isinstance(getattr(value, "inf", None), Fraction)
 
 
 def exact_rows(values: Any) -> Rows:
     """Return rows of (nested lists of) exact numbers and pairs, as `IntervalArray.from_exact`."""
+    if isinstance(values, np.ndarray) and not values.size:
+        return np.empty((2, *values.shape))
+    if isinstance(rows := getattr(values, "_rows", None), np.ndarray):
+        return rows
     pairs = np.array(_nested(values), dtype=np.float64)
     if pairs.size == 0:
         pairs = pairs.reshape(*pairs.shape, 2)
@@ -320,13 +434,17 @@ def _endpoint(value: Any, name: str) -> Fraction:
         end: Fraction = getattr(value, name)
         return end
     if isinstance(value, float | np.floating):
-        raise TypeError(f"{value!r} is a float, not a decimal: a string, or from_floats")
+        raise no_decimal(value, "from_floats")
     return fraction(value)
 
 
 def _enclosure(value: Any) -> tuple[float, float]:
     """Return (-lower, upper), the tightest, of an exact number or an Interval."""
-    return -float_down(_endpoint(value, "inf")), float_up(_endpoint(value, "sup"))
+    if isinstance(value, str):
+        low, high = pair(value, None)
+    else:
+        low, high = _endpoint(value, "inf"), _endpoint(value, "sup")
+    return -towards(low, float_down), towards(high, float_up)
 
 
 def float_rows(lower: Any, upper: Any) -> Rows:
@@ -334,10 +452,11 @@ def float_rows(lower: Any, upper: Any) -> Rows:
     low = high = _binary64(lower)
     if upper is not lower:
         low, high = np.broadcast_arrays(low, _binary64(upper))
-    rows = joined(-low, high)
-    if not (np.isfinite(rows).all() and (low <= high).all()):
-        raise ValueError("bounds must be finite, with lower <= upper")
-    return rows
+    if not (low <= high).all():
+        raise ValueError("bounds must be numbers or infinite, with lower <= upper")
+    if (low == inf).any() or (high == -inf).any():
+        raise BeyondRange("an interval holds a number")
+    return joined(-low, high)
 
 
 def _binary64(values: Any) -> NDArray[np.float64]:
@@ -363,7 +482,7 @@ class End:
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, value: Fraction) -> None:
-        self.down, self.up = _towards(value, float_down), _towards(value, float_up)
+        self.down, self.up = towards(value, float_down), towards(value, float_up)
 
     def __gt__(self, x: Any) -> Any:
         return x < self.up
@@ -379,14 +498,6 @@ class End:
 
     def __eq__(self, x: object) -> Any:
         return (self.down == x) & (self.up == x)
-
-
-def _towards(value: Fraction, rounded: Callable[[Fraction], float]) -> float:
-    """Return the binary64 number next to `value`, an infinity where there is none."""
-    try:
-        return rounded(value)
-    except OverflowError:
-        return inf if value > 0 else -inf
 
 
 def ends(value: Any) -> tuple[End, End]:

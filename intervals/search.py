@@ -19,6 +19,7 @@ import numpy as np
 
 from intervals.branch import Bounds, Boxes, Given, evaluated, join, one_box, select, split
 from intervals.errors import DomainError
+from intervals.formula import Formula
 from intervals.generic import ends, middle, where
 from intervals.interval import Interval
 from intervals.systems import Function, components, jacobian
@@ -56,10 +57,11 @@ def sign_of(f: Function, box: Given, *, limit: int = 100_000) -> SignResult:
     Theorem. If f is continuous, f < 0 at one point of a box and f > 0 at another, then f has a
     zero there, as a box is connected. Where f touches 0, nothing is decided.
     """
-    low, some_low = _least(f, box, lambda found: 0.0, limit)
+    formula, given = _scalar(f, box)
+    low, some_low = _least(formula, given, lambda found: 0.0, limit)
     if low > 0:
         return SignResult(Sign.POSITIVE, low, None)
-    high, some_high = _least(lambda *x: -components(f(*x))[0], box, lambda found: 0.0, limit)
+    high, some_high = _least(lambda *x: -formula.only(*x), given, lambda found: 0.0, limit)
     if high > 0:
         return SignResult(Sign.NEGATIVE, low, -high)
     zero = some_low < 0 and some_high < 0
@@ -75,9 +77,10 @@ def range_of(
     takes all between. Unless the limit or rounding ends the search, the ends of the two intervals
     differ by at most `tolerance`.
     """
-    low, some_low = _least(f, box, lambda found: found - tolerance, limit)
+    formula, given = _scalar(f, box)
+    low, some_low = _least(formula, given, lambda found: found - tolerance, limit)
     high, some_high = _least(
-        lambda *x: -components(f(*x))[0], box, lambda found: found - tolerance, limit
+        lambda *x: -formula.only(*x), given, lambda found: found - tolerance, limit
     )
     outer = Interval(Fraction(low), Fraction(-high))
     if some_low > -some_high:
@@ -85,15 +88,24 @@ def range_of(
     return Range(outer, Interval(Fraction(some_low), Fraction(-some_high)))
 
 
+def _scalar(f: Function, box: Given) -> tuple[Formula, Boxes]:
+    """Return f as a formula of one value, and the box as an array of one."""
+    given = one_box(box)
+    formula = Formula(f, len(given))
+    if len(formula.outputs) != 1:
+        raise ValueError(f"a function with one value, not {len(formula.outputs)}")
+    return formula, given
+
+
 def _least(
-    f: Function, box: Given, goal: Callable[[float], float], limit: int
+    f: Function, given: Boxes, goal: Callable[[float], float], limit: int
 ) -> tuple[float, float]:
     """Return (lower, found): f >= lower on the box, f <= found at one of its points.
 
     A sub-box with f > goal(found) is not split; the search ends early if found < goal(found).
     DomainError if a sub-box without enclosure remains.
     """
-    waiting = given = one_box(box)
+    waiting = given
     lower = found = inf
     while len(waiting[0]):
         parts, lows = [], []

@@ -24,7 +24,9 @@ Matrix: TypeAlias = list[list[Any]]
 
 
 def components(value: Any) -> list[Any]:
-    """Return the values of f as a list."""
+    """Return the values of f as a list; numpy's arrays of objects are lists, too."""
+    if isinstance(value, np.ndarray):
+        return list(value.reshape(-1))
     return list(value) if isinstance(value, list | tuple) else [value]
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from intervals.formula import Formula
 from intervals.generic import Number, ends, meet, middle, where
 from intervals.jet import Jet
 
@@ -25,9 +26,9 @@ def taylor(f: Callable[[Any], Any], x: Number, order: int = 2) -> Number:
     """
     if order < 0:
         raise ValueError("the order is at least 0")
-    point = middle(x)
-    over: list[Number] = list(f(Jet.variable(x, order)).coefficients)
-    at: list[Number] = list(f(Jet.variable(point, order)).coefficients)
+    point, formula = middle(x), Formula(f, 1).only
+    over: list[Number] = list(formula(Jet.variable(x, order)).coefficients)
+    at: list[Number] = list(formula(Jet.variable(point, order)).coefficients)
     return meet(over[0], polynomial_range([*at[:order], over[order]], x - point))
 
 

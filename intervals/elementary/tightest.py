@@ -14,12 +14,14 @@ the inequalities that each function names.
 
 from collections.abc import Callable
 
-from intervals.elementary.algebraic import cbrt, hypot, root, sqrt
-from intervals.elementary.circular import acos, asin, atan, atan2, sincos, tan
-from intervals.elementary.exponential import cosh, exp, exp2, exp10, expm1, sinh, tanh
-from intervals.elementary.logarithm import acosh, asinh, atanh, log, log1p, log2, log10
+from intervals.elementary import algebraic, circular, exponential, logarithm
+from intervals.elementary.algebraic import hypot, root
+from intervals.elementary.circular import atan2, sincos
+from intervals.elementary.exponential import exp
+from intervals.elementary.logarithm import log
 from intervals.elementary.power import integer_power, power
 from intervals.elementary.ziv import DOWN, UP, Bounds, Raw
+from intervals.functions import TABLE
 
 __all__ = [
     "DOWN",
@@ -38,24 +40,8 @@ __all__ = [
 ]
 
 FUNCTIONS: dict[str, Callable[[Raw, int], Bounds]] = {
-    "sqrt": sqrt,
-    "cbrt": cbrt,
-    "exp": exp,
-    "exp2": exp2,
-    "exp10": exp10,
-    "expm1": expm1,
-    "log": log,
-    "log2": log2,
-    "log10": log10,
-    "log1p": log1p,
-    "tan": tan,
-    "asin": asin,
-    "acos": acos,
-    "atan": atan,
-    "sinh": sinh,
-    "cosh": cosh,
-    "tanh": tanh,
-    "asinh": asinh,
-    "acosh": acosh,
-    "atanh": atanh,
+    name: getattr(module, name)
+    for module in (algebraic, circular, exponential, logarithm)
+    for name in TABLE
+    if hasattr(module, name)
 }

@@ -13,7 +13,7 @@ coordinate of z_0: see `intervals.contractor` for why no solution is lost. (2) K
 for a larger part finds none in the given one, or exactly one, which is in its image. The variable
 z_i occurs in f(z_i) - z_(i+1) with the derivative J_i, and in f(z_(i-1)) - z_i with -1. So with C_i
 the columns of a matrix C that multiply f(z_i) - z_(i+1), the columns of C J that multiply z_i are
-C_i J_i - C_(i-1). The rest is the theorem of `intervals.krawczyk`.
+C_i J_i - C_(i-1). The rest is the theorem of `intervals.operators`.
 
 Source: Galias, Interval methods for rigorous investigations of periodic orbits, Int. J. Bifurcation
 Chaos 11 (2001).
@@ -32,9 +32,9 @@ import numpy as np
 from intervals import IntervalArray, Undecided
 from intervals.array import Mask
 from intervals.branch import Bounds, Boxes, concatenated, evaluated, larger
-from intervals.contractor import Formula, contracted, record
+from intervals.contractor import contracted
+from intervals.formula import Formula, NoFormula
 from intervals.generic import meet, middle, where
-from intervals.rounding import MAX
 from intervals.systems import Function, components, inverses, jacobian
 
 _AT_ONCE = 2048  # boxes that are contracted together
@@ -42,7 +42,7 @@ _MATRICES = 128  # of them at a time by Krawczyk's operator
 _PASSES = 16  # along the orbit, before a box is halved
 _NARROW = 1 / 8  # of the given box: where Krawczyk's operator is worth its price
 _SMALLEST = 2.0**-38
-_ZERO, _POSITIVE = IntervalArray([0]), IntervalArray.from_floats([0.0], [MAX])
+_ZERO, _POSITIVE = IntervalArray([0]), IntervalArray.from_floats([0.0], [inf])
 
 
 class Isolation(NamedTuple):
@@ -70,12 +70,12 @@ class CyclicSystem:
             pairs = zip(components(self.f(*z[:d])), z[d:], strict=True)
             return [value - following for value, following in pairs]
 
-        return record(difference, 2 * d)
+        return _recorded(difference, 2 * d)
 
     @cached_property
     def region(self) -> Formula | None:
         """The function g, if there is one and it can be undone."""
-        return self.g and record(self.g, self.size)
+        return self.g and _recorded(self.g, self.size)
 
     def solutions(self, given: IntervalArray, limit: int) -> IntervalArray:
         """Return the boxes of the theorem.
@@ -178,6 +178,14 @@ class CyclicSystem:
         _, rows = jacobian(self.f, tuple(x.reshape(-1) for x in _coordinates(boxes)))
         matrix = stacked([stacked(column) for column in zip(*rows, strict=True)])
         return matrix.reshape(*boxes.shape, self.size)
+
+
+def _recorded(f: Function, variables: int) -> Formula | None:
+    """Return f as a formula, None where it looks at its arguments as sets."""
+    try:
+        return Formula(f, variables)
+    except NoFormula:
+        return None
 
 
 def turned(boxes: IntervalArray, by: int) -> IntervalArray:

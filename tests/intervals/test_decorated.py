@@ -208,7 +208,7 @@ def test_text_pickle_and_copies(ends, decoration, precision):
 
 
 def test_errors():
-    for text in ("[1, 2]_ill", "[1, 2]_good", "[2, 1]", "[inf]", "[1, 2, 3]", "[nai]_trv", "1?"):
+    for text in ("[1, 2]_ill", "[1, 2]_good", "[2, 1]", "[inf]", "[1, 2, 3]", "[nai]_trv", "1??"):
         with pytest.raises(ValueError):
             Decorated(text)
     for text in ("[empty]_com", "[1, inf]_com", "[1, inf", "[a, b]"):
@@ -223,12 +223,30 @@ def test_errors():
         Decorated(0.5)
     with pytest.raises(TypeError):
         Decorated(1) + 0.5
-    with pytest.raises(OverflowError):
-        Decorated(2**40).exp()
     with pytest.raises(TypeError, match="no number"):
         assert Decorated(1) == 1
     with pytest.raises(TypeError, match="truth"):
         bool(Decorated(1))
+
+
+HUGE = {"exp": (0, 1), "exp2": (0, 1), "exp10": (0, 1), "expm1": (-1, 0), "cosh": (1, 1)}
+
+
+@pytest.mark.parametrize("name", [*HUGE, "sinh"])
+def test_values_that_no_interval_has_are_unbounded(name):
+    """IEEE 1788: the result is not bounded, so the decoration is at most dac."""
+    f = getattr(intervals, name)
+    if name == "sinh":
+        assert f(Decorated("[-2e10, 2e10]")) == Decorated("[entire]_dac")
+    else:
+        low, at_zero = HUGE[name]
+        assert f(Decorated("[0, 2e10]")) == Decorated(f"[{at_zero}, inf]_dac")
+        assert f(Decorated("[-inf, 2e10]")) == Decorated(
+            f"[{1 if name == 'cosh' else low}, inf]_dac"
+        )
+    beyond = f(Decorated("[2e10, 3e10]"))
+    assert beyond.inf == 2**1024 and beyond.sup == inf and beyond.decoration == DAC
+    assert Decorated("[1, 2e10]").pow(Decorated("[1, 2e10]")) == Decorated("[1, inf]_dac")
 
 
 def test_precision_and_the_functions_of_the_module():

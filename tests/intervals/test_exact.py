@@ -42,7 +42,9 @@ def check_decimals(x, digits):
     for written_by, rounding in ((decimal_down, ROUND_FLOOR), (decimal_up, ROUND_CEILING)):
         text = written_by(x, digits)
         assert Fraction(text) == nearest(x, digits, rounding)
-        assert set(text) <= set("-.0123456789")
+        assert set(text) <= set("-.0123456789e")
+        assert len(text) <= 2 * digits + 66
+        text = text.partition("e")[0]
         written = text.lstrip("-0.").replace(".", "")
         assert written[digits:].strip("0") == ""
         assert len(written) == digits or (len(written) > digits and "." not in text)
@@ -152,11 +154,30 @@ def test_integers_of_numpy_do_not_wrap():
 
 @pytest.mark.parametrize(
     "value",
-    [0.5, 1e300, float("nan"), np.float64(1), np.float32(1), None, 1j, b"1", [1], Decimal(1)],
+    [0.5, 1e300, float("nan"), np.float64(1), np.float32(1), None, 1j, b"1", [1]],
 )
 def test_other_types_are_refused(value):
     with pytest.raises(TypeError, match="from_float" if isinstance(value, float) else "Fraction"):
         fraction(value)
+
+
+def test_the_refusal_of_a_float_says_what_to_write():
+    for value, meant in (
+        (2.5, r"Fraction\(5, 2\)"),
+        (3.0, "write 3,"),
+        (0.1, r"Fraction\('0.1'\)"),
+    ):
+        with pytest.raises(TypeError, match=meant):
+            fraction(value)
+    with pytest.raises(TypeError, match="no number"):
+        fraction(float("inf"))
+
+
+def test_decimals_are_exact():
+    assert fraction(Decimal("0.1")) == Fraction(1, 10) and fraction(Decimal("1e3")) == 1000
+    for bad in ("NaN", "Infinity", "1e5000"):
+        with pytest.raises(ValueError):
+            fraction(Decimal(bad))
 
 
 NO_NUMBERS = "| |x|nan|inf|-Infinity|1/0|1//2|1/2/3|1.5/2|0x1|1e|e5|1e5e5|--1|1e½|²"

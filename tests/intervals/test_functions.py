@@ -287,7 +287,12 @@ def test_bisection_of_an_interval_that_cannot_be_halved():
     assert fine.bisect()[0].hull(fine.bisect()[1]) == fine
 
 
-@pytest.mark.parametrize("value", [0.5, 1, Fraction(1, 2), "0.5", None])
+@pytest.mark.parametrize("x", [1, Fraction(1, 2)])
+def test_functions_of_exact_numbers(x):
+    assert intervals.sin(x) == Interval(x).sin() and intervals.hypot(x, 1) == Interval(x).hypot(1)
+
+
+@pytest.mark.parametrize("value", [0.5, "0.5", None])
 def test_functions_of_what_is_no_interval(value):
     for call in (lambda: intervals.sin(value), lambda: intervals.atan2(value, 1)):
         with pytest.raises(TypeError, match="Interval"):

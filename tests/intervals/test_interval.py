@@ -3,16 +3,18 @@
 import itertools
 import math
 import operator
+from decimal import Decimal
 from fractions import Fraction
 
 import flint
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, example
 from hypothesis import strategies as st
 
 import intervals
-from intervals import DomainError, Interval, IntervalError, Undecided
+from intervals import ComplexInterval, Decorated, DomainError, Interval, IntervalError, Undecided
 from tests.intervals import oracle
 from tests.intervals.boxes import MODERATE, boxes, for_all, inside, numbers, precisions
 from tests.intervals.oracle import encloses, outward, range_of, round_down, sqrt_down, sqrt_up
@@ -417,10 +419,16 @@ def test_equality_is_that_of_sets():
     assert Interval(1, 2) == Interval(1, 2, precision=200)
     assert Interval(1, 2) != Interval(1, 3)
     assert Interval(0, 2) != Interval(1, 2)
-    assert Interval(1) != "1"
-    for value in (1, Fraction(1), 1.0):
-        with pytest.raises(TypeError, match="no number"):
-            _ = Interval(1) == value
+    numbers = (1, Fraction(1), 1.0, "1", 1j, Decimal(1), np.int64(1), mpmath.mpf(1))
+    sets = Interval(1), ComplexInterval(1), Decorated(1)
+    for one in sets:
+        assert one != None  # noqa: E711
+        for value in (*numbers, mpmath.iv.mpf(1), flint.arb(1), flint.acb(1), flint.fmpq(1), *sets):
+            if type(value) is not type(one):
+                with pytest.raises(TypeError, match="no number"):
+                    _ = one == value
+                with pytest.raises(TypeError, match="no number"):
+                    _ = one != value
     assert hash(Interval(1, 2)) == hash(Interval(1, 2, precision=200))
     assert len({Interval(1, 2), Interval(2, 4) / 2, Interval(-2, -1) * -1, Interval(1)}) == 2
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from intervals import DomainError, Interval
 from intervals.array import IntervalArray
 from intervals.generic import meet
-from intervals.krawczyk import krawczyk, newton_system
 from intervals.newton import Roots
+from intervals.operators import krawczyk, newton_system
 from tests.intervals.boxes import for_all
 from tests.intervals.claims import check_claim, from_roots, holds
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp

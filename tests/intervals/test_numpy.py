@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray
 from intervals.jet import Jet
-from intervals.zeros import zeros
+from intervals.zero_finder import zeros
 from tests.intervals.boxes import for_all
 
 X = IntervalArray([[(1, 2), (3, 5), ("1/3", "1/2")], [(2, 2), (1, 4), (7, 8)]])
@@ -97,7 +97,7 @@ def test_what_has_no_meaning_raises():
     for operation in (
         *(lambda: np.less(X, Y), lambda: np.isnan(X), lambda: np.add(X, Y, where=True)),
         *(lambda: np.add(X, Y, out=np.empty((2, 3))), lambda: np.add.accumulate(X)),
-        *(lambda: np.subtract.reduce(X), lambda: np.median(X), lambda: np.linalg.inv(X)),
+        *(lambda: np.subtract.reduce(X), lambda: np.median(X), lambda: np.linalg.qr(X)),
         *(lambda: np.sort(X), lambda: np.asarray(X), lambda: np.array(X, dtype=float)),
         *(lambda: np.concatenate(([1.0], X)), lambda: np.take(np.arange(3), X)),
         lambda: float(X[0, 0]),

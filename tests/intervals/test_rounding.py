@@ -108,8 +108,9 @@ def test_outward_sum_encloses_sums(x, y):
 def test_out_of_range_is_refused(bad):
     with pytest.raises(OverflowError):
         bounded(np.array([0.0, bad]))
-    with np.errstate(all="ignore"), pytest.raises(OverflowError):
-        outward(np.array([bad]))
+    with np.errstate(all="ignore"):
+        assert outward(np.array([bad])).tolist() == [math.inf]
+        assert outward(np.array([-math.inf])).tolist() == [-MAX]
     assert bounded(np.empty((2, 0))).size == 0
 
 
@@ -151,8 +152,9 @@ def test_what_other_rounding_modes_refuse(mode):
         with pytest.raises(FloatingPointError):
             x.sin()
         for operation in (lambda: big * big, lambda: big * 10**10, lambda: big / small):
-            with pytest.raises(OverflowError):
-                operation()
+            result = operation()
+            assert ((result.sup == math.inf) | (result.inf == -math.inf)).any()
+            assert not np.isnan(result._rows).any()
     require_nearest()
 
 

@@ -1,5 +1,6 @@
 """Branch and bound: signs, ranges and zeros of functions for which these are known."""
 
+import time
 from fractions import Fraction
 from functools import partial
 from itertools import product
@@ -9,12 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from intervals import DomainError, Interval, search
+from intervals import DomainError, Formula, Interval, rootn, search
 from intervals.array import IntervalArray
 from intervals.branch import clusters, evaluated, one_box, split
 from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
-from intervals.zeros import _examined, zeros
+from intervals.zero_finder import _examined, zeros
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all
 from tests.intervals.claims import from_roots, holds, horner
@@ -124,14 +125,70 @@ def test_many_zeros_and_a_limit():
         assert {Roots.UNDECIDED, Roots.AT_LEAST_ONE} & set(oscillation(limit=limit))
 
 
-def test_multiple_zeros_stay_undecided_or_change_sign():
+def test_multiple_zeros_at_fractions_have_their_multiplicity():
     third = Fraction(1, 3)
-    (double,) = zeros(lambda x: (x - third).sqr(), Interval(-1, 1))
+    for f, root, k in (
+        (lambda x: (x - third).sqr(), third, 2),
+        (lambda x: (x - third) * (x - third).sqr(), third, 3),
+        (lambda x: x * x - 2 * x + 1, 1, 2),
+        (lambda x: (x**2 - 2 * x + 1) / (x + 7), 1, 2),
+        (lambda x: (2 * x + 1) ** 5, -Fraction(1, 2), 5),
+    ):
+        (result,) = zeros(f, Interval(-1, 2))
+        assert result.outcome is Roots.UNIQUE and result.reason.endswith(f"multiplicity {k}")
+        assert result.box[0].contains(root) and result.box[0].wid < Fraction(1, 2**50)
+
+
+def test_other_multiple_zeros_stay_undecided_in_one_box_or_change_sign():
+    (double,) = zeros(lambda x: (x * x - 2).sqr(), Interval(0, 2))
     assert double.outcome is Roots.UNDECIDED
-    assert double.box[0].contains(third) and double.box[0].wid < Fraction(1, 10**6)
-    (triple,) = zeros(lambda x: (x - third) * (x - third).sqr(), Interval(-1, 1))
-    assert triple.outcome is Roots.AT_LEAST_ONE and triple.box[0].contains(third)
+    assert (double.box[0].sqr() - 2).contains(0) and double.box[0].wid < Fraction(1, 10**6)
+    (triple,) = zeros(lambda x: (x * x - 2) ** 3, Interval(0, 2))
+    assert triple.outcome is Roots.AT_LEAST_ONE and (triple.box[0].sqr() - 2).contains(0)
+    (touching,) = zeros(lambda x, y: (x * x + y * y - 2, x + y - 2), [Interval(-3, 3)] * 2)
+    assert touching.outcome is Roots.UNDECIDED and all(x.contains(1) for x in touching.box)
+    third = Fraction(1, 3)
     assert zeros(lambda x: (x - third).sqr() + Fraction(1, 10**9), Interval(-1, 1)) == []
+    for away in (2, Fraction(1, 1000)):  # two of them, or one that is no zero of the second value
+        f = lambda x, d=away: (x * (x - d)).sqr()  # noqa: E731
+        assert len(zeros(f, Interval(-1, 3))) == 2
+
+
+def test_a_limit_in_seconds():
+    begin = time.monotonic()
+    results = zeros(lambda x: (1 / (x * x + Fraction(1, 1000))).sin(), Interval(-5, 5), seconds=0.0)
+    assert time.monotonic() - begin < 20
+    assert results and any(r.outcome is not Roots.UNIQUE for r in results)
+
+
+def test_large_boxes_and_values_beyond_binary64():
+    huge = Interval.from_float(1e200)
+    for f, box, roots in (
+        (lambda x: x * x - 4, huge.hull(-huge), [-2, 2]),
+        (lambda x: x**3 - 8, huge.hull(-huge), [2]),
+        (lambda x: (x - 1).exp() - 1, Interval(-(10**6), 10**6), [1]),
+    ):
+        results = zeros(f, box)
+        assert outcomes(results) == [Roots.UNIQUE] * len(roots)
+        assert all(r.box[0].contains(root) for r, root in zip(results, roots, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("f", "ends", "count"),
+    [
+        (lambda x: rootn(x, 2) - 2, (-5, -3), 0),
+        (lambda x: rootn(x, 2) - 2, (-5, 30), 1),
+        (lambda x: x.log() - 1, (-5, 30), 1),
+        (lambda x: (x - 3).log1p() - 1, (-5, 30), 1),
+        (lambda x: x.asin() - 1, (-9, 9), 1),
+        (lambda x: x.atanh() - 1, (-9, 9), 1),
+        (lambda x: x.acosh() - 1, (-9, 9), 1),
+        (lambda x: x.pow(Fraction(1, 3)) - 2, (-9, 9), 1),
+        (lambda x: x.sqrt() + x.log() + 3, (-9, 0), 0),
+    ],
+)
+def test_where_f_is_not_defined_there_is_no_zero(f, ends, count):
+    assert outcomes(zeros(f, Interval(*ends), limit=3000)) == [Roots.UNIQUE] * count
 
 
 def test_no_zero_is_proved_by_no_result():
@@ -203,7 +260,7 @@ def test_a_hull_does_not_repeat_a_zero():
     """The zero 1 of x - 1 is in the hull; it was found before, perhaps, or was not."""
     hull = (IntervalArray([("0.5", "1.5")]),)
     for known, outcome in (((1, 1), []), ((1, 2), [Roots.UNDECIDED]), ((3, 4), [Roots.UNIQUE])):
-        found = _examined(lambda x: x - 1, hull, (IntervalArray([known]),))
+        found = _examined(Formula(lambda x: x - 1, 1), hull, (IntervalArray([known]),), hull)
         assert outcomes(found) == outcome
 
 
@@ -279,7 +336,7 @@ def test_bounds_of_boxes_that_are_done_are_kept(monkeypatch):
         return np.array([bounds[pair] for pair in ends], dtype=float), 5.0, boxes
 
     monkeypatch.setattr(search, "_bounds", scripted)
-    assert search._least(None, Interval(0, 1), lambda found: found - 1, 100) == (4.8, 5.0)
+    assert search._least(None, one_box(Interval(0, 1)), lambda found: found - 1, 100) == (4.8, 5.0)
 
 
 def test_a_pole_has_no_range():

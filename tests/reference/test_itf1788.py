@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from intervals import Interval, IntervalArray
+from intervals import DomainError, Interval, IntervalArray, TightArray
 from tests.reference.itf1788_judge import CONTAINED, FAILED, OVERFLOW, RAISED, down, up
 from tests.reference.itf1788_operations import CONSTRUCTORS, DECORATIONS, OPERATIONS
 from tests.reference.itf1788_run import FOLDER, outcomes_of, run
@@ -256,3 +256,62 @@ def test_any_statement_has_an_outcome(operation, operands, results):
     line = " ".join([operation, *operands, "=", *results, ";"])
     (outcome,) = run(read("testcase t {" + line + "}"))
     assert outcome.kind in {*RUN, FAILED, *REASONS}
+
+
+# -- arrays alone: unbounded operands, and the least bounds ----------------------------------------
+
+
+def arrays_of(statement, kind):
+    """The operands as arrays of one element, None if one is no nonempty interval."""
+    boxes = statement.operands
+    if not all(isinstance(x, Box) and not (x.nai or x.empty) for x in boxes):
+        return None
+    ends = [(binary64(x.lower), binary64(x.upper)) for x in boxes]
+    return [kind.from_floats([float(low)], [float(high)]) for low, high in ends]
+
+
+def forward(kind, wanted):
+    """The statements of forward operations on intervals, their results by a type of arrays."""
+    for x in everything():
+        operation = OPERATIONS.get(x.statement.operation)
+        if not (operation and operation.category == "forward" and wanted(x)):
+            continue
+        operands = set(operation.kinds) == {"x"} and arrays_of(x.statement, kind)
+        if operands and len(operands) == len(operation.kinds) and x.statement.tightest:
+            try:
+                found = operation.evaluate(*operands)
+                yield x.statement, (found.inf.item(), found.sup.item())
+            except DomainError:
+                yield x.statement, None
+
+
+@pytest.mark.slow
+def test_arrays_contain_the_results_of_unbounded_intervals():
+    done = Counter()
+    for statement, found in forward(IntervalArray, lambda x: x.kind == "unbounded"):
+        (expected,) = statement.tightest
+        if found is None:  # it leaves the domain: so it does for bounded ones
+            assert statement.operation in LEAVING, statement
+        else:
+            low, high = binary64(expected.lower), binary64(expected.upper)
+            assert expected.empty or (found[0] <= low and high <= found[1]), statement
+        done[statement.operation, found is None] += 1
+    assert sum(n for (_, outside), n in done.items() if not outside) > 400
+
+
+LEAVING = {"div", "recip", "sqrt", "log", "log2", "log10", "tan", "asin", "acos", "acosh", "atanh"}
+LEAVING |= {"pow", "pown", "atan2", "log1p", "logp1", "rootn"}
+TIGHT = {"add", "sub", "mul", "div", "sqr", "sqrt", "recip", "neg"}
+
+
+@pytest.mark.slow
+def test_tight_arrays_are_as_tight_as_the_vectors():
+    count = 0
+    for statement, found in forward(TightArray, lambda x: x.kind == CONTAINED):
+        expected = statement.tightest[0]
+        ends = [binary64(e) for e in (expected.lower, expected.upper)]
+        moderate = all(e == 0 or Fraction(1, 2**900) < abs(e) < 2**900 for e in ends)
+        if statement.operation in TIGHT and moderate:
+            assert [*map(Fraction, found)] == ends, statement
+            count += 1
+    assert count > 90

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals.elementary.binary64.fallback import Ends
-from intervals.rounding import Rows, all_of, bounded, constant, require_nearest
+from intervals.rounding import Rows, all_of, constant, require_nearest
 
 CHUNK = 16384  # elements at a time: the temporaries stay in the cache
 SMALL, LARGE = constant(2.0**-400), constant(2.0**400)
@@ -21,7 +21,7 @@ def in_blocks(
 
     kernel: rows to the rows of the result, and a mask, or one for each end, of what is proved.
     exactly: the ends (lower, upper) of each operand to those of the result, for the others.
-    A bound that is not finite is not proved. OverflowError if a bound is beyond binary64.
+    A bound that is not finite is not proved.
     """
     require_nearest()
     aligned = operands if len(operands) == 1 else np.broadcast_arrays(*operands)
@@ -39,7 +39,7 @@ def in_blocks(
 
     with np.errstate(all="ignore"):
         result = in_chunks(block, *flat)
-    return bounded(result).reshape(aligned[0].shape)
+    return result.reshape(aligned[0].shape)
 
 
 def in_chunks(function: Callable[..., Rows], *operands: Rows) -> Rows:

@@ -5,13 +5,11 @@ import numpy as np
 from intervals.elementary.binary64 import fallback
 from intervals.elementary.binary64.arctangent import angle
 from intervals.elementary.binary64.blocks import Mask, in_blocks, moderate
-from intervals.elementary.binary64.fallback import Ends
+from intervals.elementary.binary64.fallback import PI_UP, Ends
 from intervals.elementary.binary64.pair import Pair
 from intervals.errors import DomainError
 from intervals.rounding import Rows
 from intervals.rows import aligned, is_thin, magnitude
-
-PI_UP = 3.1415926535897936  # the next binary64 number above pi
 
 
 def hypot(x: Rows, y: Rows) -> Rows:

@@ -25,7 +25,7 @@ from intervals.elementary.binary64.fallback import Ends
 from intervals.elementary.binary64.logarithm import mantissa
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, split, two_product, two_sum
 from intervals.elementary.binary64.polynomial import horner, polynomial
-from intervals.rounding import Rows
+from intervals.rounding import MAX, Rows
 from intervals.rows import aligned, is_thin, nonnegative
 
 _LEAST_NORMAL = 2.0**-1022
@@ -50,7 +50,9 @@ def _power(x: Rows, y: Rows) -> tuple[Rows, Mask]:
     products = Pair(exponents[np.newaxis]) * _log(bases)[:, np.newaxis]
     size = np.max(np.abs(products.hi), axis=(0, 1))
     proved = (
-        (bases >= _LEAST_NORMAL).all(axis=0) & np.all(moderate(exponents), axis=0) & (size <= 640.0)
+        ((bases >= _LEAST_NORMAL) & (bases <= MAX)).all(axis=0)
+        & np.all(moderate(exponents), axis=0)
+        & (size <= 640.0)
     )
     powers = exp(products)
     rows = np.stack([np.max(v.upper(), axis=(0, 1)) for v in (-powers, powers)])

@@ -39,6 +39,7 @@ from numpy.typing import NDArray
 
 from intervals.array import IntervalArray, Mask
 from intervals.branch import all_of
+from intervals.formula import Formula
 from intervals.generic import meet, middle, where
 from intervals.interval import Interval
 from intervals.miranda import signs_on_faces
@@ -127,6 +128,9 @@ def contract(f: Function, box: Box, steps: int) -> tuple[Mask, Mask, tuple[Any, 
 
 
 def _solve(f: Function, box: Box, image: _Image, steps: int) -> SystemResult | SystemResults:
+    if isinstance(box, Interval):
+        raise TypeError("a box is a sequence of intervals, one for each variable")
+    f = Formula(f, len(box))
     state = _contract(f, box, image, steps)
     some = np.asarray(False)
     if not (state.none | state.unique).all():
@@ -146,8 +150,6 @@ def _contract(f: Function, box: Box, image: _Image, steps: int) -> _State:
     """
     if steps < 1:
         raise ValueError("at least one step")
-    if isinstance(box, Interval):
-        raise TypeError("a box is a sequence of intervals, one for each variable")
     none = unique = np.zeros(np.shape(box[0].inf), dtype=bool)
     for _ in range(steps):
         values, derivatives = jacobian(f, box)

@@ -10,12 +10,14 @@ from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from math import inf
+from time import monotonic
 from typing import TypeAlias
 
 import numpy as np
 
 from intervals.array import IntervalArray, Mask
 from intervals.branch import (
+    Bounds,
     Boxes,
     Given,
     all_of,
@@ -29,16 +31,19 @@ from intervals.branch import (
     select,
     split,
 )
-from intervals.contractor import Formula, contracted, record
+from intervals.contractor import contracted
 from intervals.errors import DomainError
+from intervals.formula import Formula
 from intervals.generic import meet
 from intervals.interval import Interval
-from intervals.krawczyk import SystemResult, contract, krawczyk
+from intervals.jet import Jet
 from intervals.newton import Roots
-from intervals.rounding import MAX
+from intervals.operators import SystemResult, contract, krawczyk
 from intervals.shaving import shaved
 from intervals.systems import Function, components
 
+_NEAR = 2.0**-18  # of a side of the given box
+_MOST_DERIVATIVES = 8
 Demand: TypeAlias = "tuple[Formula, list[IntervalArray]]"
 
 
@@ -49,6 +54,7 @@ def zeros(
     where: Function | None = None,
     tolerance: float = 2.0**-38,
     limit: int = 100_000,
+    seconds: float = inf,
 ) -> list[SystemResult]:
     """Return boxes that together contain all zeros of f in the given box, sorted.
 
@@ -64,39 +70,45 @@ def zeros(
     exactly one in X', X is done, and so is each sub-box within X'. A zero on the common face of two
     sub-boxes is inside the larger boxes of both, and may be found twice: if the box of one zero is
     within the larger box of another, the two are the same. Sub-boxes whose sides are below
-    `tolerance` times those of the given box, and those left after `limit` ones, are joined where
-    they meet and examined by `krawczyk`.
+    `tolerance` times those of the given box, once that is cut, and those left after `limit` ones,
+    or after so many seconds, are joined where they meet and examined by `krawczyk`; those where
+    nothing is decided once more where they are near to each other, and by `_multiple`.
     """
+    end = monotonic() + seconds
     given = one_box(box)
     nothing = select(given, slice(0))
     found, small = [nothing], [nothing]
-    waiting = given
-    formulas = _formulas(f, where, len(given))
+    waiting, scale = given, None
+    f = Formula(f, len(given))
+    demands = [_demand(f, IntervalArray([0]))]
+    if where is not None:
+        region = IntervalArray.from_floats([0.0], [inf])
+        demands.append(_demand(Formula(where, len(given)), region))
     while len(waiting[0]):
         limit -= len(waiting[0])
-        for formula in formulas:
-            waiting = _cut(formula, waiting)
+        for demand in demands:
+            waiting = _cut(demand, waiting)
         if not len(waiting[0]):
             break
+        scale = scale or waiting
+        if monotonic() > end:
+            limit = 0
         more, waiting = _round(f, waiting)
         found += more
         for around in found[1:]:
             waiting = select(waiting, ~_inside(waiting, around))
-        halves, cut = split(waiting, given, tolerance if limit > 0 else inf)
+        halves, cut = split(waiting, scale, tolerance if limit > 0 else inf)
         small.append(select(waiting, ~cut))
         waiting = halves
     zero, unclear = _distinct(f, join(found))
     small.append(_common(select(unclear, meets(unclear, given)), given))
     results = [r for one in _each(zero) for r in _in_given(f, one, given)]
-    results += _examined(f, join(small), zero)
+    results += _examined(f, join(small), zero, scale or given)
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
 
 
-def _formulas(f: Function, where: Function | None, count: int) -> list[Demand]:
-    """Return f = 0 and g >= 0 as far as they can be recorded."""
-    demands = ((f, IntervalArray([0])), (where, IntervalArray.from_floats([0.0], [MAX])))
-    recorded = ((g and record(g, count), target) for g, target in demands)
-    return [(formula, [target] * len(formula.outputs)) for formula, target in recorded if formula]
+def _demand(formula: Formula, target: IntervalArray) -> Demand:
+    return formula, [target] * len(formula.outputs)
 
 
 def _cut(demand: Demand, boxes: Boxes) -> Boxes:
@@ -198,22 +210,69 @@ def _rational_zero(f: Function, box: Sequence[Interval] | None) -> tuple[Interva
     return None
 
 
-def _examined(f: Function, boxes: Boxes, zero: Boxes) -> list[SystemResult]:
+def _examined(f: Formula, boxes: Boxes, zero: Boxes, scale: Boxes) -> list[SystemResult]:
     """Join boxes that meet, and return what is known of each hull that may have a zero."""
-    results = []
+    open_, results = _hulls(boxes, np.zeros(len(boxes))), []
+    for hull in open_:
+        if result := _known(f, hull, zero):
+            results.append(result)
+    vague = [r for r in results if r.outcome is Roots.UNDECIDED and r.box]
+    if len(vague) > 1:  # around a multiple zero there are gaps between them
+        sides = zip(*(r.box or () for r in vague), strict=True)
+        near = np.array([float(x.wid[0]) * _NEAR for x in scale])
+        for hull in _hulls(tuple(IntervalArray(list(side)) for side in sides), near):
+            inside = [r for r in vague if _inside(_boxes(r), hull).all()]
+            if len(inside) > 1 and not meets(zero, hull).any() and (one := _known(f, hull, zero)):
+                results = [r for r in results if r not in inside] + [one]
+    return [_multiple(f, r) for r in results]
+
+
+def _boxes(result: SystemResult) -> Boxes:
+    return tuple(IntervalArray([side]) for side in result.box or ())
+
+
+def _hulls(boxes: Boxes, near: Bounds) -> list[Boxes]:
+    """Return the hulls of groups of boxes that are as near as this to each other."""
     lower = np.stack([x.inf for x in boxes], axis=-1)
     upper = np.stack([x.sup for x in boxes], axis=-1)
-    for low, high, _ in clusters(lower, upper):
-        hull = tuple(IntervalArray.from_floats([a], [b]) for a, b in zip(low, high, strict=True))
-        try:
-            outcome, box, reason = krawczyk(f, as_box(hull, 0))
-        except (DomainError, OverflowError) as error:
-            outcome, box, reason = Roots.UNDECIDED, as_box(hull, 0), str(error)
-        if outcome is Roots.UNIQUE:
-            if _inside(zero, hull).any():
-                continue
-            if meets(zero, hull).any():
-                outcome, reason = Roots.UNDECIDED, "perhaps the zero of another box"
-        if outcome is not Roots.NONE:
-            results.append(SystemResult(outcome, box, reason))
-    return results
+    groups = [members for _, _, members in clusters(lower - near, upper + near)]
+    ends = ((lower[g].min(axis=0), upper[g].max(axis=0)) for g in groups)
+    return [
+        tuple(IntervalArray.from_floats([a], [b]) for a, b in zip(low, high, strict=True))
+        for low, high in ends
+    ]
+
+
+def _known(f: Formula, hull: Boxes, zero: Boxes) -> SystemResult | None:
+    """Return what is known of a hull, None if it has no zero but those that are known."""
+    try:
+        outcome, box, reason = krawczyk(f, as_box(hull, 0))
+    except (DomainError, OverflowError) as error:
+        outcome, box, reason = Roots.UNDECIDED, as_box(hull, 0), str(error)
+    if outcome is Roots.UNIQUE:
+        if _inside(zero, hull).any():
+            return None
+        if meets(zero, hull).any():
+            outcome, reason = Roots.UNDECIDED, "perhaps the zero of another box"
+    return None if outcome is Roots.NONE else SystemResult(outcome, box, reason)
+
+
+def _multiple(f: Formula, result: SystemResult) -> SystemResult:
+    """Return the result, or that there is one zero p, of multiplicity k, where this is proved.
+
+    Theorem. If f, of one variable, has k derivatives on X, the first of which, and f itself, but
+    not the last one, vanish at p in X, and the last one nowhere on X, p is the only zero of f in X:
+    by Taylor's formula f(x) is (x - p)^k times a value of the k-th derivative over k!. Fractions
+    show where derivatives vanish; p is one of small denominator.
+    """
+    if result.outcome is Roots.UNIQUE or len(result.box or ()) != 1:
+        return result
+    (x,) = result.box or ()
+    p = x.mid.limit_denominator(1000)
+    with suppress(AttributeError, TypeError, ArithmeticError):
+        exact = f.only(Jet.variable(p, _MOST_DERIVATIVES)).coefficients
+        k = next((i for i, c in enumerate(exact) if c != 0), 0)
+        last = f.only(Jet.variable(x, k)).coefficients[k]
+        if k > 1 and x.contains(p) and not last.contains_zero():
+            return SystemResult(Roots.UNIQUE, (Interval(p),), f"one zero, of multiplicity {k}")
+    return result

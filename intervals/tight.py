@@ -1,0 +1,136 @@
+"""+ - * / and squares of rows with the least bounds that binary64 has, by error-free steps.
+
+Theorem. Let y = fl(e) be an exact value e rounded to nearest, d a number with the sign of e - y.
+The least binary64 number that is not below e is y where d <= 0, and the next one above y where
+d > 0. Of several e_i the one with the largest y_i may be any with this y_i: those with a smaller
+y_i are below the midpoint in front of it. So the largest d of these decides.
+
+d is the error itself for + (Knuth) and * (Dekker, Veltkamp's split); for x / y and sqrt x it is
+a remainder, x - y q with the sign of y, and x - y^2, which are numbers of binary64. Dekker's
+product needs factors below 2^990 and a product above 2^-900 in size, so that no part of it
+overflows, or underflows and meets a processor that flushes; elsewhere a bound is `outward`'s.
+All this holds where the processor rounds to nearest, which is checked.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from intervals.rounding import MAX, Rows, all_of, constant, outward, require_nearest
+from intervals.rows import dividends, is_thin, nonnegative, powers
+
+_SPLIT, _NEXT = constant(2.0**27 + 1), constant(2.0**-53 * (1 + 2.0**-52))
+_SMALL, _LARGE = constant(2.0**-900), constant(2.0**900)
+
+
+def total(a: Rows, b: Rows) -> Rows:
+    """Return the least rows that contain x + y for x in A, y in B."""
+    require_nearest()
+    s = a + b
+    t = s - a
+    return _least(s, (a - (s - t)) + (b - t))
+
+
+def product(a: Rows, b: Rows) -> Rows:
+    """Return the least rows that contain x y for x in A, y in B."""
+    require_nearest()
+    x, y = _corners(a, b)
+    p, error = _product(x, y)
+    known = _moderate(p) & _moderate(x) & _moderate(y)
+    return _hull(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+
+
+def quotient(a: Rows, b: Rows) -> Rows:
+    """Return the least rows that contain x / y for x in A, y in B; DomainError if 0 is in B."""
+    require_nearest()
+    x, y = _corners(*dividends(a, b))
+    q = x / y
+    p, error = _product(q, y)
+    rest = np.copysign(1.0, y) * ((x - p) - error)
+    known = _moderate(p) & _moderate(q) & _moderate(x) & _moderate(y)
+    return _hull(q, np.where(x == 0.0, 0.0, np.where(known, rest, np.nan)))
+
+
+def square_root(rows: Rows) -> Rows:
+    """Return the least rows that contain sqrt x, x >= 0."""
+    require_nearest()
+    x = np.abs(rows)
+    root = np.sqrt(x)
+    p, error = _product(root, root)
+    rest = np.where(_moderate(x), (x - p) - error, np.where(x == 0.0, 0.0, np.nan))
+    for part in (root, rest):
+        np.negative(part[0], out=part[0, ...])
+    return nonnegative(_least(root, rest))
+
+
+def power(rows: Rows, n: int) -> Rows:
+    """Return rows that contain x^n, n >= 2: the least for n = 2, and each product's least."""
+    require_nearest()
+    return powers(rows, n, _above)
+
+
+def _above(x: Rows, y: Rows) -> Rows:
+    p, error = _product(x, y)
+    known = _moderate(p) & _moderate(x) & _moderate(y)
+    return _least(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+
+
+def _corners(a: Rows, b: Rows) -> tuple[Rows, Rows]:
+    """Return x and y, pairs of ends, with a first axis; see `rows` for the signs of x y."""
+    a, b = np.broadcast_arrays(a, b)
+    if is_thin(b):
+        ends = a[1:] if is_thin(a) else np.stack((-a[0], a[1]))
+        return ends, b[1:]
+    x, y = a, b
+    return np.stack((x[0], x[1], -x[0], -x[1])), np.stack((y[0], y[1], y[1], y[0]))
+
+
+def _hull(values: Rows, errors: Rows) -> Rows:
+    """Return the rows of all values, each with a number of the sign of its error, NaN if unknown.
+
+    A value that is NaN stands for 0: see `rows`.
+    """
+    values = np.where(np.isnan(values), 0.0, values)
+    both, signed = np.stack((-values, values)), np.stack((-errors, errors))
+    most = both.max(axis=1)
+    return _least(most, np.where(both == most[:, np.newaxis], signed, -1.0).max(axis=1))
+
+
+def _least(rows: Rows, errors: Rows) -> Rows:
+    """Return the least bounds; those of `outward` where the error is NaN and the row finite.
+
+    For |y| >= 2^-900, y + u (1 + 2 u) |y| rounds to the number above y: Rump, Zimmermann, Boldo,
+    Melquiond 2009, Computing predecessor and successor in rounding to nearest.
+    """
+    size = np.abs(rows)
+    plain = size >= _SMALL
+    step = size * _NEXT
+    step *= errors > 0.0
+    bounds = np.maximum(rows + step, -MAX)
+    if not all_of(plain & (errors == errors)):  # noqa: PLR0124 - NaN
+        bounds = np.where(plain | ~(errors > 0.0), bounds, np.nextafter(rows, np.inf))
+        bounds = np.where(size == np.inf, np.maximum(rows, -MAX), bounds)
+        unknown = np.isnan(errors) & (size < np.inf)
+        bounds = np.where(unknown, outward(rows.copy()), bounds)
+    return bounds
+
+
+def _product(x: Rows, y: Rows) -> tuple[Rows, Rows]:
+    """Return fl(x y) and its error."""
+    (a, b), (c, d) = _halves(x), _halves(y)
+    p = x * y
+    return p, ((a * c - p) + a * d + b * c) + b * d
+
+
+def _halves(x: Rows) -> tuple[Rows, Rows]:
+    """Return h and l, of 26 bits, with x = h + l."""
+    scaled = _SPLIT * x
+    head = scaled - (scaled - x)
+    return head, x - head
+
+
+def _moderate(x: Rows) -> Any:
+    size = np.abs(x)
+    return (size >= _SMALL) & (size <= _LARGE)
