@@ -14,6 +14,7 @@ from typing import NamedTuple
 from proofs.formal import lemma_text as text
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
+from proofs.formal.written import rational
 from proofs.search.repair import short_decimal
 from proofs.trusted.numbers import Range, hull, show_range, within
 
@@ -45,12 +46,6 @@ class Sets(NamedTuple):
     def interval(self) -> Range:
         """I, from the left end of I0 to the right end of I1."""
         return self.domains[0][0], self.domains[1][1]
-
-
-def rational(x: Fraction) -> str:
-    """Write a rational as a Coq term."""
-    text = f"{abs(x.numerator)}" + (f" / {x.denominator}" if x.denominator > 1 else "")
-    return f"(- {text})" if x < 0 else f"({text})"
 
 
 def fields(**values: object) -> dict[str, str]:

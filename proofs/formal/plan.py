@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from proofs.formal.written import NoTheorem
 from proofs.search.repair import places, rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -18,10 +19,6 @@ from proofs.trusted.verify import check, premises
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
 _OF_RISING = ("H1", "H2", "H3", "H6")
 _MOST_DIGITS = 12
-
-
-class NoTheorem(ValueError):
-    """The certificate is right, and decides nothing that is stated in Coq."""
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,6 @@ from __future__ import annotations
 from proofs.formal.plan import Headline
 from proofs.trusted.numbers import show, show_range
 
-ALL = """
-(* What all theorems together rest on. *)
-Definition all := ({names}).
-Print Assumptions all.
-"""
-
 SAYS = """
 (* {says} *)
 """
@@ -35,7 +29,7 @@ HORSESHOE = (
 Proof.
   eapply corrected with (3 := regular0) (4 := regular1) (5 := monotone_horseshoe0)
     (6 := monotone_horseshoe1) (7 := covers_horseshoe0) (8 := covers_horseshoe1);
-    [lra | lra | | lra].
+    [lra | lra | | lra | intros phi P; apply {avoid}_meets; lra].
   intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
 Qed.
 """

@@ -33,8 +33,7 @@ Set Printing Width 1000000.
 def transcription(tmp_path_factory):
     """Arithmetic.v compiled, in a folder."""
     folder = tmp_path_factory.mktemp("arithmetic")
-    coqc.copy_theory(folder, ["Arithmetic"])
-    coqc.run(folder, "Arithmetic")
+    coqc.copy(coqc.theory(["Arithmetic"], print), folder, ["Arithmetic"], ".vo")
     return folder
 
 
@@ -139,9 +138,7 @@ def test_every_operation_is_proved_from_the_axioms_of_the_reals(tmp_path):
     lines += [f"Print Assumptions {name}." for name in HELD]
     (tmp_path / "Asked.v").write_text("\n".join(lines) + "\n")
     modules = coqc.order(lines[0])
-    coqc.copy_theory(tmp_path, modules)
-    for module in modules:
-        coqc.run(tmp_path, module)
+    coqc.copy(coqc.theory(modules, print), tmp_path, modules, ".vo")
     printed = "\n" + coqc.run(tmp_path, "Asked").output
     parts = printed.split("\nAxioms:\n")[1:]
     assert len(parts) == len(HELD)

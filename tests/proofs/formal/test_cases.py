@@ -9,8 +9,8 @@ import pytest
 from proofs.formal import coqc
 from proofs.formal.cases import case
 from proofs.formal.hints import NoHint
-from proofs.formal.lemmas import rational
 from proofs.formal.plan import plan
+from proofs.formal.written import rational
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.formal.coq import (
@@ -55,7 +55,7 @@ def test_the_paper_s_numbers_stand_in_the_statements():
     assert "y - x < (d - c) / (21 / 5)" in said["H6_verified"]
     assert "moran (381 / 2000) (2381 / 10000) t = 1 <-> t = s" in said["H11_verified"]
     head = paper_case().text.partition("Lemma")[0]
-    assert "Definition eta := (2121 / 10000)." in head and "Definition nu := (- 1 / 5)." in head
+    assert "Definition eta := (2121 / 10000)." in head and "Definition nu := (-1 / 5)." in head
     assert "Definition side := -1." in head
 
 

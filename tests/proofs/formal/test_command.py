@@ -6,7 +6,7 @@ import pytest
 
 from proofs.formal import __main__ as formal
 from proofs.formal import coqc
-from proofs.formal.cases import Case, Theorem
+from proofs.formal.written import Case, Theorem
 from tests.proofs.formal.coq import PAPER, ROOT, needs_coqc, printed_by_coq
 
 CERTIFICATES = ROOT / "tests" / "certificates"
@@ -61,7 +61,7 @@ def test_an_axiom_of_one_s_own_is_told_with_status_3(capsys, tmp_path, monkeypat
     cheat = "Axiom easy : False.\nTheorem corrected_theorem : 1 = 2.\nProof. destruct easy. Qed.\n"
     text = cheat + "Definition all := corrected_theorem.\nPrint Assumptions all.\n"
     made = Case(text, [Theorem("corrected_theorem", "one is two")])
-    monkeypatch.setattr(formal, "case", lambda *of, **more: made)
+    monkeypatch.setattr(formal.cases, "case", lambda *of: made)
     assert formal.main([str(PAPER), "--out", str(tmp_path)]) == 3
     assert "axioms not expected: easy" in capsys.readouterr().err
 
@@ -71,7 +71,7 @@ def test_an_axiom_of_one_s_own_is_told_with_status_3(capsys, tmp_path, monkeypat
 def test_what_coqc_refuses_is_a_bug_with_status_3(capsys, tmp_path, monkeypatch):
     text = "Theorem corrected_theorem : 1 = 2.\nProof. reflexivity. Qed.\n"
     made = Case(text, [Theorem("corrected_theorem", "one is two")])
-    monkeypatch.setattr(formal, "case", lambda *of, **more: made)
+    monkeypatch.setattr(formal.cases, "case", lambda *of: made)
     assert formal.main([str(PAPER), "--out", str(tmp_path)]) == 3
     error = capsys.readouterr().err
     assert "coqc REFUSES" in error and "corrected_theorem" in error and error.count("\n") == 1
@@ -86,7 +86,7 @@ def test_without_coqc_the_files_are_written_and_a_line_says_how_to_get_it(
     said = capsys.readouterr()
     assert "apt-get install coq" in said.err and said.err.count("\n") == 1 and not said.out
     written = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"Impact.v", "Flight.v", "Shift.v", "Corrected.v", "Horseshoe.v"} <= written
+    assert {"Impact.v", "Flight.v", "Shift.v", "Corrected.v", "Case.v"} <= written
 
 
 @pytest.mark.parametrize("kind", ["rejected", "malformed"])

@@ -19,9 +19,7 @@ def restitution(tmp_path_factory):
     """The folder with all that Repaired.v requires, compiled."""
     folder = tmp_path_factory.mktemp("restitution")
     modules = coqc.order(REPAIRED)
-    coqc.copy_theory(folder, modules)
-    for module in modules:
-        coqc.run(folder, module)
+    coqc.copy(coqc.theory(modules, print), folder, modules, ".vo")
     return folder
 
 
