@@ -14,24 +14,25 @@ if __name__ == "__main__":
     launch("proofs.formal.__main__")
 
 import hashlib
+import re
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
-from proofs.formal import cases, coqc, graphs
+from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
 from proofs.formal.plan import plan
-from proofs.formal.written import Case, NoTheorem
+from proofs.formal.written import Case, NoTheorem, Theorem, ended
 from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
-from proofs.trusted.certificate import FIELDS, Malformed, parse, read
+from proofs.trusted.certificate import Malformed, read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 MODULE = "Case"
 _SECONDS = 900
@@ -51,6 +52,7 @@ examples:
   python -m proofs.formal reports/horseshoe.json
   python -m proofs.formal reports/horseshoe.json --floats --out coq
   python -m proofs.horseshoe --nu -0.201 --out mine && python -m proofs.formal mine/horseshoe.json
+  python -m proofs.formal reports/nonplastic.json --brief
   python -m proofs.formal tests/certificates/lemmas/accepted/logistic.json
 """
 
@@ -59,7 +61,12 @@ def main(arguments: list[str] | None = None) -> int:
     """Write the files of a certificate and run coqc on them; return the exit status."""
     parser = Parser("proofs.formal", __doc__, EPILOG)
     add = parser.add_argument
-    add("certificate", metavar="CERTIFICATE", type=Path, help="of a horseshoe, or of a graph")
+    add(
+        "certificate", metavar="CERTIFICATE", type=Path, nargs="?", help="of a horseshoe or a graph"
+    )
+    add(
+        "--arithmetic", action="store_true", help="prove that the checker's own arithmetic encloses"
+    )
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
     add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
     add("--brief", action="store_true", help="print the theorems alone, as Coq has them")
@@ -67,6 +74,8 @@ def main(arguments: list[str] | None = None) -> int:
     add("--seconds", type=seconds, default=_SECONDS, metavar="N", help=_LIMIT)
     share(parser, "--json")
     options = parser.parse_args(arguments)
+    if options.arithmetic == (options.certificate is not None):
+        parser.error("a certificate is expected, or --arithmetic")
     made = _made(parser, options)
     if isinstance(made, int):
         return made
@@ -89,13 +98,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _made(parser: Parser, options: Namespace) -> Case | int:
     """Return the case of a certificate, or the exit status after a line that says why not."""
+    if options.arithmetic:
+        return arithmetic()
     name = options.certificate
     try:
-        source = read(name)
-        digest = hashlib.sha256(source.encode()).hexdigest()
-        if parse(source).fields(*FIELDS)[1].is_null():  # about formulas
-            return graphs.case(source, digest)
-        return cases.case(plan(source), digest, options.floats)
+        return _of_certificate(read(name), options.floats)
     except (Malformed, Rejected) as error:
         parser.error(f"{name}: {error}")
     except OSError as error:
@@ -103,6 +110,23 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
     except (NoTheorem, NoHint, Exhausted, Unproved, ArithmeticError) as failure:
         say(f"{parser.prog}: {name}: nothing written: {failure}", sys.stderr)
         return 1
+
+
+def _of_certificate(source: str, floats: bool) -> Case:
+    """Check a certificate, and return its case: of graphs, of rectangles or of a horseshoe."""
+    report, digest = check(source), hashlib.sha256(source.encode()).hexdigest()
+    if report.parameters is None:
+        return graphs.case(report, source, digest)
+    if all(claim.id not in rebounds.CLAIMS for claim in report.claims):
+        return cases.case(plan(source, report), digest, floats)
+    return rebounds.case(report, source, digest, floats)
+
+
+def arithmetic() -> Case:
+    """Return the theorems on the checker's arithmetic, which stand beside the theory."""
+    text = (coqc.THEORY / "Enclosures.v").read_text()
+    stated = re.findall(r"^\(\* (.*) \*\)\nTheorem (\w+)", text, re.MULTILINE)
+    return ended(text, [Theorem(name, says) for says, name in stated])
 
 
 def _prove(

@@ -13,13 +13,14 @@ from itertools import count, pairwise
 from typing import Any
 
 from proofs.formal.written import Case, NoTheorem, Theorem, comment, ended, rational
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import along, images
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.graph import Graph
 from proofs.trusted.numbers import Range, show, show_range
-from proofs.trusted.verify import check
+from proofs.trusted.verify import Report
 
 _LONGEST = 5000  # operations of a formula as a tree
 _PARTS = 64  # of an interval, to look for the least slope
@@ -235,12 +236,12 @@ class Writer:
         self.state(ENTROPY, f"entropy{j}", says, **values)
 
 
-def case(source: str, digest: str) -> Case:
-    """Return the Coq file of the graphs that a certificate claims; NoTheorem where there are none.
+def case(report: Report, source: str, digest: str) -> Case:
+    """Return the Coq file of the graphs that a checked certificate claims.
 
-    Raises Malformed, Rejected or Exhausted as the checker does.
+    Raises Malformed where there are none.
     """
-    report, document = check(source), json.loads(source)
+    document = json.loads(source)
     steps = [(name, document["steps"][name]) for name in document["claims"]]
     entropies = [step["witness"] for _, step in steps if step["rule"] == "entropy"]
     graphs = [name for name, step in steps if step["rule"] == "graph"]
@@ -255,5 +256,5 @@ def case(source: str, digest: str) -> Case:
             if each["graph"] == name:
                 writer.entropy(next(number), line, named, each)
     if not writer.theorems:
-        raise NoTheorem("no claim of it is a graph or an entropy")
+        raise Malformed("$.claims: none is a graph or an entropy")
     return ended(HEAD.format(digest=digest) + "".join(writer.lines), writer.theorems)

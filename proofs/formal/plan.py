@@ -14,7 +14,7 @@ from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check, premises
+from proofs.trusted.verify import Report, check
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
 _OF_RISING = ("H1", "H2", "H3", "H6")
@@ -56,19 +56,19 @@ class Plan:
         return all(self.verdicts.get(claim) is Verdict.VERIFIED for claim in claims)
 
 
-def plan(source: str) -> Plan:
-    """Check a certificate, and return what it asks for.
+def plan(source: str, report: Report | None = None) -> Plan:
+    """Return what a certificate asks for; it is checked, unless there is a report.
 
     Raises Malformed, Rejected or Exhausted as the checker does, Malformed as well where the file
     is about other claims, NoTheorem where nothing is decided. H1 to H3 and H6 are stated in Coq
     where f increases; where it decreases, the theorem on the horseshoe says what they say.
     """
-    report = check(source)
+    report = report or check(source)
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
     if not isinstance(of, Parameters) or not claims:
         raise Malformed("$.claims: no certificate of python -m proofs.horseshoe")
-    known = premises(source).known
+    known = report.context.known
     proofs = {
         str(claim["id"]): [known[name] for name in claim["proof"]]
         for claim in parse(source).fields(*FIELDS)[4].value

@@ -11,16 +11,16 @@ SAYS = """
 
 MODEL = (
     SAYS
-    + r"""Theorem model : forall (X V : R -> R) phi,
+    + r"""Theorem model : (side = 1 /\ 0 < nu \/ side = -1 /\ nu < 0) /\ forall (X V : R -> R) phi,
   (forall t, is_derive X t (V t)) -> (forall t, is_derive V t (- eta ^ 2 * X t)) ->
   X 0 = 1 + nu * sin phi -> V 0 = nu * cos phi ->
   forall t, side * (X t - (1 + nu * sin (phi + t))) = gap phi t.
-Proof. exact (motion side eta nu eta_pos). Qed.
+Proof. split; [unfold side, nu; lra | exact (motion side eta nu eta_pos)]. Qed.
 """
 )
 MODEL_IN_WORDS = (
     "the gap is the distance from the table of any mass that leaves it at phase phi with its "
-    "velocity and moves by X'' = -eta^2 X"
+    "velocity and moves by X'' = -eta^2 X, in units of the sign of nu"
 )
 
 HORSESHOE = (
