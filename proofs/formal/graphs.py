@@ -209,7 +209,8 @@ class Writer:
         what = (
             f"{line.map.definition}, {line.of_map} on {cells} with {len(line.arrows)} arrows: "
             "each infinite path is followed by a point, each periodic one by a periodic point, no "
-            "point follows two, and near points follow the same path for long"
+            "point follows two, near points follow the same path for long, and all these points "
+            "are a compact set"
         )
         least = _rounded(line.steepness())
         if least:

@@ -3,7 +3,7 @@
 From Coq Require Import Reals ZArith Psatz Lia List Bool.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Float_full Interval Xreal.
-From Oscillator Require Import Flight Formula Graph Paths Entropy.
+From Oscillator Require Import Calculus Formula Graph Paths Entropy.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -354,7 +354,7 @@ Proof.
   - apply distinct_NoDup, D.
   - intros a b B. specialize (N _ B). apply existsb_exists in N. destruct N as ([c k] & C & Q). apply Nat.eqb_eq in Q.
     simpl in Q. subst c. eauto.
-  - apply graph_checked.
+  - apply (proj1 graph_checked).
   - apply delta_pos.
   - apply apart.
   - intros k. destruct (Nat.lt_ge_cases k (length ends)) as [K|K].

@@ -1,7 +1,7 @@
 (* From numeric facts on two branches and on the gap between them to the horseshoe. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Flight Shift.
+From Oscillator Require Import Impact Calculus Flight Shift.
 Open Scope R_scope.
 
 Section Corrected.

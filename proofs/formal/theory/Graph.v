@@ -18,13 +18,14 @@ Definition K (x : R) : Prop := exists w, path w /\ follows w x.
 
 (* Every path is followed by a point, every periodic one by a periodic point; no point follows two
    paths, and points near a point of K follow its path for long. *)
-Definition semiconjugate : Prop :=
+Definition itinerary_map : Prop :=
   (forall w, path w -> exists x, follows w x) /\
   (forall w p, path w -> (0 < p)%nat -> (forall n, w (p + n)%nat = w n) ->
      exists x, follows w x /\ iter p x = x) /\
   (forall w v x, path w -> path v -> follows w x -> follows v x -> forall n, w n = v n) /\
   (forall w x n, path w -> follows w x -> exists eps, 0 < eps /\
      forall v y, path v -> follows v y -> Rabs (y - x) < eps -> forall k, (k <= n)%nat -> v k = w k).
+Definition semiconjugate : Prop := itinerary_map /\ compact K.
 
 (* Paths that agree in n steps are followed by points at most width / m^n apart: no two points
    follow the same path, and the inverse of the itinerary is continuous. *)

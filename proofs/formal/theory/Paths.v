@@ -79,6 +79,45 @@ Proof.
     exists p, q. unfold spans. repeat split; try (specialize (G x)); lra.
 Qed.
 
+(* Of finitely many properties one holds for points as near as one likes, if always one does. *)
+Lemma frequent (T : Type) (P : T -> R -> Prop) c l :
+  (forall e, 0 < e -> exists y t, In t l /\ P t y /\ Rabs (y - c) < e) ->
+  exists t, In t l /\ forall e, 0 < e -> exists y, P t y /\ Rabs (y - c) < e.
+Proof.
+  induction l as [|a l IH]; intros H; [destruct (H 1 Rlt_0_1) as (y & t & [] & _)|].
+  destruct (classic (forall e, 0 < e -> exists y, P a y /\ Rabs (y - c) < e)) as [A|A]; [exists a; split; [left|]; auto|].
+  apply not_all_ex_not in A. destruct A as (d & A). apply imply_to_and in A. destruct A as [D A].
+  destruct IH as (t & I & F); [|exists t; split; [right|]; auto].
+  intros e E. destruct (H (Rmin e d) (Rmin_pos _ _ E D)) as (y & t & [<-|I] & Q & B); pose proof (Rmin_l e d); pose proof (Rmin_r e d).
+  - exfalso. apply A. exists y. split; auto. lra.
+  - exists y, t. split; auto. split; auto. lra.
+Qed.
+
+Fixpoint tuples (letters : list nat) (n : nat) : list (list nat) :=
+  match n with O => [[]] | S n => flat_map (fun i => map (cons i) (tuples letters n)) letters end.
+
+Lemma in_tuples letters n : forall (v : nat -> nat) k, (forall i, In (v i) letters) -> In (map v (seq k n)) (tuples letters n).
+Proof.
+  induction n as [|n IH]; intros v k H; simpl; [auto|]. apply in_flat_map. exists (v k). split; [apply H|].
+  apply in_map, IH, H.
+Qed.
+
+Lemma cells_bounded cells : exists m M, m <= 0 <= M /\ forall i x, cell cells i x -> m <= x <= M.
+Proof.
+  unfold Graph.cell. induction cells as [|c l (m & M & O & B)].
+  - exists 0, 0. split; [lra|]. intros [|i] x X; simpl in X; lra.
+  - exists (Rmin m (fst c)), (Rmax M (snd c)). pose proof (Rmin_l m (fst c)). pose proof (Rmin_r m (fst c)).
+    pose proof (Rmax_l M (snd c)). pose proof (Rmax_r M (snd c)). split; [lra|].
+    intros [|i] x X; simpl in X; [lra|]. specialize (B i x X). lra.
+Qed.
+
+Lemma adherent_closed (L : R -> Prop) : (forall c, (forall e, 0 < e -> exists y, L y /\ Rabs (y - c) < e) -> L c) ->
+  closed_set L.
+Proof.
+  intros H x X. apply NNPP. intros N. apply X, H. intros e E. apply NNPP. intros G. apply N.
+  exists (mkposreal e E). intros y Y Ly. apply G. exists y. split; auto.
+Qed.
+
 Definition width (cells : list (R * R)) : R := fold_right (fun c s => Rabs (snd c - fst c) + s) 0 cells.
 
 Lemma width_bound cells i x y : cell cells i x -> cell cells i y -> Rabs (x - y) <= width cells.
@@ -230,7 +269,7 @@ Proof.
   replace n with (n - p + p)%nat at 2 by lia. rewrite iter_add, E. apply IH. lia.
 Qed.
 
-Theorem semiconjugate_theorem : semiconjugate f cells arrows.
+Lemma itinerary_theorem : itinerary_map f cells arrows.
 Proof.
   split; [intros w W; apply (orbit w W)|]. split; [|split].
   - intros w p W P E. destruct (periodic w p P (fun k _ => W k)) as (x & X & V).
@@ -251,7 +290,56 @@ Proof.
       apply N. split; [split; [exact I|auto]|]. change (Rabs (y - x) < d). lra.
 Qed.
 
+(* -- the points that follow a path are a compact set -- *)
+Definition inside (i : nat) (x : R) : bool :=
+  if Rle_dec (left i) x then (if Rle_dec x (right i) then true else false) else false.
+
+Lemma inside_cell i x : inside i x = true <-> cell i x.
+Proof.
+  unfold inside, Graph.cell, left, right. destruct Rle_dec; [destruct Rle_dec|]; split; intros; try discriminate; tauto.
+Qed.
+
+Lemma adherent c : (forall e, 0 < e -> exists y, K y /\ Rabs (y - c) < e) ->
+  forall n, exists w, steps w (S n) /\ visits w n c.
+Proof.
+  intros H n. set (letters := map fst arrows).
+  destruct (frequent _ (fun l y => exists v, path v /\ follows v y /\ map v (seq 0 (S (S n))) = l) c (tuples letters (S (S n))))
+    as (l & _ & F).
+  { intros e E. destruct (H e E) as (y & (v & V & G) & D). exists y, (map v (seq 0 (S (S n)))). split; [|eauto].
+    apply in_tuples. intros k. apply (in_map fst _ _ (V k)). }
+  destruct (F 1 Rlt_0_1) as (y & (v & V & _ & E) & _). subst l. exists v. split; [intros k _; apply V|].
+  apply limit; [intros k _; apply V|]. intros e E. destruct (F e E) as (z & (u & U & G & M) & D). exists z.
+  split; auto. intros k L. replace (v k) with (u k); [apply G|].
+  apply (proj1 map_ext_in_iff M). apply in_seq. lia.
+Qed.
+
+Lemma K_closed : closed_set K.
+Proof.
+  apply adherent_closed. intros c H. pose proof (adherent c H) as A.
+  set (letter := fun n => match find (fun i => inside i (iter n c)) (map fst arrows) with Some i => i | None => 0%nat end).
+  assert (Is : forall w n k, steps w (S n) -> visits w n c -> (k <= n)%nat -> letter k = w k).
+  { intros w n k S V L. assert (Ar : arrow (w k) (w (Datatypes.S k))) by (apply S; lia). unfold letter.
+    destruct (find _ _) as [i|] eqn:Fi.
+    - apply find_some in Fi. destruct Fi as [I C]. apply inside_cell in C. apply in_map_iff in I.
+      destruct I as ([i' j] & E & I). simpl in E. subst i'. apply (same _ _ _ _ _ _ I Ar C (V k L)).
+      rewrite Rminus_eq_0, Rabs_R0. exact delta_pos.
+    - pose proof (find_none _ _ Fi (w k) (in_map fst _ _ Ar)) as N. simpl in N.
+      rewrite (proj2 (inside_cell _ _) (V k L)) in N. discriminate. }
+  exists letter. split; intros n; destruct (A (S n)) as (w & S & V).
+  - rewrite (Is w (Datatypes.S n) n S V ltac:(lia)), (Is w (Datatypes.S n) (Datatypes.S n) S V ltac:(lia)). apply S. lia.
+  - rewrite (Is w (Datatypes.S n) n S V ltac:(lia)). apply V. lia.
+Qed.
+
+Lemma K_compact : compact K.
+Proof.
+  apply compact_P5; [apply K_closed|]. destruct (cells_bounded cells) as (m & M & _ & B). exists m, M.
+  intros x (w & W & F). apply (B (w O) x (F O)).
+Qed.
+
 (* -- where f expands, a point is all that follows a path -- *)
+Theorem semiconjugate_theorem : semiconjugate f cells arrows.
+Proof. split; [apply itinerary_theorem|apply K_compact]. Qed.
+
 Theorem conjugate_theorem m : 1 < m -> (forall i j x y, arrow i j -> cell i x -> cell i y ->
   m * Rabs (x - y) <= Rabs (f x - f y)) -> conjugate f cells arrows m.
 Proof.

@@ -1,31 +1,8 @@
 (* From numeric facts on two rectangles to the two-sided shift of the rebounds. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Rebounds Flight Crossed.
+From Oscillator Require Import Impact Rebounds Calculus Crossed.
 Open Scope R_scope.
-
-(* One flight: a launch that does not fall at first, then positive, then falling through 0. *)
-Lemma one_flight (h h1 h2 : R -> R) T u v :
-  (forall t, is_derive h t (h1 t)) -> (forall t, is_derive h1 t (h2 t)) ->
-  h 0 = 0 -> 0 <= h1 0 -> 0 < T /\ T <= u /\ u < v ->
-  (forall t, 0 <= t <= T -> 0 < h2 t) -> (forall t, T <= t <= u -> 0 < h t) ->
-  (forall t, u <= t <= v -> h1 t < 0) -> h v < 0 ->
-  exists t, u < t < v /\ h t = 0 /\ forall s, 0 < s < t -> 0 < h s.
-Proof.
-  intros D1 D2 Z0 Z1 O L F D E.
-  assert (Up : forall s, 0 < s <= T -> 0 < h1 s).
-  { intros s S. destruct (mvt h1 h2 0 s) as [c [C Q]]; [lra|auto|].
-    assert (0 < h2 c) by (apply L; lra). nra. }
-  assert (Launch : forall s, 0 < s <= T -> 0 < h s).
-  { intros s S. destruct (mvt h h1 0 (s / 2)) as [c [C Q]]; [lra|auto|].
-    destruct (mvt h h1 (s / 2) s) as [c' [C' Q']]; [lra|auto|].
-    assert (0 < h1 c') by (apply Up; lra).
-    assert (0 <= h1 c) by (destruct (Req_dec c 0) as [->|]; [auto|apply Rlt_le, Up; lra]). nra. }
-  destruct (ivt h h1 u v) as [c [C Z]]; [lra|auto|split; [auto|apply F; lra]|].
-  exists c. split; [auto|split; [auto|]]. intros s S.
-  destruct (Rle_dec s T); [apply Launch; lra|]. destruct (Rle_dec s u); [apply F; lra|].
-  destruct (mvt h h1 s c) as [d [? G]]; [lra|auto|]. assert (h1 d < 0) by (apply D; lra). nra.
-Qed.
 
 Section Model.
 Variables side eta nu eps : R.
