@@ -10,9 +10,9 @@ from fractions import Fraction
 
 from proofs.formal import lemma_text, theorem_text
 from proofs.formal.hints import NoHint, binary
-from proofs.formal.lemmas import ROOM, Lemmas, fields
+from proofs.formal.lemmas import ROOM, Lemmas
 from proofs.formal.plan import Headline, Plan
-from proofs.formal.written import Case, Theorem, comment, ended
+from proofs.formal.written import Case, fields
 from proofs.search.repair import rounded_slopes, short_decimal
 from proofs.trusted.numbers import Range, show, show_range, within
 
@@ -21,19 +21,12 @@ _BITS = 40  # of Coq's integers, where no margin is thin
 _TINY = Fraction(1, 2**30)
 
 
-class Writer(Lemmas):
+class Theorems(Lemmas):
     """Collects the lemmas and theorems of a plan."""
 
     def __init__(self, plan: Plan) -> None:
         super().__init__(plan)
-        self.theorems: list[Theorem] = []
-        self.left_out: list[str] = []
         self.stated: dict[str, object] = {}  # the theorem on the horseshoe and its numbers
-
-    def state(self, name: str, says: str, template: str, **values: object) -> None:
-        """Write a theorem."""
-        self.add(template, name=name, says=comment(says), **values)
-        self.theorems.append(Theorem(name, says))
 
     def horseshoe(self, headline: Headline) -> None:
         """Write the theorem on the horseshoe, and what follows from it."""
@@ -182,7 +175,7 @@ class Writer(Lemmas):
 
 def case(plan: Plan, digest: str, floats: bool) -> Case:
     """Return the Coq file of a plan, for Coq's integers or for machine floats."""
-    writer = Writer(plan)
+    writer = Theorems(plan)
     writer.write()
     bits = max(_BITS, 16 - math.floor(math.log2(writer.finest)))
     precision = "" if floats and bits <= 53 else f"i_prec {bits}"
@@ -193,4 +186,4 @@ def case(plan: Plan, digest: str, floats: bool) -> Case:
         bits=precision and f", {precision}",
         **fields(side=writer.hints.side, eta=plan.of.eta, nu=plan.of.nu),
     )
-    return ended(head + "".join(writer.lines), writer.theorems, writer.left_out)
+    return writer.ended(head)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import count, pairwise
 from typing import Any
 
-from proofs.formal.written import Case, NoTheorem, Theorem, comment, ended, rational
+from proofs.formal.written import Case, NoTheorem, Writer, rational
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import along, images
@@ -178,17 +178,8 @@ def _rounded(least: Fraction) -> Fraction:
     return Fraction(0)
 
 
-class Writer:
+class Graphs(Writer):
     """Collects the theorems of a certificate's graphs."""
-
-    def __init__(self) -> None:
-        self.lines: list[str] = []
-        self.theorems: list[Theorem] = []
-
-    def state(self, template: str, name: str, says: str, **values: object) -> None:
-        """Write a theorem."""
-        self.lines.append(template.format(says=comment(says), **values))
-        self.theorems.append(Theorem(name, says))
 
     def graph(self, i: int, line: Line) -> dict[str, object]:
         """Write a map, its graph and the theorem on it; return what they are named."""
@@ -203,9 +194,7 @@ class Writer:
             "arrows": pairs(line.arrows),
         }
         written = "; ".join(f"({a} / {line.unit}, {b} / {line.unit})" for a, b in numerators)
-        self.lines.append(
-            MAP.format(real=real, tree=tree, cells=written, ends=pairs(numerators), **named)
-        )
+        self.add(MAP, real=real, tree=tree, cells=written, ends=pairs(numerators), **named)
         what = (
             f"{line.map.definition}, {line.of_map} on {cells} with {len(line.arrows)} arrows: "
             "each infinite path is followed by a point, each periodic one by a periodic point, no "
@@ -219,9 +208,9 @@ class Writer:
                 f"; the slope is {show(least)} at least in size there: a path is followed by one "
                 "point alone, and the map on these points is conjugate to the shift on paths"
             )
-            self.state(CONJUGATE, f"graph{i}", what + more, **named, m=m, n=n)
+            self.state(f"graph{i}", what + more, CONJUGATE, **named, m=m, n=n)
         else:
-            self.state(SEMICONJUGATE, f"graph{i}", what, **named)
+            self.state(f"graph{i}", what, SEMICONJUGATE, **named)
         return named
 
     def entropy(self, j: int, line: Line, named: dict[str, object], witness: Any) -> None:
@@ -234,7 +223,7 @@ class Writer:
             f"the entropy of {line.of_map} on the points that follow paths is at least "
             f"log({growth})/{length}"
         )
-        self.state(ENTROPY, f"entropy{j}", says, **values)
+        self.state(f"entropy{j}", says, ENTROPY, **values)
 
 
 def case(report: Report, source: str, digest: str) -> Case:
@@ -246,7 +235,7 @@ def case(report: Report, source: str, digest: str) -> Case:
     steps = [(name, document["steps"][name]) for name in document["claims"]]
     entropies = [step["witness"] for _, step in steps if step["rule"] == "entropy"]
     graphs = [name for name, step in steps if step["rule"] == "graph"]
-    writer, number = Writer(), count(1)
+    writer, number = Graphs(), count(1)
     for i, name in enumerate(dict.fromkeys([*graphs, *(each["graph"] for each in entropies)]), 1):
         graph = report.context.known[name]
         if not isinstance(graph, Graph):  # the checker has seen that it is
@@ -258,4 +247,4 @@ def case(report: Report, source: str, digest: str) -> Case:
                 writer.entropy(next(number), line, named, each)
     if not writer.theorems:
         raise Malformed("$.claims: none is a graph or an entropy")
-    return ended(HEAD.format(digest=digest) + "".join(writer.lines), writer.theorems)
+    return writer.ended(HEAD.format(digest=digest))

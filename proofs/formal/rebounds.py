@@ -15,8 +15,7 @@ from typing import NamedTuple
 from proofs.formal import rebound_text as text
 from proofs.formal.hints import NoHint, binary, steps
 from proofs.formal.lemma_text import FLOATS, INTEGERS
-from proofs.formal.lemmas import by_cases, fields
-from proofs.formal.written import Case, NoTheorem, Theorem, comment, ended
+from proofs.formal.written import Case, NoTheorem, Writer, by_cases, fields
 from proofs.trusted.equations import (
     Clock,
     Launch,
@@ -203,18 +202,17 @@ def _found(report: Report, source: str) -> Iterator[tuple[RectangleHorseshoe, li
                 yield shoe, [each for each in maps if isinstance(each, RectangleMap)]
 
 
-class Writer:
+class Rectangles(Writer):
     """Collects the lemmas and theorems on two rectangles."""
 
     def __init__(self, shoe: RectangleHorseshoe, maps: list[RectangleMap]) -> None:
+        super().__init__()
         self.shoe, self.maps = shoe, maps
         self.flights = [Flights(each) for each in maps]
         self.c = shoe.rates.cone.width
-        self.lines: list[str] = []
-        self.theorems: list[Theorem] = []
         self.windows, self.bounds = self._chosen()
         (left, right), velocities = (each.phases for each in maps), maps[0].velocities
-        self.numbers: dict[str, object] = {
+        self.numbers = {
             **dict(zip(("A", "b0", "a1", "B"), (*left, *right), strict=True)),
             **{"g0": velocities[0], "g1": velocities[1], "c": self.c},
             **self.bounds._asdict(),
@@ -232,15 +230,6 @@ class Writer:
                 return windows, found
             room /= 2
         raise NoHint("the cone condition is not seen")
-
-    def add(self, template: str, **values: object) -> None:
-        """Write a template with these values."""
-        self.lines.append(template.format(**fields(**{**self.numbers, **values})))
-
-    def state(self, name: str, says: str, template: str, **values: object) -> None:
-        """Write a theorem."""
-        self.add(template, says=comment(says), **values)
-        self.theorems.append(Theorem(name, says))
 
     def rectangle(self, i: int) -> None:
         """Write what is shown of one rectangle."""
@@ -296,7 +285,7 @@ class Writer:
 def case(report: Report, source: str, digest: str, floats: bool) -> Case:
     """Return the Coq file of the first two rectangles that F maps across both."""
     for shoe, maps in _found(report, source):
-        writer = Writer(shoe, maps)
+        writer = Rectangles(shoe, maps)
         writer.theorems_on()
         if isinstance(report.parameters, Parameters):
             writer.edge(report.parameters)
@@ -307,5 +296,5 @@ def case(report: Report, source: str, digest: str, floats: bool) -> Case:
             arithmetic=FLOATS if floats else INTEGERS,
             **fields(side=shoe.at.side, eta=eta, nu=nu, eps=eps, bits=bits),
         )
-        return ended(head + "".join(writer.lines), writer.theorems)
+        return writer.ended(head)
     raise NoTheorem("it has no horseshoe of two rectangles at one oscillator with restitution")

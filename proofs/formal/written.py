@@ -32,6 +32,32 @@ class Case(NamedTuple):
     left_out: Sequence[str] = ()
 
 
+class Writer:
+    """Collects the lemmas and theorems of a case.
+
+    numbers: what all templates may be filled in with.
+    """
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.theorems: list[Theorem] = []
+        self.left_out: list[str] = []
+        self.numbers: dict[str, object] = {}
+
+    def add(self, template: str, **values: object) -> None:
+        """Write a template with these values."""
+        self.lines.append(template.format(**fields(**{**self.numbers, **values})))
+
+    def state(self, name: str, says: str, template: str, **values: object) -> None:
+        """Write a theorem."""
+        self.add(template, name=name, says=comment(says), **values)
+        self.theorems.append(Theorem(name, says))
+
+    def ended(self, head: str) -> Case:
+        """Return the case."""
+        return ended(head + "".join(self.lines), self.theorems, self.left_out)
+
+
 def ended(text: str, theorems: list[Theorem], left_out: Sequence[str] = ()) -> Case:
     """Return a case whose last lines print the axioms of all its theorems."""
     names = ", ".join(theorem.name for theorem in theorems)
@@ -41,6 +67,20 @@ def ended(text: str, theorems: list[Theorem], left_out: Sequence[str] = ()) -> C
 def comment(words: str) -> str:
     """Return words that neither end a comment of Coq's nor begin one or a string inside it."""
     return words.replace("(*", "( *").replace("*)", "* )").replace('"', "'")
+
+
+def fields(**values: object) -> dict[str, str]:
+    """Return values as they are written in Coq."""
+    return {k: rational(x) if isinstance(x, Fraction) else str(x) for k, x in values.items()}
+
+
+def by_cases(parts: Sequence[tuple[str, Fraction]], tactic: str) -> str:
+    """Return a proof script: by which of the adjoining pieces phi is in."""
+    lines = [
+        f"\n  destruct (Rle_dec phi {rational(end)}) as [?|?]; [{tactic.format(name)} |]."
+        for name, end in parts[:-1]
+    ]
+    return "".join(lines) + f"\n  {tactic.format(parts[-1][0])}."
 
 
 def rational(x: Fraction) -> str:
