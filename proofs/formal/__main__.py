@@ -23,7 +23,7 @@ from time import perf_counter
 
 from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
-from proofs.formal.plan import plan
+from proofs.formal.plan import CLAIMS, plan
 from proofs.formal.written import Case, NoTheorem, Theorem, ended
 from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
@@ -117,9 +117,10 @@ def _of_certificate(source: str, floats: bool) -> Case:
     report, digest = check(source), hashlib.sha256(source.encode()).hexdigest()
     if report.parameters is None:
         return graphs.case(report, source, digest)
-    if all(claim.id not in rebounds.CLAIMS for claim in report.claims):
-        return cases.case(plan(source, report), digest, floats)
-    return rebounds.case(report, source, digest, floats)
+    claims = {claim.id for claim in report.claims}
+    if claims.isdisjoint(CLAIMS) and not claims.isdisjoint(rebounds.CLAIMS):
+        return rebounds.case(report, source, digest, floats)
+    return cases.case(plan(source, report), digest, floats)
 
 
 def arithmetic() -> Case:

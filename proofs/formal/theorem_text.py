@@ -264,6 +264,6 @@ def horseshoe_in_words(headline: Headline) -> str:
     return (
         f"a horseshoe on I0 = {show_range(headline.left)}, I1 = {show_range(headline.right)}: "
         f"f is C^1 there with {slopes}, f(I0) and f(I1) contain I = {show_range(headline.interval)}, "
-        "the rest of I leaves it; every word has its interval of phases, and the phases that stay "
+        "each other phase of I has its image outside; every word has its interval of phases, and the phases that stay "
         "in I are conjugate to the full shift on two symbols, by a homeomorphism"
     )

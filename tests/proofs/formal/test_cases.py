@@ -171,3 +171,14 @@ def test_coqc_accepts_twenty_of_them_and_refuses_what_is_false(tmp_path, proved)
 @pytest.mark.parametrize("options", [DECREASING, THROUGH_PHASE_0, THIN], ids=str)
 def test_coqc_accepts_what_is_special(tmp_path, proved, options):
     accepts(proved, tmp_path, case(plan(certificate(tmp_path, *options)), "x", floats=True).text)
+
+
+@pytest.mark.slow
+def test_a_horseshoe_of_another_claim_is_stated():
+    """G5: on [1.31, 1.49]."""
+    asked = plan((ROOT / "reports" / "chaos.json").read_text())
+    assert not asked.headline.is_corrected and not asked.verdicts
+    said = statements(case(asked, "0", floats=False))
+    numbers = "(131 / 100) (27 / 20) (29 / 20) (149 / 100) (1) (1) (371 / 100) (291 / 25)"
+    assert said["horseshoe_theorem"].endswith(f"horseshoe next {numbers}.")
+    assert set(said) == {"model", "horseshoe_theorem", "theorem_3", "theorem_4", "measure_zero"}

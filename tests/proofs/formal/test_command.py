@@ -211,7 +211,7 @@ def test_a_wrong_certificate_is_one_line_and_nothing_is_written(capsys, tmp_path
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["chaos.json", "nothing.json", "MANIFEST.json"])
+@pytest.mark.parametrize("name", ["circle.json", "nothing.json", "MANIFEST.json"])
 def test_what_is_no_certificate_of_a_horseshoe(capsys, tmp_path, name):
     out = tmp_path / "out"
     with pytest.raises(SystemExit) as left:
