@@ -1,18 +1,22 @@
 """Graphs of maps of the line in Coq: what is written and accepted, and that nothing false is."""
 
 import json
+import math
 import random
 import re
 from fractions import Fraction
 from itertools import product
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from proofs.formal import __main__ as formal
 from proofs.formal import coqc, graphs
 from proofs.formal.written import comment
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
+from proofs.trusted.kernel.formulas import spelled
 from proofs.trusted.verify import check
 from tests.proofs.formal.coq import ROOT, edited, needs_coqc
 
@@ -87,6 +91,67 @@ def test_formulas_as_coq_reads_them(text, real, tree):
     assert tree is None or graphs.formula(map_)[1] == tree
 
 
+BINARY = {"Add": "+", "Sub": "-", "Mul": "*", "Div": "/"}
+NAMES = {"sqrt": math.sqrt, "exp": math.exp, "log": math.log, "ln": math.log}
+NAMES |= {"sin": math.sin, "cos": math.cos, "pi": math.pi, "PI": math.pi, "x": 0.7}
+texts = st.recursive(
+    st.sampled_from(["x", "pi", "2", "7/3"]),
+    lambda inner: st.one_of(
+        st.builds("({}) {} ({})".format, inner, st.sampled_from("+-"), inner),
+        st.builds("({}){}({})".format, inner, st.sampled_from("*/"), inner),
+        st.builds("({})**{}".format, inner, st.sampled_from([3, -2])),
+        st.builds("{}({})".format, st.sampled_from(["sqrt", "exp", "log", "sin", "-"]), inner),
+    ),
+    max_leaves=6,
+)
+
+
+def evaluated(text):
+    """The float that a formula gives, or None."""
+    try:
+        value = eval(text, {"__builtins__": {}}, NAMES)
+    except (ArithmeticError, ValueError):
+        return None
+    return value if isinstance(value, float | int) and abs(value) < 1e6 else None
+
+
+def parsed(tokens):
+    """The first term of a list of tokens, which it is taken from."""
+    token = tokens.pop(0)
+    if token != "(":
+        return token
+    parts = []
+    while tokens[0] != ")":
+        parts.append(parsed(tokens))
+    tokens.pop(0)
+    return parts
+
+
+def python(term):
+    """A tree of Formula.v in Python's notation."""
+    if isinstance(term, str):
+        return {"X": "x", "Pi": "pi"}.get(term, term)
+    if len(term) == 1:
+        return f"({python(term[0])})"
+    name, one, *others = term[0], *map(python, term[1:])
+    if name in BINARY:
+        return f"({one} {BINARY[name]} {others[0]})"
+    if name == "Power":
+        return f"({one}**{others[0]})"
+    return one if name == "Integer" else f"({'-' if name == 'Neg' else name.lower()}({one}))"
+
+
+@given(texts)
+def test_a_tree_has_the_values_of_its_text(text):
+    """And Coq proves that the real function at the head of the case is that of the tree."""
+    value = evaluated(text)
+    if value is None:
+        return
+    map_ = SymbolicLemmas({"F": (["x"], [spelled(text)])}).function("F")
+    tree = parsed(re.findall(r"[()]|[^\s()]+", graphs.formula(map_)[1]))
+    assert evaluated(python(tree)) == pytest.approx(value, rel=1e-9, abs=1e-9)
+
+
 def test_no_word_ends_a_comment_or_begins_another():
     words = comment('x *) Axiom injected : False. (* y "z')
     assert "*)" not in words and "(*" not in words and '"' not in words
@@ -149,8 +214,8 @@ def test_the_command_on_a_certificate_of_the_checker(capsys, tmp_path):
 def test_ten_maps_of_the_line(theory):
     """All in one file of Coq, under names of their own."""
     parts, names = [], []
-    for i, (name, given) in enumerate(MAPS.items()):
-        made = written(certificate(*given))
+    for i, (name, of) in enumerate(MAPS.items()):
+        made = written(certificate(*of))
         body = made.text[len(graphs.HEAD.format(digest="0")) :].partition("(* What all")[0]
         parts.append(f"Module M{i}.\n(* {name} *)\n{body}\nEnd M{i}.\n")
         names += [f"M{i}.{theorem.name}" for theorem in made.theorems]
