@@ -41,7 +41,8 @@ Ltac num := intros; unfold Impact.gap, Flight.gap_t, Flight.gap_tt, Flight.slope
 Ltac at_once := num; interval{plain}.
 Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60{bits}).
 Ltac two p t := num; interval with (i_bisect t, i_bisect p, i_depth 60{bits}).
-Ltac flight p t := num; interval with (i_bisect t, i_bisect p, i_autodiff t, i_depth 60{bits}).
+Ltac flight p t := num; first [ interval with (i_bisect t, i_autodiff t, i_depth 11{bits}) |
+  interval with (i_bisect t, i_bisect p, i_autodiff t, i_depth 60{bits}) ].
 Ltac sloping p e := num; split; interval with (i_bisect p, i_bisect e, i_autodiff p, i_depth 60{bits}).
 """
 
