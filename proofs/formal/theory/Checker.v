@@ -23,7 +23,7 @@ Proof.
   destruct (I.bisect_correct B (Xreal x) H) as [G|G]; apply IH in G; auto.
 Qed.
 
-Definition precisions : list positive := [64; 128; 256; 512; 1024; 2048; 4096]%positive.
+Definition precisions : list positive := [64; 256; 1024]%positive.
 Definition sometime (test : positive -> bool) : bool :=
   fold_right (fun bits (rest : unit -> bool) _ => if test bits then true else rest tt) (fun _ => false) precisions tt.
 
