@@ -1,9 +1,9 @@
-"""Have Coq prove the theorems of a horseshoe certificate, from a statement of 75 lines.
+"""Have Coq prove the theorems of a certificate: of a horseshoe, or of a graph of a map.
 
-Writes the theory and the certificate's cases as Coq files, runs coqc on them, and prints for each
+Writes the theory and the certificate's case as Coq files, runs coqc on them, and prints for each
 theorem its name, what it says, and the seconds that it takes with its lemmas; then the axioms that
-all of them together rest on. What writes the cases is not trusted, nor is Python: read Impact.v
-and the theorems' statements (docs/formal.md), and believe Coq.
+all of them together rest on. What writes the case is not trusted, nor is Python: read Impact.v or
+Graph.v and the theorems' statements (docs/formal.md), and believe Coq.
 """
 
 from __future__ import annotations
@@ -13,38 +13,47 @@ if __name__ == "__main__":
 
     launch("proofs.formal.__main__")
 
+import hashlib
+import re
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
-from proofs.formal import coqc
-from proofs.formal.cases import Case, case
+from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
-from proofs.formal.plan import NoTheorem, plan
+from proofs.formal.plan import CLAIMS, plan
+from proofs.formal.written import Case, NoTheorem, Theorem, ended
 from proofs.shell.answers import Answer, machine_text
-from proofs.shell.cli import Parser, progress, share
+from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.certificate import Malformed, read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
-MODULE = "Horseshoe"
+MODULE = "Case"
+_SECONDS = 900
+_LIMIT = f"that coqc has for the case (default {_SECONDS})"
+_COMPILED = (".v", ".vo")
 EPILOG = """\
 With Coq's own integers, the default, the axioms are the four of the standard library's real
-numbers; with --floats also the specifications of machine integers and floats.
+numbers; with --floats also the specifications of machine integers and floats. The theory is
+compiled once and kept in the user's cache, by a digest of its text and of the installed Coq.
 
-exit status: 0 coqc accepts all, and the axioms are those named; 1 Coq is missing (the files are
-             written), or no way is found to cut the proof; 2 no right certificate of a horseshoe;
-             3 coqc refuses what the checker accepts, or there are other axioms: a bug
+exit status: 0 coqc accepts all, and the axioms are those named; 1 Coq or a part of it is missing or
+             too old, it was killed or ran out of memory or time, or no way is found to write the
+             proof; 2 no right certificate, or nothing can be written; 3 coqc refuses what the
+             checker accepts, or there are other axioms: a bug
 
 examples:
   python -m proofs formal reports/horseshoe.json
   python -m proofs formal reports/horseshoe.json --floats --out coq
   python -m proofs horseshoe --nu -0.201 --out mine && python -m proofs formal mine/horseshoe.json
+  python -m proofs formal reports/nonplastic.json --brief
+  python -m proofs formal tests/certificates/lemmas/accepted/logistic.json
 """
 
 
@@ -52,11 +61,21 @@ def main(arguments: list[str] | None = None) -> int:
     """Write the files of a certificate and run coqc on them; return the exit status."""
     parser = Parser("proofs formal", __doc__, EPILOG)
     add = parser.add_argument
-    add("certificate", metavar="CERTIFICATE", type=Path, help="of python -m proofs horseshoe")
+    add(
+        "certificate", metavar="CERTIFICATE", type=Path, nargs="?", help="of a horseshoe or a graph"
+    )
+    add(
+        "--arithmetic", action="store_true", help="prove that the checker's own arithmetic encloses"
+    )
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
     add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
+    add("--brief", action="store_true", help="print the theorems alone, as Coq has them")
+    seconds = whole("seconds", 10**6)
+    add("--seconds", type=seconds, default=_SECONDS, metavar="N", help=_LIMIT)
     share(parser, "--json")
     options = parser.parse_args(arguments)
+    if options.arithmetic == (options.certificate is not None):
+        parser.error("a certificate is expected, or --arithmetic")
     made = _made(parser, options)
     if isinstance(made, int):
         return made
@@ -64,12 +83,12 @@ def main(arguments: list[str] | None = None) -> int:
     check_folder(parser, options.out)
     modules = coqc.order(made.text)
     with refusing(parser, options.out), writing(options.out) as put:
-        coqc.copy_theory(options.out, modules)
+        coqc.copy(coqc.THEORY, options.out, modules, ".v")
         put(f"{MODULE}.v", made.text)
     try:
         with progress() as tell:
             return _prove(parser, options, made, modules, tell)
-    except coqc.Missing as missing:
+    except (coqc.Missing, coqc.Ended) as missing:
         say(f"{parser.prog}: {options.out} is written; {missing}", sys.stderr)
         return 1
     except coqc.Refused as refused:
@@ -79,9 +98,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _made(parser: Parser, options: Namespace) -> Case | int:
     """Return the case of a certificate, or the exit status after a line that says why not."""
+    if options.arithmetic:
+        return arithmetic()
     name = options.certificate
     try:
-        return case(plan(read(name)), name.name, options.floats)
+        return _of_certificate(read(name), options.floats)
     except (Malformed, Rejected) as error:
         parser.error(f"{name}: {error}")
     except OSError as error:
@@ -91,17 +112,34 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
         return 1
 
 
+def _of_certificate(source: str, floats: bool) -> Case:
+    """Check a certificate, and return its case: of graphs, of rectangles or of a horseshoe."""
+    report, digest = check(source), hashlib.sha256(source.encode()).hexdigest()
+    if report.parameters is None:
+        return graphs.case(report, source, digest)
+    claims = {claim.id for claim in report.claims}
+    if claims.isdisjoint(CLAIMS) and not claims.isdisjoint(rebounds.CLAIMS):
+        return rebounds.case(report, source, digest, floats)
+    return cases.case(plan(source, report), digest, floats)
+
+
+def arithmetic() -> Case:
+    """Return the theorems on the checker's arithmetic, which stand beside the theory."""
+    text = (coqc.THEORY / "Enclosures.v").read_text()
+    stated = re.findall(r"^\(\* (.*) \*\)\nTheorem (\w+)", text, re.MULTILINE)
+    return ended(text, [Theorem(name, says) for says, name in stated])
+
+
 def _prove(
     parser: Parser, options: Namespace, made: Case, modules: list[str], tell: Callable[[str], None]
 ) -> int:
-    """Compile the theory and the case, print what is proved, and return the exit status."""
-    began, memory = perf_counter(), 0
-    for module in modules:
-        tell(f"coqc {module}.v, theory")
-        memory = max(memory, coqc.run(options.out, module).memory)
-    tell(f"coqc {MODULE}.v, {len(made.theorems)} theorems")
-    done = coqc.run(options.out, MODULE)
+    """Compile the case, print what is proved, and return the exit status."""
+    began = perf_counter()
+    coqc.copy(coqc.theory(modules, tell), options.out, modules, *_COMPILED)
     names = [theorem.name for theorem in made.theorems]
+    done = coqc.run(
+        options.out, MODULE, options.seconds, lambda lemma: tell(f"coqc {MODULE}.v: {lemma}")
+    )
     times, written = coqc.seconds(made.text, done.output, names), coqc.statements(made.text, names)
     found = coqc.axioms(done.output)
     others = sorted(set(found) - (coqc.MACHINE if options.floats else coqc.REALS))
@@ -116,18 +154,24 @@ def _prove(
             }
             for name, says in made.theorems
         ],
+        "left_out": list(made.left_out),
         "axioms": found,
         "other_axioms": others,
         "seconds": f"{perf_counter() - began:.0f}",
-        "megabytes": max(memory, done.memory) // 1024,
+        "megabytes": done.memory // 1024,
     }
     write_target(parser, options.json, lambda: machine_text(parser, answer))
     if options.json != "-":
-        say(_text(answer, options.out))
+        say(_brief(answer) if options.brief else _text(answer, options.out))
     if others or not found:
         say(f"{parser.prog}: axioms not expected: {', '.join(others)}: a bug", sys.stderr)
         return 3
     return 0
+
+
+def _brief(answer: Answer) -> str:
+    """Return the theorems as Coq has them."""
+    return "\n".join(each["statement"] for each in answer["theorems"])
 
 
 def _text(answer: Answer, folder: Path) -> str:
@@ -139,6 +183,7 @@ def _text(answer: Answer, folder: Path) -> str:
     return "\n".join(
         [
             *lines,
+            *(f"not stated: {each}" for each in answer["left_out"]),
             f"axioms of all together: {', '.join(named)}"
             + (f", and {more} on machine integers and floats" if more else ""),
             f"coqc accepts {len(theorems)} theorems in {folder}/{MODULE}.v, with "

@@ -7,46 +7,26 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import NamedTuple
 
 from proofs.formal import lemma_text, theorem_text
 from proofs.formal.hints import NoHint, binary
-from proofs.formal.lemmas import ROOM, Lemmas, fields
+from proofs.formal.lemmas import ROOM, Lemmas
 from proofs.formal.plan import Headline, Plan
+from proofs.formal.written import Case, fields
 from proofs.search.repair import rounded_slopes, short_decimal
-from proofs.trusted.numbers import Range, show_range, within
+from proofs.trusted.numbers import Range, show, show_range, within
 
 _PLACES = 6  # of a root of Moran's equation
 _BITS = 40  # of Coq's integers, where no margin is thin
 _TINY = Fraction(1, 2**30)
 
 
-class Theorem(NamedTuple):
-    """A theorem by its name in Coq and in words."""
-
-    name: str
-    says: str
-
-
-class Case(NamedTuple):
-    """A Coq file, and the theorems in it."""
-
-    text: str
-    theorems: list[Theorem]
-
-
-class Writer(Lemmas):
+class Theorems(Lemmas):
     """Collects the lemmas and theorems of a plan."""
 
     def __init__(self, plan: Plan) -> None:
         super().__init__(plan)
-        self.theorems: list[Theorem] = []
         self.stated: dict[str, object] = {}  # the theorem on the horseshoe and its numbers
-
-    def state(self, name: str, says: str, template: str, **values: object) -> None:
-        """Write a theorem."""
-        self.add(template, name=name, says=says.replace("*)", "* )"), **values)
-        self.theorems.append(Theorem(name, says))
 
     def horseshoe(self, headline: Headline) -> None:
         """Write the theorem on the horseshoe, and what follows from it."""
@@ -64,6 +44,10 @@ class Writer(Lemmas):
         for follows, words in theorem_text.FOLLOWS_IN_WORDS.items():
             if least > 2 or follows != "measure_zero":
                 self.state(follows, words, theorem_text.FOLLOWS[follows], of=name, **values)
+            else:
+                self.left_out.append(
+                    f"{follows}: stated where |f'| > 2, and its bound here is {show(least)}"
+                )
 
     def claims(self) -> None:
         """Write the theorems on H1 to H6, as far as they are decided."""
@@ -179,29 +163,27 @@ class Writer(Lemmas):
             return short_decimal(max(Fraction(high), right[0]), right[1]), right[1]
         return None
 
-    def write(self) -> Case:
-        """Return the whole file."""
+    def write(self) -> None:
+        """Write all lemmas and theorems."""
         self.state("model", theorem_text.MODEL_IN_WORDS, theorem_text.MODEL)
         self.slopes()
         self.leaving()
         if self.plan.headline is not None:
             self.horseshoe(self.plan.headline)
         self.claims()
-        return Case("".join(self.lines), self.theorems)
 
 
-def case(plan: Plan, source: str, floats: bool) -> Case:
+def case(plan: Plan, digest: str, floats: bool) -> Case:
     """Return the Coq file of a plan, for Coq's integers or for machine floats."""
-    writer = Writer(plan)
-    body = writer.write()
+    writer = Theorems(plan)
+    writer.write()
     bits = max(_BITS, 16 - math.floor(math.log2(writer.finest)))
     precision = "" if floats and bits <= 53 else f"i_prec {bits}"
     head = lemma_text.HEAD.format(
-        source=source,
+        digest=digest,
         arithmetic=lemma_text.FLOATS if floats else lemma_text.INTEGERS,
         plain=precision and f" with ({precision})",
         bits=precision and f", {precision}",
         **fields(side=writer.hints.side, eta=plan.of.eta, nu=plan.of.nu),
     )
-    names = [theorem.name for theorem in body.theorems]
-    return Case(head + body.text + theorem_text.ALL.format(names=", ".join(names)), body.theorems)
+    return writer.ended(head)

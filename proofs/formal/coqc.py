@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import hashlib
 import os
 import re
 import shutil
@@ -9,13 +11,20 @@ import subprocess
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from time import perf_counter
+from time import monotonic, sleep
+from typing import IO
+
+from platformdirs import user_cache_path
 
 THEORY = Path(__file__).parent / "theory"
 NAME = "Oscillator"  # the logical name of the folder, in Coq
 OPTIONS = ["-R", ".", NAME, "-w", "-ambiguous-paths"]
-GET = "coqc is missing: apt-get install coq libcoq-interval libcoq-coquelicot"
+TESTED = "8.16"
+GET = "apt-get install coq libcoq-interval libcoq-coquelicot"
+_PARTS = ("Interval/Tactic.vo", "Coquelicot/Coquelicot.vo")
+_HEADING = re.compile(r"^(?:Lemma|Theorem) (\w+)", re.MULTILINE)
 
 REALS = frozenset(  # the axioms of the standard library's real numbers
     {
@@ -48,7 +57,11 @@ MACHINE = REALS | {  # and the specifications of machine integers and floats
 
 
 class Missing(RuntimeError):
-    """Coq, or a library of it, is not there."""
+    """Coq, or a library of it, is not there, or older than the theory needs."""
+
+
+class Ended(RuntimeError):
+    """coqc was killed, or needs more memory or time than it has; nothing is known."""
 
 
 class Refused(RuntimeError):
@@ -61,16 +74,15 @@ class Refused(RuntimeError):
 
 @dataclass(frozen=True)
 class Accepted:
-    """A file that coqc accepts: its output, the seconds and the kilobytes that it takes."""
+    """A file that coqc accepts: its output, and the kilobytes that it takes."""
 
     output: str
-    seconds: float
     memory: int
 
 
 def required(text: str) -> list[str]:
     """Return the modules of the theory that a file requires."""
-    lists = re.findall(rf"^From {NAME} Require Import ([\w\s]+)\.", text, re.MULTILINE)
+    lists = re.findall(rf"^From {NAME} Require (?:Import|Export) ([\w\s]+)\.", text, re.MULTILINE)
     return [name for names in lists for name in names.split()]
 
 
@@ -83,45 +95,127 @@ def order(text: str) -> list[str]:
     return ordered
 
 
-def copy_theory(folder: Path, modules: list[str]) -> None:
-    """Copy modules of the theory to the folder where all is compiled."""
-    for name in modules:
-        shutil.copy(THEORY / f"{name}.v", folder / f"{name}.v")
-
-
-def run(folder: Path, module: str) -> Accepted:
-    """Compile one file of a folder, after those it requires; raise Missing or Refused."""
+@cache
+def _installed() -> bytes:
+    """Return a digest of the installed Coq; raise Missing where it, or a part, is not enough."""
     if shutil.which("coqc") is None:
-        raise Missing(GET)
-    began = perf_counter()
+        raise Missing(f"coqc is missing: {GET}")
+    version, where = (
+        subprocess.run(["coqc", asked], capture_output=True, text=True, check=False).stdout.strip()
+        for asked in ("--print-version", "-where")
+    )
+    found = re.match(r"(\d+)\.(\d+)", version)
+    if found is None or (int(found[1]), int(found[2])) < tuple(map(int, TESTED.split("."))):
+        raise Missing(f"coqc {version or 'of an unknown version'} is older than {TESTED}: {GET}")
+    digest = hashlib.sha256(version.encode())
+    for part in _PARTS:
+        path = Path(where, "user-contrib", part)
+        if not path.is_file():
+            raise Missing(f"coqc has no library {part.partition('/')[0]}: {GET}")
+        digest.update(path.read_bytes())
+    return digest.digest()
+
+
+def theory(modules: list[str], tell: Callable[[str], None]) -> Path:
+    """Return the folder with these modules compiled, in the user's cache: made once.
+
+    Its name is a digest of the installed Coq and of the modules' texts.
+    """
+    digest = hashlib.sha256(_installed())
+    for name in modules:
+        digest.update(name.encode() + b"\0" + (THEORY / f"{name}.v").read_bytes() + b"\0")
+    place = Path(user_cache_path("impact-proofs"), "coq", digest.hexdigest()[:40])
+    if place.is_dir():
+        return place
+    place.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=place.parent) as made:
+        new = Path(made, "theory")
+        new.mkdir()
+        copy(THEORY, new, modules, ".v")
+        for name in modules:
+            tell(f"coqc {name}.v, theory")
+            run(new, name)
+        try:
+            new.rename(place)
+        except OSError:  # another process was faster
+            if not place.is_dir():
+                raise
+    return place
+
+
+def copy(source: Path, target: Path, modules: list[str], *endings: str) -> None:
+    """Copy modules of the theory from a folder to another."""
+    for name in modules:
+        for ending in endings:
+            shutil.copyfile(source / f"{name}{ending}", target / f"{name}{ending}")
+
+
+def run(
+    folder: Path,
+    module: str,
+    seconds: float = float("inf"),
+    tell: Callable[[str], None] = lambda lemma: None,
+) -> Accepted:
+    """Compile one file of a folder, after those it requires; tell the lemma that is at work.
+
+    Raises Missing, Ended or Refused, and OSError where the disk is full.
+    """
+    _installed()
+    text, began, pause = (folder / f"{module}.v").read_text(), monotonic(), 0.01
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
         command = ["coqc", "-time", *OPTIONS, f"{module}.v"]
         process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=errors)
         try:
-            _, status, usage = os.wait4(process.pid, 0)
+            while True:
+                done, status, usage = os.wait4(process.pid, os.WNOHANG)
+                if done:
+                    break
+                lemma = _at_work(text, _read(output))
+                tell(lemma)
+                if monotonic() - began > seconds:
+                    raise Ended(f"coqc is not done in {seconds:g} s: it was at {lemma}")
+                sleep(pause := min(0.2, pause * 1.5))
             process.returncode = os.waitstatus_to_exitcode(status)
         except BaseException:
             process.kill()
             process.wait()
             raise
-        output.seek(0)
-        errors.seek(0)
-        said, wrong = output.read(), errors.read()
+        said, wrong = _read(output), _read(errors)
     if process.returncode:
-        raise _refused((folder / f"{module}.v").read_text(), module, wrong)
-    return Accepted(said, perf_counter() - began, usage.ru_maxrss)
+        raise _failure(text, module, process.returncode, said, wrong)
+    return Accepted(said, usage.ru_maxrss)
 
 
-def _refused(text: str, module: str, errors: str) -> Missing | Refused:
+def _read(file: IO[str]) -> str:
+    """Return what is in a file that another process writes, whose offset is shared: leave it."""
+    return os.pread(file.fileno(), os.fstat(file.fileno()).st_size, 0).decode(errors="replace")
+
+
+def _at_work(text: str, output: str) -> str:
+    """Return the lemma after the last sentence that is done."""
+    ends = re.findall(r"^Chars \d+ - (\d+) ", output, re.MULTILINE)
+    end = int(ends[-1]) if ends else 0
+    end += len(text[end:]) - len(text[end:].lstrip()) + 1
+    names = [found[1] for found in _HEADING.finditer(text) if found.start() < end]
+    return names[-1] if names else "its head"
+
+
+def _failure(text: str, module: str, status: int, output: str, errors: str) -> Exception:
     """Return what the errors of coqc mean."""
     found = re.search(r'File ".*", line (\d+), characters .*\n((?:.*\n)*)', errors)
-    line = int(found[1]) if found else 0
     message = " ".join((found[2] if found else errors).split())[:300]
+    lemma = _at_work(text, output)
+    if status < 0 or re.search("out of memory|Stack overflow", message, re.IGNORECASE):
+        why = message or f"killed by signal {-status}"
+        return Ended(f"coqc ended at {lemma} of {module}.v: {why}")
+    if "No space left on device" in errors:
+        return OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), f"{module}.v")
     if "Cannot find a physical path" in message or "Unable to locate library" in message:
-        return Missing(f"{GET} ({message})")
-    before = "\n".join(text.splitlines()[:line])
-    lemmas = re.findall(r"^(?:Lemma|Theorem) (\w+)", before, re.MULTILINE)
-    return Refused(module, lemmas[-1] if lemmas else "the head of the file", message)
+        return Missing(f"a part of Coq is missing: {GET} ({message})")
+    if found is None:
+        return Missing(f"coqc does not run as it did in {TESTED}: {message}")
+    before = "\n".join(text.splitlines()[: int(found[1])])
+    return Refused(module, next(reversed(_HEADING.findall(before)), "its head"), message)
 
 
 def axioms(output: str) -> list[str]:

@@ -7,7 +7,8 @@ Module Integers := SpecificFloat StdZRadix2.
 Module Exact := Tactic.IntervalTactic Integers.
 Import Tactic Exact."""
 
-HEAD = """(* Written by python -m proofs formal from {source}.
+HEAD = """(* Written by python -m proofs formal from the certificate with the SHA-256
+   {digest}.
    Not trusted: coqc proves every line. To be read: Impact.v, and the theorems stated here. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
@@ -40,8 +41,8 @@ Ltac num := intros; unfold Impact.gap, Flight.gap_t, Flight.gap_tt, Flight.slope
 Ltac at_once := num; interval{plain}.
 Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60{bits}).
 Ltac two p t := num; interval with (i_bisect t, i_bisect p, i_depth 60{bits}).
-Ltac flight p t := num; first [ interval with (i_bisect t, i_autodiff t, i_depth 60{bits}) |
-  interval with (i_bisect t, i_bisect p, i_depth 60{bits}) ].
+Ltac flight p t := num; first [ interval with (i_bisect t, i_autodiff t, i_depth 11{bits}) |
+  interval with (i_bisect t, i_bisect p, i_autodiff t, i_depth 60{bits}) ].
 Ltac sloping p e := num; split; interval with (i_bisect p, i_bisect e, i_autodiff p, i_depth 60{bits}).
 """
 

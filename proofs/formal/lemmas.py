@@ -14,6 +14,7 @@ from typing import NamedTuple
 from proofs.formal import lemma_text as text
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
+from proofs.formal.written import Writer, by_cases, rational
 from proofs.search.repair import short_decimal
 from proofs.trusted.numbers import Range, hull, show_range, within
 
@@ -47,26 +48,6 @@ class Sets(NamedTuple):
         return self.domains[0][0], self.domains[1][1]
 
 
-def rational(x: Fraction) -> str:
-    """Write a rational as a Coq term."""
-    text = f"{abs(x.numerator)}" + (f" / {x.denominator}" if x.denominator > 1 else "")
-    return f"(- {text})" if x < 0 else f"({text})"
-
-
-def fields(**values: object) -> dict[str, str]:
-    """Return values as they are written in Coq."""
-    return {k: rational(x) if isinstance(x, Fraction) else str(x) for k, x in values.items()}
-
-
-def by_cases(parts: Sequence[tuple[str, Fraction]], tactic: str) -> str:
-    """Return a proof script: by which of the adjoining pieces phi is in."""
-    lines = [
-        f"\n  destruct (Rle_dec phi {rational(end)}) as [?|?]; [{tactic.format(name)} |]."
-        for name, end in parts[:-1]
-    ]
-    return "".join(lines) + f"\n  {tactic.format(parts[-1][0])}."
-
-
 def _place(branches: Sequence[Branch], phases: Range) -> int:
     """Return which of the branches has all these phases."""
     for index, branch in enumerate(branches):
@@ -75,13 +56,13 @@ def _place(branches: Sequence[Branch], phases: Range) -> int:
     raise NoHint(f"no branch has all phases of {show_range(phases)}")
 
 
-class Lemmas:
+class Lemmas(Writer):
     """Collects the lemmas of a plan: slopes and images on I0 and I1, and where the gap goes."""
 
     def __init__(self, plan: Plan) -> None:
+        super().__init__()
         self.plan = plan
         self.hints = Hints(plan.of.eta, plan.of.nu)
-        self.lines: list[str] = []
         self.finest = 1.0
         self.sets = list(self._sets())
         self.branches: list[list[Branch]] = []
@@ -92,10 +73,6 @@ class Lemmas:
         """Write the first impacts of launches near I0 and I1, and the bounds on f' there."""
         if self.sets:
             self.branches = [self._branches(index) for index in (0, 1)]
-
-    def add(self, template: str, **values: object) -> None:
-        """Write a template with these values."""
-        self.lines.append(template.format(**fields(**values)))
 
     def _sets(self) -> Iterator[Sets]:
         """Yield the sets of the horseshoe, and those printed if something is stated there."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from proofs.formal.written import NoTheorem
 from proofs.search.repair import places, rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -13,15 +14,11 @@ from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check, premises
+from proofs.trusted.verify import Report, check
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
 _OF_RISING = ("H1", "H2", "H3", "H6")
 _MOST_DIGITS = 12
-
-
-class NoTheorem(ValueError):
-    """The certificate is right, and decides nothing that is stated in Coq."""
 
 
 @dataclass(frozen=True)
@@ -59,19 +56,20 @@ class Plan:
         return all(self.verdicts.get(claim) is Verdict.VERIFIED for claim in claims)
 
 
-def plan(source: str) -> Plan:
-    """Check a certificate, and return what it asks for.
+def plan(source: str, report: Report | None = None) -> Plan:
+    """Return what a certificate asks for; it is checked, unless there is a report.
 
     Raises Malformed, Rejected or Exhausted as the checker does, Malformed as well where the file
-    is about other claims, NoTheorem where nothing is decided. H1 to H3 and H6 are stated in Coq
-    where f increases; where it decreases, the theorem on the horseshoe says what they say.
+    is about other claims that rest on no horseshoe, NoTheorem where nothing is decided. H1 to H3
+    and H6 are stated in Coq where f increases; where it decreases, the theorem on the horseshoe
+    says what they say.
     """
-    report = check(source)
+    report = report or check(source)
     of = report.parameters
     claims = {each.id: each for each in report.claims if each.id in CLAIMS}
-    if not isinstance(of, Parameters) or not claims:
-        raise Malformed("$.claims: no certificate of python -m proofs horseshoe")
-    known = premises(source).known
+    if not isinstance(of, Parameters):
+        raise Malformed("$.claims: no certificate of one oscillator")
+    known = report.context.known
     proofs = {
         str(claim["id"]): [known[name] for name in claim["proof"]]
         for claim in parse(source).fields(*FIELDS)[4].value
@@ -82,29 +80,32 @@ def plan(source: str) -> Plan:
         if each.verdict is not Verdict.UNDECIDED and (of.signs == (1, 1) or name not in _OF_RISING)
     }
     points = {name: x for name in decided for x in proofs[name] if isinstance(x, Impact)}
-    found = [x for name in decided for x in proofs[name]]
+    found = [x for name in (decided if claims else proofs) for x in proofs[name]]
     result = Plan(
         of,
-        _headline(of, found, decided),
+        _headline(of, found, decided, bool(claims)),
         decided,
         {name: each.statement for name, each in claims.items()},
         points,
         tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
     )
+    if not claims and result.headline is None:
+        raise Malformed("$.claims: none is of python -m proofs horseshoe, or rests on a horseshoe")
     if result.headline is None and not decided:
         raise NoTheorem(f"it decides none of the claims {', '.join(CLAIMS)}")
     return result
 
 
 def _headline(
-    of: Parameters, found: list[Conclusion], verdicts: dict[str, Verdict]
+    of: Parameters, found: list[Conclusion], verdicts: dict[str, Verdict], is_corrected: bool
 ) -> Headline | None:
     """Return the corrected theorem, or that of the given sets if H4 and H5 hold on them."""
     for each in found:
         if isinstance(each, StayingSet) and each.is_horseshoe:
             slopes = rounded_slopes(each.steepness, max(2, places(of.slopes)))
             left, right = each.cells
-            return Headline(left, right, (each.signs[0], each.signs[1]), slopes, True)
+            signs = each.signs[0], each.signs[1]
+            return Headline(left, right, signs, slopes, is_corrected)
     if not all(verdicts.get(claim) is Verdict.VERIFIED for claim in ("H4", "H5")):
         return None
     ranges = [each for each in found if isinstance(each, SlopeRange)]

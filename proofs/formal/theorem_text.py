@@ -5,28 +5,22 @@ from __future__ import annotations
 from proofs.formal.plan import Headline
 from proofs.trusted.numbers import show, show_range
 
-ALL = """
-(* What all theorems together rest on. *)
-Definition all := ({names}).
-Print Assumptions all.
-"""
-
 SAYS = """
 (* {says} *)
 """
 
 MODEL = (
     SAYS
-    + r"""Theorem model : forall (X V : R -> R) phi,
+    + r"""Theorem model : (side = 1 /\ 0 < nu \/ side = -1 /\ nu < 0) /\ forall (X V : R -> R) phi,
   (forall t, is_derive X t (V t)) -> (forall t, is_derive V t (- eta ^ 2 * X t)) ->
   X 0 = 1 + nu * sin phi -> V 0 = nu * cos phi ->
   forall t, side * (X t - (1 + nu * sin (phi + t))) = gap phi t.
-Proof. exact (motion side eta nu eta_pos). Qed.
+Proof. split; [unfold side, nu; lra | exact (motion side eta nu eta_pos)]. Qed.
 """
 )
 MODEL_IN_WORDS = (
     "the gap is the distance from the table of any mass that leaves it at phase phi with its "
-    "velocity and moves by X'' = -eta^2 X"
+    "velocity and moves by X'' = -eta^2 X, in units of the sign of nu"
 )
 
 HORSESHOE = (
@@ -35,7 +29,7 @@ HORSESHOE = (
 Proof.
   eapply corrected with (3 := regular0) (4 := regular1) (5 := monotone_horseshoe0)
     (6 := monotone_horseshoe1) (7 := covers_horseshoe0) (8 := covers_horseshoe1);
-    [lra | lra | | lra].
+    [lra | lra | | lra | intros phi P; apply {avoid}_meets; lra].
   intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
 Qed.
 """
@@ -270,6 +264,6 @@ def horseshoe_in_words(headline: Headline) -> str:
     return (
         f"a horseshoe on I0 = {show_range(headline.left)}, I1 = {show_range(headline.right)}: "
         f"f is C^1 there with {slopes}, f(I0) and f(I1) contain I = {show_range(headline.interval)}, "
-        "the rest of I leaves it; every word has its interval of phases, and the phases that stay "
+        "each other phase of I has its image outside; every word has its interval of phases, and the phases that stay "
         "in I are conjugate to the full shift on two symbols, by a homeomorphism"
     )

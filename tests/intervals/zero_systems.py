@@ -12,9 +12,8 @@ from pathlib import Path
 from time import process_time
 from typing import Any, NamedTuple
 
-from intervals import Interval
+from intervals import Interval, zeros
 from intervals.newton import Roots
-from intervals.zeros import zeros
 
 FILE = Path(__file__).with_suffix(".txt")
 SMALLEST = 2.0**-52  # sub-boxes, in proportion to the given box

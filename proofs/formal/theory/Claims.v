@@ -1,7 +1,7 @@
 (* The paper's claims H7, H11 and H16, each from what it needs. No numbers but its own. *)
 From Coq Require Import Reals Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Flight.
+From Oscillator Require Import Impact Calculus Flight.
 Open Scope R_scope.
 
 Section Map.

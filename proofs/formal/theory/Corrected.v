@@ -1,7 +1,7 @@
 (* From numeric facts on two branches and on the gap between them to the horseshoe. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Flight Shift.
+From Oscillator Require Import Impact Calculus Flight Shift.
 Open Scope R_scope.
 
 Section Corrected.
@@ -334,9 +334,10 @@ Proof.
   apply (preimages next A b0 a1 B f s m M); auto.
 Qed.
 
-Theorem corrected : 1 < m -> horseshoe next A b0 a1 B s0 s1 m M.
+Theorem corrected : 1 < m -> (forall phi, b0 < phi < a1 -> exists psi, next phi psi) ->
+  horseshoe next A b0 a1 B s0 s1 m M.
 Proof.
-  intros m1. destruct shift_hypotheses as (M0 & Si & Nf & Ex & Co).
+  intros m1 Meets. destruct shift_hypotheses as (M0 & Si & Nf & Ex & Co).
   split; [|split; [apply (cylinder_theorem next A b0 a1 B f s m M) |
     apply (shift_theorem next A b0 a1 B f s m M)]; auto].
   destruct (covers_interval _ _ Re0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & _).
@@ -345,7 +346,7 @@ Proof.
   - intros [|] x X; unfold In_ in X; auto.
   - intros [|] x X; unfold In_ in X; auto.
   - apply Co.
-  - intros x y X Nx. apply (E x y); auto.
+  - intros x X. split; [apply Meets, X | intros y Nx; apply (E x y); auto].
 Qed.
 End Two.
 End Corrected.

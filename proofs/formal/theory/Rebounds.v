@@ -6,10 +6,11 @@ Open Scope R_scope.
 Section Model.
 Variables side eta nu eps : R.  (* as in Impact.v; eps is the coefficient of restitution *)
 
-(* Velocity of the mass after an impact at phase phi, before which it is gamma (eta times less). *)
+(* A state before an impact is (phi, gamma): its phase, and gamma = -X' / eta for the position X of the
+   mass. X' / eta after it. *)
 Definition kick (phi gamma : R) : R := eps * gamma + nu / eta * (1 + eps) * cos phi.
 
-(* (14): distance of mass and table at time t after that impact; (15): the velocity of the mass. *)
+(* (14): distance of mass and table at time t after that impact; (15): gamma then. *)
 Definition height (phi gamma t : R) : R :=
   side * ((1 + nu * sin phi) * cos (eta * t) + kick phi gamma * sin (eta * t) - 1 - nu * sin (phi + t)).
 Definition arrival (phi gamma t : R) : R :=

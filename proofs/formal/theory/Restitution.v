@@ -1,31 +1,8 @@
 (* From numeric facts on two rectangles to the two-sided shift of the rebounds. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Rebounds Flight Crossed.
+From Oscillator Require Import Impact Rebounds Calculus Crossed.
 Open Scope R_scope.
-
-(* One flight: a launch that does not fall at first, then positive, then falling through 0. *)
-Lemma one_flight (h h1 h2 : R -> R) T u v :
-  (forall t, is_derive h t (h1 t)) -> (forall t, is_derive h1 t (h2 t)) ->
-  h 0 = 0 -> 0 <= h1 0 -> 0 < T /\ T <= u /\ u < v ->
-  (forall t, 0 <= t <= T -> 0 < h2 t) -> (forall t, T <= t <= u -> 0 < h t) ->
-  (forall t, u <= t <= v -> h1 t < 0) -> h v < 0 ->
-  exists t, u < t < v /\ h t = 0 /\ forall s, 0 < s < t -> 0 < h s.
-Proof.
-  intros D1 D2 Z0 Z1 O L F D E.
-  assert (Up : forall s, 0 < s <= T -> 0 < h1 s).
-  { intros s S. destruct (mvt h1 h2 0 s) as [c [C Q]]; [lra|auto|].
-    assert (0 < h2 c) by (apply L; lra). nra. }
-  assert (Launch : forall s, 0 < s <= T -> 0 < h s).
-  { intros s S. destruct (mvt h h1 0 (s / 2)) as [c [C Q]]; [lra|auto|].
-    destruct (mvt h h1 (s / 2) s) as [c' [C' Q']]; [lra|auto|].
-    assert (0 < h1 c') by (apply Up; lra).
-    assert (0 <= h1 c) by (destruct (Req_dec c 0) as [->|]; [auto|apply Rlt_le, Up; lra]). nra. }
-  destruct (ivt h h1 u v) as [c [C Z]]; [lra|auto|split; [auto|apply F; lra]|].
-  exists c. split; [auto|split; [auto|]]. intros s S.
-  destruct (Rle_dec s T); [apply Launch; lra|]. destruct (Rle_dec s u); [apply F; lra|].
-  destruct (mvt h h1 s c) as [d [? G]]; [lra|auto|]. assert (h1 d < 0) by (apply D; lra). nra.
-Qed.
 
 Section Model.
 Variables side eta nu eps : R.
@@ -34,6 +11,40 @@ Notation kick := (kick eta nu eps).
 Notation height := (height side eta nu eps).
 Notation arrival := (arrival eta nu eps).
 Notation rebound := (rebound side eta nu eps).
+
+(* Any motion X, V = X' of the mass, a free oscillator after the impact law v+ = -eps v- + (1 + eps) w
+   with the table's velocity w, has this height; the second coordinate of a state is -X' / eta. *)
+Theorem motion_rebound (X V : R -> R) phi before :
+  (forall t, is_derive X t (V t)) -> (forall t, is_derive V t (- eta ^ 2 * X t)) ->
+  X 0 = 1 + nu * sin phi -> V 0 = - eps * before + (1 + eps) * (nu * cos phi) ->
+  forall t, side * (X t - (1 + nu * sin (phi + t))) = height phi (- before / eta) t /\
+    arrival phi (- before / eta) t = - V t / eta.
+Proof.
+  intros DX DV X0 V0 t. set (g := - before / eta).
+  set (Y := fun t => (1 + nu * sin phi) * cos (eta * t) + kick phi g * sin (eta * t)).
+  set (W := fun t => - (1 + nu * sin phi) * (eta * sin (eta * t)) + kick phi g * (eta * cos (eta * t))).
+  set (Z := fun t => eta ^ 2 * (X t - Y t) ^ 2 + (V t - W t) ^ 2).
+  assert (DY : forall t, is_derive Y t (W t)) by (intros s; unfold Y, W; auto_derive; auto; ring).
+  assert (DW : forall t, is_derive W t (- eta ^ 2 * Y t)) by (intros s; unfold Y, W; auto_derive; auto; ring).
+  assert (DZ : forall t, is_derive Z t 0).
+  { intros s. unfold Z. auto_derive.
+    - repeat split; auto; eexists; [apply DX|apply DY|apply DV|apply DW].
+    - replace (Derive (fun x => X x) s) with (V s) by (symmetry; apply is_derive_unique, DX).
+      replace (Derive (fun x => Y x) s) with (W s) by (symmetry; apply is_derive_unique, DY).
+      replace (Derive (fun x => V x) s) with (- eta ^ 2 * X s) by (symmetry; apply is_derive_unique, DV).
+      replace (Derive (fun x => W x) s) with (- eta ^ 2 * Y s) by (symmetry; apply is_derive_unique, DW). ring. }
+  assert (Z0 : Z 0 = 0).
+  { unfold Z, Y, W. rewrite X0, V0, Rmult_0_r, sin_0, cos_0. unfold Rebounds.kick, g. field. lra. }
+  assert (Zt : Z t = 0).
+  { destruct (Rtotal_order t 0) as [L|[->|L]]; auto.
+    - destruct (mvt Z (fun _ => 0) t 0) as [c [_ H]]; auto. lra.
+    - destruct (mvt Z (fun _ => 0) 0 t) as [c [_ H]]; auto. lra. }
+  unfold Z in Zt. assert (0 < eta ^ 2) by (apply pow_lt; auto).
+  pose proof (pow2_ge_0 (X t - Y t)). pose proof (pow2_ge_0 (V t - W t)).
+  assert (XY : X t = Y t). { assert (Q : (X t - Y t) ^ 2 = 0) by nra. destruct (Req_dec (X t - Y t) 0) as [|N]; [lra|]. apply (pow_nonzero _ 2) in N. lra. }
+  assert (VW : V t = W t). { assert (Q : (V t - W t) ^ 2 = 0) by nra. destruct (Req_dec (V t - W t) 0) as [|N]; [lra|]. apply (pow_nonzero _ 2) in N. lra. }
+  rewrite XY, VW. unfold Y, W, Rebounds.height, Rebounds.arrival. split; [ring|field; lra].
+Qed.
 
 Definition height_t (phi g t : R) : R :=
   side * (- (1 + nu * sin phi) * (eta * sin (eta * t)) + kick phi g * (eta * cos (eta * t)) - nu * cos (phi + t)).

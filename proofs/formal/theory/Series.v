@@ -1,7 +1,7 @@
 (* The error of the series of sine, cosine and atan; the checker's pi holds pi. *)
 From Coq Require Import Reals ZArith Psatz Lia List Machin.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Arithmetic Operations Flight.
+From Oscillator Require Import Arithmetic Operations Calculus.
 Open Scope R_scope.
 
 Ltac real := match goal with |- @eq _ ?a ?b => change (@eq R a b) end.

@@ -1,7 +1,7 @@
 (* Containment: the checker's sine and cosine. *)
 From Coq Require Import Reals ZArith Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Arithmetic Operations Flight Series.
+From Oscillator Require Import Arithmetic Operations Calculus Series.
 Open Scope R_scope.
 
 (* The quarters of the circle: sin(n pi/2) and cos(n pi/2) by the last two bits of n. *)

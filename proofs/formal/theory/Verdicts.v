@@ -1,7 +1,7 @@
 (* The paper's claims on sets and slopes as printed, where they hold and where they fail. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Flight Shift Corrected.
+From Oscillator Require Import Impact Calculus Flight Shift Corrected.
 Open Scope R_scope.
 
 Lemma shorter m lo z w : 0 < lo < m -> 0 <= z -> 0 < w -> m * z <= w -> z < w / lo.

@@ -32,7 +32,7 @@ def certificate(folder, *options):
 @cache
 def paper_case():
     """The case of the paper's certificate, with machine floats."""
-    return case(plan(PAPER.read_text()), PAPER.name, floats=True)
+    return case(plan(PAPER.read_text()), "0", floats=True)
 
 
 def proved(base):
@@ -71,8 +71,8 @@ def accepts(proved, folder, text):
     """Run coqc on a text beside the compiled theory; Refused goes through."""
     for module in coqc.order(paper_case().text):
         (folder / f"{module}.vo").symlink_to(proved / f"{module}.vo")
-    (folder / "Horseshoe.v").write_text(without_assumptions(text))
-    return coqc.run(folder, "Horseshoe")
+    (folder / "Case.v").write_text(without_assumptions(text))
+    return coqc.run(folder, "Case")
 
 
 def stops_at(proved, folder, text):
@@ -83,9 +83,9 @@ def stops_at(proved, folder, text):
 
 
 def printed_by_coq(folder, *commands):
-    """Return in a line what coqc prints for commands after a compiled Horseshoe.v."""
+    """Return in a line what coqc prints for commands after a compiled Case.v."""
     head = ["From Coq Require Import Reals.", "From Coquelicot Require Import Coquelicot."]
-    head += [f"From {coqc.NAME} Require Import Impact Corrected Horseshoe.", "Open Scope R_scope."]
+    head += [f"From {coqc.NAME} Require Import Impact Corrected Case.", "Open Scope R_scope."]
     (folder / "Asked.v").write_text("\n".join([*head, *commands]) + "\n")
     command = ["coqc", *coqc.OPTIONS, "Asked.v"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)

@@ -9,8 +9,8 @@ import pytest
 from proofs.formal import coqc
 from proofs.formal.cases import case
 from proofs.formal.hints import NoHint
-from proofs.formal.lemmas import rational
 from proofs.formal.plan import plan
+from proofs.formal.written import rational
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.formal.coq import (
@@ -55,7 +55,7 @@ def test_the_paper_s_numbers_stand_in_the_statements():
     assert "y - x < (d - c) / (21 / 5)" in said["H6_verified"]
     assert "moran (381 / 2000) (2381 / 10000) t = 1 <-> t = s" in said["H11_verified"]
     head = paper_case().text.partition("Lemma")[0]
-    assert "Definition eta := (2121 / 10000)." in head and "Definition nu := (- 1 / 5)." in head
+    assert "Definition eta := (2121 / 10000)." in head and "Definition nu := (-1 / 5)." in head
     assert "Definition side := -1." in head
 
 
@@ -171,3 +171,14 @@ def test_coqc_accepts_twenty_of_them_and_refuses_what_is_false(tmp_path, proved)
 @pytest.mark.parametrize("options", [DECREASING, THROUGH_PHASE_0, THIN], ids=str)
 def test_coqc_accepts_what_is_special(tmp_path, proved, options):
     accepts(proved, tmp_path, case(plan(certificate(tmp_path, *options)), "x", floats=True).text)
+
+
+@pytest.mark.slow
+def test_a_horseshoe_of_another_claim_is_stated():
+    """G5: on [1.31, 1.49]."""
+    asked = plan((ROOT / "reports" / "chaos.json").read_text())
+    assert not asked.headline.is_corrected and not asked.verdicts
+    said = statements(case(asked, "0", floats=False))
+    numbers = "(131 / 100) (27 / 20) (29 / 20) (149 / 100) (1) (1) (371 / 100) (291 / 25)"
+    assert said["horseshoe_theorem"].endswith(f"horseshoe next {numbers}.")
+    assert set(said) == {"model", "horseshoe_theorem", "theorem_3", "theorem_4", "measure_zero"}

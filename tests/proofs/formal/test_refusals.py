@@ -30,7 +30,7 @@ def with_sets(**sets):
     def change(text):
         asked = plan(PAPER.read_text())
         false = replace(asked, headline=replace(asked.headline, **sets))
-        return case(false, PAPER.name, floats=True).text
+        return case(false, "0", floats=True).text
 
     return change
 
@@ -81,8 +81,8 @@ FALSE = {
     ),
     "eta = 0.2131": (everywhere(("2121 / 10000", "2131 / 10000")), "piece0_0", NUMERICAL),
     "eta = 0.21": (everywhere(("2121 / 10000", "2100 / 10000")), "end0_0", NUMERICAL),
-    "nu = -0.21": (everywhere(("nu := (- 1 / 5)", "nu := (- 21 / 100)")), "piece0_0", NUMERICAL),
-    "nu = 0.2": (everywhere(("nu := (- 1 / 5)", "nu := (1 / 5)")), "launch0_0", NUMERICAL),
+    "nu = -0.21": (everywhere(("nu := (-1 / 5)", "nu := (-21 / 100)")), "piece0_0", NUMERICAL),
+    "nu = 0.2": (everywhere(("nu := (-1 / 5)", "nu := (1 / 5)")), "launch0_0", NUMERICAL),
     "the mass below the table": (everywhere(("side := -1", "side := 1")), "launch0_0", NUMERICAL),
     "branches swapped": (only_in("corrected_theorem", (SETS, SWAPPED)), "corrected_theorem", UNIFY),
     "f decreases on I0": (
