@@ -123,8 +123,8 @@ def _kind(springs: Springs, places: int) -> Answer:
     point = {"m": Fraction(springs.m)}
     if springs.k:
         tangent, ratio = "t=sin(pi*m*k)/cos(pi*m*k)", springs.ratio
-        big = "(2 - k**2*q)/(1 - k**2*(1 + t**2 + r**2))"
-        rise = f"at(at({RISE}, big={big}), {tangent})"
+        base = "(2 - k**2*q)/(1 - k**2*(1 + t**2 + r**2))"
+        rise = f"at(at({RISE}, B={base}), {tangent})"
         point |= {"k": springs.k, "q": springs.q, "r": ratio}
         return {"rise": bounds(enclose(rise, places, **point), places)}
     found = {"rise": enclose(LIMIT_RISE, places, r=springs.ratio, **point)}
