@@ -36,7 +36,7 @@ def solution(context: Context, reader: Reader) -> Expressions:
     lemmas: a list of {left, right} and {function, variable, coefficients, nonzero}. Hypothesis: by
     `formula-equal` and `formula-series` each holds with at(F, unknowns=expressions) for each of its
     formulas F. Conclusion: each holds with the expressions in the places of the unknowns, all at
-    once.
+    once. Proof. at(F, ...) is that, by its definition; the two rules prove what results.
     """
     expressions_of, lemmas_of = reader.fields("expressions", "lemmas")
     expressions = []

@@ -177,7 +177,9 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
 
     Hypotheses: all are on the same rectangles; each is for a box of oscillators that agrees with
     the hull of those before it but for one side, where they meet. Conclusion: a horseshoe for the
-    hull of all boxes, which is their union, with the worst of the bounds.
+    hull of all boxes, which is their union, with the worst of the bounds. Proof. Boxes that agree
+    but for one side, on which they meet, have no oscillator between them: each of the hull is in
+    one of the boxes, whose step is about it and these rectangles.
     """
     (names,) = reader.fields("parts")
     parts = [context.step(name, RectangleHorseshoe) for name in names.items(least=1)]
