@@ -159,7 +159,7 @@ def test_the_motion_that_sticks(rho, periods, capsys):
             assert near(impact["leaves"], psi) and each["attracting"] is True
             landed = (psi + t) % (2 * math.pi)
             assert near(impact["psi"], landed, 1e-4) and height * math.sin(landed) < 2
-            assert (psi + t) // (2 * math.pi) + 1 == m
+            assert math.ceil(t / (2 * math.pi)) == m
 
 
 def gap(rho, psi, t):
