@@ -11,6 +11,11 @@ __version__ = "0.1.0"
 __all__ = ["Oscillator"]
 
 
+def __dir__() -> list[str]:
+    """What `from proofs import` offers; the commands and parts are modules of their own."""
+    return sorted({*__all__, "__version__"})
+
+
 def __getattr__(name: str) -> Any:
     """Load the library when it is asked for: the checker imports this package, too."""
     if name == "Oscillator":

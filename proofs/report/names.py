@@ -60,7 +60,9 @@ def summary(findings: Findings) -> str:
     return (
         "A mass on a spring bounces on a vibrating table. Is it chaotic, as the paper says? Here "
         f"are its {count} claims, one by one: what is true, what is not, and what is true instead, "
-        "with proofs that a small independent program checks."
+        "with proofs that a small independent program checks. The paper was received on 16 July "
+        "1999 and accepted on 22 August 2000; the scan that was read names neither authors nor "
+        "journal."
     )
 
 

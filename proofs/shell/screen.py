@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from argparse import ArgumentParser, RawDescriptionHelpFormatter, _StoreAction
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import IO, Any, NamedTuple, NoReturn
@@ -36,6 +36,18 @@ class Arguments(ArgumentParser):
             f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
         )
         self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Refuse an option that is given twice: argparse would take the last one, and say nothing.
+
+        What may be given several times appends.
+        """
+        given = [str(x).partition("=")[0] for x in (sys.argv[1:] if args is None else args)]
+        for action in self._actions:
+            names = [name for name in given if name in action.option_strings]
+            if isinstance(action, _StoreAction) and len(names) > 1:
+                self.error(f"{names[-1]} is given {len(names)} times")
+        return super().parse_known_args(args, namespace)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
