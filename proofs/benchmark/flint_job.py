@@ -181,7 +181,7 @@ def verdicts() -> dict[str, str]:
     near, brackets = Fraction(1, 2000), [moran_root(RATIOS), moran_root(reciprocals)]
     rounded = all(abs(x - y) < near / 10 for x, y in zip(RATIOS, reciprocals, strict=True))
     printed = all(ROOT - near < low and high < ROOT + near for low, high in brackets)
-    cut = all(ROOT <= low and high < ROOT + 2 * near for low, high in brackets)  # not rounded
+    cut = all(low >= ROOT and high < ROOT + 2 * near for low, high in brackets)  # not rounded
     small = sum(RATIOS) < 1 and brackets[0][0] > 0 and brackets[0][1] < 1
     return {
         "H1": "VERIFIED" if steeper else "UNDECIDED",
