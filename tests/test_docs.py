@@ -12,7 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from proofs.shell.screen import Decided, in_a_line
 from proofs.trusted.slopes import Avoids, SlopeRange
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import premises
 
 ROOT = Path(__file__).parents[1]
@@ -95,12 +97,13 @@ def test_the_four_inequalities_are_those_of_the_certificate():
 
 def test_the_readme_shows_what_the_screen_shows():
     rows = json.loads((ROOT / "reports" / "ledger.json").read_text())["claims"]
-    screen = {f"{row['id']} {row['verdict']} {row['statement']}" for row in rows}
-    screen |= {row["why"] for row in rows}
+    claims = [Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows]
     shown = TEXTS["README.md"].partition("```text\n")[2].partition("\n```")[0].splitlines()
-    assert {" ".join(line.split()) for line in shown[: shown.index("...")]} <= screen
-    assert any(
-        shown[-1].removesuffix(" ...").split(": ", 1)[1] in (x["corrected"] or "") for x in rows
+    true, verdicts = shown[0], shown[2:-1]
+    assert shown[1] == shown[-1] == "..." and len(verdicts) == 5
+    assert set(verdicts) <= {in_a_line(each) for each in claims}
+    assert true.startswith("True (H2, H5): ") and any(
+        true.removesuffix(" ...").split(": ", 1)[1] in (x["corrected"] or "") for x in rows
     )
 
 

@@ -17,6 +17,7 @@ from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
 
+_LINE = 100  # of a claim
 _WIDTH = 80  # where there is no terminal
 _SENTENCE = re.compile(r"(?<=[^.]\.) ")
 _COLOURS = {
@@ -145,14 +146,30 @@ def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:
     print(fitted(text, stream, hanging), file=stream)
 
 
-def show_verdicts(rows: Sequence[Decided]) -> None:
-    """Print a table on a terminal that has room for its words, else two lines a claim."""
+def show_verdicts(rows: Sequence[Decided], *, verbose: bool = True) -> None:
+    """Print a table on a terminal that has room for its words, else two lines a claim.
+
+    Not verbose: a line of at most 100 characters, and why only where nothing is decided.
+    """
+    if not verbose:
+        for row in rows:
+            print(in_a_line(row))
+            if row.verdict is Verdict.UNDECIDED:
+                say(f"     {row.why}")
+        return
     longest = max(len(word) for row in rows for word in f"{row.statement} {row.why}".split())
     if sys.stdout.isatty() and longest <= columns() - len("claim  CONDITIONAL  "):
         _show_table(rows)
         return
     for row in rows:
         say(f"{row.id:4} {row.verdict.value:11} {row.statement}\n     {row.why}")
+
+
+def in_a_line(row: Decided) -> str:
+    """Return a claim in a line, without the oscillator if that stands at its beginning."""
+    said = re.sub(r"^At \(eta, nu\) = \([^)]*\): ", "", row.statement)
+    line = f"{row.id:4} {row.verdict.value:11} {said}"
+    return line if len(line) <= _LINE else f"{line[: _LINE - 4].rsplit(' ', 1)[0]} ..."
 
 
 def _show_table(rows: Sequence[Decided]) -> None:
