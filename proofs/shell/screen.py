@@ -153,7 +153,7 @@ def show_verdicts(rows: Sequence[Decided], *, verbose: bool = True) -> None:
     """
     if not verbose:
         for row in rows:
-            print(in_a_line(row))
+            _show_line(in_a_line(row), _COLOURS[row.verdict])
             if row.verdict is Verdict.UNDECIDED:
                 say(f"     {row.why}")
         return
@@ -170,6 +170,17 @@ def in_a_line(row: Decided) -> str:
     said = re.sub(r"^At \(eta, nu\) = \([^)]*\): ", "", row.statement)
     line = f"{row.id:4} {row.verdict.value:11} {said}"
     return line if len(line) <= _LINE else f"{line[: _LINE - 4].rsplit(' ', 1)[0]} ..."
+
+
+def _show_line(line: str, colour: str) -> None:
+    """Print the line of a claim; on a terminal its verdict in colour."""
+    if not sys.stdout.isatty():
+        print(line)
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    Console(highlight=False).print(Text.assemble(line[:5], (line[5:16], colour), line[16:]))
 
 
 def _show_table(rows: Sequence[Decided]) -> None:
