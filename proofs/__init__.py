@@ -16,6 +16,11 @@ __version__ = "0.1.0"
 __all__ = ["Map", "Oscillator", "System", "Theorem"]
 
 
+def __dir__() -> list[str]:
+    """What `from proofs import` offers; the commands and parts are modules of their own."""
+    return sorted({*__all__, "__version__"})
+
+
 def __getattr__(name: str) -> Any:
     """Load the library when it is asked for: the checker imports this package, too."""
     if name in __all__:
@@ -23,11 +28,6 @@ def __getattr__(name: str) -> Any:
 
         return getattr(import_module(f"proofs.{name.lower()}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    """List what is public, for completion."""
-    return [*__all__, "__version__"]
 
 
 def _check_neighbour() -> None:

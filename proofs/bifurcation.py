@@ -25,7 +25,9 @@ from typing import Any
 
 from intervals import IntervalError, Undecided
 from proofs.methods import derive
-from proofs.methods.bifurcation.certify import Enclosed, closed, enclosure, prove_jacobian
+from proofs.methods.bifurcation.certify import Enclosed, enclosure, prove_jacobian
+from proofs.methods.bifurcation.classify import meaning
+from proofs.methods.bifurcation.closed import Closed, closed
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import KINDS, NormalForm
 from proofs.methods.lemmas import Lemmas
@@ -40,10 +42,11 @@ from proofs.trusted.verify import Rejected, check
 EPILOG = """\
 Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact;
 names are of small letters, digits and _, other than e. An argument @FILE is replaced by the lines
-of the file. Other bifurcations than those found in closed form may exist. The coefficient
-"critical" decides: of a flip, positive for a stable cycle of period two; of a Neimark-Sacker
-bifurcation, negative for a stable circle, if t, the trace, is between -2 and 2, not -1, not 0.
-"speed" is how fast the first parameter passes it: none takes place at 0.
+of the file. Each candidate, a fixed point at which a multiplier is 1 or -1 or two have the product
+1, is classified: fold, transcritical, pitchfork, flip, neimark_sacker, resonance 1:k; what is
+degenerate, or none, is listed as dropped, with the reason. What decides is told where it stands,
+"critical" of the normal form, "speed" of the parameter, and what their signs mean; where it depends
+on other parameters, under which conditions. Other bifurcations than those in closed form may exist.
 
 exit status: 0 done and checked, 1 a bifurcation that was asked for is not found, or what sympy
              finds is not derived by the checker, 2 bad input, 3 the checker disagrees (a bug)
@@ -149,9 +152,11 @@ def _answer(
                     found = enclosure(file, form, names[-1], options.near, options.digits)
                     entry["enclosed"] = _enclosed_form(found, options.digits)
                 else:
-                    entry["closed"] = [_closed_form(each) for each in closed(file, form, names)]
+                    entry |= _candidates(file, form, names)
+                    if reason := _not_found(entry):
+                        missing.append(f"{kind}: {reason}")
             except (Undecided, IntervalError, OverflowError) as failure:
-                missing.append(f"{kind}: {failure}")
+                missing.append(f"undecided: {kind}: {failure}")
                 entry["undecided"] = str(failure)
         tell("the check")
         source = render(file.document())
@@ -165,8 +170,30 @@ def _answer(
             put("bifurcation.json", source)
     give(parser, options, answer, _text)
     for each in missing if options.kind or options.near else []:
-        say(f"{parser.prog}: undecided: {each}", sys.stderr)
+        say(f"{parser.prog}: {each}", sys.stderr)
     return int(bool(missing and (options.kind or options.near)))
+
+
+def _candidates(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> Answer:
+    """Return what is found of a condition, and what is dropped."""
+    if derive.simplest(derive.read(form.condition())).is_nonzero:
+        return {"closed": [], "dropped": []}
+    parameter = next(x for x in names if x not in form.map.state)
+    found = closed(file, form, names)
+    told = [_closed_form(each, parameter, len(form.map.state) == 2) for each in found]
+    pairs = list(zip(told, found, strict=True))
+    return {
+        "closed": [each for each, of in pairs if of.kept],
+        "dropped": [each for each, of in pairs if not of.kept],
+    }
+
+
+def _not_found(entry: Answer) -> str:
+    """Say why there is no bifurcation of a condition; "" if there is one."""
+    if entry["closed"]:
+        return ""
+    reasons = (f"{each['kind']}: {each['why']}" for each in entry["dropped"])
+    return "; ".join(reasons) or "the condition is met nowhere"
 
 
 # -- the machine form ------------------------------------------------------------------------------
@@ -194,15 +221,44 @@ def _map_form(of: Map) -> Answer:
     }
 
 
-def _closed_form(found: Mapping[str, Any]) -> Answer:
-    return {name: _formula(value) for name, value in found.items()}
+def _closed_form(found: Closed, parameter: str, plane: bool) -> Answer:
+    return {
+        "kind": found.found.kind,
+        "why": found.found.why,
+        "where": list(found.found.where),
+        "values": {name: _formula(value) for name, value in found.values.items()},
+        "meaning": dict(meaning(found.found.kind, parameter, plane, found.signs.get)),
+    }
 
 
 def _enclosed_form(found: Enclosed, digits: int) -> Answer:
     values = {**found.box, "critical": found.critical, "speed": found.speed}
     values["determinant"] = found.determinant
     ends = {name: bounds(each, digits) for name, each in values.items()}
-    return {**ends, "says": found.says}
+    plane = len(found.form.map.state) == 2
+    told = dict(meaning(found.form.kind, found.parameter, plane, found.signs.get))
+    return {**ends, "says": found.says, "meaning": told}
+
+
+def _place(answer: Answer, found: Answer) -> str:
+    """Write the fixed point and the parameter of a candidate."""
+    own = (*answer["variables"], *answer["parameters"])
+    known = {x: found["values"][x]["formula"] for x in own if x in found["values"]}
+    return ", ".join(f"{name} = {value}" for name, value in known.items())
+
+
+def _told(answer: Answer, found: Answer) -> list[str]:
+    """Write a bifurcation: where, the numbers that decide with what they mean, the others."""
+    why = f": {found['why']}" if found["why"] else ""
+    said = [f"  {found['kind']} at {_place(answer, found)}{why}"]
+    values = {name: value["formula"] for name, value in found["values"].items()}
+    for name in dict.fromkeys((*found["meaning"], "critical", "speed", "trace", "determinant")):
+        if name in values:
+            says = found["meaning"].get(name, "")
+            said.append(f"    {name} = {values[name]}{says and f': {says}'}")
+    if found["where"]:
+        said.append(f"    where {', '.join(found['where'])}")
+    return said
 
 
 def _text(answer: Answer) -> str:
@@ -220,9 +276,18 @@ def _text(answer: Answer) -> str:
     for kind, entry in answer["bifurcations"].items():
         said.append(f"{kind}: 0 = {entry['condition']['formula']}")
         for each in entry.get("closed", ()):
-            said.append("  " + ", ".join(f"{x} = {value['formula']}" for x, value in each.items()))
-        for name, value in entry.get("enclosed", {}).items():
-            said += lines(name, value, 12) if isinstance(value, dict) else [f"  {value}"]
+            said += _told(answer, each)
+        if entry.get("closed") == entry.get("dropped") == []:
+            said.append("  none: the condition is met nowhere")
+        for each in entry.get("dropped", ()):
+            said.append(f"  dropped: {_place(answer, each)}: {each['kind']}: {each['why']}")
+        enclosed = entry.get("enclosed", {})
+        for name, value in enclosed.items():
+            if name == "says":
+                said.append(f"  {value}")
+            elif name != "meaning":
+                said += lines(name, value, 12)
+        said += [f"    {name}: {says}" for name, says in enclosed.get("meaning", {}).items()]
         if "undecided" in entry:
             said.append(f"  undecided: {entry['undecided']}")
     said.append(f"{len(answer['checked'])} lemmas, derived again by the checker")

@@ -8,8 +8,8 @@ table from launch to impact, or not. For K = 0 fixed points are orbits exactly i
 height_least, which is negative exactly for epsilon > epsilon_least; at rho_graze it is |rho sin
 psi|. Orbits of period 2 with phases 2 h apart are at rho^2 = rho_flip^2 + rise h^2 + O(h^4). For K
 = 0 cubic is the coefficient of h -> h - 2 cubic h^3 on the centre manifold, the second iterate, and
-for plastic impacts f2_psi_rho and f2_psi_psi_psi are its derivatives. Proofs: claims S18, S22, S23
-of `python -m proofs soft`.
+for plastic impacts f2_psi_rho and f2_psi_psi_psi are its derivatives. Motions whose mass sticks are
+told of for plastic impacts and K = 0. Proofs: claims S18, S22, S23 of `python -m proofs soft`.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from proofs.motion.soft_orbits import (
     judge_fixed,
     least_height,
 )
+from proofs.motion.soft_sticking import sticking
 from proofs.search.derivations import SPARE_BITS, enclose
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number, whole
@@ -122,8 +123,8 @@ def _kind(springs: Springs, places: int) -> Answer:
     point = {"m": Fraction(springs.m)}
     if springs.k:
         tangent, ratio = "t=sin(pi*m*k)/cos(pi*m*k)", springs.ratio
-        big = "(2 - k**2*q)/(1 - k**2*(1 + t**2 + r**2))"
-        rise = f"at(at({RISE}, big={big}), {tangent})"
+        base = "(2 - k**2*q)/(1 - k**2*(1 + t**2 + r**2))"
+        rise = f"at(at({RISE}, B={base}), {tangent})"
         point |= {"k": springs.k, "q": springs.q, "r": ratio}
         return {"rise": bounds(enclose(rise, places, **point), places)}
     found = {"rise": enclose(LIMIT_RISE, places, r=springs.ratio, **point)}
@@ -141,7 +142,19 @@ def _at(springs: Springs, rho: Fraction, least: Interval | None, places: int) ->
     double = double_at(springs, rho) if springs.flip is not None else None
     if double is not None:
         found.append((double, judge(springs, double)))
-    return [_stable(springs, *pair, places) for pair in found]
+    return [_stable(springs, *pair, places) for pair in found] + _sticking(springs, rho, places)
+
+
+def _sticking(springs: Springs, rho: Fraction, places: int) -> list[Answer]:
+    """Return the orbit of m table periods that sticks: for plastic impacts, in the limit (S18)."""
+    if springs.epsilon or springs.k:
+        return []
+    found = sticking(rho, springs.bits)
+    if found is None or found.periods != springs.m:
+        return []
+    impact = {"psi": _written(found.lands, places), "leaves": _written(found.leaves, places)}
+    reason = "the mass sticks after its impact, until rho sin psi rises through 2"
+    return [{"impacts": [impact], "orbit": True, "reason": reason, "attracting": True}]
 
 
 def _motion(springs: Springs, motion: Motion, found: Judgement, places: int) -> Answer:
@@ -206,7 +219,7 @@ def _text(answer: Answer) -> str:
     else:
         said.append("no fixed point has the eigenvalue -1")
     for rho, motions in answer["at"].items():
-        said.append(f"rho = {rho}: {len(motions) or 'no'} motions")
+        said.append(f"rho = {rho}: {len(motions) or 'no'} motion{'s' * (len(motions) != 1)}")
         for each in motions:
             said += [f" period {len(each['impacts'])}: {_stability(each)}", *_impacts(each)]
     for each in answer.get("followed", ()):

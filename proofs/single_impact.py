@@ -64,6 +64,7 @@ def _answer(parser: Parser, system: System, options: Namespace) -> int:
     periods = range(1, most + 1) if options.n is None else range(options.n, options.n + 1)
     with progress() as tell:
         answer = answer_for(system, periods, options.digits, tell)
+    answer["asked"] = options.n
     answer["complete"] = options.n is None and last is not None and last <= options.most
     give(parser, options, answer, _text)
     open_ones = [one for one in answer["solutions"] if None in (one["admissible"], one["stable"])]
@@ -149,6 +150,8 @@ def _summary(answer: Answer) -> list[str]:
             said.append(f"n = {', '.join(map(str, answer[name]))}: {why}")
     if answer["complete"]:
         said.append("for greater n no solution is an orbit")
+    elif answer["asked"] is None:
+        said.append(f"the list is not complete: for n > {last} nothing is said")
     return said
 
 

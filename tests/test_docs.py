@@ -7,9 +7,15 @@ import os
 import re
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
+
+from proofs.shell.screen import Decided, in_a_line
+from proofs.trusted.slopes import Avoids, SlopeRange
+from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verify import premises
 
 ROOT = Path(__file__).parents[1]
 PAGES = [
@@ -70,14 +76,34 @@ def test_long_decimals_are_those_of_the_ledger():
             assert number in ledger, f"{name}: {number}"
 
 
+def test_the_four_inequalities_are_those_of_the_certificate():
+    proved = premises((ROOT / "reports" / "horseshoe.json").read_text()).known
+    slopes = [each for each in proved.values() if isinstance(each, SlopeRange)]
+    images = {x: y for each in slopes for x, y in zip(each.points, each.images, strict=True)}
+    found = re.findall(r"f\((\d\.\d+)\) ([<>]) (\d\.\d+)", TEXTS["proof.md"])
+    assert {point for point, _, _ in found} == {"1.1", "1.15", "1.27", "1.32"}
+    for point, sign, bound in found:
+        low, high = images[Fraction(point)]
+        assert high < Fraction(bound) < Fraction("1.1") if sign == "<" else low > Fraction(bound)
+        assert sign == "<" or Fraction(bound) > Fraction("1.32")
+    (least,) = re.findall(r"on I1 \| f' ≥ ([\d.]+) \|", TEXTS["proof.md"])
+    assert min(each.minimum[0] for each in slopes) >= Fraction(least)
+    avoided = [each for each in proved.values() if isinstance(each, Avoids)]
+    assert "no phase of [1.15, 1.27] has its first impact in I" in TEXTS["proof.md"]
+    assert any(
+        "[1.15, 1.27] has its first impact in [1.1, 1.32]" in each.sentence for each in avoided
+    )
+
+
 def test_the_readme_shows_what_the_screen_shows():
     rows = json.loads((ROOT / "reports" / "ledger.json").read_text())["claims"]
-    screen = {f"{row['id']} {row['verdict']} {row['statement']}" for row in rows}
-    screen |= {row["why"] for row in rows}
+    claims = [Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows]
     shown = TEXTS["README.md"].partition("```text\n")[2].partition("\n```")[0].splitlines()
-    assert {" ".join(line.split()) for line in shown[: shown.index("...")]} <= screen
-    assert any(
-        shown[-1].removesuffix(" ...").split(": ", 1)[1] in (x["corrected"] or "") for x in rows
+    true, verdicts = shown[0], shown[2:-1]
+    assert shown[1] == shown[-1] == "..." and len(verdicts) == 5
+    assert set(verdicts) <= {in_a_line(each) for each in claims}
+    assert true.startswith("True (H2, H5): ") and any(
+        true.removesuffix(" ...").split(": ", 1)[1] in (x["corrected"] or "") for x in rows
     )
 
 

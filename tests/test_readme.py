@@ -13,7 +13,7 @@ from proofs.trusted.verdicts import Verdict, tally
 ROOT = Path(__file__).parents[1]
 README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 ROWS = json.loads((ROOT / "reports" / "ledger.json").read_text(encoding="utf-8"))["claims"]
-WORDS = {2: "two", 10: "ten", 11: "eleven", 12: "twelve", 13: "thirteen"}
+WORDS = {2: "two", 7: "seven", 10: "ten", 11: "eleven", 12: "twelve", 13: "thirteen"}
 
 
 def count(rows):
@@ -30,15 +30,15 @@ def test_claims_are_counted_by_the_ledger_and_ours_apart():
     verdicts = count(paper)
     assert verdicts["UNDECIDED"] == 0
     assert (
-        f"All {len(paper)} claims of the paper that we count are decided: {verdicts['VERIFIED']} "
+        f"Of the {len(paper)} claims of the paper that we count "
+        f"{len(paper) - verdicts['SIMULATED']} are decided: {verdicts['VERIFIED']} "
         f"true as printed, {verdicts['REFUTED']} false, {verdicts['CONDITIONAL']} true under "
-        f"conditions that the paper leaves out, {verdicts['SIMULATED']} simulations; "
-        f"{', '.join(own[:-1])} and {own[-1]} are questions of our own"
+        "conditions that the paper leaves out."
     ) in README
+    assert f"{', '.join(own[:-1])} and {own[-1]} are questions of our own" in README
     simulated = [row["id"] for row in paper if row["verdict"] == "SIMULATED"]
-    assert f"SIMULATED, the fate of {WORDS[len(simulated)]} claims ({', '.join(simulated)})" in (
-        README
-    )
+    told = f"{WORDS[len(simulated)].capitalize()} ({', '.join(simulated)}) are observations"
+    assert told in README
 
 
 def test_screen_and_checker_count_alike():
@@ -47,17 +47,27 @@ def test_screen_and_checker_count_alike():
     assert tally([paper]) == "1 REFUTED" and tally([own]) == "of our own 1 VERIFIED"
 
 
-def test_section_5_is_counted_by_the_ledger():
-    soft = count(row for row in ROWS if row["id"].startswith("S"))
-    assert f"{WORDS[soft['REFUTED']]} of {soft.total()} claims are false" in README
+def test_sections_5_and_6_are_counted_by_the_ledger():
+    soft, resonant = (count(row for row in ROWS if row["id"][0] == letter) for letter in "SR")
+    assert (
+        f"has {WORDS[soft['REFUTED']]} of {soft.total()} claims false, section 6 on resonance "
+        f"{WORDS[resonant['REFUTED']]} of {resonant.total()}:"
+    ) in README
 
 
 def test_numbers_are_those_of_the_ledger():
     quantities = {row["id"]: row["quantities"] for row in ROWS}
-    (share,) = re.findall(r"([\d.]+) % of the circle at least", README)
+    ((least, most),) = re.findall(r"between ([\d.]+) and ([\d.]+) % of the circle;", README)
     bounds = [Fraction(quantities["G4"]["basin_fraction"][end]) for end in ("lower", "upper")]
-    assert bounds[0] - Fraction(1, 10**5) < Fraction(share) / 100 <= bounds[0] <= bounds[1] < 1
-    (largest,) = re.findall(r"yes for epsilon <= ([\d.]+),", README)
+    assert 0 <= bounds[0] - Fraction(least) / 100 < Fraction(1, 10**7)
+    assert bounds[1] <= Fraction(most) / 100 < 1
+    ((lost, held),) = re.findall(r"between ([\d.]+) and ([\d.]+) % come to phases", README)
+    assert Fraction(least) + Fraction(held) == Fraction(most) + Fraction(lost) == 100
+    (neither,) = re.findall(r"at most ([\d.]+) % to neither", README)
+    assert f"All but at most {neither} percent come" in next(
+        row["corrected"] for row in ROWS if row["id"] == "G13"
+    )
+    (largest,) = re.findall(r"yes for every epsilon <= ([\d.]+),", README)
     assert Fraction(largest) == Fraction(quantities["G7"]["epsilon_proved_up_to"]["lower"])
     (window,) = re.findall(r"every epsilon in \[([\d.]+), ([\d.]+)\] \(G16\)", README)
     ends = (quantities["G16"][f"epsilon_proved_{end}"]["lower"] for end in ("from", "up_to"))

@@ -15,6 +15,7 @@ from proofs.formal.plan import Headline, Plan
 from proofs.formal.written import Case, fields
 from proofs.search.repair import rounded_slopes, short_decimal
 from proofs.trusted.numbers import Range, show, show_range, within
+from proofs.trusted.verdicts import Verdict
 
 _PLACES = 6  # of a root of Moran's equation
 _BITS = 40  # of Coq's integers, where no margin is thin
@@ -109,7 +110,7 @@ class Theorems(Lemmas):
 
     def _moran(self, claim: str, name: str, says: str) -> None:
         """Write H11, a bracket of each root of Moran's equation, or H16."""
-        if not self.plan.holds(claim):
+        if self.plan.verdicts[claim] is Verdict.REFUTED:
             return
         if claim == "H16":
             r0, r1 = self.plan.of.moran_ratios

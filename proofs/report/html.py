@@ -25,12 +25,12 @@ from proofs.report.names import (
     MEANINGS,
     PAPER_TITLE,
     quantity_name,
-    rule_theorem,
     summary,
     tally,
     verdict_name,
 )
 from proofs.report.pictures import Picture
+from proofs.report.specification import rule_theorem
 from proofs.report.typeset import begun, html
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import floor_text

@@ -83,12 +83,12 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
     return parts
 
 
-def statement_text(findings: Findings, statement: Statement, page: str = "") -> str:
-    """Return a statement in full, what of it stands elsewhere as a link, into a page or here."""
+def statement_text(findings: Findings, statement: Statement) -> str:
+    """Return a statement in full, what of it stands elsewhere as a link."""
     return " ".join(
         markdown(part)
         if isinstance(part, str)
-        else f"[{part.kind} {part.label}]({page}#{part.label}); moreover:"
+        else f"[{part.kind} {part.label}](#{part.label}); moreover:"
         for part in findings.parts(statement)
     )
 

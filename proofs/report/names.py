@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from collections import Counter
 from types import MappingProxyType
 
 from proofs.report.findings import Findings
-from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
 
 PAPER_TITLE = (
@@ -62,7 +60,9 @@ def summary(findings: Findings) -> str:
     return (
         "A mass on a spring bounces on a vibrating table. Is it chaotic, as the paper says? Here "
         f"are its {count} claims, one by one: what is true, what is not, and what is true instead, "
-        "with proofs that a small independent program checks."
+        "with proofs that a small independent program checks. The paper was received on 16 July "
+        "1999 and accepted on 22 August 2000; the scan that was read names neither authors nor "
+        "journal."
     )
 
 
@@ -70,9 +70,3 @@ def tally(findings: Findings) -> list[tuple[Verdict, int]]:
     """Return how many of the paper's claims have which verdict."""
     counts = Counter(claim.verdict for claim in findings.claims if not claim.row.own)
     return [(verdict, counts[verdict]) for verdict in Verdict if counts[verdict]]
-
-
-def rule_theorem(name: str) -> list[str]:
-    """Return the theorem of a rule, its docstring, in paragraphs."""
-    text = inspect.cleandoc(getattr(find_rule(name), "__doc__", None) or "")
-    return [" ".join(paragraph.split()) for paragraph in text.split("\n\n")]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import inspect
+import re
 import sys
+from collections.abc import Iterator
 from importlib import import_module
 
 from proofs.trusted import certificate, verify
@@ -21,8 +23,50 @@ def specification() -> str:
         modules.setdefault(place.rpartition(".")[0], []).append(name)
     for module, names in modules.items():
         parts.append(f"## {_doc(import_module(f'proofs.trusted.{module}'))}")
-        parts += [f"### `{name}`\n\n{_doc(find_rule(name))}" for name in names]
+        for name in names:
+            parts += [f"### `{name}`", *theorems(name)]
     return "\n\n".join(parts) + "\n"
+
+
+def rule_theorem(name: str) -> list[str]:
+    """Return what a rule takes and infers, with all proofs, in paragraphs of one line."""
+    lemmas = _doc(import_module(str(find_rule(name).__module__)))
+    told = [*theorems(name), *([lemmas] if "Proof" in lemmas else [])]
+    return [" ".join(each.split()) for text in told for each in text.split("\n\n")]
+
+
+def theorems(name: str) -> list[str]:
+    """Return what a rule takes and infers, and the theorems that it names, with their proofs."""
+    rule = find_rule(name)
+    waiting: list[object] = [rule]
+    seen: set[object] = {*map(find_rule, RULES)}  # which have sections of their own
+    told = [_doc(rule)]
+    while waiting:
+        for word, named in _named(waiting.pop(0)):
+            if named not in seen:
+                seen.add(named)
+                waiting.append(named)
+                told.append(f"`{word}`: {_doc(named)}")
+    return told
+
+
+def _named(thing: object) -> Iterator[tuple[str, object]]:
+    """Yield the functions and classes with a theorem or a proof that a docstring names."""
+    module = sys.modules[thing.__module__]
+    used = (getattr(x, "__module__", None) for x in vars(module).values())
+    places = [module, *(sys.modules[x] for x in dict.fromkeys(used) if x in _trusted())]
+    for word in re.findall(r"`([A-Za-z_][\w.]*)`", _doc(thing)):
+        for place in places:
+            named: object = place
+            for part in word.split("."):
+                named = getattr(named, part, None)
+            if callable(named) and re.search("Theorem|Proof", _doc(named)):
+                yield word, named
+                break
+
+
+def _trusted() -> set[str]:
+    return {name for name in sys.modules if name.startswith("proofs.trusted.")}
 
 
 def _doc(thing: object) -> str:

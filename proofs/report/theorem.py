@@ -1,66 +1,108 @@
-"""The theorem: what is proved of the oscillator at the paper's parameters, collected on one page.
+"""The theorem: what is proved of the oscillator at the paper's parameters, as a paper.
 
-Each clause is what conclusions say of themselves, with their hypotheses; nothing is added to them.
+A person wrote the template. Each of its lines is a title, or a sentence after a tag: @def, a
+definition or a reference within the page; @classical, a theorem of the books; the label of a
+conclusion in the ledger, @step:FILE/NAME or @rule:NAME, what a sentence renders. {text} is the
+conclusion in its own words, {f(x)} an enclosure of f at a point of a step.
 """
 
 from __future__ import annotations
 
-from proofs.report.findings import Finding, Findings, Statement
-from proofs.report.ledger import statement_text
-from proofs.report.names import verdict_name
-from proofs.report.typeset import markdown
-from proofs.trusted.numbers import floor_text, show
-from proofs.trusted.parameters import PAPER
-from proofs.trusted.verdicts import Verdict
+import re
+from fractions import Fraction
+from importlib import resources
+from typing import NamedTuple
 
-CLAUSES = (
-    ("Where the mass sticks, and where it is never hit", ("G1", "M6")),
-    ("Where the motions go", ("G13",)),
-    ("The horseshoe of the paper, repaired", ("H2", "H7", "H13")),
-    ("All that does not come to rest", ("G17", "G18", "G19")),
-    ("Grazing", ("H18",)),
-    ("With restitution: the horseshoe", ("N5",)),
-    ("With restitution: the motion that sticks", ("G7", "G14", "G15", "G16")),
-)  # what it is about, and the claims whose theorems say it
+from proofs.report.findings import Findings
+from proofs.report.typeset import markdown
+from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import between
+from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.verdicts import told
+
+_LINE = re.compile(r"@(\S+) (.+)")
+_RULES = "../proofs/trusted/CERTIFICATE.md"
+_MARKS = re.compile(r"\[[a-z ]+\]\([^)]+\)|\*\*[A-Za-z ]+(?:\d+\.)?\*\*|\*Proof\.\*|^#+ ")
+
+
+class Sentence(NamedTuple):
+    """A sentence of the template, with its tag; a title or an empty line has the tag ""."""
+
+    tag: str
+    text: str
+
+
+def template() -> list[Sentence]:
+    """Return the lines of the template; ValueError for a sentence that has no tag."""
+    found = []
+    text = (resources.files("proofs.report") / "templates" / "theorem.md").read_text("utf-8")
+    for line in text.splitlines():
+        match = _LINE.fullmatch(line)
+        if match is None and line and not line.startswith("#"):
+            raise ValueError(f"a sentence without a tag: {line[:60]}")
+        found.append(Sentence(match[1], match[2]) if match else Sentence("", line))
+    return found
 
 
 def theorem(findings: Findings) -> str:
-    """Return the page, with the clauses whose claims the ledger lists."""
-    claims = {claim.id: claim for claim in findings.claims}
-    eta, nu = (markdown(show(x)) for x in (PAPER.eta, PAPER.nu))
-    parts = [
-        f"# The impact oscillator at η = {eta}, ν = {nu}",
-        "What is proved of it, and where. The words of each clause are those of the conclusion "
-        "that the checker derives from the certificate; all claims are in "
-        "[the ledger](ledger.md).",
-    ]
-    for number, (title, ids) in enumerate(CLAUSES, 1):
-        here = [claims[each] for each in ids if each in claims]
-        if here:
-            parts.append(f"## {number} {title}")
-        for claim in here:
-            for each in _proved(findings, claim):
-                if (clause := _clause(findings, each)) not in parts:
-                    parts.append(clause)
-            parts.append(_source(claim))
-    return "\n\n".join(parts) + "\n"
+    """Return the page, with the sentences whose conclusions the ledger lists."""
+    known, paragraphs = sources(findings), [list[str]()]
+    for tag, text in template():
+        if tag and tag not in ("def", "classical") and tag not in known:
+            continue
+        written = f"{rendered(known.get(tag), text)} {_source(tag)}".strip()
+        if not tag or text == "{text}" or text.startswith(("**Theorem", "*Proof")):
+            paragraphs.append([])  # that begins here
+        if text == "{text}":
+            paragraphs += [[f"> {written}"], []]
+        elif written:
+            paragraphs[-1].append(written)
+    return "\n\n".join(" ".join(each) for each in paragraphs if each) + "\n"
 
 
-def _proved(findings: Findings, claim: Finding) -> list[Statement]:
-    """Return the theorems of a claim: what verifies it, or what is true in its place."""
-    because, corrected = claim.decision.because, claim.decision.corrected
-    kept = corrected if claim.verdict is Verdict.REFUTED else (*because, *corrected)
-    return [findings.statements[each] for each in dict.fromkeys(kept)]
+def sources(findings: Findings) -> dict[str, Conclusion | None]:
+    """Return what a tag may name: labels, steps, and rules, which have no conclusion."""
+    known: dict[str, Conclusion | None] = {
+        each.label: each.conclusion for each in findings.statements.values()
+    }
+    for claim in findings.claims:
+        for step in claim.steps:
+            known[f"step:{claim.file.removesuffix('.json')}/{step.name}"] = step.conclusion
+            known[f"rule:{step.rule}"] = None
+    return known
 
 
-def _clause(findings: Findings, statement: Statement) -> str:
-    return f"**{statement.label}.** {statement_text(findings, statement, 'ledger.md')}"
+def rendered(conclusion: Conclusion | None, text: str) -> str:
+    """Return a sentence with what it takes from its conclusion."""
+
+    def put(match: re.Match[str]) -> str:
+        if match[0] == "{text}" and conclusion is not None:
+            return told([conclusion])
+        if isinstance(conclusion, SlopeRange) and match[1] is not None:
+            place = conclusion.points.index(Fraction(match[1]))
+            return between(conclusion.images[place])
+        raise ValueError(f"nothing to put for {match[0]}")
+
+    return _linked(re.sub(r"\{(?:text|f\(([\d.]+)\))\}", put, text))
 
 
-def _source(claim: Finding) -> str:
-    """Return where it is proved, and how to find and to check it."""
-    margin = claim.decision.margin
-    spare = "" if margin is None else f" with margin {markdown(floor_text(margin))}"
-    verdict = verdict_name(claim.verdict).lower()
-    found = f"found by `{claim.made}`, checked by `{claim.checked}`"
-    return f"*[{claim.id}](ledger.md#{claim.id}), {verdict}{spare}; {found}.*"
+def _source(tag: str) -> str:
+    """Return the mark behind a sentence."""
+    kind, _, name = tag.partition(":")
+    if tag in ("", "def", "classical"):
+        return ""
+    if kind == "rule":
+        return f"[`{name}`]({_RULES}#{name})"
+    if kind == "step":
+        file, _, step = name.partition("/")
+        return f"[{step}]({file}.json)"
+    return f"[[{tag}](ledger.md#{tag})]"
+
+
+def _linked(text: str) -> str:
+    """Typeset a text but for its links and its marks of emphasis."""
+    parts, place = [], 0
+    for match in _MARKS.finditer(text):
+        parts += [markdown(text[place : match.start()]), match[0]]
+        place = match.end()
+    return "".join([*parts, markdown(text[place:])])

@@ -216,6 +216,8 @@ class _Setter:
     def _prime(self, marks: str) -> str:
         if self.before.kind == "variable" or self.sentence[: self.place].endswith("gap'"):
             return {1: "′", 2: "″"}.get(len(marks), "′" * len(marks))
+        if self.sentence[: self.place].endswith(")'") and self._beside()[1] in "|(":  # |(f^n)'|
+            return "′"
         return "’" * len(marks)
 
     def _dash(self) -> str:

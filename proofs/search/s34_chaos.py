@@ -1,6 +1,6 @@
 """Section 3.4: is there another invariant set, and how much chaos is there in all?
 
-Claims G5, G11: which orbits stay in [1.32, 1.48], and the full shifts around it. G9: a lower
+Claims G5, G11, G20: which orbits stay in [1.32, 1.48], and the full shifts around it. G9: a lower
 bound on the topological entropy, from all branches of f near the phase pi/2.
 """
 
@@ -52,9 +52,12 @@ def prove(
     """Prove what the claims asked for rest on."""
     prover = Prover(System(of.eta, of.nu), digits, HORIZON)
     evidence = Evidence(prover.steps)
-    if asked := {"G5", "G11"}.intersection(claims):
+    if asked := {"G5", "G11", "G20"}.intersection(claims):
         tell("which orbits stay in [1.32, 1.48], and around it")
         evidence.proofs |= dict.fromkeys(asked, prove_staying(prover, PRINTED, of.interval))
+    if "G20" in claims:
+        ends = [prover.point(phase) for phase in PRINTED]
+        evidence.proofs["G20"] = [*evidence.proofs["G20"], *ends]
     if "G9" in claims:
         tell("branches of f, and their covering graph")
         evidence.proofs["G9"] = [*prove_entropy(prover)]

@@ -218,9 +218,8 @@ def _told(
     write_target(parser, options.json, lambda: text)
     rows = json.loads(text)["claims"]
     if heard(options):
-        show_verdicts(
-            [Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows]
-        )
+        claims = [Decided(x["id"], Verdict(x["verdict"]), x["statement"], x["why"]) for x in rows]
+        show_verdicts(claims, verbose=options.verbose)
         for line in shown:
             say(line)
         verdicts = tally((Verdict(row["verdict"]), row_of(row["id"]).own) for row in rows)

@@ -162,6 +162,7 @@ def add_outputs(parser: Parser, claims: Sequence[str]) -> None:
     """Add the options for what is asked and where results go."""
     names = "--only", "--digits", "--out", "--json", "--quiet"
     share(parser, *names, places=PLACES, claims=claims)
+    parser.add_argument("--verbose", action="store_true", help="say why, and print the numbers")
     parser.set_defaults(digits=None)
 
 
@@ -207,7 +208,11 @@ def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds
     """Print what was decided, have it checked, and return the exit status."""
     write_target(parser, options.json, lambda: made.certificate)
     if heard(options):
-        print_lines(made.lines, options.digits or PLACES)
+        print_lines(
+            made.lines,
+            options.digits or PLACES,
+            verbose=options.verbose or options.digits is not None,
+        )
         say(f"\n{made.seen}" if made.seen else "")
         say(f"all of it: {options.out}/{file}.md")
         summary = tally((line.verdict, not line.words) for line in made.lines)
@@ -218,18 +223,22 @@ def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds
     return int(any(row.verdict is Verdict.UNDECIDED for row in made.lines))
 
 
-def print_lines(lines: Sequence[Line], digits: int) -> None:
-    """Print the verdicts, the numbers once each, and the gist of the theorems beside them."""
-    show_verdicts([Decided(x.id, x.verdict, x.statement, x.why) for x in lines])
+def print_lines(lines: Sequence[Line], digits: int, *, verbose: bool) -> None:
+    """Print the gist of what is true, then a line a claim; on request why, and the numbers."""
+    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
+    for text in dict.fromkeys(gists.values()):
+        beside = ", ".join(claim for claim, same in gists.items() if same == text)
+        say(f"True ({beside}): {text}")
+    say("" if gists else "no theorem is proved")
+    rows = [Decided(x.id, x.verdict, x.statement, x.why) for x in lines]
+    show_verdicts(rows, verbose=verbose)
+    if not verbose:
+        return
     numbers = {name: ends for line in lines for name, ends in line.quantities.items()}
     say("")
     for name, ends in numbers.items():
         lower, upper = printed(ends, digits).values()
         say(f"{name} in [{lower}, {upper}]")
-    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
-    for text in dict.fromkeys(gists.values()):
-        beside = ", ".join(claim for claim, same in gists.items() if same == text)
-        say(f"\nTheorem beside {beside}, VERIFIED: {text}")
 
 
 def _checked(path: Path, quiet: bool) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from argparse import ArgumentParser, RawDescriptionHelpFormatter, _StoreAction
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import IO, Any, NamedTuple, NoReturn
@@ -17,6 +17,7 @@ from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
 
+_LINE = 100  # of a claim
 _WIDTH = 80  # where there is no terminal
 _SENTENCE = re.compile(r"(?<=[^.]\.) ")
 _COLOURS = {  # of the terminal, by ECMA-48
@@ -36,6 +37,18 @@ class Arguments(ArgumentParser):
             f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
         )
         self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Refuse an option that is given twice: argparse would take the last one, and say nothing.
+
+        What may be given several times appends.
+        """
+        given = [str(x).partition("=")[0] for x in (sys.argv[1:] if args is None else args)]
+        for action in self._actions:
+            names = [name for name in given if name in action.option_strings]
+            if isinstance(action, _StoreAction) and len(names) > 1:
+                self.error(f"{names[-1]} is given {len(names)} times")
+        return super().parse_known_args(args, namespace)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         """Print help and versions; argparse would keep quiet about a full disk or a closed pipe."""
@@ -133,16 +146,28 @@ def say(text: str, stream: IO[str] | None = None, hanging: int = 2) -> None:
     print(fitted(text, stream, hanging), file=stream)
 
 
-def show_verdicts(rows: Sequence[Decided]) -> None:
-    """Print each claim in two lines, broken where a terminal has less room; there in colour."""
+def show_verdicts(rows: Sequence[Decided], *, verbose: bool = True) -> None:
+    """Print each claim in two lines, broken where a terminal has less room; there in colour.
+
+    Not verbose: a line of at most 100 characters, and why only where nothing is decided.
+    """
     colours = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
     for row in rows:
         word = row.verdict.value
-        text = fitted(f"{row.id:4} {word:11} {row.statement}", sys.stdout, hanging=5)
+        line = f"{row.id:4} {word:11} {row.statement}" if verbose else in_a_line(row)
+        text = fitted(line, sys.stdout, hanging=5)
         if colours and not os.environ.get("NO_COLOR"):
             text = text.replace(word, f"\x1b[{_COLOURS[row.verdict]}m{word}\x1b[0m", 1)
         print(text)
-        say(f"     {row.why}", hanging=0)
+        if verbose or row.verdict is Verdict.UNDECIDED:
+            say(f"     {row.why}", hanging=0)
+
+
+def in_a_line(row: Decided) -> str:
+    """Return a claim in a line, without the oscillator if that stands at its beginning."""
+    said = re.sub(r"^At \(eta, nu\) = \([^)]*\): ", "", row.statement)
+    line = f"{row.id:4} {row.verdict.value:11} {said}"
+    return line if len(line) <= _LINE else f"{line[: _LINE - 4].rsplit(' ', 1)[0]} ..."
 
 
 def gist(theorem: str) -> str:

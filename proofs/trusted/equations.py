@@ -136,7 +136,8 @@ def slope(start: Launch, now: Clock, fall: Number | None = None) -> Number:
 
     Theorem. Let g(phi, t) be the plastic gap. Then dg/dt - dg/dphi = sin(eta t) / eta times the
     launch acceleration, and where g = 0 and dg/dt < 0, the next impact phase phi + t(phi) has
-    derivative 1 - (dg/dphi) / (dg/dt) = (sin(eta t) / eta) launch_acceleration / (dg/dt).
+    derivative 1 - (dg/dphi) / (dg/dt) = (sin(eta t) / eta) launch_acceleration / (dg/dt). Proof.
+    The terms with cos(eta t), and those of the table, cancel in the difference.
     """
     if fall is None:
         fall = gap(start, now, 1)

@@ -156,10 +156,13 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     Hypotheses: on phases x [0, t_1] gap'' > 0, or gap''' > 0 with gap'' >= 0 at launch; gap < 0
     at t_n. A piece [t_j, t_(j+1)] of width
     w is closed if min(gap(t_j), gap(t_(j+1))) > w^2/8 max(0, sup gap'') on it, else open.
-    Conclusion: since gap = gap' = 0 at launch, gap > 0 on (0, t_1]; by the error of linear
-    interpolation gap > 0 on closed pieces; so each launch has a first impact, in an open piece.
-    It is transversal (unique, smooth in the phase) if the open pieces are one interval that ends
-    at t_n, with gap' < 0 on it.
+    Conclusion: each launch has a first impact, in an open piece. It is transversal (unique, smooth
+    in the phase) if the open pieces are one interval that ends at t_n, with gap' < 0 on it.
+
+    Proof. gap = gap' = 0 at launch, so gap > 0 on (0, t_1]. The error of linear interpolation over
+    a width w is at most w^2/8 sup |gap''|, and below the chord at most w^2/8 max(0, sup gap''): so
+    gap > 0 on closed pieces. gap < 0 at t_n: it has a first zero, in an open piece. Where gap' < 0
+    there is no other, and it is smooth in the phase by the implicit function theorem.
     """
     phases_of, times_of = reader.fields("phases", "times")
     times, at = read_times(times_of), context.place

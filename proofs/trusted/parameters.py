@@ -189,7 +189,7 @@ class Parameters:
             hi=show(self.slopes[1]),
             r0=_base(self.moran_ratios[0]),
             r1=_base(self.moran_ratios[1]),
-            s0=f", s_0 = {self.printed_s0}...., rounded" if self.printed_s0 else "",
+            s0=f", s_0 = {self.printed_s0}..." if self.printed_s0 else "",
             epsilon="no epsilon" if self.epsilon is None else show(self.epsilon),
             gamma="no velocities" if self.velocities is None else show_range(self.velocities),
             box="no epsilon" if self.box is None else str(self.box),

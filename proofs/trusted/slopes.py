@@ -247,6 +247,9 @@ def point(context: Context, reader: Reader) -> Impact:
     """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
 
     Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
+
+    Proof. The gap has opposite signs at the ends of the bracket, and falls: the impact is in it.
+    gap(phase, t) = 0 gives dt/dphase = -(dgap/dphase)/gap', and f' = 1 + dt/dphase is `slope`.
     """
     phase, slope, image = _launched(context, reader)
     return Impact(context.place, phase, slope, Phase(*image))
@@ -266,9 +269,9 @@ def slope_range(context: Context, reader: Reader) -> SlopeRange:
 
     Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
     first-impact step that contains it, and a bracket for all its launches. Conclusion: f is C^1
-    on each piece, hence on [x_0, x_n] (at a shared end the first impact is the same), and with
-    f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0, w] and
-    f'(x_(i+1)) - f'' [0, w] (mean value theorem).
+    on [x_0, x_n], and with f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0,
+    w] and f'(x_(i+1)) - f'' [0, w]. Proof. Transversal impacts are smooth in the phase, and at a
+    shared end the first impact is the same. The bounds are the mean value theorem, for f'.
     """
     points_of, pieces_of = reader.fields("points", "pieces")
     phases, slopes, images = zip(
@@ -291,7 +294,8 @@ def avoids(context: Context, reader: Reader) -> Avoids:
     """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
 
     Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
-    for every k. Conclusion: no phase of the union has its first impact in the target.
+    for every k. Conclusion: no phase of the union has its first impact in the target. Proof. Each
+    has it in a window of its step, so f in phases + window.
     """
     flights_of, target_of = reader.fields("flights", "target")
     target = read_phases(target_of)

@@ -63,8 +63,8 @@ class Decision(NamedTuple):
     """What conclusions make of a claim.
 
     because: those that verify, refute or condition it. corrected: the strongest true statements
-    nearby. margin: by how much a printed bound holds. missing: what is not proved, where nothing
-    is decided. of: the numbers of the claim.
+    nearby. margin: by how much the bound that the claim asks for holds. missing: what is not
+    proved, where nothing is decided. of: the numbers of the claim.
     """
 
     verdict: Verdict
@@ -83,7 +83,7 @@ class Decision(NamedTuple):
             at, brief = each.place, each.brief.rstrip(".")
             here = at is None or self.of is None or at.holds(self.of)
             reasons.append(brief if here or str(at) in brief else f"at {at}: {brief}")
-        spare = [] if self.margin is None else [f"margin {floor_text(self.margin)}"]
+        spare = [] if self.margin is None else [f"{floor_text(self.margin)} to spare"]
         return self.missing or "; ".join([*reasons, *spare])
 
     @property

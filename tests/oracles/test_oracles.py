@@ -499,6 +499,7 @@ WRONG = [
     ("G1", {"eta": F(1, 10), "nu": F(-1, 100)}, "VERIFIED"),
     ("G2", {"nu": F("-0.3")}, "CONDITIONAL"),
     ("G11", {}, "VERIFIED"),
+    ("G20", {}, "VERIFIED"),
     ("N1", {}, "VERIFIED"),
     ("N2", {"left": (F(2), F("2.1")), "right": (F("2.2"), F("2.3"))}, "VERIFIED"),
     ("X1", {}, "VERIFIED"),

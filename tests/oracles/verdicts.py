@@ -113,7 +113,7 @@ def full_branches(eta, nu, interval, count=160):
 
 
 def _second_set(of):
-    """G11: two branches over [1.32, 1.48] would be a full shift."""
+    """G11, G20: two branches over [1.32, 1.48] would be a full shift."""
     return full_branches(of.eta, of.nu, PRINTED) >= 2
 
 
@@ -176,6 +176,7 @@ TRUTHS = {
     "H17": lambda of: False,
     "G1": _arc,
     "G11": _second_set,
+    "G20": _second_set,
     "N1": _edges,
     "N2": _hyperbolic,
     "X1": lambda of: all(sticks(of.eta, of.nu, TURN * k / 97) for k in range(97)),

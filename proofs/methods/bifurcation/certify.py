@@ -1,7 +1,8 @@
-"""Bifurcations proved: lemma files about closed forms, and enclosures at exact parameters."""
+"""Bifurcations proved: the Jacobian of a map, and enclosures at exact parameters."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -9,9 +10,9 @@ from typing import Any
 
 from intervals import Interval, Undecided
 from proofs.methods import derive
+from proofs.methods.bifurcation.classify import classified
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import NormalForm
-from proofs.methods.bifurcation.solving import Solution, coefficients, points
 from proofs.methods.formulas import dot, inverse, jacobian, values
 from proofs.methods.lemmas import Lemmas
 from proofs.trusted.certificate import Malformed, Reader
@@ -19,24 +20,24 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
-from proofs.trusted.kernel.solutions import solution
 from proofs.trusted.kernel.trees import formula
-from proofs.trusted.kernel.values import Equal, Series, equal
+from proofs.trusted.kernel.values import equal
 from proofs.trusted.numbers import Range
 from proofs.trusted.rules import Rule
 
 _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
+_SIGN_BITS = 200
 
 
 def prove_jacobian(file: Lemmas, of: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
     texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
     for entry in of.implicit(texts):
-        _confirm(file, file.equal(entry, "0"), equal)
+        confirm(file, file.equal(entry, "0"), equal)
 
 
-def _confirm(file: Lemmas, name: str, rule: Rule) -> None:
+def confirm(file: Lemmas, name: str, rule: Rule) -> None:
     """Take a step back, and raise Undecided, where the checker does not derive it.
 
     What sympy finds may rest on identities that the checker has not: exp(log(x)) = x, for one.
@@ -49,68 +50,10 @@ def _confirm(file: Lemmas, name: str, rule: Rule) -> None:
         raise Undecided(f"what sympy finds is not derived by the checker: {failure}") from None
 
 
-def prove_closed_form(file: Lemmas, form: NormalForm, found: Solution, parameter: str) -> None:
-    """Add that it is a bifurcation with these coefficients, see `normal_forms`."""
-    scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
-    sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
-    nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
-    name = file.solution(
-        {name: derive.write(value) for name, value in found.items()},
-        *(Equal.read(each, "0") for each in (*form.map.fixed, form.condition())),
-        *(Series.read(each, "h", nought, nonzero) for each in sides),
-        Equal.read(form.criticality, "critical"),
-        Equal.read(form.speed(parameter), "speed"),
-    )
-    _confirm(file, name, solution)
-
-
-def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
-    """Return bifurcations in closed form, solved for these names, and add their proofs.
-
-    Raises Undecided where none is found that is not degenerate.
-    """
-    found, reason = [], Undecided("none is found")
-    parameter = next(name for name in names if name not in form.map.state)
-    for point in points(form, names):
-        for each in _charts(form):
-            try:
-                known = coefficients(each, point, parameter)
-                prove_closed_form(file, each, known, parameter)
-            except Undecided as failure:
-                reason = failure
-                continue
-            found.append(known)
-            break
-    if not found:
-        raise reason
-    return found
-
-
-def _charts(form: NormalForm) -> list[NormalForm]:
+def charts(form: NormalForm) -> list[NormalForm]:
     """Return the form with each variable of the state as the coordinate of the centre manifold."""
     places = range(1 if form.kind == "neimark_sacker" else len(form.map.state))
     return [replace(form, lead=place) for place in places]
-
-
-def _divisors(form: NormalForm, found: Solution) -> list[str]:
-    """Return the factors of all denominators at a solution, but numbers."""
-    import sympy
-
-    at_rest = [derive.simplest(derive.read(each, found)) for each in form.map.equations]
-    factors = {
-        factor
-        for each in (*found.values(), *at_rest, *_partials(form, found))
-        for factor in derive.factors(sympy.denom(each))
-    }
-    return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)
-
-
-def _partials(form: NormalForm, point: Solution) -> list[Any]:
-    """Return the derivatives of the equations at a solution."""
-    names = (*form.map.state, *form.map.images)
-    rows = form.map.partials(names)
-    places = form.map.at_rest(point)
-    return [derive.simplest(derive.read(entry, places)) for row in rows for entry in row]
 
 
 # -- at exact parameters ---------------------------------------------------------------------------
@@ -132,6 +75,12 @@ class Enclosed:
     determinant: Range
 
     @property
+    def signs(self) -> dict[str, int]:
+        """The signs that decide."""
+        ends = {"critical": self.critical, "speed": self.speed}
+        return {name: 1 if low > 0 else -1 for name, (low, _) in ends.items()}
+
+    @property
     def says(self) -> str:
         """What the signs mean, in a line."""
         if self.form.kind == "fold":
@@ -148,13 +97,14 @@ def enclosure(
     file: Lemmas, form: NormalForm, parameter: str, near: Mapping[str, Fraction], digits: int
 ) -> Enclosed:
     """Prove an enclosure in the first chart of the centre manifold in which that succeeds."""
-    *others, last = _charts(form)
-    for each in others:
+    reason, steps = Undecided("no chart"), dict(file.steps)
+    for each in charts(form):
         try:
             return prove_enclosure(file, each, parameter, near, digits)
-        except Undecided:
-            continue
-    return prove_enclosure(file, last, parameter, near, digits)
+        except Undecided as failure:
+            reason = failure
+            file.steps, file.functions = dict(steps), {}
+    raise reason
 
 
 def prove_enclosure(
@@ -176,15 +126,29 @@ def prove_enclosure(
         each: (Fraction(low), Fraction(high))
         for each, (low, high) in zip(names, file.steps[step]["witness"]["box"], strict=True)
     }
-    if "t" in box and not max(map(abs, box["t"])) < 2:
-        raise Undecided("multipliers that are real, of product 1: no Neimark-Sacker bifurcation")
-    critical, speed = (
-        _bounded(file, text, box, digits) for text in (form.criticality, form.speed(parameter))
-    )
-    area = f"{form.map.characteristic('0')}/{form.map.turning()}"
-    sign = -1 if len(form.map.state) == 1 else 1  # det(-J) = -J
-    low, high = _bounds(file, f"-{area}" if sign < 0 else area, box, digits)
-    return Enclosed(form, parameter, box, critical, speed, (low, high))
+    values = {"critical": form.criticality, "speed": form.speed(parameter), **_invariants(form.map)}
+    bounds: dict[str, Range] = {}
+
+    def sign(test: str) -> int:
+        text = re.sub(r"[a-z]+", lambda match: f"({values[match[0]]})", test.replace("^", "**"))
+        low, high = _bounds(file, text, box, digits)
+        if low <= 0 <= high:
+            raise Undecided(f"whether {test} is 0 there")
+        bounds[test] = low, high
+        return 1 if low > 0 else -1
+
+    found = classified(form.kind, len(form.map.state) == 2, sign)
+    if found.kind != form.kind:
+        raise Undecided(f"{found.kind}: {found.why}")
+    determinant = _bounds(file, values["determinant"], box, digits)
+    return Enclosed(form, parameter, box, bounds["critical"], bounds["speed"], determinant)
+
+
+def _invariants(of: Map) -> dict[str, str]:
+    """Return trace and determinant of the Jacobian; of a map of the line its derivative."""
+    if len(of.state) == 2:
+        return of.invariants()
+    return {"determinant": f"-{of.characteristic('0')}/{of.turning()}"}  # det(-J) = -J
 
 
 def _bounds(file: Lemmas, text: str, box: Mapping[str, Range], digits: int) -> Range:
@@ -192,14 +156,6 @@ def _bounds(file: Lemmas, text: str, box: Mapping[str, Range], digits: int) -> R
     free = formula(text).free
     sides = {name: ends for name, ends in box.items() if name in free}
     return file.bounds(text, digits, (digits + _SPARE_DIGITS) * 4, **sides)
-
-
-def _bounded(file: Lemmas, text: str, box: Mapping[str, Range], digits: int) -> Range:
-    """Add bounds that are not 0."""
-    low, high = _bounds(file, text, box, digits)
-    if low <= 0 <= high:
-        raise Undecided(f"whether {text[:40]} is 0 there")
-    return low, high
 
 
 def _guess(

@@ -117,6 +117,18 @@ class Map:
         """Return det G_x1 at rest, not 0 where J is defined."""
         return self.resting(determinant(self.partials(self.images)))
 
+    def invariants(self) -> dict[str, str]:
+        """Return trace and determinant of the Jacobian at rest, of a map of the plane.
+
+        det(G_x + m G_x1) = det(G_x1) (m^2 - m trace + determinant).
+        """
+        at_one, at_minus_one = self.characteristic("1"), self.characteristic("(-1)")
+        turning = self.turning()
+        return {
+            "trace": f"({at_minus_one} - {at_one})/(2*{turning})",
+            "determinant": f"{self.characteristic('0')}/{turning}",
+        }
+
     def drift(self, parameter: str) -> list[str]:
         """Return the derivatives of a fixed point by a parameter, where 1 is no multiplier."""
         rows = [[f"D({each}, {x})" for x in self.state] for each in self.fixed]

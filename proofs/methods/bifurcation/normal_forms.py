@@ -34,8 +34,20 @@ from itertools import product
 from proofs.methods.bifurcation.maps import Map
 
 KINDS = ("fold", "flip", "neimark_sacker")
-MULTIPLIER = {"fold": "1", "flip": "(-1)"}
-_ORDER = {"fold": 2, "flip": 3, "neimark_sacker": 3}
+MULTIPLIER = {"fold": "1", "pitchfork": "1", "flip": "(-1)"}
+_ORDER = {"fold": 2, "pitchfork": 3, "flip": 3, "neimark_sacker": 3}
+_COEFFICIENTS = {
+    "fold": ("b2",),
+    "pitchfork": ("b2", "b3"),
+    "flip": ("b2", "b3"),
+    "neimark_sacker": ("a3", "b3"),
+}
+_CRITICALITY = {
+    "fold": "b2",
+    "pitchfork": "b2",
+    "flip": "b2**2 + b3",
+    "neimark_sacker": "a3*(4 - t**2)",
+}
 _SCALED = "({0}**2 - t*{0}*{1} + {1}**2)"
 
 
@@ -67,12 +79,12 @@ class NormalForm:
     @property
     def coefficients(self) -> tuple[str, ...]:
         """The coefficients of N."""
-        return {"fold": ("b2",), "flip": ("b2", "b3"), "neimark_sacker": ("a3", "b3")}[self.kind]
+        return _COEFFICIENTS[self.kind]
 
     @property
     def criticality(self) -> str:
         """The coefficient that is reported, in those of N."""
-        return {"fold": "b2", "flip": "b2**2 + b3", "neimark_sacker": "a3*(4 - t**2)"}[self.kind]
+        return _CRITICALITY[self.kind]
 
     def powers(self, order: int) -> list[tuple[int, ...]]:
         """Return the exponents of the monomials of an order."""
@@ -131,6 +143,8 @@ class NormalForm:
         """Return N, a formula for each coordinate."""
         if self.kind == "fold":
             return ["h + b2*h**2"]
+        if self.kind == "pitchfork":
+            return ["h + b2*h**2 + b3*h**3"]
         if self.kind == "flip":
             return ["-h + b2*h**2 + b3*h**3"]
         size = _SCALED.format("h1", "h2")
@@ -170,7 +184,7 @@ class NormalForm:
         bifurcation that of its absolute value squared, det J. It is not 0 if the parameter unfolds.
         """
         of = self.map
-        if self.kind == "fold":
+        if MULTIPLIER.get(self.kind) == "1":
             return self._drift_of_fold(parameter)
         if self.kind == "flip":
             polynomial = of.characteristic("multiplier")
@@ -181,10 +195,7 @@ class NormalForm:
     def _drift_of_fold(self, parameter: str) -> str:
         """Return -l G_mu/(l G_x1 q), l the left null vector of G_x + G_x1, q the right one."""
         rows = [[f"D({each}, {x})" for x in self.map.state] for each in self.map.fixed]
-        left, right = ["1"], ["1"]
-        if len(rows) == 2:
-            left = [rows[1][1 - self.lead], f"(-{rows[0][1 - self.lead]})"]
-            right = [self._given(place, (1,)) or f"{x}_1" for place, x in enumerate(self.map.state)]
+        left, right = self._left(rows), self._right()
         turned = [
             " + ".join(f"{self.map.resting(a)}*{b}" for a, b in zip(row, right, strict=True))
             for row in self.map.partials(self.map.images)
@@ -195,6 +206,45 @@ class NormalForm:
             for column in (rates, turned)
         )
         return f"-({top})/({below})"
+
+    def _left(self, rows: list[list[str]]) -> list[str]:
+        """Return the left null vector of the derivative of `fixed`, given by rows."""
+        if len(rows) == 1:
+            return ["1"]
+        return [rows[1][1 - self.lead], f"(-{rows[0][1 - self.lead]})"]
+
+    def _right(self) -> list[str]:
+        """Return the eigenvector, with the entry 1 at the variable h."""
+        return [self._given(place, (1,)) or f"{x}_1" for place, x in enumerate(self.map.state)]
+
+    def unfolding(self, parameter: str, row: int) -> tuple[str, str]:
+        """Return what decides where the multiplier is 1 and the speed is 0: crossing, and mixed.
+
+        Theorem (Lyapunov and Schmidt). Where F = 0, F_x q = 0 and l F_x = l F_mu = 0, the solutions
+        of F = 0 near are those of a s^2 + 2 b s t + c t^2 + ... = 0, (x, mu) = (q, 0) s + (w, 1) t,
+        F_x w = -F_mu, with a, 2 b, c the second derivative of l F in these directions: two curves
+        that cross if b^2 > a c, one of them along s if a = 0. mixed is b; w is taken from `row`,
+        with the entry 0 at the variable h.
+        """
+        rows = [[f"D({each}, {x})" for x in self.map.state] for each in self.map.fixed]
+        names, left = (*self.map.state, parameter), self._left(rows)
+        along = [*self._right(), "0"]
+        across = ["0"] * len(self.map.state) + ["1"]
+        if len(rows) == 2:
+            other = 1 - self.lead
+            across[other] = f"(-D({self.map.fixed[row]}, {parameter})/{rows[row][other]})"
+
+        def second(one: list[str], two: list[str]) -> str:
+            return " + ".join(
+                f"{weight}*D({each}, {x}, {y})*{a}*{b}"
+                for weight, each in zip(left, self.map.fixed, strict=True)
+                for x, a in zip(names, one, strict=True)
+                for y, b in zip(names, two, strict=True)
+                if "0" not in (a, b)
+            )
+
+        mixed = second(along, across)
+        return f"({mixed})**2 - ({second(along, along)})*({second(across, across)})", mixed
 
 
 def _along(text: str, of: Map, parameter: str) -> str:

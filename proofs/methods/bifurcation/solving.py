@@ -14,39 +14,44 @@ Solution = dict[str, Any]  # expressions of sympy by name
 
 
 def points(form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
-    """Return bifurcations in closed form, solved for these names; Undecided where none is found."""
-    return solve([derive.read(each) for each in (*form.map.fixed, form.condition())], names)
+    """Return what may be bifurcations, in closed form, solved for these names."""
+    return solutions([derive.read(each) for each in (*form.map.fixed, form.condition())], names)
 
 
 def solve(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
-    """Return solutions in closed form, without roots; Undecided where none is found.
+    """Return solutions in closed form, without roots; Undecided where none is found."""
+    found = [point for point in solutions(equations, names) if not has_roots(point)]
+    if not found:
+        raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
+    return found
 
-    There may be others: of each equation one factor is solved for a name in which it is linear, or
-    that is the last one in it, and that is put into the others.
+
+def solutions(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
+    """Return real solutions in closed form; there may be others.
+
+    Of each equation one factor is solved for a name in which it is linear, or that is the last one
+    in it, and that is put into the others.
     """
     import sympy
 
     found: list[Solution] = []
     for each in _solved(equations, [sympy.Symbol(name) for name in names]):
         point = {str(name): value for name, value in each.items()}
-        known = all(derive.is_real(x) and not _has_roots(x) for x in point.values())
-        if known and point not in found:
+        if point not in found:
             found.append(point)
-    if not found:
-        raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
     return found
 
 
-def _has_roots(expression: Any) -> bool:
+def has_roots(point: Solution) -> bool:
     """Whether there are powers that are not whole: the checker has no series of these."""
     import sympy
 
-    powers = expression.atoms(sympy.Pow)
+    powers = {power for value in point.values() for power in value.atoms(sympy.Pow)}
     return any(not power.exp.is_integer and power.base != sympy.E for power in powers)
 
 
 def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
-    """Return solutions of equations, by elimination."""
+    """Return real solutions of equations, by elimination, in the first order that yields any."""
     import sympy
 
     tops = [sympy.numer(derive.simplest(each)) for each in equations]
@@ -56,11 +61,11 @@ def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
         factors = [f for f in factors if not isinstance(f, sympy.exp)]  # that is not 0
         choices = [(f, x) for f in factors for x in unknowns if _solvable(f, x, unknowns)]
         if factors and {f for f, _ in choices} == set(factors):
-            return [
+            found = [
                 {unknown: derive.simplest(value.subs(rest)), **rest}
                 for factor in factors
                 for unknown in [next(x for f, x in choices if f == factor)]
-                for value in sympy.solve(factor, unknown)
+                for value in _roots(factor, unknown)
                 for rest in (
                     _solved(
                         [other.subs(unknown, value) for other in others],
@@ -70,21 +75,40 @@ def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
                     else [{}]
                 )
             ]
+            found = [each for each in found if all(map(_may_be_real, each.values()))]
+            if found:
+                return found
     return []
 
 
+def _may_be_real(value: Any) -> bool:
+    return derive.is_real(value) and value.is_real is not False
+
+
 def _solvable(factor: Any, x: Any, unknowns: list[Any]) -> bool:
-    """Whether an expression is linear in x, or quadratic or sin(x) without others.
+    """Whether an expression is linear in x, or without other unknowns."""
+    if not factor.has(x):
+        return False
+    alone = not (factor.free_symbols & set(unknowns)) - {x}
+    return alone or (factor.is_polynomial(x) and factor.as_poly(x).degree() == 1)
+
+
+def _roots(factor: Any, x: Any) -> list[Any]:
+    """Return zeros of an expression: all that sympy finds, else those among simple numbers.
 
     (Of pi/2, where cos(x) is 0, the checker knows no sine.)
     """
     import sympy
 
-    if not factor.has(x):
-        return False
-    degree = factor.as_poly(x).degree() if factor.is_polynomial(x) else None
-    alone = not (factor.free_symbols & set(unknowns)) - {x}
-    return degree == 1 or (alone and (degree == 2 or factor == sympy.sin(x)))
+    polynomial = factor.is_polynomial(x)
+    powers = (x,) if polynomial else sympy.Poly(factor).gens
+    try:
+        if sum(each.has(x) for each in powers) == 1:
+            return list(sympy.solve(factor, x))
+        raise NotImplementedError  # x beside functions of x: sympy takes long, and finds nothing
+    except NotImplementedError:
+        simple = [sympy.Rational(n, 2) for n in range(-4, 5)]
+        return [each for each in (*simple, sympy.pi, -sympy.pi) if factor.subs(x, each) == 0]
 
 
 def coefficients(form: NormalForm, point: Solution, parameter: str) -> Solution:

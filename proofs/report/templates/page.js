@@ -35,7 +35,11 @@
     for (const figures of document.querySelectorAll(".figures")) figures.hidden = shown < claims.length;
     for (const chapter of chapters) chapter.hidden = !chapter.querySelector(".claim:not([hidden])");
     nothing.hidden = shown > 0;
-    form.shown.value = shown === claims.length ? `${shown} claims` : `${shown} of ${claims.length} claims`;
+    const own = (list) => list.filter((claim) => "own" in claim.dataset).length;
+    const seen = claims.filter((claim) => !claim.hidden);
+    const paper = claims.length - own(claims);
+    const counted = shown === claims.length ? `${paper}` : `${seen.length - own(seen)} of ${paper}`;
+    form.shown.value = `${counted} claims of the paper` + (own(seen) ? `, ${own(seen)} of our own` : "");
   };
 
   const reset = () => {
@@ -44,7 +48,8 @@
   };
 
   const follow = () => {
-    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const name = decodeURIComponent(location.hash.slice(1));
+    const target = document.getElementById(name) ?? document.getElementById(name.toUpperCase());
     if (!target) return;
     for (let at = target; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
     if (target.closest("[hidden]")) reset();
@@ -72,6 +77,9 @@
     if (link && link.getAttribute("href") === location.hash) follow();
   });
   addEventListener("hashchange", follow);
+  addEventListener("beforeprint", () => {
+    for (const each of document.querySelectorAll("details")) each.open = true;
+  });
   filter();
   follow();
 })();

@@ -172,7 +172,7 @@ def h_set(_: Context, reader: Reader) -> HSet:
     """Rule `h-set`: {centre, matrix A, inverse}.
 
     Hypothesis: the inverse times A is the unit matrix, exactly. Conclusion: the points c + A q, q
-    in [-1, 1]^n, are a parallelepiped.
+    in [-1, 1]^n, are a parallelepiped. Proof. A is invertible.
     """
     centre_of, matrix_of, inverse_of = reader.fields("centre", "matrix", "inverse")
     centre = centre_of.numbers(1, _MAX_DIMENSION)

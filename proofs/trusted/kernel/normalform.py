@@ -1,7 +1,8 @@
 """Exact normal forms of formulas: polynomials, without rounding.
 
 They have rational coefficients, and integer powers, negative ones too, of generators: the
-variables; pi; i with i^2 = -1; the inverse of a polynomial; roots and logarithms of arguments; and
+variables; pi; i with i^2 = -1; the inverse of a polynomial; roots and logarithms of arguments, but
+for log(1) = 0 and roots of squares of rational numbers, which are numbers; and
 exponentials exp(b), exp(i b) of monomials b, of which rational powers occur: exp(i a) is the
 product of the powers exp(i b)^q over the terms q b of a. So sin(a) = (exp(i a) - exp(-i a)) / (2 i)
 and cos(a) = (exp(i a) + exp(-i a)) / 2 obey the addition theorem and sin^2 + cos^2 = 1 by
@@ -13,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
+from math import isqrt
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -233,7 +235,10 @@ class NormalForms:
         return self.times(plus(one, other, -1), {((self.imaginary, 1),): Fraction(-1, 2)})  # / 2i
 
     def _function(self, op: str, argument: Polynomial) -> Polynomial:
-        """Return log or sqrt of an argument: a generator."""
+        """Return log or sqrt of an argument: a generator, or the number that it is."""
+        exact = _exact(op, argument)
+        if exact is not None:
+            return number(exact)
         for place, known in self.generators.items():
             if isinstance(known, Function) and known.op == op and self._same(known, argument):
                 return power(place)
@@ -244,6 +249,19 @@ class NormalForms:
 
     def _same(self, known: Function, argument: Polynomial) -> bool:
         return self.is_zero(plus(dict(known.argument), argument, -1))
+
+
+def _exact(op: str, argument: Polynomial) -> Fraction | None:
+    """Return log(1) = 0, and the root of 0 or of the square of a rational number."""
+    if not set(argument) <= {()}:
+        return None
+    value = argument.get((), Fraction(0))
+    if op == "log":
+        return Fraction(0) if value == 1 else None
+    if value < 0:
+        return None
+    root = Fraction(isqrt(value.numerator), isqrt(value.denominator))
+    return root if root * root == value else None
 
 
 def _accumulate(polynomial: Polynomial, monomial: Monomial, value: Fraction) -> None:

@@ -42,7 +42,8 @@ def solution(_: Context, reader: Reader) -> Expressions:
     lemmas: a list of {left, right} and {function, variable, coefficients, nonzero}, the variable
     being no unknown. Hypothesis: by `formula-equal` and `formula-series` each holds with at(F,
     unknowns=expressions) for each of its formulas F. Conclusion: each holds with the expressions,
-    which have no unknowns, in the places of the unknowns, all at once.
+    which have no unknowns, in the places of the unknowns, all at once. Proof. at(F, ...)
+    is that, by its definition; the two rules prove what results.
     """
     expressions_of, lemmas_of = reader.fields("expressions", "lemmas")
     given = tuple((name, read_tree(value)) for name, value in expressions_of.members())

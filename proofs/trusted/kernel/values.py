@@ -181,6 +181,8 @@ def value(_: Context, reader: Reader) -> Value:
     alphabet), an enclosure of the function lies within the bounds, or its exact value, the normal
     form, at a leaf that is a point. Conclusion: the function is defined on the box, with the
     functions of which it takes derivatives, and lies within the bounds there.
+    Proof. The leaves cover the box; an enclosure contains all values on its leaf, and exists only
+    where the function is defined; a normal form has the same value.
     (Bounds of one sign are a sign, those of D(F, x) say that F is monotone or by how much it
     expands, and the value at a point refutes what it contradicts.)
     """

@@ -98,8 +98,9 @@ def zero(context: Context, reader: Reader) -> Zero:
 
     Hypotheses: `value` is a `formula-value` step about F, or about D(F, x), on an interval that
     contains the bracket; F has opposite strict signs at the ends of the bracket. Conclusion: F has
-    a zero in the bracket (Bolzano: it is defined on the interval, hence continuous); if the step
-    bounds D(F, x), and away from 0, then it is the only zero in the interval (F is monotone).
+    a zero in the bracket; if the step bounds D(F, x), and away from 0, then it is the only zero in
+    the interval. Proof. F is defined on the interval, hence continuous (Bolzano); if D(F, x) has
+    one sign it is monotone.
     """
     function, value_of, bracket_of = reader.fields("function", "value", "bracket")
     formulas, step = read_formulas(function), context.step(value_of, Value)

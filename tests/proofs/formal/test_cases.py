@@ -53,7 +53,7 @@ def test_the_paper_s_numbers_stand_in_the_statements():
     assert "(21 / 4) < d" in said["H2_refuted"] and "slope_at (113 / 100) d" in said["H2_refuted"]
     assert "~ (111 / 100) <= psi <= (33 / 25)" in said["H4_verified"]
     assert "y - x < (d - c) / (21 / 5)" in said["H6_verified"]
-    assert "moran (381 / 2000) (2381 / 10000) t = 1 <-> t = s" in said["H11_verified"]
+    assert "moran (381 / 2000) (2381 / 10000) t = 1 <-> t = s" in said["H11_conditional"]
     head = paper_case().text.partition("Lemma")[0]
     assert "Definition eta := (2121 / 10000)." in head and "Definition nu := (-1 / 5)." in head
     assert "Definition side := -1." in head
@@ -107,8 +107,8 @@ def test_claims_that_need_no_sets_are_stated_alone():
     made = case(plan(path.read_text()), path.name, floats=True)
     assert {theorem.name for theorem in made.theorems} == {
         "model",
-        "H11_verified",
-        "H11_verified_1",
+        "H11_conditional",
+        "H11_conditional_1",
     }
 
 

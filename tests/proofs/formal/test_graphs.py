@@ -16,7 +16,7 @@ from proofs.formal import coqc, graphs
 from proofs.formal.written import comment
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
-from proofs.trusted.kernel.formulas import spelled
+from proofs.trusted.kernel.trees import formula
 from proofs.trusted.verify import check
 from tests.proofs.formal.coq import ROOT, edited, needs_coqc
 
@@ -147,7 +147,7 @@ def test_a_tree_has_the_values_of_its_text(text):
     value = evaluated(text)
     if value is None:
         return
-    map_ = SymbolicLemmas({"F": (["x"], [spelled(text)])}).function("F")
+    map_ = SymbolicLemmas({"F": (["x"], [str(formula(text))])}).function("F")
     tree = parsed(re.findall(r"[()]|[^\s()]+", graphs.formula(map_)[1]))
     assert evaluated(python(tree)) == pytest.approx(value, rel=1e-9, abs=1e-9)
 

@@ -117,8 +117,8 @@ FALSE = {
     ),
     "images one lap later": (only_in("lap0", (" 4.", " 5.")), "lap0", LINEAR),
     "s_0 < 0.4489895": (
-        only_in("H11_verified", ("(44899 / 100000)", "(4489895 / 10000000)")),
-        "H11_verified",
+        only_in("H11_conditional", ("(44899 / 100000)", "(4489895 / 10000000)")),
+        "H11_conditional",
         NUMERICAL,
     ),
     "H16 where the ratios fill the line": (

@@ -21,7 +21,9 @@ from mpmath import mp, mpc, mpf
 
 from intervals import Undecided
 from proofs.methods import derive
-from proofs.methods.bifurcation.certify import closed, enclosure, prove_jacobian
+from proofs.methods.bifurcation.certify import enclosure, prove_jacobian
+from proofs.methods.bifurcation.classify import meaning
+from proofs.methods.bifurcation.closed import closed
 from proofs.methods.bifurcation.maps import Map, formula
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.lemmas import Lemmas
@@ -35,12 +37,18 @@ DELAYED = ("x1 = r*x*(1 - y)", "y1 = x")
 BALL = ("phi1 = phi + v - 2*pi*n", "v1 = alpha*v - g*cos(phi1)")
 
 
-def in_closed_form(kind, names, *lines):
-    """What is found, after the checker has accepted its proof."""
+def candidates(kind, names, *lines):
+    """What is found, classified, after the checker has accepted its proof."""
     file = Lemmas()
     found = closed(file, NormalForm(Map.read(*lines), kind), names)
-    check(render(file.document()))
+    if file.steps:
+        check(render(file.document()))
     return found
+
+
+def in_closed_form(kind, names, *lines):
+    """The numbers of what is no candidate alone."""
+    return [each.values for each in candidates(kind, names, *lines) if each.kept]
 
 
 def enclosed(kind, parameter, near, *lines, digits=15, **numbers):
@@ -61,7 +69,11 @@ def test_a_point_that_is_not_real_is_no_bifurcation():
     line = "x1 = r + 1/x"
     with pytest.raises(Undecided, match="no closed form"):
         in_closed_form("fold", ("x", "r"), line)
-    assert {str(each["x"]) for each in in_closed_form("flip", ("x", "r"), line)} == {"1", "-1"}
+    found = candidates("flip", ("x", "r"), line)  # r = 0: then every x has the period 2
+    assert {(str(each.values["x"]), each.found.kind) for each in found} == {
+        ("1", "degenerate"),
+        ("-1", "degenerate"),
+    }
 
 
 # -- published -------------------------------------------------------------------------------------
@@ -79,7 +91,7 @@ def test_a_point_that_is_not_real_is_no_bifurcation():
             "neimark_sacker",
             ("x", "y", "r"),
             DELAYED,
-            {"r": "2", "x": "1/2", "y": "1/2", "t": "1", "critical": "-2"},
+            {"r": "2", "x": "1/2", "y": "1/2", "trace": "1", "critical": "-2"},
         ),
     ],
 )
@@ -105,10 +117,120 @@ def test_the_bouncing_ball():
         assert high - low < Fraction(1, 10**15)
 
 
-def test_a_fold_that_its_parameter_does_not_unfold_has_speed_0():
+def test_a_fold_that_its_parameter_does_not_unfold_is_none():
     """The logistic map at r = 1: two fixed points cross, and neither vanishes."""
-    (found,) = in_closed_form("fold", ("x", "r"), *LOGISTIC)
-    assert (found["r"], found["critical"], found["speed"]) == (1, -1, 0)
+    (found,) = candidates("fold", ("x", "r"), *LOGISTIC)
+    assert found.found.kind == "transcritical" and found.values["crossing"] == 1
+    assert [found.values[name] for name in ("r", "critical", "speed")] == [1, -1, 0]
+
+
+# Maps of which the books know what happens: (condition, equations, {place: kind}).
+CLASSES = [
+    ("fold", ("x1 = x + a - x^2",), {"x = 0, a = 0": "fold"}),
+    ("fold", ("x1 = x + a*x - x^2",), {"x = 0, a = 0": "transcritical"}),
+    ("fold", ("x1 = x + a*x - x^3",), {"x = 0, a = 0": "pitchfork"}),
+    ("fold", ("x1 = x + a^2*x - x^3",), {"x = 0, a = 0": "degenerate"}),
+    ("fold", ("x1 = x + a^2 + x^2",), {"x = 0, a = 0": "degenerate"}),  # one point alone
+    ("fold", ("x1 = x + a + x^3",), {"x = 0, a = 0": "degenerate"}),  # the fixed point goes on
+    ("fold", ("x1 = x + a + x^4",), {"x = 0, a = 0": "degenerate"}),
+    ("flip", ("x1 = -x - a*x + x^3",), {"x = 0, a = 0": "flip"}),
+    ("flip", ("x1 = -x - a*x + x^2 - x^3",), {"x = 0, a = 0": "degenerate"}),  # c = 0
+    ("flip", ("x1 = -x + a^2 + x^3",), {"x = 0, a = 0": "degenerate"}),  # speed 0
+    ("fold", ("x1 = x + a - y^2 + x^2", "y1 = y/2 + x"), {"x = 0, y = 0, a = 0": "fold"}),
+    ("fold", ("x1 = x + a*x - x^2 + y^2", "y1 = y/2"), {"x = 0, y = 0, a = 0": "transcritical"}),
+    ("fold", ("x1 = x + a*x - x^3 + x*y", "y1 = y/2"), {"x = 0, y = 0, a = 0": "pitchfork"}),
+    ("fold", ("x1 = x + y", "y1 = y + a - x^2"), {"x = 0, y = 0, a = 0": "resonance 1:1"}),
+    ("fold", ("x1 = x + a - x^2", "y1 = -y"), {"x = 0, y = 0, a = 0": "degenerate"}),  # 1 and -1
+    ("flip", ("x1 = -x + y", "y1 = -y + a*x + x^3"), {"x = 0, y = 0, a = 0": "resonance 1:2"}),
+    (
+        "neimark_sacker",
+        ("x1 = y", "y1 = -b*x + y^2 + x*y"),
+        {"x = 0, y = 0, b = 1": "resonance 1:4", "x = 2, y = 2, b = 3": "none"},
+    ),
+    ("neimark_sacker", ("x1 = y", "y1 = -b*x - y + y^2"), {"x = 0, y = 0, b = 1": "resonance 1:3"}),
+    # at b = 1 the map preserves areas: there is a circle through every point near
+    ("neimark_sacker", ("x1 = y", "y1 = -b*x + y + y^2"), {"x = 0, y = 0, b = 1": "degenerate"}),
+    ("neimark_sacker", DELAYED, {"x = 1/2, y = 1/2, r = 2": "neimark_sacker"}),
+    ("neimark_sacker", ("x1 = y", "y1 = -b*x + y"), {"x = 0, y = 0, b = 1": "degenerate"}),
+    ("neimark_sacker", ("x1 = y", "y1 = -b*x + 3*y + y^2"), {"x = 0, y = 0, b = 1": "none"}),
+    # with exp, log, sin and roots
+    ("flip", ("x1 = a - exp(x)",), {"x = 0, a = 1": "flip"}),
+    ("fold", ("x1 = a*sin(x)",), {"x = 0, a = 1": "pitchfork"}),
+    ("flip", ("x1 = a*sin(x)",), {"x = 0, a = -1": "flip"}),
+    ("fold", ("x1 = sqrt(x) + a",), {"x = 1/4, a = -1/4": "fold"}),
+    ("fold", ("x1 = a + log(x)",), {"x = 1, a = 1": "fold"}),
+    ("flip", ("x1 = a - log(x)",), {"x = 1, a = 1": "flip"}),
+    ("flip", ("x1 = a*x - x^3",), {"x = 0, a = -1": "flip", "x = 1, a = 2": "flip"}),
+    # a point at which the map is not defined
+    (
+        "flip",
+        ("x1 = sqrt(r)^2*x*(1 - x)",),
+        {"x = 0, r = -1": "undecided", "x = 2/3, r = 3": "flip"},
+    ),
+]
+
+
+@pytest.mark.parametrize(("condition", "lines", "wanted"), CLASSES)
+def test_what_a_candidate_is(condition, lines, wanted):
+    of = Map.read(*lines)
+    names = (*of.state, *of.parameters[:1])
+    found = {
+        ", ".join(f"{x} = {each.values[x]}" for x in (*sorted(of.state), names[-1])): each
+        for each in candidates(condition, names, *lines)
+    }
+    for place, kind in wanted.items():
+        assert found[place].found.kind == kind, (place, found[place].found)
+        assert found[place].kept is (kind not in ("degenerate", "none", "undecided"))
+        assert found[place].kept or found[place].found.why
+
+
+SIDES = [  # of the parameter there are two fixed points, a cycle, a circle: on the other side none
+    ("fold", "x1 = x + a - x^2", "greater a"),
+    ("fold", "x1 = x - a - x^2", "smaller a"),
+    ("fold", "x1 = x + a + x^2", "smaller a"),
+    ("flip", "x1 = -x - a*x + x^3", "greater a"),
+    ("flip", "x1 = -x - a*x - x^3", "smaller a"),
+    ("flip", "x1 = -x + a*x + x^3", "smaller a"),
+]
+
+
+@pytest.mark.parametrize(("condition", "line", "side"), SIDES)
+def test_on_which_side_it_is_by_counting(condition, line, side):
+    known = candidates(condition, ("x", "a"), line)
+    (found,) = [each for each in known if each.kept and each.values["a"] == 0]
+    told = dict(meaning(found.found.kind, "a", False, found.signs.get))
+    assert side in told["speed"]
+
+    def count(a):
+        x, image = sympy.Symbol("x"), sympy.sympify(line.split("=")[1].replace("^", "**"))
+        image = image.subs("a", a)
+        once = image if condition == "fold" else sympy.expand(image.subs(x, image))
+        roots = sympy.Poly(sympy.expand(once - x), x).nroots(n=30)
+        return sum(abs(complex(y).imag) < 1e-12 and abs(complex(y)) < 0.3 for y in roots)
+
+    here, there = (count(sympy.Rational(sign, 100)) for sign in (1, -1))
+    assert here != there and (here > there) is ("greater" in side)
+
+
+def test_closed_forms_and_enclosures_agree():
+    """The real multipliers 3 + 2 sqrt(2), 3 - 2 sqrt(2) are none either way; the fold is one."""
+    lines = ("x1 = y", "y1 = -b*x + y^2 + x*y")
+    with pytest.raises(Undecided, match="real, of product 1"):
+        enclosed("neimark_sacker", "b", {"x": 2, "y": 2, "b": 3}, *lines)
+    with pytest.raises(Undecided):
+        enclosed("neimark_sacker", "b", {"x": 0, "y": 0, "b": 1}, *lines)
+    (found,) = candidates("fold", ("x", "a"), "x1 = x + a - x^2")
+    near = enclosed("fold", "a", {"x": 0, "a": 0}, "x1 = x + a - x^2")
+    assert found.signs == near.signs and found.found.kind == "fold"
+
+
+def test_what_depends_on_parameters_is_a_condition():
+    (flip,) = candidates("flip", ("x", "y", "a"), *HENON)
+    assert flip.found.kind == "flip" and "critical is not 0" in flip.found.where
+    (circle,) = candidates("neimark_sacker", ("x", "y", "b"), "x1 = y", "y1 = -b*x + c*y + y^3")[:1]
+    assert {"4 - trace^2 > 0", "trace is not 0", "trace + 1 is not 0"} <= {*circle.found.where}
+    (root,) = candidates("fold", ("x", "a"), "x1 = a + c*log(x)")
+    assert "the map is defined" in root.found.where
 
 
 # -- by the formulas of Kuznetsov, with numerical derivatives --------------------------------------

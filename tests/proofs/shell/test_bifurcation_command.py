@@ -7,7 +7,7 @@ import sympy
 
 from proofs import bifurcation
 from proofs.bifurcation import main
-from proofs.methods.bifurcation import certify
+from proofs.methods.bifurcation import closed
 from proofs.trusted.verify import Rejected, check
 
 LOGISTIC = "x1 = r*x*(1 - x)"
@@ -24,11 +24,11 @@ def test_formulas_with_latex(capsys):
     found = answer(capsys, *HENON, "--kind", "flip")
     assert found["jacobian"][0][0] == {"formula": "-2*a*x", "latex": r"- 2 a x"}
     (flip,) = found["bifurcations"]["flip"]["closed"]
-    assert flip["a"] == {
+    assert flip["values"]["a"] == {
         "formula": "3*(b - 1)**2/4",
         "latex": r"\frac{3 \left(b - 1\right)^{2}}{4}",
     }
-    assert flip["critical"]["formula"] == "-9*(b - 1)**3/(16*(b + 1))"
+    assert flip["values"]["critical"]["formula"] == "-9*(b - 1)**3/(16*(b + 1))"
     assert len(found["checked"]) == 5
 
 
@@ -66,8 +66,6 @@ def test_what_is_not_found_is_said(capsys):
     ("equation", "said"),
     [
         ("x1 = r*x*exp(log(x))", "the Jacobian"),  # for sympy r*x^2
-        ("x1 = r*x*sqrt(1 - x)", "flip"),
-        ("x1 = sqrt(r)^2*x*(1 - x)", "flip"),
         ("x1 = x*exp(r*(1 - x))", "flip"),  # whose factors are no polynomials
     ],
 )
@@ -76,14 +74,42 @@ def test_what_sympy_alone_knows_is_undecided(equation, said, capsys):
     assert f"undecided: {said}: " in capsys.readouterr().err
 
 
+def test_what_is_found_and_what_is_dropped_are_told(capsys):
+    """A resonance 1:4 at the origin; at (2, 2), b = 3 the multipliers are real."""
+    circle = ["x1 = y", "y1 = -b*x + y^2 + x*y", "--kind", "neimark_sacker"]
+    assert main(circle) == 0
+    said = capsys.readouterr().out
+    assert "resonance 1:4 at y = 0, x = 0, b = 1" in said
+    assert "dropped: y = 2, x = 2, b = 3: none: the multipliers are real" in said
+    found = answer(capsys, *circle)["bifurcations"]["neimark_sacker"]
+    assert [each["kind"] for each in found["closed"]] == ["resonance 1:4"]
+    assert [each["kind"] for each in found["dropped"]] == ["none"]
+
+
+def test_signs_are_explained_where_they_stand(capsys):
+    assert main([LOGISTIC, "--kind", "flip"]) == 0
+    said = capsys.readouterr().out
+    assert "critical = 9: the second iterate is h - 2 critical h^3 + ...: a stable cycle" in said
+    assert (
+        "speed = -1: the multiplier is -1 + speed (r - ...) + ...: the cycle is there for" in said
+    )
+
+
+def test_a_bifurcation_that_is_none_is_status_1(capsys):
+    assert main(["x1 = x + a + x^3", "--kind", "fold"]) == 1
+    assert "fold: degenerate: critical = 0" in capsys.readouterr().err
+    assert main(["x1 = 2*x + a", "--kind", "fold"]) == 1
+    assert "met nowhere" in capsys.readouterr().err
+
+
 def test_a_closed_form_that_is_false_is_not_taken(monkeypatch):
     """r = 3 + 1/1000 in place of 3."""
-    true = certify.coefficients
+    true = closed.coefficients
 
     def false(*about):
         return {**true(*about), "r": sympy.Rational(3001, 1000)}
 
-    monkeypatch.setattr(certify, "coefficients", false)
+    monkeypatch.setattr(closed, "coefficients", false)
     assert main([LOGISTIC, "--kind", "flip"]) == 1
 
 

@@ -3,6 +3,7 @@
 import os
 import shlex
 from functools import partial
+from importlib import import_module
 from time import perf_counter
 
 import pytest
@@ -303,3 +304,18 @@ def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
         said = refused(capsys, orbits, ["--word", "01", "--csv", csv, "--json", other])
         assert "exclude each other" in said
     assert [*tmp_path.iterdir()] == []
+
+
+@pytest.mark.parametrize(
+    ("module", "arguments", "name"),
+    [
+        ("impact", ["--phi", "1.1", "--phi=1.3"], "--phi"),
+        ("single_impact", ["--eta", "0.3", "--nu", "0.2", "--eta", "0.4"], "--eta"),
+        ("horseshoe", ["--left", "1.1", "1.15", "--left", "1.1", "1.14"], "--left"),
+    ],
+)
+def test_an_option_that_is_given_twice_is_no_last_word(module, arguments, name, capsys):
+    with pytest.raises(SystemExit) as left:
+        import_module(f"proofs.{module}").main(arguments)
+    assert left.value.code == 2
+    assert f"{name} is given 2 times" in capsys.readouterr().err

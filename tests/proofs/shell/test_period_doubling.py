@@ -1,6 +1,7 @@
 """`python -m proofs period_doubling`: the numbers, at any precision, and what it refuses."""
 
 import json
+import math
 from fractions import Fraction
 
 import pytest
@@ -128,3 +129,43 @@ def test_digits_do_not_cancel(capsys):
     found = answer(capsys, "--epsilon", epsilon)["rho_saddle_node"]
     low, high = Fraction(found["lower"]), Fraction(found["upper"])
     assert 0 < (high - low) * 10**29 <= low
+
+
+STICKING = [  # rho, and after how many table periods the mass leaves again; None: it does not stick
+    ("1.9", None),
+    ("2.5", 1),
+    ("6.5", 1),
+    ("6.6", None),
+    ("9.2", None),
+    ("9.3", 2),
+    ("12.7", 2),
+    ("12.73", None),
+]
+
+
+@pytest.mark.parametrize(("rho", "periods"), STICKING)
+def test_the_motion_that_sticks(rho, periods, capsys):
+    """S18: against the flight from rho sin psi = 2, marched in floating point."""
+    for m in (1, 2):
+        motions = answer(capsys, "--m", str(m), "--rho", rho)["at"][rho]
+        stuck = [each for each in motions if "leaves" in each["impacts"][0]]
+        assert len(stuck) == (m == periods)
+        for each in stuck:
+            (impact,) = each["impacts"]
+            psi, height = math.asin(2 / float(rho)), float(rho)
+            t = 0.01
+            while gap(height, psi, t) > 0:
+                t += 1e-5
+            assert near(impact["leaves"], psi) and each["attracting"] is True
+            landed = (psi + t) % (2 * math.pi)
+            assert near(impact["psi"], landed, 1e-4) and height * math.sin(landed) < 2
+            assert math.ceil(t / (2 * math.pi)) == m
+
+
+def gap(rho, psi, t):
+    return rho * (math.sin(psi) + math.cos(psi) * t - math.sin(psi + t)) - t * t
+
+
+def test_at_rho_2_5_the_screen_tells_of_it(capsys):
+    assert main(["--rho", "2.5"]) == 0
+    assert "rho = 2.5: 1 motion\n period 1: an orbit (the mass sticks" in capsys.readouterr().out

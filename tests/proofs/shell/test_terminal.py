@@ -174,6 +174,24 @@ def test_the_gist_of_a_theorem_is_its_beginning():
     assert gist("One. Two.") == "One. Two." and gist("One, e.g. w_1 ... w_n.").endswith("w_n.")
 
 
+def test_the_screen_says_what_is_true_then_a_line_a_claim_then_numbers_on_request(tmp_path, capsys):
+    assert horseshoe.main(["--only", "H1", "H2", "H5", "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].startswith("True (H2, H5): At (eta, nu) = (0.2121, -0.2): f is ")
+    claims = [line for line in said if re.match(r"H\d+ ", line)]
+    assert [line.split()[0] for line in claims] == ["H1", "H2", "H5"]
+    assert max(map(len, claims)) <= 100 and "slope_min_I0 in" not in "".join(said)
+    assert horseshoe.main(["--only", "H1", "H2", "--verbose", "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "f'(1.13) is in [5.29635330653, " in said and "slope_min_I0 in [" in said
+
+
+def test_what_is_not_decided_says_why_in_any_case(capsys):
+    row = Decided("H1", Verdict.UNDECIDED, "At (eta, nu) = (1, 2): f' > 1.", "no cover")
+    show_verdicts([row], verbose=False)
+    assert capsys.readouterr().out == "H1   UNDECIDED   f' > 1.\n     no cover\n"
+
+
 def test_digits_are_as_many_as_asked(tmp_path, capsys):
     for digits in (5, 30, 70):
         ask = ["--only", "H1", "--digits", str(digits), "--out", str(tmp_path)]

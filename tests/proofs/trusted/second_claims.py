@@ -157,7 +157,18 @@ def of_digits(printed, roots):
     if printed is None:
         return "VERIFIED"
     value, unit = Fraction(printed), Fraction(1, 10 ** len(printed.partition(".")[2]))
-    if all(interior(root, (value - unit / 2, value + unit / 2)) for root in roots):
-        return "VERIFIED"
-    off = all(low >= value + unit or high <= value - unit / 2 for low, high in roots)
-    return "REFUTED" if off else "UNDECIDED"
+    nearest = [side(root, value - unit / 2, value + unit / 2, open_below=True) for root in roots]
+    first = [side(root, value, value + unit, open_below=False) for root in roots]
+    if None in nearest + first or len({*nearest}) > 1 or len({*first}) > 1:
+        return "UNDECIDED"
+    return {2: "VERIFIED", 1: "CONDITIONAL", 0: "REFUTED"}[nearest[0] + first[0]]
+
+
+def side(root, low, high, open_below):
+    """Whether a bracket lies in [low, high), or (low, high); None: partly."""
+    inside = [(x > low or (x == low and not open_below)) and x < high for x in root]
+    if all(inside):
+        return True
+    above = all(x >= high for x in root)
+    below = all(x < low or (x == low and open_below) for x in root)
+    return False if above or below else None

@@ -268,7 +268,10 @@ def judge(claim, of, facts):
     mine = Facts(of, [facts[name] for name in claim["proof"]])
     own = verdict(id_, mine)
     proof(claim["verdict"] == own, f"{id_} is {own}")
-    proof(own == "REFUTED" or claim["witness"] is None, f"{id_}: a witness for nothing")
+    proof(
+        own in ("REFUTED", "CONDITIONAL") or claim["witness"] is None,
+        f"{id_}: a witness for nothing",
+    )
     known = mine.quantities(id_)
     for name, ends in claim["quantities"].items():
         proof(name in known and within(known[name], ends), f"{id_}: {name}")

@@ -4,6 +4,7 @@ Each has a counterexample, named in the comment or in the tests of its section.
 """
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -26,13 +27,27 @@ HYPOTHESES = [
     ("P6", "statement", AT_ONCE),
     ("P6", "corrected", "launch acceleration > 0"),
     ("H3", "statement", "lifted"),
-    ("H11", "statement", "0.449...., rounded"),
-    ("H11", "why", "is not if truncated"),
+    ("H11", "witness", "s_0 for the ratios 0.1905 and 0.2381"),
+    ("H11", "witness", "is 0.449 if rounded, and is not if truncated"),
     ("G3", "statement", "(4.64, 6.05) to the places printed"),
     ("G4", "statement", "more than half of the circle"),
     ("G7", "witness", "one landing with all that follows until it rests"),
     ("G8", "why", "no theorem and no certificate"),
     ("R2", "witness", "a touch without relative velocity"),
+    ("R4", "witness", "the orbit is not asymptotically stable"),
+    ("E1", "corrected", "every motion tends to one of a family of motions"),  # R9.1: not to one
+    ("G7", "witness", "none after 6.010073 (an upper bound)"),
+    ("G5", "statement", "a periodic orbit is one"),
+    ("G18", "corrected", "If a touch without relative velocity counts as an impact, there is one"),
+    ("G18", "corrected", "|(f^n)'| >= 1.25^n/7 "),  # 0.142857 is below 1/7
+    ("G4", "corrected", "between 99.96302 and 99.96394 percent"),
+    ("G4", "corrected", "[6.045424, 2 pi) and [0, 0.65236] within 1"),
+    ("H18", "corrected", "with a limit at phi_g in [0.819753745, 0.819753746]"),
+    ("S8", "witness", "read as psi_o of S11 is"),
+    ("S11", "witness", "as the last expression of S8 is read"),
+    ("S18", "corrected", "B (t^2 + 1)"),
+    ("N5", "corrected", "epsilon in [0.19, 0.2]: V1 = "),
+    ("N5", "corrected", "epsilon in [0.146, 0.162]: V1 = "),
     ("R6", "witness", "beta > 0"),
     ("R6", "witness", "where cos(phi_o) is not 0"),
     ("R6", "witness", "a touch without relative velocity"),
@@ -43,6 +58,45 @@ HYPOTHESES = [
 @pytest.mark.parametrize(("claim", "part", "words"), HYPOTHESES)
 def test_a_hypothesis_is_told(claim, part, words):
     assert words in ROWS[claim][part]
+
+
+NOT_SAID = [
+    ("E1", "corrected", "the motion that all others tend to"),
+    ("G7", "witness", "phi_s, up to 6.010073"),
+    ("H18", "corrected", "the limit "),
+    ("N5", "corrected", "a full shift on two symbols for every epsilon"),  # no part of a sentence
+    ("P4", "witness", "sticks"),  # the claim excludes it
+    ("S18", "corrected", "big"),
+]
+
+
+@pytest.mark.parametrize(("claim", "part", "words"), NOT_SAID)
+def test_what_is_not_proved_or_not_meant_is_not_said(claim, part, words):
+    assert words not in ROWS[claim][part]
+
+
+def test_orbits_stay_in_a_union():
+    """A full orbit that stays in V1 and in V2, which are disjoint, does not exist."""
+    for row in ROWS.values():
+        text = " ".join(row[part] or "" for part in ("statement", "witness", "corrected"))
+        assert not re.search(r"(?<!union of )V1 and V2(?= are| have| stay|;|\.| with F\(K\))", text)
+        assert not re.search(r"(in|on) V1 and V2", text)
+
+
+def test_rows_about_a_range_that_fail_inside_of_it_are_refuted():
+    """By the rule of the catalogue: an axis of a figure, all epsilon; a witness is inside."""
+    assert {ROWS[claim]["verdict"] for claim in ("P5", "P6", "S15")} == {"REFUTED"}
+    assert "(eta, nu) = (13.999, 0.2)" in ROWS["P5"]["witness"]
+    assert "(eta, nu) = (0.237, -0.03)" in ROWS["P6"]["witness"]
+
+
+def test_one_notation_is_read_alike_in_both_places():
+    assert {ROWS[claim]["verdict"] for claim in ("S8", "S10", "S11")} == {"CONDITIONAL"}
+
+
+def test_phases_are_told_in_one_turn():
+    """Of what comes to the arc: no interval of phases begins below 0."""
+    assert "[-" not in ROWS["G4"]["corrected"]
 
 
 def test_readings_are_no_stronger_than_the_words():

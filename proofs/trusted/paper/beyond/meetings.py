@@ -87,8 +87,8 @@ def meeting(context: Context, reader: Reader) -> Meeting:
     has exactly one zero in the box `around`, and in `box`, a part of it (Krawczyk, see
     `unique-zero`); pieces of the curve that are not parts of `around` have a sign of L, one sign
     before and the other one after those that are. Conclusion: on the curve L has exactly one zero;
-    it is in `box`, and L changes its sign there. (L changes its sign along the pieces inside of
-    `around`; a zero there is one of F.)
+    it is in `box`, and L changes its sign there. Proof. L changes its sign along the pieces inside
+    of `around`, so it has a zero there; that is one of F, and F has one. On the others it has none.
     """
     curve_of, other_of, around_of, box_of, nu_of = reader.fields(
         "curve", "other", "around", "box", "amplitude"

@@ -286,7 +286,7 @@ def stable_singles(context: Context, reader: Reader) -> StableSingles:
     rebound), T being inside of the window; without times by lemma 4. For each other n up to `most`,
     where `none` does not name it without cuts and times, there are in each part no motions, by
     lemma 3 or as delta < 0; or F > 0; or, for plastic impacts, launch acceleration <= 0; or gap < 0
-    at one of the times, in (0, T). Conclusion: `StableSingles`, by lemmas 1 to 4.
+    at one of the times, in (0, T). Conclusion: `StableSingles`. Proof. Lemmas 1 to 4.
     """
     most_of, stable_of, none_of = reader.fields("most", "stable", "none")
     most, at = integer(most_of, 1, MOST_PERIODS), context.oscillators

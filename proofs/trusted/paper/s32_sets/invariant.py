@@ -87,7 +87,7 @@ class Itinerary(Conclusion):
 def follow(base: StayingSet, slopes: Sequence[SlopeRange], phase: Fraction) -> Itinerary:
     """Follow a phase through a horseshoe, f being known at points of `slopes`.
 
-    f increases on I0 and I1, and f(I0), f(I1) do not pass phase 0. So where p <= x <= q are
+    Proof. f increases on I0 and I1, and f(I0), f(I1) do not pass phase 0. So where p <= x <= q are
     points of one set, f(p) <= f(x) <= f(q). Raises Unproved where that does not decide.
     """
     parts = [each for each in slopes if each.at == base.at]

@@ -111,8 +111,8 @@ class Digits(Conclusion):
 
 
 def _moran_root(of: Parameters, found: Found) -> Decision:
-    """H11: dots after rounded digits stand for places left out; that they are not the first digits
-    of the root, which dots may mean too, is told beside.
+    """H11: dots after digits may mean that these are rounded, or that more digits follow: where
+    these readings differ, the one under which the digits are the root's is a condition.
     """
     ratios = of.moran_ratios
     if max(ratios) >= 1:
@@ -127,19 +127,26 @@ def _moran_root(of: Parameters, found: Found) -> Decision:
     given, exact = roots[ratios], roots[of.reciprocals]
     known = {"s0": given.root, "s0_reciprocal_slopes": exact.root}
     printed = of.printed_s0
-    read = [Digits("s_0", each.root, printed) for each in (given, exact) if printed]
-    if {reading for each in read for reading in each.readings} == {False}:
-        return decided(Verdict.REFUTED, *read, corrected=[given], known=known)
-    if not all(each.rounded for each in read):
+    read = [
+        Digits(f"s_0 for the ratios {' and '.join(map(show, each.ratios))}", each.root, printed)
+        for each in (given, exact)
+        if printed
+    ]
+    readings = {each.readings for each in read}
+    holds = {reading for pair in readings for reading in pair}
+    if len(readings) > 1 or None in holds:
         return undecided("; ".join(each.brief for each in read), known)
-    return decided(Verdict.VERIFIED, given, *read, known=known)
+    if False not in holds:
+        return decided(Verdict.VERIFIED, given, *read, known=known)
+    verdict = Verdict.CONDITIONAL if True in holds else Verdict.REFUTED
+    return decided(verdict, *read, corrected=[given], known=known)
 
 
 ROWS = (
     Row(
         "H11",
         "3.2",
-        "s_o evaluates to 0.449....",
+        "s_o evaluates to 0.449...",
         "{r0}^s + {r1}^s = 1 has exactly one root s_0 > 0{s0}; the ratios are 1/{hi} and 1/{lo}, "
         "to the places given.",
         _moran_root,

@@ -51,7 +51,7 @@ class Hyperbolic(Conclusion):
             f"{self.strips.smooth}. The images of two states on one horizontal line of a rectangle "
             f"are at least {floor_text(self.grow, 2)} times as far apart (phases on the line), of "
             f"two on one vertical line at most {ceil_text(self.shrink, 3)} times. For every "
-            f"compact set K in V1 and V2 with F(K) = K, F on K is {self.rates}."
+            f"compact set K in the union of V1 and V2 with F(K) = K, F on K is {self.rates}."
         )
 
     @property
@@ -107,10 +107,11 @@ class RectangleHorseshoe(Conclusion):
 
 
 FULL_SHIFT = (
-    "Each two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of F in V1 and "
-    "V2; the states of these orbits are a compact set, on which F is {}. All of them lie in the "
-    "open rectangles: the same is true of those. For epsilon > 0 F is one-to-one on V1 and V2, and "
-    "on this set conjugate to the two-sided full shift on two symbols, of entropy log 2."
+    "Each two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of F in the "
+    "union of V1 and V2; the states of these orbits are a compact set, on which F is {}. All of "
+    "them lie in the open rectangles: the same is true of those. For epsilon > 0 F is one-to-one "
+    "on the union of V1 and V2, and on this set conjugate to the two-sided full shift on two "
+    "symbols, of entropy log 2."
 )
 ONE_SIDED = (
     "For epsilon = 0 the plastic map f is continuously differentiable on the phases of V1 and of "
@@ -135,7 +136,7 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     N_j have velocities in the interior of those of N_j. 3. The inequalities of `rates`.
 
     Conclusion: let V1 be the union of those N_i on the left, V2 of those on the right, and A the
-    compact set of the states whose full orbits x_(n+1) = F(x_n) stay in V1 and V2. It lies in the
+    compact set of the states whose full orbits x_(n+1) = F(x_n) stay in V1 or V2. It lies in the
     interiors of the N_i. Each two-sided sequence of 1 and 2 is the itinerary of exactly one full
     orbit in A, which is hyperbolic. If epsilon > 0, F is one-to-one, and F on A is conjugate to the
     two-sided shift. If epsilon = 0, phases alone are a map f, and each one-sided sequence is the
@@ -178,7 +179,9 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
 
     Hypotheses: all are on the same rectangles; each is for a box of oscillators that agrees with
     the hull of those before it but for one side, where they meet. Conclusion: a horseshoe for the
-    hull of all boxes, which is their union, with the worst of the bounds.
+    hull of all boxes, which is their union, with the worst of the bounds. Proof. Boxes that agree
+    but for one side, on which they meet, have no oscillator between them: each of the hull is in
+    one of the boxes, whose step is about it and these rectangles.
     """
     (names,) = reader.fields("parts")
     parts = [context.step(name, RectangleHorseshoe) for name in names.items(least=1)]
@@ -236,15 +239,13 @@ class HorseshoeFamily(Conclusion):
             min(shoe.rates.expansion for shoe in self.shoes),
             max(shoe.rates.contraction for shoe in self.shoes),
         )
-        ends = dict.fromkeys((self.shoes[0], self.shoes[-1]))
         return (
             "for each epsilon there are disjoint sets V1 and V2 of states, each one rectangle of "
-            "phases x velocities or the union of a first and a second one, closed, and a number e, "
-            f"the same on each of {len(self.shoes)} intervals of epsilon, one after the other, of "
-            f"which the first and the last are: {'; '.join(map(_listed, ends))}. All their states "
-            "are physically possible (gap' <= 0), and F is smooth on them. Where they are one "
-            "rectangle each, "
-            f"{Strips.CROSSED}; where they are unions, {Blocks.CROSSED}; {self.brief}. "
+            "phases x velocities or the union of a first and a second one, closed, and a number e: "
+            f"{'; '.join(map(_listed, self.shoes))}. All their states are physically possible "
+            "(gap' <= 0), and F is smooth on them. Where they are one rectangle each, "
+            f"{Strips.CROSSED}; where they are unions, {Blocks.CROSSED}; edges overshoot by at "
+            f"least {self._spare}. "
             + FULL_SHIFT.format(
                 "uniformly hyperbolic: unstable directions are stretched at least "
                 f"{floor_text(least.expansion, 2)} times in phase by each step, stable ones "
@@ -258,8 +259,12 @@ class HorseshoeFamily(Conclusion):
         most = show(self.at.sides[2][1])
         return (
             f"a full shift on two symbols for every epsilon from 0 to {most}; edges overshoot by "
-            f"at least {floor_text(min(shoe.margin for shoe in self.shoes))}"
+            f"at least {self._spare}"
         )
+
+    @property
+    def _spare(self) -> str:
+        return floor_text(min(shoe.margin for shoe in self.shoes))
 
     @property
     def quantities(self) -> Mapping[str, Range]:

@@ -138,7 +138,7 @@ def _orbits(of: Parameters, found: Found) -> Decision:
     whole = [*found.all(GoldenMean), *found.all(RectangleHorseshoe)]
     own = [each for each in whole if each.strips == printed]
     if not own:
-        return undecided("no proof of which words orbits in V1 and V2 follow")
+        return undecided("no proof of which words orbits in the union of V1 and V2 follow")
     wide = [each for each in found.elsewhere(RectangleHorseshoe) if each not in own]
     states = found.elsewhere(Rebound)
     sets = [each.strips for each in wide[:1] if isinstance(each.strips, Strips)]
@@ -183,9 +183,9 @@ ROWS = (
         "N3",
         "3.3",
         "countably many periodic orbits of arbitrarily high periods",
-        _AT + "the set Lambda_2 of the states whose full orbits stay in V1 and V2 contains "
-        "periodic orbits of arbitrarily high periods, uncountably many nonperiodic orbits, and an "
-        "orbit that is dense in it.",
+        _AT + "the set Lambda_2 of the states whose full orbits stay in the union of V1 and V2 "
+        "contains periodic orbits of arbitrarily high periods, uncountably many nonperiodic "
+        "orbits, and an orbit that is dense in it.",
         _orbits,
     ),
     Row(
@@ -193,9 +193,9 @@ ROWS = (
         "3.3, for boxes of parameters",
         "",
         "For all {box}, with " + _SETS + ": every two-sided sequence of 1 and 2 is the itinerary "
-        "of exactly one full orbit of F in V1 and V2, and F on the states of these is uniformly "
-        "hyperbolic, and conjugate to the full shift on two symbols (where epsilon = 0: f, on the "
-        "phases whose orbits stay there, to the one-sided one).",
+        "of exactly one full orbit of F in the union of V1 and V2, and F on the states of these is "
+        "uniformly hyperbolic, and conjugate to the full shift on two symbols (where epsilon = 0: "
+        "f, on the phases whose orbits stay there, to the one-sided one).",
         _full,
     ),
     Row(
@@ -205,7 +205,8 @@ ROWS = (
         "At (eta, nu) = ({eta}, {nu}), for every epsilon from 0 to some number above {epsilon} "
         "there are disjoint sets V1 and V2 of states, each one rectangle or the union of two, such "
         "that every two-sided sequence of 1 and 2 is the itinerary of exactly one full orbit of F "
-        "in V1 and V2, and F on the states of these is uniformly hyperbolic, and conjugate to the "
+        "in the union of V1 and V2, and F on the states of these is uniformly hyperbolic, and "
+        "conjugate to the "
         "full shift on two symbols (where epsilon = 0: f, to the one-sided one).",
         _family,
     ),

@@ -108,11 +108,11 @@ class GoldenMean(Conclusion):
     def sentence(self) -> str:
         return (
             f"{self.strips.smooth}, and one-to-one. Let Lambda_2 be the set of all states whose "
-            "full orbits stay in V1 and V2. F on Lambda_2 is conjugate, by the itinerary, to the "
-            "shift on all two-sided sequences of 1 and 2 without 22 (golden mean shift), and is "
-            f"{self.rates}. Lambda_2 lies in the open rectangles, so that it is theirs too. It has "
-            "topological entropy log((1 + sqrt 5)/2), periodic orbits of every period, uncountably "
-            "many nonperiodic orbits and a dense orbit."
+            "full orbits stay in the union of V1 and V2. F on Lambda_2 is conjugate, by the "
+            "itinerary, to the shift on all two-sided sequences of 1 and 2 without 22 (golden mean "
+            f"shift), and is {self.rates}. Lambda_2 lies in the open rectangles, so that it is "
+            "theirs too. It has topological entropy log((1 + sqrt 5)/2), periodic orbits of every "
+            "period, uncountably many nonperiodic orbits and a dense orbit."
         )
 
     @property

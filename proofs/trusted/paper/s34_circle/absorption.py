@@ -129,11 +129,11 @@ class Absorption(Conclusion):
             if n in _TABLE
         )
         named = ", ".join(
-            f"[{ceil_text(low)}, {floor_text(high)}] within {steps}"
+            f"{_inner(low, high)} within {steps}"
             for (low, high), steps in self.within
             if high - low > _LENGTH_NAMED
         )
-        each = f" All phases, mod 2 pi, of these intervals do: {named}." if named else ""
+        each = f" All phases of these intervals do: {named}." if named else ""
         return (
             f"{self.brief}; percentages by number of impacts, at least: {table}.{each}"
             f"{self._others}"
@@ -144,18 +144,31 @@ class Absorption(Conclusion):
         """What is said of phases that do not come to the arc."""
         if self.sink is None:
             return ""
+        least, most = floor_text(100 * self.sink.share, 5), ceil_text(100 * (1 - self.share), 5)
         return (
             f" All but at most {ceil_text(100 * self.open_share, 7)} percent come, within "
             f"{len(self.rest) - 1} impacts, there or to phases of "
-            f"{show_range(self.sink.never.phases)}, after which there is no impact."
+            f"{show_range(self.sink.never.phases)}, after which there is no impact; between "
+            f"{least} and {most} percent come to the latter."
         )
 
     @property
     def brief(self) -> str:
+        least = f"at least {floor_text(100 * self.share, 5)}"
+        if self.sink is not None:
+            most = ceil_text(100 * (1 - self.sink.share), 5)
+            least = f"between {floor_text(100 * self.share, 5)} and {most}"
         return (
-            f"at least {floor_text(100 * self.share, 5)} percent of the circle come to the arc "
-            f"where the mass sticks, within {len(self.rest) - 1} impacts"
+            f"{least} percent of the circle come to the arc where the mass sticks, "
+            f"{'at least the former ' if self.sink else ''}within {len(self.rest) - 1} impacts"
         )
+
+
+def _inner(low: Fraction, high: Fraction) -> str:
+    """Write phases of an interval on the line, mod 2 pi, rounded inward."""
+    if low >= 0:
+        return f"[{ceil_text(low)}, {floor_text(high)}]"
+    return f"[{ceil_text(low + TURN_AT_MOST)}, 2 pi) and [0, {floor_text(high)}]"
 
 
 def absorption(context: Context, reader: Reader) -> Absorption:

@@ -201,7 +201,7 @@ ROWS = (
         "",
         _AT + "all of the circle but for at most a millionth part of it comes either to the "
         "periodic orbit that sticks, (4.64, 6.05) to the places printed, or to an interval of "
-        "phases, known to 10^-9 at both ends, after which there is no impact.",
+        "phases, known to 10^(-9) at both ends, after which there is no impact.",
         basin(_two_basins, printed=True),
         PAPER.place,
     ),

@@ -15,6 +15,8 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, within
 from proofs.trusted.paper.s34_circle.entropy import read_image, read_images, read_turn
 from proofs.trusted.paper.s34_circle.expansion import Expansion
+from proofs.trusted.paper.s34_circle.grazing import Grazing
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Known
 from proofs.trusted.parameters import Parameters
@@ -31,12 +33,14 @@ class Cycles(Conclusion):
     """Periodic orbits through the pieces of an expansion, by the numbers of these, in order.
 
     words: one orbit each; left: the other words, of up to `longest` pieces, that may have one.
+    touching: the word that has one, through two grazes, exactly if a touch counts as an impact.
     """
 
     expansion: Expansion
     words: tuple[Word, ...]
     left: tuple[Word, ...]
     longest: int
+    touching: Word | None = None
 
     at = About("expansion")
 
@@ -54,7 +58,18 @@ class Cycles(Conclusion):
         return (
             "but for phases without any impact and the orbit that sticks, f has "
             f"{_counted(self.counts)}; each is unstable and follows a sequence of these intervals "
-            "of its own."
+            f"of its own.{self._touches}"
+        )
+
+    @property
+    def _touches(self) -> str:
+        if self.touching is None:
+            return ""
+        return (
+            " If a touch without relative velocity counts as an impact, there is one more, of "
+            "least period 2, through both ends of the interval of phases without any impact: the "
+            "motion that leaves the table at one of them touches it at the other, and then at the "
+            "first again. If none counts, there is none."
         )
 
     @property
@@ -81,13 +96,14 @@ def cycles(
     with all within radius / s_i of it on one branch i, and f(x_k) so near to x_(k+1), x_(n+1) =
     x_1: within min(rate - 1, 1) radius / s_i of it. Let the words of such orbits be different and
     no powers, up to rotation; for each other such word of up to `longest` pieces that is not left,
-    let the images of its first piece in the others, round and round, end in none. Then what
-    `Cycles.sentence` says.
+    let the images of its first piece in the others, round and round, end in none, or let it be
+    the word of `touching`. Then what `Cycles.sentence` says.
 
     Proof. 1. Going away from x_k in branch i while f stays within radius / s_j of x_(k+1), one goes
     at most (radius + (rate - 1) radius) / (rate s_i) far: so f maps the phases around x_k over
     those around x_(k+1), and f^n has a fixed point in the first ones. 2. A word is followed for
     ever by one phase at most, see `expansion`: so it belongs to one orbit at most, of its length.
+    With f extended to grazes by its limit from one side this is true of closed pieces, too.
     """
     if not 1 <= longest <= _LONGEST or radius <= 0:
         raise Unproved("no radius, or no periods that can be looked at")
@@ -101,8 +117,41 @@ def cycles(
         for word, state in outer.words(length)
         if is_least(word) and word not in found
     )
-    left = tuple(word for word, state in others if not outer.dies(word, state))
-    return Cycles(expansion, tuple(found), left, longest)
+    touched = touching(expansion) if longest > 1 else None
+    left = tuple(word for word, state in others if word != touched and not outer.dies(word, state))
+    return Cycles(expansion, tuple(found), left, longest, None if touched in found else touched)
+
+
+def touching(expansion: Expansion) -> Word | None:
+    """Theorem. Let the pieces i and j be those on both sides of the phases that never impact, with
+    the grazes a and b between, after each of which, on the side of these phases, there is no impact
+    for q turns, eta = p/q; let the limits of f at a on i and at b on j be known to lie beside these
+    phases: at the other graze, among phases of the next piece, or of those that never impact. Then
+    f on i tends to b at a, f on j to a at b, and if a touch counts as an impact, a and b are an
+    orbit of period 2; if none does, no orbit follows the word i j.
+
+    Proof. The motion that leaves the table at a without relative velocity touches it first at c,
+    the limit of f at a, and then, as from phases beside a, not until q turns after a, at a: so the
+    motion that leaves it at c, which is the same one, touches it at a first, before q turns. No
+    phase that never impacts does so within q turns; no phase of a branch touches first, its impact
+    is transversal; of those in the interval around a graze only that one: so c is b. And so with a
+    and b exchanged. An orbit with the word i j would be a second one in the closed pieces.
+    """
+    arcs = expansion.pieces.arcs
+    place = next(i for i, each in enumerate(arcs) if isinstance(each, NeverImpacts))
+    if not 2 <= place < len(arcs) - 2:
+        return None
+    (one, a), never, (b, two) = arcs[place - 2 : place], arcs[place], arcs[place + 1 : place + 3]
+    if not (isinstance(a, Grazing) and isinstance(b, Grazing)) or a.other or b.other:
+        return None
+    if not a.below or b.below:
+        return None
+    after, before = (never.phases[0], two.phases[1]), (one.phases[0], never.phases[1])
+    for limit, sides in ((a.graze, after), (b.graze, before)):
+        if not (sides[0] < limit[0] and limit[1] < sides[1]):
+            return None
+    places = [i for i, piece in enumerate(expansion.pieces.monotone) if piece.branch in (one, two)]
+    return _least(tuple(places))
 
 
 def word_of(

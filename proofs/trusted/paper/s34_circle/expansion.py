@@ -14,7 +14,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Range, floor_text, hull, increasing, show
+from proofs.trusted.numbers import Range, hull, increasing, show
 from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
@@ -48,20 +48,27 @@ class Expansion(Conclusion):
     @property
     def sentence(self) -> str:
         return (
-            f"{self.pieces.sentence} |(f^n)'| >= {floor_text(self.least)} {show(self.rate)}^n "
-            "wherever phi, f(phi), ..., f^n(phi) lie in these intervals and none before the last "
-            "is grazing. So two phases whose orbits stay in them for ever, and in the same one "
-            "each time, are equal, and every periodic orbit in them is unstable. All other orbits "
-            "come to the periodic orbit that sticks, which is stable, or to a phase without any "
-            "impact, which is fixed if a touch counts."
+            f"{self.pieces.sentence} |(f^n)'| >= {self._growth} wherever phi, f(phi), ..., "
+            "f^n(phi) lie in these intervals and none before the last is grazing. So two phases "
+            "whose orbits stay in them for ever, and in the same one each time, are equal, and "
+            "every periodic orbit in them is unstable. All other orbits come to the periodic orbit "
+            "that sticks, which is stable, or to a phase without any impact, which is fixed if a "
+            "touch counts."
         )
 
     @property
     def brief(self) -> str:
         return (
-            f"|(f^n)'| >= {floor_text(self.least)} {show(self.rate)}^n on all orbits that do not "
+            f"|(f^n)'| >= {self._growth} on all orbits that do not "
             "come to stick, nor to a phase without any impact"
         )
+
+    @property
+    def _growth(self) -> str:
+        """The bound c rate^n, written."""
+        above, below = self.least.as_integer_ratio()
+        power = f"{show(self.rate)}^n" if above == 1 else f"{above} {show(self.rate)}^n"
+        return power if below == 1 else f"{power}/{below}"
 
 
 def expansion(

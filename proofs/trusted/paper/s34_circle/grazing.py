@@ -70,14 +70,21 @@ class Grazing(Conclusion):
         low, high = self.root[0] / 2, self.root[1] / 2
         there = "the mass does not come back to the table for q turns, eta = p/q"
         if self.other is not None:
-            there = f"f is C^1 and {rises}, with the limit {between(self.other, _PLACES)}"
+            there = f"f is C^1 and {rises}, with a limit at phi_g in {between(self.other, _PLACES)}"
         return (
             f"one phase phi_g in {show_range(self.phases)} is followed by a graze, at the phase "
             f"f_g in {between(self.graze, _PLACES)}, before any impact. For the phases of this "
-            f"interval {side} it f is C^1 and {rises}: f = f_g - a |phi - phi_g|^(1/2) + O(phi - "
-            f"phi_g), |f'| = b |phi - phi_g|^(-1/2) + O(1), a in {between(self.root, _PLACES)}, "
-            f"b = a/2 in {between((low, high), _PLACES)}; for those of it {rest} phi_g {there}."
+            f"interval, which is less than {self._width} wide, {side} phi_g f is C^1 and {rises}: "
+            "f = f_g - a |phi - phi_g|^(1/2) + O(phi - phi_g), |f'| = b |phi - phi_g|^(-1/2) + "
+            f"O(1), a in {between(self.root, _PLACES)}, b = a/2 in "
+            f"{between((low, high), _PLACES)}; for those {rest} phi_g {there}."
         )
+
+    @property
+    def _width(self) -> str:
+        """A power of ten above the width: that is how near phi_g what is said of f holds."""
+        low, high = self.phases
+        return f"10^(-{len(str(int(1 / (high - low)))) - 1})"
 
     @property
     def brief(self) -> str:

@@ -266,7 +266,7 @@ def closest_approach(
 ) -> tuple[Number, ...]:
     """Return numbers; if all are > 0, the launch at pi/2 + away is one of `NeverImpacts`.
 
-    Theorem, for -1 < nu < 0, eta = p/q in lowest terms and |away| < pi/2. Let n = |nu| and
+    Theorem, for -1 < nu < 0, eta = p/q in lowest terms and |away| < pi/2. Proof. Let n = |nu| and
     a = 1 - n. The mass is at X = R cos(eta s), the table at Z = 1 - n cos(u), s and u being times
     since the highest point of X and the lowest of Z: u = s + w + 2 pi m q/p mod 2 pi in the mass's
     oscillation m, with w = delta/eta + away and tan(delta) = rate / (eta (1 + lift)), which has the

@@ -1,4 +1,7 @@
-"""Section 3.4: is there another invariant set in [1.32, 1.48]? Claims G5, and G11, our own."""
+"""Section 3.4: is there another invariant set in [1.32, 1.48], with a graph as in I?
+
+Claims G5 and G20, and G11, our own.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from fractions import Fraction
 from proofs.trusted.numbers import Phases, Range, show_range
 from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 PRINTED = Phases(Fraction("1.32"), Fraction("1.48"))
@@ -40,13 +44,39 @@ def _another_set(one_orbit: Verdict) -> Decide:
     return decide
 
 
+def _same_graph(of: Parameters, found: Found) -> Decision:
+    """G20: by f at both ends, and by what stays. An interval that f increases on and maps over one
+    that contains it has a fixed point: where all that stays is one orbit of a longer period, there
+    is no such interval.
+    """
+    del of
+    sets = found.all(StayingSet)
+    ends = [each for each in found.all(Impact) if each.phase in PRINTED]
+    for each in sets:
+        if each.region == (PRINTED,) and len(each.orbit) > 1:
+            around = [x for x in sets if not x.orbit]
+            return decided(Verdict.REFUTED, *ends, each, corrected=around)
+    return undecided(f"not proved that no phase of {show_range(PRINTED)} is fixed")
+
+
 ROWS = (
     Row(
         "G5",
         "3.4",
         "This suggests the existence of another invariant set",
-        "At (eta, nu) = ({eta}, {nu}): [1.32, 1.48] holds another invariant set of f.",
+        "At (eta, nu) = ({eta}, {nu}): [1.32, 1.48] holds another invariant set of f, a set that f "
+        "maps onto itself and that is not in {i}; a periodic orbit is one.",
         _another_set(Verdict.VERIFIED),
+        printed_at=PAPER.place,
+    ),
+    Row(
+        "G20",
+        "3.4",
+        "the graph has the same properties in the set [1.32, 1.48]",
+        "At (eta, nu) = ({eta}, {nu}): in [1.32, 1.48] the graph of f has the properties that the "
+        "proof for I = {i} uses: there are two disjoint closed intervals, on each of which f is "
+        "continuous and increases, with f' > 1, and each of which f maps over [1.32, 1.48].",
+        _same_graph,
         printed_at=PAPER.place,
     ),
     Row(

@@ -74,15 +74,15 @@ class SuperstableMotion(Conclusion):
             f"box B = {' x '.join(map(show_range, self.boxes[0]))} (phases x velocities gamma "
             "before an impact). "
             f"{f'Its next impacts are in {images}, in this order. ' if images else ''}All further "
-            f"impacts come at phases below phi_s, up to {ceil_text(self.rest)}, mod 2 pi: none if "
-            "epsilon = 0, infinitely many, at phases that increase and with speeds that tend to "
-            "0, if epsilon > 0. Then the mass rests on the table until phi_s: the motion has a "
-            f"period{self._period}; phi_s, phi_1 and u do not depend on epsilon. Every motion with "
-            "an impact in B comes to rest before phi_s in the same way and is this one, exactly, "
-            "from phi_s on: it is superstable. Counted as the plastic orbit (phi_1, phi_s), one "
-            "landing with all that follows until it rests and one separation, it has period 2. For "
-            "epsilon > 0 it is no 2-periodic orbit of the map F from one impact to the next, and "
-            "none attracts this open set of states."
+            f"impacts come at phases below phi_s, none after {ceil_text(self.rest)} (an upper "
+            "bound), mod 2 pi: none if epsilon = 0, infinitely many, at phases that increase and "
+            "with speeds that tend to 0, if epsilon > 0. Then the mass rests on the table until "
+            f"phi_s: the motion has a period{self._period}; phi_s, phi_1 and u do not depend on "
+            "epsilon. Every motion with an impact in B comes to rest before phi_s in the same way "
+            "and is this one, exactly, from phi_s on: it is superstable. Counted as the plastic "
+            "orbit (phi_1, phi_s), one landing with all that follows until it rests and one "
+            "separation, it has period 2. For epsilon > 0 it is no 2-periodic orbit of the map F "
+            "from one impact to the next, and none attracts this open set of states."
         )
 
     @property
@@ -91,13 +91,20 @@ class SuperstableMotion(Conclusion):
 
     @property
     def brief(self) -> str:
-        least, largest = map(show, self.epsilons)
         return (
-            f"for {least} {'<=' if self.epsilons[0] else '<'} epsilon <= {largest} the stable "
+            f"for {self._coefficients} the stable "
             f"motion has infinitely many impacts in each period{self._period}: period 2 only if a "
             "landing with all that follows until rest counts as one step, and the separation as "
             "the other"
         )
+
+    @property
+    def _coefficients(self) -> str:
+        """The epsilon > 0 that it is about."""
+        least, largest = map(show, self.epsilons)
+        if least == largest:
+            return f"epsilon = {largest}"
+        return f"{least} {'<=' if self.epsilons[0] else '<'} epsilon <= {largest}"
 
     @property
     def quantities(self) -> Mapping[str, Range]:

@@ -62,8 +62,8 @@ class Between(Conclusion):
     @property
     def sentence(self) -> str:
         onto = "; ".join(
-            f"between phi_{i} and phi_{i + 1} f increases from {between(low, _PLACES)} to "
-            f"{between(high, _PLACES)}"
+            f"between phi_{i} and phi_{i + 1} f increases from a limit in {between(low, _PLACES)} "
+            f"to one in {between(high, _PLACES)}"
             for i, (low, high) in enumerate(self.images, 1)
         )
         shift = ""

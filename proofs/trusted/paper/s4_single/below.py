@@ -123,7 +123,7 @@ def below_windows(context: Context, reader: Reader) -> BelowWindows:
     >= |nu| at its saddle-node; windows reach beyond low; the n after the last has n low >= 1, or
     n low > 1/2, 1 + |nu| <= n^2 |nu| and excess < 0 at M = 0, eta = low. The touch is in J; D +
     (5/2) D'^2 < 0 there at graze lo, so that D < 0 on J, as D'' < -1/5; D > 0 there at graze hi.
-    Conclusion: lemmas 1 to 4 and 6 to 8.
+    Conclusion: `BelowWindows`. Proof. Lemmas 1 to 4 of `single-solution`, and 6 to 8.
     """
     nu_of, low_of, ends_of, late_of, touch_of = reader.fields("nu", "low", "ends", "late", "touch")
     nu, least = nu_of.number(), low_of.number()

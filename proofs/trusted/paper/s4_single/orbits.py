@@ -178,8 +178,9 @@ def single_solution(context: Context, reader: Reader) -> Solution:
     there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket; the
     earlier step `flight` proves a transversal first impact for all of them, and 2 pi n is inside
     its window. Conclusion: K and (16) have exactly one zero in between; its flight has an earlier
-    impact, if `early` is given; 2 pi n is its first impact, if `flight` is given, since gap = 0
-    there and has one zero in the window. The multiplier is from the slope formula.
+    impact, if `early` is given; 2 pi n is its first impact, if `flight` is given. Proof. K is a
+    factor of (16), by lemma 1 the one that may vanish, and monotone on the bracket. gap = 0 at 2
+    pi n, and gap has one zero in the window. The multiplier is from the slope formula.
     """
     eta_of, nu_of, n_of, phase_of, early_of, flight_of = reader.fields(
         "eta", "nu", "n", "phase", "early", "flight"

@@ -161,17 +161,18 @@ def _counterexample(found: Found, asked: Callable[[Solution], bool]) -> Solution
 
 
 def _stability(_: Parameters, found: Found) -> Decision:
-    """P4: two solutions with |slope| < 1 that are no orbits; orbits that are."""
+    """P4: a solution with |slope| < 1 that does not stick and is no orbit; orbits that are. It
+    asks about no range: true where 2 pi n later there is the first impact.
+    """
     hits = _counterexample(found, lambda x: x.hits)
-    stuck = _counterexample(found, lambda x: x.sticks)
     nearby = [*_proved(found, solved, orbits), *(x for x in found.all(Solution) if x.first)]
-    bounds = {"slope_no_orbit": hits.multiplier, "slope_sticking": stuck.multiplier}
-    return decided(Verdict.CONDITIONAL, hits, stuck, corrected=nearby, known=bounds)
+    bounds = {"slope_no_orbit": hits.multiplier}
+    return decided(Verdict.CONDITIONAL, hits, corrected=nearby, known=bounds)
 
 
 def _figure_a(_: Parameters, found: Found) -> Decision:
     """P5: the windows, for both signs of p, and solutions outside: for p < 0 one that sticks, for
-    p > 0 one that hits. As P4 and P6, true of the solutions in the windows, and of no others.
+    p > 0 one that hits. A claim about the axis of a figure that fails inside of it is REFUTED.
     """
 
     def shown(one: Solution, nu: Fraction) -> bool:
@@ -184,11 +185,11 @@ def _figure_a(_: Parameters, found: Found) -> Decision:
     below = [x for x in found.all(BelowWindows) if (-x.nu, x.low) == asked]
     if not (above and below):
         return undecided("no proof of all windows in eta, for both signs of p")
-    return decided(Verdict.CONDITIONAL, stuck, hits, corrected=[*known, above[0], below[0]])
+    return decided(Verdict.REFUTED, stuck, hits, corrected=[*known, above[0], below[0]])
 
 
 def _figure_b(_: Parameters, found: Found) -> Decision:
-    """P6: the windows, all below |nu| = 0.9, and a solution that is no orbit."""
+    """P6: the windows, all below |nu| = 0.9, and a solution that is no orbit: as P5."""
     (low, high), known = FIGURE_NUS, _proved(found, orbits)
     hits = _counterexample(
         found, lambda x: x.hits and x.at.eta[0] == FIGURE_ETA and low < x.at.nu[0] < high
@@ -196,7 +197,7 @@ def _figure_b(_: Parameters, found: Found) -> Decision:
     for windows in found.all(NuWindows):
         ends = [last[1] for _, _, last in (*windows.above, *windows.below)]
         if windows.eta == FIGURE_ETA and all(end < high for end in ends):
-            return decided(Verdict.CONDITIONAL, hits, corrected=[*known, windows])
+            return decided(Verdict.REFUTED, hits, corrected=[*known, windows])
     return undecided("no proof of all windows in nu, and that they end before |nu| = 0.9")
 
 

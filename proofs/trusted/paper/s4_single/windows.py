@@ -100,7 +100,8 @@ def eta_windows(context: Context, reader: Reader) -> EtaWindows:
 
     Hypotheses: 0 < nu < 1; all brackets lie in (0, 1/(2 n)); excess at M = -1 (flip) and M = 0
     (stick) is < 0 at the lower end and > 0 at the upper one; stick lo > low; for the n after the
-    last, low n >= 1/2, or excess > 0 at M = 0 and eta = low < 1. Conclusion: lemmas 1, 2, 3 and 5.
+    last, low n >= 1/2, or excess > 0 at M = 0 and eta = low < 1. Conclusion: `EtaWindows`. Proof.
+    Lemmas 1, 2, 3 and 5 of `single-solution`.
     """
     nu_of, low_of, ends_of = reader.fields("nu", "low", "ends")
     nu, least = nu_of.number(), low_of.number()
@@ -178,8 +179,9 @@ def nu_windows(context: Context, reader: Reader) -> NuWindows:
     `above` is about n = 1, 2, ... < 1/(2 eta), `below` about the records n < 1/eta, both 0 < eta
     < 1; a bracket for |nu| has excess > 0 at its lower and < 0 at its upper end; null: excess > 0
     at nu = 1. `early`: for the records n > 1/eta a time in
-    (0, 2 pi n) at which the mass is above the table if p = -e. Conclusion: lemmas 1 to 4, since
-    after the denominator of eta there are no records. Ends (1, 1) mean that there is no window.
+    (0, 2 pi n) at which the mass is above the table if p = -e. Conclusion: `NuWindows`; ends (1, 1)
+    mean that there is no window. Proof. Lemmas 1 to 4 of `single-solution`; after the denominator
+    of eta there are no records.
     """
     eta_of, above_of, below_of, early_of = reader.fields("eta", "above", "below", "early")
     eta = eta_of.number()

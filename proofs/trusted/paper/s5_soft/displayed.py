@@ -163,13 +163,13 @@ HIGH_TRACE = f"at(D({_F}, phi) + D({_G}, w), phi=x - w)"
 GAP = f"rho*sin(psi) + {LAUNCH}*tau - tau**2 - rho*sin(psi + tau)"
 
 # -- springs of any stiffness ----------------------------------------------------------------------
-# k and q as above, s = pi m k, big = 2 + k^2 (rho sin psi - q): fixed points by psi and big.
+# k and q as above, s = pi m k, B = 2 + k^2 (rho sin psi - q): fixed points by psi and B.
 
 STIFF_MAP = f"at({S24}, {SCALES}, p=q*g/(2*omega**2), omega_n=k*omega)*2*omega**2/g"
 STIFF_VELOCITY = f"at({S25}, {SCALES}, p=q*g/(2*omega**2), omega_n=k*omega)*2*omega/g"
-STIFF_LAMBDA = "-sin(s)/cos(s)*big/k"
-_STIFF_RHO = "(1 - epsilon)*big*sin(s)/((1 + epsilon)*k*cos(s)*cos(psi))"
+STIFF_LAMBDA = "-sin(s)/cos(s)*B/k"
+_STIFF_RHO = "(1 - epsilon)*B*sin(s)/((1 + epsilon)*k*cos(s)*cos(psi))"
 STIFF_FIXED = (
     f"psi1=psi, lam={STIFF_LAMBDA}, rho={_STIFF_RHO}, m=s/(pi*k),"
-    f" q={_STIFF_RHO}*sin(psi) - (big - 2)/k**2"
+    f" q={_STIFF_RHO}*sin(psi) - (B - 2)/k**2"
 )

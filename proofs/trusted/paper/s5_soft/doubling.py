@@ -14,8 +14,8 @@ _FLIGHT = (
     "x=-h, x1=h, epsilon=(1 - r)/(1 + r), C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), lam={0}, "
     "lam1=at({0}, h=-h)"
 )
-_VELOCITY = "(-t*big/k + l_1*h + l_2*h**2 + l_3*h**3)"
-_SERIES = f"a=a + a_2*h**2, b=b + b_2*h**2, q=a - (big - 2)/k**2, {_FLIGHT.format(_VELOCITY)}"
+_VELOCITY = "(-t*B/k + l_1*h + l_2*h**2 + l_3*h**3)"
+_SERIES = f"a=a + a_2*h**2, b=b + b_2*h**2, q=a - (B - 2)/k**2, {_FLIGHT.format(_VELOCITY)}"
 SIDES = tuple(f"at({each}, {_SERIES})" for each in near.STIFF)
 _D = "(1 - k**2*(1 + t**2 + r**2))"
 _NONZERO = ("k", "t", "1 + t**2", "1 + r", _D)
@@ -24,7 +24,7 @@ _RISE = (
     "(3*r**2*t**2 + k**2*((1 + t**2)**2 + r**2*(1 + t**2)*(t**2 - 2) + 3*r**4*(1 - t**2))"
     " + k**4*((1 + t**2)**2*(3*t**2 - 1 + 5*r**2) + 3*r**4*(1 + t**2) - 3*r**6))"
 )
-RISE = f"big**2*{_RISE}/(3*k**2*{_D})"
+RISE = f"B**2*{_RISE}/(3*k**2*{_D})"
 LIMIT_RISE = "4*(3*r**2*(pi*m)**2 + 1 - 2*r**2 + 3*r**4)/3"
 _POSITIVE = (
     "(1 - k**2)*(k**2*(1 - 2*r**2 + 3*r**4) + 3*r**2*t**2) + k**2*(3*k**2*r**2*(1 + 2*r**2 - r**4) "
@@ -34,10 +34,10 @@ _POSITIVE = (
 
 CYCLE = unknowns(
     "a b l_1 a_2 b_2 l_2 l_3",
-    "k t r big",
+    "k t r B",
     *(Series.read(side, "h", _ZERO4, _NONZERO) for side in SIDES),
-    Equal.read("a", "big*(1 + t**2 + r**2)"),
-    Equal.read("b", "r*t*big/k"),
+    Equal.read("a", "B*(1 + t**2 + r**2)"),
+    Equal.read("b", "r*t*B/k"),
     Equal.read("2*(a*a_2 + b*b_2)", RISE),
     nonzero=_NONZERO,
 )
@@ -77,6 +77,6 @@ doubling = corollary(
     CYCLE,
     Equal.read(*_REGULAR),
     Equal.read(_RISE, _POSITIVE),
-    Series.read(f"at({RISE}, t=sin(pi*m*k)/cos(pi*m*k), big=2)", "k", (LIMIT_RISE,)),
+    Series.read(f"at({RISE}, t=sin(pi*m*k)/cos(pi*m*k), B=2)", "k", (LIMIT_RISE,)),
     tex=r"\rho^2 = \rho_F^2 + \kappa h^2 + O(h^4)",
 )

@@ -106,7 +106,7 @@ JET = _jet(
 PRINTED_JET = _jet("2", "0", "p1 p2 p3 p4 p5", "e1 e2 e3 e4", ("c/2", "0", "0", "0"))
 
 # -- springs of any stiffness ----------------------------------------------------------------------
-# C = cos(2 s), S = sin(2 s), s = pi m k, t = tan s, big = 2 + k^2 (a - q).
+# C = cos(2 s), S = sin(2 s), s = pi m k, t = tan s, B = 2 + k^2 (a - q).
 
 _COS, _SIN = "(C*cos(k*(x1 - x)) - S*sin(k*(x1 - x)))", "(S*cos(k*(x1 - x)) + C*sin(k*(x1 - x)))"
 _STRETCH = "(a*cos(x) + b*sin(x) - q + 2/k**2)"  # from where the spring and gravity balance
@@ -114,11 +114,11 @@ STIFF = (
     f"{_STRETCH}*{_COS} + {_LAUNCH}*{_SIN}/k - 2/k**2 - (a*cos(x1) + b*sin(x1) - q)",
     f"lam1 - ({_LAUNCH}*{_COS} - k*{_STRETCH}*{_SIN})",
 )
-STIFF_HERE = "C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), q=a - (big - 2)/k**2"
+STIFF_HERE = "C=(1 - t**2)/(1 + t**2), S=2*t/(1 + t**2), q=a - (B - 2)/k**2"
 _STIFF_ENTRIES = ("k11", "k12", "k21", "k22")
 STIFF_POINT = unknowns(
     "b lam k11 k12 k21 k22",
-    "a big k t epsilon",
+    "a B k t epsilon",
     *(
         Equal.read(f"at(at({each}, {_AT_POINT}), {STIFF_HERE})", "0")
         for each in (
@@ -126,19 +126,17 @@ STIFF_POINT = unknowns(
             *implicit_derivative(STIFF, ("x", "lam"), ("x1", "lam1"), _STIFF_ENTRIES),
         )
     ),
-    Equal.read(
-        f"at(at(D({STIFF[0]}, x1), {_AT_POINT}), {STIFF_HERE})", "-2*t*big/(k*(1 + epsilon))"
-    ),
+    Equal.read(f"at(at(D({STIFF[0]}, x1), {_AT_POINT}), {STIFF_HERE})", "-2*t*B/(k*(1 + epsilon))"),
     Equal.read(
         "k11 + k22",
-        "at(((1 + epsilon)**2 + (1 - epsilon)**2*C - (1 + epsilon)**2*(1 + C)*a/big)/2, "
+        "at(((1 + epsilon)**2 + (1 - epsilon)**2*C - (1 + epsilon)**2*(1 + C)*a/B)/2, "
         "C=(1 - t**2)/(1 + t**2))",
     ),
     Equal.read("k11*k22 - k12*k21", "epsilon**2"),
-    nonzero=("1 + epsilon", "big", "k", "1 + t**2"),
-    given="(1 - epsilon)*t*big/((1 + epsilon)*k); -t*big/k; "
-    "(big*(1 + epsilon*t**2) - (1 + epsilon)**2*a)/(big*(1 + t**2)); "
-    "-epsilon*(1 + epsilon)/(big*(1 + t**2)); "
-    "((1 + epsilon)**2*(epsilon + t**2)*a - (1 - epsilon)**2*t**2*big)/((1 + epsilon)*(1 + t**2)); "
+    nonzero=("1 + epsilon", "B", "k", "1 + t**2"),
+    given="(1 - epsilon)*t*B/((1 + epsilon)*k); -t*B/k; "
+    "(B*(1 + epsilon*t**2) - (1 + epsilon)**2*a)/(B*(1 + t**2)); "
+    "-epsilon*(1 + epsilon)/(B*(1 + t**2)); "
+    "((1 + epsilon)**2*(epsilon + t**2)*a - (1 - epsilon)**2*t**2*B)/((1 + epsilon)*(1 + t**2)); "
     "epsilon*(epsilon + t**2)/(1 + t**2)",
 )

@@ -156,12 +156,18 @@ ROWS = (
     derived_row(
         Passage("S8", "5, psi-bar", "So, for every $\\mu > 0$, there exists a $\\delta > 0$"),
         "The fixed phase 'can be made arbitrarily close to' arccos((1 - epsilon) pi m g/((1 + "
-        "epsilon) omega^2 beta)), which equals ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho.",
-        Verdict.REFUTED,
+        "epsilon) omega^2 beta)), which is ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho, 'plus O(mu)'.",
+        Verdict.CONDITIONAL,
         corollary(
-            "At m = 1, epsilon = 1/3, rho = 4, X = ((1 - epsilon)/(1 + epsilon)) 2 pi m/rho = "
-            "pi/4, and cos X - X is in {0}, so arccos X is not X: the second equality, without the "
-            "inverse cosine, is false.",
+            "Let X = (1 - epsilon) pi m g/((1 + epsilon) omega^2 beta) = ((1 - epsilon)/(1 + "
+            "epsilon)) 2 pi m/rho. True if X < 1, for an error O(mu) that tends to 0 with omega_n "
+            "(as the paper defines O(mu), see S10, it need not), and if the last expression, "
+            "printed without its inverse cosine, is read as psi_o of S11 is: arccos of the whole "
+            "product, arccos X. As printed it is X, which is not arccos X: at m = 1, epsilon = "
+            "1/3, rho = 4, X = pi/4 and cos X - X is in {0}.",
+            *_TRUE_LIMITS,
+            *_COSINE,
+            *_FINITE,
             values=(
                 at(f"cos(({eq.COSINE_RHO})) - {eq.COSINE_RHO}", -1, epsilon="1/3", m="1", rho="4"),
             ),
@@ -203,10 +209,10 @@ ROWS = (
         "constant K such that 0 <= K < infinity and lim f(mu) = K' as mu -> 0.",
         Verdict.CONDITIONAL,
         corollary(
-            "True if X < 1, X as in S8, where both fixed points exist for "
-            "small omega_n and tend to their limits. If X > 1 there are none. As defined "
-            "f = 1 is O(mu), too, so the words leave open how small the error is; it is of the "
-            "order omega_n^2.",
+            "True if X < 1, X as in S8, where both fixed points exist for small omega_n and tend "
+            "to their limits, psi_o being read as in S8 and S11. If X > 1 there are none. As "
+            "defined f = 1 is O(mu), too, so the words leave open how small the error is; it is of "
+            "the order omega_n^2.",
             *_TRUE_LIMITS,
             *_COSINE,
             *_FINITE,

@@ -144,7 +144,7 @@ stiff = corollary(
     "p/g, s = pi m k, B = 2 + k^2 (rho sin psi - q), not 0: at a solution of (24), (25), an orbit "
     "or not, with psi_(k+1) = psi_k = psi, lambda_(k+1) = lambda_k and a flight over m periods, "
     "where rho cos psi = ((1 - epsilon)/(1 + epsilon)) tan(s) B/k, the Jacobian has the rows "
-    "({k11}, {k12}) and ({k21}, {k22}), a = rho sin psi, t = tan s, big = B. The determinant is "
+    "({k11}, {k12}) and ({k21}, {k22}), a = rho sin psi, t = tan s. The determinant is "
     "epsilon^2 as well and the trace is ((1 + epsilon)^2 + (1 - epsilon)^2 cos(2 s) - (1 + "
     "epsilon)^2 (1 + cos(2 s)) rho sin(psi)/B)/2. So -1 is an eigenvalue exactly where ((1 + "
     "epsilon)^2 (1 + cos(2 s)) - k^2 M) rho sin psi = M (2 - k^2 q), M = (1 + epsilon)^2 + 2 (1 + "

@@ -94,13 +94,15 @@ rebound = corollary(
 )
 no_subharmonic = corollary(
     "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu: "
-    "the motion that all others tend to is a sine of the frequency of the table (nu < 0), or rest "
-    "on it (nu > 0). For epsilon = 1 all flights of a "
-    "motion with c = gamma + nu cos(phi) not 0, which is constant, last T = 2 pi - 2 arctan|c| for "
-    "nu < 0, T = 2 arctan|c| for nu > 0, so the displacement, table plus gap, has only the "
-    "frequency of the table and multiples of 2 pi/T times it, larger ones. It repeats after n "
-    "impacts in n - j periods of the table if nu < 0 and |c| = tan(pi j/n), j and n coprime, 1 <= "
-    "j < n/2 (nine in eight for tan(pi/9)); such motions attract nothing.",
+    "for nu < 0 every motion tends to one of a family of motions, one for each phase phi_o of its "
+    "touches, which are sines of the frequency of the table, (1 + nu sin phi_o) cos t + nu cos "
+    "phi_o sin t at the time t after a touch, in units of -p; for nu > 0 every motion comes to "
+    "rest on the table. For epsilon = 1 all flights of a motion with c = gamma + nu cos(phi) not "
+    "0, which is constant, last T = 2 pi - 2 arctan|c| for nu < 0, T = 2 arctan|c| for nu > 0, so "
+    "the displacement, table plus gap, has only the frequency of the table and multiples of 2 pi/T "
+    "times it, larger ones. It repeats after n impacts in n - j periods of the table if nu < 0 and "
+    "|c| = tan(pi j/n), j and n coprime, 1 <= j < n/2 (nine in eight for tan(pi/9)); such motions "
+    "attract nothing.",
     iterates,
 )
 
@@ -161,9 +163,14 @@ ROWS = (
         Verdict.REFUTED,
         corollary(
             "At eta = 1, nu = -1/5, epsilon = 1/100, phi_o = pi/2, gamma_o = 0 the printed "
-            "eigenvalue is 1.004 > 1, the true ones are 1 and 1/100, and the orbit is stable. The "
-            "printed ones are those of the printed matrix.",
+            "eigenvalue is 1.004 > 1, the true ones are 1 and 1/100, and the orbit is stable "
+            "(motions that begin near it stay near it): it is stable without the condition. At "
+            "phi_o = 3 pi/2 it is 0.996 < 1, the true ones are the same, and the orbit is not "
+            "asymptotically stable, as all phases next to it have such orbits: if that is meant, "
+            "the condition does not suffice, there or anywhere. The printed eigenvalues are those "
+            "of the printed matrix.",
             jacobian,
+            stability,
             *eq.PRINTED,
         ),
         corrected=(jacobian, stability),

@@ -28,7 +28,7 @@ from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Avoids, SlopeRange
+from proofs.trusted.slopes import Avoids, Impact, SlopeRange
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from proofs.trusted.windows import BITS, Meetings
@@ -386,6 +386,22 @@ def test_another_set_is_decided_by_what_stays_in_the_printed_interval(claim, one
     assert verdict(replace(swap, at=elsewhere.place)) is Verdict.UNDECIDED
     there = find(claim).decide(elsewhere, [replace(swap, at=elsewhere.place)])
     assert there.verdict is Verdict.UNDECIDED and "printed" in there.why
+
+
+def test_a_graph_like_that_on_the_first_interval_would_leave_a_fixed_phase():
+    """G20: an orbit of period 2 alone refutes it; f at the ends is told beside."""
+    row, swap = find("G20"), made(*SWAP)
+    ends = [
+        Impact(AT, F("1.32"), (F(6), F(7)), Phase(F("1.337"), F("1.338"))),
+        Impact(AT, F("1.48"), (F(5), F(6)), Phase(F("1.438"), F("1.439"))),
+    ]
+    elsewhere = replace(ends[0], phase=F("1.4"))
+    decision = row.decide(PAPER, [swap, *ends, elsewhere])
+    assert decision.verdict is Verdict.REFUTED and decision.because == (*ends, swap)
+    fixed = made(cell("1.32", "1.34", "1.3", "1.5"))
+    wider = replace(swap, region=(Phases(F("1.31"), F("1.49")),))
+    for found in ([], ends, [made(*FULL)], [made(*GOLDEN)], [fixed], [wider]):
+        assert row.decide(PAPER, found).verdict is Verdict.UNDECIDED
 
 
 # -- the branches ----------------------------------------------------------------------------------

@@ -24,7 +24,12 @@ from tests.proofs.trusted.paper import reference
 ETA, NU = reference.mpf("0.2121"), reference.mpf("-0.2")
 ROOT = Path(__file__).parents[4]
 SLOPES = ["H1", "H2", "H3", "H4", "H5", "H6"]
-VERDICTS = {**dict.fromkeys(GROUPS["horseshoe"], "VERIFIED"), "H2": "REFUTED", "H5": "REFUTED"}
+VERDICTS = {
+    **dict.fromkeys(GROUPS["horseshoe"], "VERIFIED"),
+    "H2": "REFUTED",
+    "H5": "REFUTED",
+    "H11": "CONDITIONAL",
+}
 
 
 def made(of=PAPER, claims=GROUPS["horseshoe"], **options):

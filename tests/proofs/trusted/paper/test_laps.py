@@ -5,6 +5,7 @@ At eta = 0.21, nu = -0.2 the circle has ten pieces; there all is proved and deri
 
 import copy
 import math
+import re
 from dataclasses import replace
 from fractions import Fraction as F
 from functools import cache
@@ -634,8 +635,10 @@ def test_the_sides_of_a_graze_are_those_in_its_interval(known):
     """At 0.21 f decreases beyond some grazes, and increases beyond others."""
     for one in only(Grazing, known):
         side, rest = ("below", "above") if one.below else ("above", "below")
-        assert f"For the phases of this interval {side} it f is C^1" in one.sentence
-        assert f"for those of it {rest} phi_g " in one.sentence
+        width = re.search(r"less than 10\^\((-\d+)\) wide", one.sentence)[1]
+        assert one.phases[1] - one.phases[0] <= F(10) ** int(width)
+        assert f" wide, {side} phi_g f is C^1" in one.sentence
+        assert f"for those {rest} phi_g " in one.sentence and "the limit" not in one.sentence
 
 
 def test_a_flight_from_the_arc_that_does_not_return_is_no_end(known):

@@ -327,8 +327,8 @@ def test_verdicts(document):
         "P2": "CONDITIONAL",
         "P3": "VERIFIED",
         "P4": "CONDITIONAL",
-        "P5": "CONDITIONAL",
-        "P6": "CONDITIONAL",
+        "P5": "REFUTED",
+        "P6": "REFUTED",
     }
     assert {claim.id for claim in check(json.dumps(document)).claims} == set(CLAIMS)
 

@@ -28,9 +28,9 @@ from tests.proofs.trusted.renewing import REFUSED, rederived
 CLAIMS = GROUPS["soft"]
 ROWS = (*soft.ROWS, *stability.ROWS)
 VERDICTS = {
-    "VERIFIED": "S1 S2 S4 S6 S7 S9 S11 S12 S20 S23",
-    "REFUTED": "S3 S5 S8 S13 S14 S16 S17 S18 S19 S21 S22",
-    "CONDITIONAL": "S10 S15",
+    "VERIFIED": "S1 S2 S4 S6 S7 S9 S12 S20 S23",
+    "REFUTED": "S3 S5 S13 S14 S15 S16 S17 S18 S19 S21 S22",
+    "CONDITIONAL": "S8 S10 S11",
 }
 
 

@@ -1,0 +1,229 @@
+"""Bifurcations in closed form: candidates, classified, each with its lemmas."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from intervals import IntervalError, Undecided
+from proofs.methods import derive
+from proofs.methods.bifurcation.certify import charts, confirm
+from proofs.methods.bifurcation.classify import Class, classified
+from proofs.methods.bifurcation.normal_forms import NormalForm
+from proofs.methods.bifurcation.solving import Solution, coefficients, has_roots, points
+from proofs.methods.lemmas import Lemmas
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.solutions import solution
+from proofs.trusted.kernel.values import Equal, Series, value
+
+_SIGN_BITS = 200
+
+
+@dataclass(frozen=True)
+class Closed:
+    """A candidate in closed form: expressions by name, what it is, and the signs that decide."""
+
+    values: Solution
+    found: Class
+    signs: Mapping[str, int]
+
+    @property
+    def kept(self) -> bool:
+        """Whether it is a bifurcation, or a resonance."""
+        return not self.found.dropped
+
+
+def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Closed]:
+    """Return what is found of a condition, solved for these names, classified, with its proof.
+
+    Raises Undecided where no closed form is found.
+    """
+    parameter = next(name for name in names if name not in form.map.state)
+    candidates = points(form, names)
+    if not candidates:
+        raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
+    return [_classified(file, form, each, parameter) for each in candidates]
+
+
+def _classified(file: Lemmas, form: NormalForm, point: Solution, parameter: str) -> Closed:
+    """Classify a candidate, and add the proof; what fails in it is told as why it is dropped."""
+    if has_roots(point) and any(x.free_symbols for x in point.values()):
+        return Closed(point, Class("undecided", "with roots of parameters"), {})
+    numbers, steps = Numbers(file, form, point, parameter), dict(file.steps)
+    try:
+        numbers.require_defined()
+        found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
+        if numbers.open_domain:
+            found = found._replace(where=(*found.where, "the map is defined"))
+        numbers.prove()
+    except Undecided as failure:
+        file.steps.clear()
+        file.steps.update(steps)
+        return Closed(point, Class("undecided", str(failure)), {})
+    return Closed({**point, **numbers.values}, found, numbers.signs)
+
+
+class Numbers:
+    """The numbers by which a candidate in closed form is classified, each found when asked for."""
+
+    def __init__(self, file: Lemmas, form: NormalForm, point: Solution, parameter: str) -> None:
+        self.file, self.form, self.point, self.parameter = file, form, point, parameter
+        self.values: Solution = {}
+        self.signs: dict[str, int] = {}
+        self._normal: Solution | None = None
+        self._lemmas: list[Equal] = []
+
+    def require_defined(self) -> None:
+        """Raise Undecided unless the map is proved to be defined at a point of numbers."""
+        if not self._free:
+            try:
+                self._proved_sign(self._at(self.form.map.turning()))
+            except Undecided:
+                raise Undecided("the map is not proved to be defined there") from None
+
+    @property
+    def _free(self) -> bool:
+        """Whether parameters are left."""
+        left = {*self.form.map.parameters} - {*self.point}
+        return bool(left) or any(x.free_symbols for x in self.point.values())
+
+    @property
+    def open_domain(self) -> bool:
+        """Whether it depends on parameters if the map is defined there."""
+        return self._free and bool(re.search("sqrt|log|/[^0-9]", "".join(self.form.map.equations)))
+
+    def sign(self, name: str) -> int | None:
+        """Return the sign of a number; None if that depends on parameters."""
+        text = name.replace("^", "**")
+        for known in ("trace", "determinant"):
+            if known in text and known not in self.values:
+                self._note(known, self.form.map.invariants()[known])
+        if name in ("critical", "speed", "cubic", "crossing", "mixed") and name not in self.values:
+            self._find(name)
+        known = derive.simplest(derive.read(text, self.values))
+        if known.free_symbols:
+            return None
+        found = self._sign(derive.write(known)) if known != 0 else 0
+        if name in self.values:
+            self.signs[name] = found
+        return found
+
+    def _sign(self, text: str) -> int:
+        """Return the sign of a number that is not 0."""
+        import sympy
+
+        known = derive.read(text)
+        if known.is_Rational:
+            return int(sympy.sign(known))
+        return self._proved_sign(text)
+
+    def _proved_sign(self, text: str) -> int:
+        """Prove the sign of a number, and that it is defined."""
+        try:
+            low, high = self.file.bounds(text, 6, _SIGN_BITS)
+        except (IntervalError, Unproved) as failure:
+            raise Undecided(f"{text[:60]} is not defined: {failure}") from None
+        confirm(self.file, list(self.file.steps)[-1], value)
+        if low <= 0 <= high:
+            raise Undecided(f"whether {text[:40]} is 0")
+        return 1 if low > 0 else -1
+
+    def _at(self, text: str) -> str:
+        places = self.form.map.at_rest(self.point).items()
+        return f"at({text}, {', '.join(f'{x}={derive.write(of)}' for x, of in places)})"
+
+    def _note(self, name: str, text: str) -> None:
+        """Find a number by its formula at the candidate, and take down the lemma."""
+        known = self._normal or self.point
+        self.values[name] = derive.simplest(derive.read(text, known))
+        if not derive.is_real(self.values[name]):
+            raise Undecided(f"{name} is not defined there")
+        self._lemmas.append(Equal.read(text, name))
+
+    def _find(self, name: str) -> None:
+        if name == "cubic":
+            self.form = replace(self.form, kind="pitchfork", lead=0)
+            self._normal = None
+        if self._normal is None:
+            self._normal = self._coefficients()
+            self.values |= {x: self._normal[x] for x in ("critical", "speed")}
+        if name == "cubic":
+            self._note(name, "b3")
+        elif name in ("crossing", "mixed"):
+            texts = self.form.unfolding(self.parameter, self._row())
+            self._note(name, texts[name == "mixed"])
+
+    def _coefficients(self) -> Solution:
+        """Return the coefficients in the first chart of the centre manifold that there is."""
+        reason = Undecided("no normal form")
+        for each in charts(self.form):
+            try:
+                found = coefficients(each, self.point, self.parameter)
+            except Undecided as failure:
+                reason = failure
+                continue
+            self.form = each
+            return found
+        raise reason
+
+    def _row(self) -> int:
+        """Return a row of the derivative of `fixed` that gives a direction, see `unfolding`."""
+        if len(self.form.map.state) == 1:
+            return 0
+        other = self.form.map.state[1 - self.form.lead]
+        rows = [derive.read(f"D({each}, {other})", self.point) for each in self.form.map.fixed]
+        return next((i for i, x in enumerate(rows) if derive.simplest(x) != 0), 0)
+
+    def prove(self) -> None:
+        """Add that it is a fixed point as the condition says, with these numbers."""
+        given = {**(self._normal or self.point), **self.values}
+        rest = [Equal.read(each, "0") for each in (*self.form.map.fixed, self.form.condition())]
+        sides: list[Equal | Series] = []
+        if self._normal is not None:
+            sides = [*self._conjugate(), Equal.read(self.form.criticality, "critical")]
+            sides.append(Equal.read(self.form.speed(self.parameter), "speed"))
+        name = self.file.solution(
+            {name: derive.write(value) for name, value in given.items()},
+            *rest,
+            *sides,
+            *self._lemmas,
+        )
+        confirm(self.file, name, solution)
+
+    def _conjugate(self) -> list[Equal] | list[Series]:
+        """Return that the map is the normal form in the chart, see `normal_forms`.
+
+        Where roots or logarithms occur, of which the checker has no series, by derivatives at the
+        fixed point, around which the map is smooth where it is defined.
+        """
+        form, found = self.form, self._normal or {}
+        if has_roots(self.point) or re.search("sqrt|log", "".join(form.map.equations)):
+            orders = (form.homological(k) for k in range(form.order + 1))
+            return [Equal.read(each, "0") for order in orders for each in order]
+        scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
+        sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
+        nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
+        return [Series.read(each, "h", nought, nonzero) for each in sides]
+
+
+def _divisors(form: NormalForm, found: Solution) -> list[str]:
+    """Return the factors of all denominators at a solution, but numbers."""
+    import sympy
+
+    at_rest = [derive.simplest(derive.read(each, found)) for each in form.map.equations]
+    factors = {
+        factor
+        for each in (*found.values(), *at_rest, *_partials(form, found))
+        for factor in derive.factors(sympy.denom(each))
+    }
+    return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)
+
+
+def _partials(form: NormalForm, point: Solution) -> list[Any]:
+    """Return the derivatives of the equations at a solution."""
+    names = (*form.map.state, *form.map.images)
+    rows = form.map.partials(names)
+    places = form.map.at_rest(point)
+    return [derive.simplest(derive.read(entry, places)) for row in rows for entry in row]

@@ -1,0 +1,88 @@
+"""The periodic orbit through two grazes that is there exactly if a touch counts as an impact: G18.
+
+Against the gap typed by hand, at the paper's oscillator; and without each hypothesis.
+"""
+
+from dataclasses import replace
+from fractions import Fraction as F
+from pathlib import Path
+
+import pytest
+from mpmath import mp, mpf
+
+from proofs.trusted.paper.s34_circle.cycles import Cycles, touching
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.verify import premises
+from tests.proofs.trusted.paper import reference
+
+ROOT = Path(__file__).parents[4]
+ETA, NU = mpf("0.2121"), mpf("-0.2")
+
+
+@pytest.fixture(scope="module")
+def found():
+    context = premises((ROOT / "reports" / "entropy.json").read_text(encoding="utf-8"))
+    (cycles,) = (each for each in context.known.values() if isinstance(each, Cycles))
+    return cycles
+
+
+@pytest.fixture(scope="module")
+def grazes(found):
+    """What never impacts, and the grazes on both sides."""
+    arcs = found.expansion.pieces.arcs
+    place = next(i for i, each in enumerate(arcs) if isinstance(each, NeverImpacts))
+    return place, arcs[place - 1], arcs[place + 1]
+
+
+def graze_near(grazing):
+    """Solve gap = gap' = 0 for the launch phase and the time."""
+    middle = [float(sum(ends) / 2) for ends in (grazing.phases, grazing.time)]
+
+    def gap(phase, time):
+        return reference.left_side_10(ETA, NU, phase, time)
+
+    def both(phase, time):
+        return gap(phase, time), mp.diff(lambda t: gap(phase, t), time)
+
+    phase, time = mp.findroot(both, middle)
+    assert grazing.phases[0] < F(str(phase)) < grazing.phases[1]
+    return phase, time
+
+
+def test_each_graze_is_a_touch_at_the_other_one(grazes):
+    _, a, b = grazes
+    (first, there), (last, back) = graze_near(a), graze_near(b)
+    assert abs(mp.fmod(first + there, 2 * mp.pi) - last) < mpf(10) ** -20
+    assert abs(mp.fmod(last + back, 2 * mp.pi) - first) < mpf(10) ** -20
+    assert abs(there + back - 20000 * mp.pi) < mpf(10) ** -20
+
+
+def test_the_word_is_told_apart_from_those_that_are_open(found):
+    assert found.touching == touching(found.expansion) == (5, 6)
+    assert found.touching not in found.words + found.left
+    assert found.counts[1] == (32, 32)
+    assert (
+        "If a touch without relative velocity counts as an impact, there is one" in found.sentence
+    )
+
+
+def changed(found, place, **sides):
+    """The expansion with the grazes beside what never impacts replaced."""
+    arcs = list(found.expansion.pieces.arcs)
+    for side, fields in sides.items():
+        at = place + (-1 if side == "a" else 1)
+        arcs[at] = replace(arcs[at], **fields)
+    pieces = replace(found.expansion.pieces, arcs=tuple(arcs))
+    return replace(found.expansion, pieces=pieces)
+
+
+def test_without_a_hypothesis_there_is_no_such_word(found, grazes):
+    place, a, b = grazes
+    later = F(1, 100)
+    for lie in (
+        {"a": {"time": (a.time[0] - 1, a.time[1] - 1)}},  # the touch is elsewhere
+        {"b": {"time": (b.time[0] + 1, b.time[1] + 1)}},
+        {"a": {"landing": (b.time[0], b.time[0] + later)}},  # an impact within q turns
+        {"b": {"landing": (a.time[0], a.time[0] + later)}},
+    ):
+        assert touching(changed(found, place, **lie)) is None
