@@ -6,13 +6,15 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from proofs.version import VERSION
+
 if TYPE_CHECKING:
     from proofs.map import Map
     from proofs.oscillator import Oscillator
     from proofs.system import System
     from proofs.theorem import Theorem
 
-__version__ = "0.1.0"
+__version__ = VERSION
 __all__ = ["Map", "Oscillator", "System", "Theorem"]
 
 

@@ -24,7 +24,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from proofs.shell.backstop import Overrun, limited
 from proofs.shell.entry import workers
 from proofs.shell.screen import Arguments, fitted, say
-from proofs.trusted.atlas import LEFT_OUT, NOT_YET, check_atlas
 from proofs.trusted.certificate import (
     LEDGER,
     MANIFEST,
@@ -46,9 +45,9 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
 PIPED = Path("-")
-_OPEN = (Verdict.UNDECIDED.value, NOT_YET, LEFT_OUT)
 _CHUNK = 16  # cells that are checked together
 _STORE = b"SQLite format 3\0"
+_OPEN = Verdict.UNDECIDED.value
 _ATLAS = re.compile(rb'\s*\{\s*"schema"\s*:\s*"impact-proofs\.atlas/')
 FOLDERS = {MANIFEST: ("a manifest", check_manifest), LEDGER: ("a ledger", check_ledger)}
 EPILOG = """\
@@ -147,6 +146,8 @@ def _check_lines(
     file: BinaryIO, first: bytes, name: str, work: int, jobs: int
 ) -> tuple[list[str], bool]:
     """Check an atlas, in several processes; return what to say, and if anything is undecided."""
+    from proofs.trusted.atlas import LEFT_OUT, NOT_YET, check_atlas  # with all questions
+
     began = perf_counter()
     try:
         with nullcontext() if jobs == 1 else workers(jobs) as pool:
@@ -158,13 +159,13 @@ def _check_lines(
         raise Exhausted(f"it needs more work, --work {enough}") from None
     each = ", ".join(f"{count} {verdict}" for verdict, count in sorted(cells.items()))
     rate = cells.total() / (perf_counter() - began)
-    left = {what: shares.get(what, Fraction(0)) for what in _OPEN}
+    left = {what: shares.get(what, Fraction(0)) for what in (_OPEN, NOT_YET, LEFT_OUT)}
     told = ", ".join(f"{what.lower()} {ceil_text(share)}" for what, share in left.items())
     said = (
         f"{name}: an atlas of {each} cells, all as their certificates prove; of the area {told}; "
         f"{rate:.0f} cells a second"
     )
-    return [said], bool(left[Verdict.UNDECIDED.value] or left[NOT_YET])
+    return [said], bool(left[_OPEN] or left[NOT_YET])
 
 
 def _lines(first: bytes, file: BinaryIO) -> Iterator[str]:

@@ -13,9 +13,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import IO, Any, NamedTuple, NoReturn
 
-from proofs import __version__
 from proofs.shell.entry import USAGE_ERROR
 from proofs.trusted.verdicts import Verdict
+from proofs.version import VERSION
 
 _LINE = 100  # of a claim
 _WIDTH = 80  # where there is no terminal
@@ -36,7 +36,7 @@ class Arguments(ArgumentParser):
         super().__init__(
             f"python -m {prog}", description=description, epilog=epilog, formatter_class=_Help
         )
-        self.add_argument("--version", action="version", version=f"impact-proofs {__version__}")
+        self.add_argument("--version", action="version", version=f"impact-proofs {VERSION}")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Refuse an option that is given twice: argparse would take the last one, and say nothing.
