@@ -66,8 +66,9 @@ class Map:
         self.box: dict[str, Sequence[Exact]] = {}
         try:
             self._kernel = Derivation(self.functions).map(function)
-        except Malformed as error:
-            raise GrammarError(str(error).partition(": ")[2]) from None
+        except (Malformed, Unproved) as error:
+            reason = str(error)
+            raise GrammarError(reason.partition(": ")[2] if reason[0] == "$" else reason) from None
 
     @classmethod
     def _of(cls, functions: Mapping[str, Any], function: str, box: Box) -> Self:
