@@ -60,6 +60,7 @@ examples:
   python -m proofs horseshoe --json - | python -m proofs check -
   python -m proofs check reports/MANIFEST.json    every file listed there, against what is listed
   python -m proofs check runs/atlas/atlas.jsonl --jobs 2     every cell of an atlas
+  python -m proofs check reports/horseshoe.json --trust
   python -m proofs check --rules                  what may be inferred, and from what
 """
 
@@ -73,6 +74,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
     help_text = f"how much work a file may take, all of a list twice that (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
+    help_text = "for each claim the files of the checker that it rests on, and their lines"
+    parser.add_argument("--trust", action="store_true", help=help_text)
     jobs = "processes that check the cells of an atlas (default 1)"
     parser.add_argument("--jobs", type=_work, default=1, metavar="N", help=jobs)
     options = parser.parse_args(arguments)
@@ -82,8 +85,25 @@ def main(arguments: list[str] | None = None) -> int:
         print(fitted(specification(), sys.stdout), end="")
     elif not options.files:
         parser.error("no file to check")
+    if options.trust:
+        return max((_trust(path, options.work) for path in options.files), default=0)
     checks = (check_file(path, options.work, options.quiet, options.jobs) for path in options.files)
     return max(checks, default=0)
+
+
+def _trust(path: Path, work: int) -> int:
+    """Say what each claim of a certificate rests on, if all is accepted; return the status."""
+    from proofs.shell.trust import trusted_for
+
+    status = check_file(path, work, is_quiet=True)
+    if status < 2:
+        with opened(path) as file:
+            source = decoded(file.read(MAX_BYTES + 1))
+        if schema_of(source) in FOLDERS:
+            return _refused(2, f"{printable(path)}: --trust is about a certificate, not a list")
+        for each in trusted_for(source, work):
+            say(each.told)
+    return status
 
 
 def _work(text: str) -> int:
