@@ -104,7 +104,7 @@ class LocalMap:
         name = f"`{self.map.name}`"
         name = name if self.power == 1 else f"the iterate {name}^{self.power}"
         lifts = [
-            f"`{self.map.variables[circle.place]}` less {turns} periods"
+            f"`{self.map.variables[circle.place]}` less {counted(turns)}"
             for circle, turns in zip(self.map.circles, self.turns, strict=True)
             if turns
         ]
@@ -125,6 +125,11 @@ class LocalMap:
     def _points(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         rows = zip(self.source.centre, _rows(self.source.matrix, x), strict=True)
         return [add(rational(c, x[0].bits), row, x) for c, row in rows]
+
+
+def counted(turns: int) -> str:
+    """Write a number of periods."""
+    return f"{turns} period" if turns == 1 else f"{turns} periods"
 
 
 def turned(map_: Map, x: Sequence[Enclosure], turns: Sequence[int]) -> list[Enclosure]:

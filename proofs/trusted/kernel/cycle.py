@@ -12,7 +12,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.contractor import Point
-from proofs.trusted.kernel.covers import MAX_POWER, images, read_turns
+from proofs.trusted.kernel.covers import MAX_POWER, counted, images, read_turns
 from proofs.trusted.kernel.enclose import (
     Box,
     Matrix,
@@ -48,7 +48,7 @@ class PeriodicOrbit(Conclusion):
         """Return the statement."""
         map_, place = self.function, box_text(self.box, self.function.variables)
         turned = [
-            f"`{map_.variables[circle.place]}` having increased by {turns} periods"
+            f"`{map_.variables[circle.place]}` having increased by {counted(turns)}"
             for circle, turns in zip(map_.circles, self.turns, strict=True)
         ]
         orbit = (

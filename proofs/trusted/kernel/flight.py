@@ -263,13 +263,20 @@ class _Search:
                 leaves = stays = falls = False
             if not (stays or falls):
                 if step < _SHORTEST:
-                    why = f"the time {show(round(low, 6))}" if low else "the launch"
-                    raise Unproved(f"a graze is not excluded at {why}, {_place(self.x)}")
+                    raise Unproved(f"{self._reason(low)}, {_place(self.x)}")
                 step /= 2
                 continue
             falling = None if stays or after > 0 else low if falling is None else falling
             yield low if falling is None else falling, high, falling is not None
             low, step, least, leaving = high, 2 * step, after, leaves
+
+    def _reason(self, low: Fraction) -> str:
+        """Say why no step after a time is proved."""
+        if low:
+            return f"a graze is not excluded at the time {show(round(low, 6))}"
+        if self.gap.order and self._of((low, low), self.gap.order).hi < 0:
+            return "the gap is < 0 right after launch: such a state does not leave the wall"
+        return "it is not proved that the gap is > 0 right after launch"
 
     def _of(self, time: Range, order: int) -> Enclosure:
         t = Enclosure.of(*time, self.x[0].bits)

@@ -230,7 +230,7 @@ TRUTHS = [
     ("a ball", ball(values=["v", "phi"], periods={}), LAUNCH, 2),
 ]
 NOT_0 = "a gap is not proved > 0 at launch"
-LEAVES, GRAZE = "a graze is not excluded at the launch", "a graze is not excluded at the time 1,"
+LEAVES, GRAZE = "right after launch", "a graze is not excluded at the time 1,"
 OTHER = "another gap is not proved > 0 until the impact"
 UNKNOWNS = "unknowns of lower order alone"
 SOLVES, STARTS = "not proved to solve this equation", "not proved to start so"

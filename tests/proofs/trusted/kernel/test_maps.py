@@ -141,7 +141,7 @@ def golden_mean(**changes):
 def test_turns_are_those_of_a_relation():
     """From one set the map turns by 0, from the other one by 1."""
     said = proved(FOUR, golden_mean()).sentence
-    assert "N1 => N1, N1 => N2 under `F`; N2 => N1 under `F` (`x` less 1 periods)" in said
+    assert "N1 => N1, N1 => N2 under `F`; N2 => N1 under `F` (`x` less 1 period)" in said
     assert "at least log(2)/2" in said
 
 
