@@ -244,7 +244,9 @@ class _Search:
                 continue
             falling = None if stays or after > 0 else low if falling is None else falling
             yield low if falling is None else falling, high, falling is not None
-            low, step, least, leaving = high, 2 * step, after, leaves
+            # where the gap may be 0 at `high`, its window is to end soon after that
+            step = step / 16 if falling == low else 2 * step
+            low, least, leaving = high, after, leaves
 
     def _of(self, time: Range, order: int) -> Enclosure:
         t = Enclosure.of(*time, self.x[0].bits)
