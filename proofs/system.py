@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from importlib.resources import files
 from pathlib import Path
@@ -19,8 +20,18 @@ from intervals import Undecided
 from proofs.map import Ends, Map, ends_of, optional
 from proofs.methods.grammar import GrammarError, canonical, name
 from proofs.theorem import Theorem
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 
 _HEAD = {"variables", "time", "motion", "impact"}
+_BITS = 128  # of what a launch does
+_ADVICE = {  # what a reason means in the motion, and the next step
+    "a graze is not excluded at the launch": "where impacts get slower and slower, as in chatter, "
+    "none of them is next to a launch like that; give states that leave the wall faster",
+    "a graze": "the motion may touch a wall there; give fewer states, or ones away from the touch",
+    "no impact": "the mass may never hit a wall again; look at its gap for late times",
+    "another gap": "two walls may be hit at once; give fewer states",
+    "the impact is not": "the motion may touch the wall there; give fewer states",
+}
 _MORE = {"title", "source", "units", "parameters", "periods", "region"}
 
 
@@ -108,7 +119,30 @@ class System(Map):
                 return self._image(timed, "Impact", state)
             except Undecided as error:
                 reason = error
-        raise reason
+        raise Undecided(self._said(timed.map("Impact"), state, str(reason)))
+
+    def _said(self, flight: Any, state: Mapping[str, Ends], why: str) -> str:
+        """Return why no next impact is proved, what that is in the motion, and what to do."""
+        from proofs.trusted.kernel.enclose import enclosed
+
+        x = enclosed(tuple(ends_of(state[each]) for each in self.variables), _BITS)
+        for gap in flight.gaps:
+            with suppress(Unproved):
+                (opens,) = flight.on(
+                    gap.orders[gap.order : gap.order + 1], x, Enclosure(0, 0, _BITS)
+                )
+                if opens.hi < 0 and gap.order:
+                    return (
+                        f"a gap closes right after the launch: the mass is pressed against a wall, "
+                        "where it rests or sticks, or the state is one before an impact; give one "
+                        f"after it, with which the gap opens ({why})"
+                    )
+                if opens.hi < 0:
+                    return f"a gap is negative at launch: give a state between the walls ({why})"
+        for begins, advice in _ADVICE.items():
+            if why.startswith(begins):
+                return f"{why}: {advice}"
+        return why
 
 
 class _Read:

@@ -21,7 +21,7 @@ from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
 _STEPS, _NEAR = 12, 1e-9  # of Newton's method
-_RADII = ("1/1000000000", "1/10000000", "1/100000")  # of boxes around periodic points
+_RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _WIDE = ("1/10000", "1/1000", "1/100")  # where parameters have ranges
 
 
