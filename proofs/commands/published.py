@@ -109,7 +109,7 @@ def _systems() -> list[Published]:
             billiard,
             {
                 **{name: partial(_again, billiard, name) for name in _BILLIARD},
-                "orbits-2-lossy": lambda: _again(inelastic, _BILLIARD[0]),
+                "orbits-2-lossy": lambda: _again(inelastic, *_BILLIARD[:2]),
                 "first-impact": lambda: lossy.impact(
                     s=("0.770007346", "0.770007348"),
                     x=("-0.000000001", "0.000000001"),
@@ -185,7 +185,7 @@ def _systems() -> list[Published]:
 
 
 def _maps() -> list[Published]:
-    henon = Map("1 - a*x^2 + y", "b*x", a="1.4", b="0.3")
+    henon = Map("1 - 1.4*x^2 + y", "0.3*x")
     logistic, window = Map("r*x*(1 - x)", r="5"), Map("r*x*(1 - x)", r="3.83")
     turned = {"x": "2*pi", "y": "2*pi"}
     standard = Map("x + k*sin(y)", "x + y + k*sin(y)", k="6", periods=turned)
@@ -217,9 +217,7 @@ def _maps() -> list[Published]:
             "(1976); Z. Galias, Int. J. Bifurcation Chaos 11 (2001): their texts could not be had",
             henon,
             {
-                "periodic-orbits": lambda: Map("1 - 1.4*x^2 + y", "0.3*x").periodic_orbits(
-                    6, {"x": ("-1.5", "1.5"), "y": ("-0.5", "0.5")}
-                ),
+                "periodic-orbits": lambda: henon.periodic_orbits(6, square),
                 "horseshoe": lambda: henon.horseshoe(longest=7),
             },
             [
@@ -259,10 +257,9 @@ def _of(
     return Published(name, system.title, system.notes["source"], system, asked, beside, omitted)
 
 
-def _again(billiard: System, name: str) -> Theorem:
-    """Prove the orbits of period 2 next to those of a certificate, to some decimals."""
-    boxes = [
-        e.box for e in theorem(FOLDER / f"billiard/{name}.json") if isinstance(e, PeriodicOrbit)
-    ]
+def _again(billiard: System, *names: str) -> Theorem:
+    """Prove the orbits of period 2 next to those of certificates, to some decimals."""
+    known = [each for name in names for each in theorem(FOLDER / f"billiard/{name}.json")]
+    boxes = [each.box for each in known if isinstance(each, PeriodicOrbit)]
     middles = [[f"{float(sum(side)) / 2:.12f}" for side in box] for box in boxes]
     return billiard.orbits(2, near=[dict(zip("sxvw", x, strict=True)) for x in middles])

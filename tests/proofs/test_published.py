@@ -35,15 +35,14 @@ def test_a_page_says_what_its_certificates_conclude(name, theorems):
 
 
 def test_certificates_are_about_the_systems_of_their_pages():
+    """Other numbers for parameters aside: these are in the closed forms, too."""
     for name, file in FILES:
         functions = json.loads((ROOT / FOLDER / name / f"{file}.json").read_text())["functions"]
         own = PAGES[name].system.functions
-        assert {*functions} <= {*own, "Impact", "F"}
+        assert {*functions} <= {*own, "Impact"}
         for key in {*functions} & {*own}:
-            same = {k: v for k, v in functions[key].items() if k != "parameters"}
-            assert name == "henon" or same == {
-                k: v for k, v in own[key].items() if k != "parameters"
-            }
+            parts = {"variables", "periods", "gaps", "values", "maps"} & {*own[key]}
+            assert parts and all(functions[key][part] == own[key][part] for part in parts)
 
 
 def test_nothing_else_is_there_and_it_is_small():
