@@ -172,6 +172,20 @@ def test_a_horseshoe_of_the_bouncing_ball():
     assert (entropy.growth, entropy.length) == (2, 1) and not cone.forward
 
 
+@pytest.mark.parametrize(
+    ("name", "state", "told"),
+    [
+        ("bouncing-ball", {"phi": "1.02", "v": "-3"}, "closes right after the launch"),
+        ("bouncing-ball", {"phi": "0", "v": "1"}, "chatter"),
+        ("two-walls", {"a": "0", "v": "3"}, "rests or sticks"),
+    ],
+)
+def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, state, told):
+    with pytest.raises(Undecided, match=told) as reason:
+        System.example(name).impact(**state)
+    assert "give" in str(reason.value) and "\n" not in str(reason.value)
+
+
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
