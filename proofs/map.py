@@ -102,12 +102,15 @@ class Map:
         """Enclose where the map takes a point, or a box: image(x="0.2", y=("0", "0.1"))."""
         return self._image(self._derivation(), self.function, state)
 
-    def orbits(self, period: int = 1, box: Box | None = None) -> Theorem:
+    def orbits(
+        self, period: int = 1, box: Box | None = None, near: Sequence[Mapping[str, Exact]] = ()
+    ) -> Theorem:
         """Prove the periodic orbits of a least period that are found; there may be others.
 
+        near: states next to which they are looked for, instead of points at random in a box.
         `periodic_orbits` has all of them, for a formula.
         """
-        cycles = self._cycles(period, box)
+        cycles = self._cycles(period, box, near)
         return self._proved(cycles, f"no orbit of the least period {period} is found and proved")
 
     def stable(self, longest: int = 8, box: Box | None = None) -> Theorem:
@@ -171,13 +174,18 @@ class Map:
             raise Undecided(otherwise)
         return _theorem(file, steps)
 
-    def _cycles(self, period: int, box: Box | None) -> list[Any]:
-        from proofs.methods.newton import cycles, seeds
+    def _cycles(
+        self, period: int, box: Box | None, near: Sequence[Mapping[str, Exact]] = ()
+    ) -> list[Any]:
+        from proofs.methods.newton import as_points, cycles, seeds
 
         if not isinstance(period, int) or not 1 <= period <= 60:
             raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
         sampled = self._sampled
-        starts = seeds(sampled, self.region(box), _SEEDS * period)
+        if near:
+            starts = as_points([[exact(state[each]) for each in self.variables] for state in near])
+        else:
+            starts = seeds(sampled, self.region(box), _SEEDS * period)
         return cycles(sampled, period, starts)
 
     def sample(self) -> Any:

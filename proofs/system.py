@@ -21,6 +21,17 @@ from proofs.methods.grammar import GrammarError, canonical, name
 from proofs.theorem import Theorem
 
 _HEAD = {"variables", "time", "motion", "impact"}
+_ADVICE = {  # what a reason means in the motion, and the next step
+    "the gap is < 0 right after launch": "the mass is pressed against a wall, where it rests or "
+    "sticks, or the state is one before an impact; give one after it, with which the gap opens",
+    "it is not proved that the gap is > 0": "where impacts get slower and slower, as in chatter, "
+    "none of them is next to a launch like that; give states that leave the wall faster",
+    "a gap is not proved > 0 at launch": "give a state between the walls",
+    "a graze": "the motion may touch a wall there; give fewer states, or ones away from the touch",
+    "no impact": "the mass may never hit a wall again; look at its gap for late times",
+    "another gap": "two walls may be hit at once; give fewer states",
+    "the impact is not": "the motion may touch the wall there; give fewer states",
+}
 _MORE = {"title", "source", "units", "parameters", "periods", "region"}
 
 
@@ -108,7 +119,8 @@ class System(Map):
                 return self._image(timed, "Impact", state)
             except Undecided as error:
                 reason = error
-        raise reason
+        advice = (x for begins, x in _ADVICE.items() if str(reason).startswith(begins))
+        raise Undecided(": ".join([str(reason), *advice][:2]))
 
 
 class _Read:

@@ -59,12 +59,14 @@ def _shadow(sampled: Sampled, symbols: Sequence[Floats], word: Sequence[int]) ->
     x = np.array([symbols[k] for k in word])
     count, n = x.shape
     for _ in range(30):
-        defect, matrix = np.zeros(n * count), np.zeros((n * count, n * count))
-        for i, point in enumerate(x):
+        images, derivatives = sampled.expanded(x.T)
+        missed = images - np.roll(x, -1, axis=0)
+        defect = (missed - whole_periods(sampled, missed)).ravel()
+        matrix = np.zeros((n * count, n * count))
+        for i in range(count):
             j = (i + 1) % count
-            rows, image = slice(i * n, (i + 1) * n), sampled(point[:, None])[:, 0] - x[j]
-            defect[rows] = image - whole_periods(sampled, image)
-            matrix[rows, rows] += sampled.jacobian(point)
+            rows = slice(i * n, (i + 1) * n)
+            matrix[rows, rows] += derivatives[i]
             matrix[rows, j * n : (j + 1) * n] -= np.eye(n)
         if not (np.isfinite(defect).all() and np.isfinite(matrix).all()):
             break
@@ -93,7 +95,12 @@ def _sides(
     sampled: Sampled, centres: Floats, matrices: Floats, arrows: Sequence[tuple[int, int]]
 ) -> Floats:
     """Return the least sides, by iteration from small ones; they grow."""
-    linear = [(i, j, *_between(sampled, centres, matrices, i, j)) for i, j in arrows]
+    images, derivatives = sampled.expanded(centres.T)
+    linear = []
+    for i, j in arrows:
+        back, apart = np.linalg.inv(matrices[j]), images[i] - centres[j]
+        apart = apart - whole_periods(sampled, apart)
+        linear.append((i, j, back @ apart, back @ derivatives[i] @ matrices[i]))
     sides = np.full(centres.shape, _LEAST)
     for _ in range(200):
         grown = sides.copy()
@@ -110,16 +117,6 @@ def _sides(
             break
         sides = grown
     raise Undecided("the sides of the sets grow without end")
-
-
-def _between(
-    sampled: Sampled, centres: Floats, matrices: Floats, i: int, j: int
-) -> tuple[Floats, Floats]:
-    """Return the image of one centre and the derivative there in the coordinates of another set."""
-    back = np.linalg.inv(matrices[j])
-    apart = sampled(centres[i][:, None])[:, 0] - centres[j]
-    apart = apart - whole_periods(sampled, apart)
-    return back @ apart, back @ sampled.jacobian(centres[i]) @ matrices[i]
 
 
 def laps(sampled: Sampled, side: Range) -> Frames:
@@ -179,16 +176,3 @@ def crossing(sampled: Sampled, candidates: Frames) -> float:
             if not (margin > 0 and len({*np.sign(ends)}) == 1):
                 raise Undecided("the image of a set does not cross another one")
     return margin
-
-
-@dataclass(frozen=True)
-class Power(Sampled):
-    """An iterate of a map, in floating point."""
-
-    power: int = 1
-
-    def __call__(self, x: Floats) -> Floats:
-        """Return the images."""
-        for _ in range(self.power):
-            x = Sampled.__call__(self, x)
-        return x

@@ -10,6 +10,8 @@ from typing import Any
 from intervals import Undecided
 from proofs.methods import derive
 
+_HINT = "nth_linear_constant_coeff_"  # sympy's matching of other kinds may go on for ever
+
 
 def closed_form(
     name: str, time: str, equation: str, start: Sequence[str], numbers: Mapping[str, Fraction]
@@ -34,7 +36,9 @@ def closed_form(
         raise Undecided(f"the equation of {name} is not linear with constant coefficients")
     moving = right.subs({rate: y.diff(t, k) for k, rate in enumerate(rates)})
     try:
-        general = sympy.dsolve(sympy.Eq(y.diff(t, n), moving), y).rhs
+        forced = right.subs(dict.fromkeys(rates, 0)) != 0
+        hint = _HINT + ("undetermined_coefficients" if forced else "homogeneous")
+        general = sympy.dsolve(sympy.Eq(y.diff(t, n), moving), y, hint=hint).rhs
     except (NotImplementedError, ValueError, TypeError):
         raise Undecided(f"sympy finds no closed form of {name}") from None
     constants = sorted(general.free_symbols - right.free_symbols - {t}, key=str)

@@ -12,7 +12,7 @@ from intervals import Interval, Undecided
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.derivation import Derivation
 from proofs.methods.periodic import periodic_orbits
-from proofs.methods.sampling import Floats, Sampled
+from proofs.methods.sampling import Floats, Power, Sampled
 from proofs.methods.symbolic import RADIUS, orbit_witness
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -21,8 +21,8 @@ from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
 _STEPS, _NEAR = 12, 1e-9  # of Newton's method
-_RADII = ("1/1000000000", "1/10000000", "1/100000")  # of boxes around periodic points
-_WIDE = ("1/1000", "1/100")  # where parameters have ranges
+_RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
+_WIDE = ("1/10000", "1/1000", "1/100")  # where parameters have ranges
 
 
 class Cycle(NamedTuple):
@@ -48,16 +48,11 @@ def cycles(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
 
     starts: of the shape (variables, points).
     """
-    n = len(starts)
-    x, units = starts.copy(), 1e-6 * np.eye(n)
+    iterate, x = Power(sampled.map, period), starts.copy()
     with np.errstate(all="ignore"):
         for _ in range(_STEPS):
-            moved = [x + s * u[:, None] for u in units for s in (1, -1)]
-            ends = iterated(sampled, np.concatenate([x, *moved], axis=1), period)
-            image, *others = np.split(ends, 2 * n + 1, axis=1)
-            columns = [(a - b) / 2e-6 for a, b in zip(others[::2], others[1::2], strict=True)]
-            matrix = np.moveaxis(np.array(columns), 2, 0).swapaxes(1, 2) - np.eye(n)
-            missed = (image - x).T
+            image, derivatives = iterate.expanded(x)
+            matrix, missed = derivatives - np.eye(len(x)), image - x.T
             step = _solved(matrix, missed - whole_periods(sampled, missed)).T
             x = x - step
         good = (np.abs(step) < _NEAR * (1 + np.abs(x))).all(axis=0) & np.isfinite(x).all(axis=0)
@@ -110,8 +105,8 @@ def distance(sampled: Sampled, x: Floats, y: Floats) -> float:
 def along_orbit(sampled: Sampled, points: Floats) -> Floats:
     """Return the product of the derivatives along an orbit."""
     product_ = np.eye(points.shape[1])
-    for point in points:
-        product_ = sampled.jacobian(point) @ product_
+    for derivative in sampled.expanded(points.T)[1]:
+        product_ = derivative @ product_
     return product_
 
 
@@ -127,6 +122,11 @@ def seeds(sampled: Sampled, box: Sequence[Range], count: int, steps: int = 20) -
     low, high = np.array(box, float).T
     x = low[:, None] + (high - low)[:, None] * rng.random((len(box), count))
     return np.concatenate([x, _settled(sampled, x, steps)], axis=1)
+
+
+def as_points(states: Sequence[Sequence[Fraction]]) -> Floats:
+    """Return states as columns of floats."""
+    return np.array(states, float).T
 
 
 def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:

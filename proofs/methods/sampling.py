@@ -21,6 +21,7 @@ Function = Callable[..., Sequence[Any]]
 _BITS = 64  # of periods
 _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
+_APART = 1e-6  # of points for differences
 
 _OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
 
@@ -82,11 +83,17 @@ class Sampled:
         """Return the whole periods in the angles of points."""
         return np.floor(x / self.periods[:, None])
 
-    def jacobian(self, x: Floats) -> Floats:
-        """Return the derivatives at one point, by differences."""
-        steps = 1e-6 * np.eye(len(x))
-        ends = self(np.concatenate([x[:, None] + steps, x[:, None] - steps], axis=1))
-        return np.asarray((ends[:, : len(x)] - ends[:, len(x) :]) / 2e-6)
+    def expanded(self, x: Floats) -> tuple[Floats, Floats]:
+        """Return the images of points, of the shape (points, n), and the derivatives there.
+
+        All of them in one call, since a call costs more than its points.
+        """
+        n, count = x.shape
+        moves = [s * unit[:, None] for unit in np.eye(n) for s in (_APART, -_APART)]
+        ends = self(np.concatenate([x, *(x + move for move in moves)], axis=1))
+        image, *others = ends.reshape(n, 2 * n + 1, count).swapaxes(0, 1)
+        columns = [(a - b) / (2 * _APART) for a, b in zip(others[::2], others[1::2], strict=True)]
+        return image.T, np.moveaxis(np.array(columns), 2, 0).swapaxes(1, 2)
 
     def _images(self, map_: Map, x: Floats) -> Floats:
         if isinstance(map_, Composition):
@@ -149,3 +156,16 @@ class Sampled:
     @cached_property
     def _compiled(self) -> dict[tuple[int, tuple[int, ...]], Function]:
         return {}
+
+
+@dataclass(frozen=True)
+class Power(Sampled):
+    """An iterate of a map, in floating point."""
+
+    power: int = 1
+
+    def __call__(self, x: Floats) -> Floats:
+        """Return the images."""
+        for _ in range(self.power):
+            x = Sampled.__call__(self, x)
+        return x

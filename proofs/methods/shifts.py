@@ -13,9 +13,9 @@ import numpy as np
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import Tree, inverse, subdivide
-from proofs.methods.frames import Frames, Power, crossing, frames, laps
+from proofs.methods.frames import Frames, crossing, frames, laps
 from proofs.methods.newton import distance, iterated
-from proofs.methods.sampling import Floats, Sampled
+from proofs.methods.sampling import Floats, Power, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.cones import check_cone
@@ -23,12 +23,14 @@ from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import Box, attempts, enclosed
 from proofs.trusted.kernel.graph import Graph
 from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Range, hull
 
 _BITS = 64
-_MOST_BOXES = 400  # of a tree
+_MOST_BOXES = 128  # of a tree
 _WEIGHTS = ("1", "4", "1/4", "16")  # of stable directions in cone conditions
 _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
+_WORK = 8_000_000  # of all attempts at one iterate
 _PARTS = 16  # of an h-set, on which derivatives are enclosed
 _CUBE = (Fraction(-1), Fraction(1))
 
@@ -203,11 +205,15 @@ def find_horseshoe(
     saddles: points over which sets are looked for, neighbours first. Returns the steps.
     """
     sampled, reason = Power(file.map(function), power), "no candidate is seen"
-    for candidates in shifts(sampled, saddles, box):
-        kept = {*file.steps}
-        try:
-            return prove_shift(file, function, power, candidates, 2)
-        except (Undecided, Unproved) as error:
-            reason = str(error)
-            file.forget({*file.steps} - kept)
+    with metered(_WORK):
+        for candidates in shifts(sampled, saddles, box):
+            kept = {*file.steps}
+            try:
+                return prove_shift(file, function, power, candidates, 2)
+            except (Undecided, Unproved, Exhausted) as error:
+                is_late = isinstance(error, Exhausted)
+                reason = "candidates take too long to prove" if is_late else str(error)
+                file.forget({*file.steps} - kept)
+                if is_late:
+                    break
     raise Undecided(f"no horseshoe is found: {reason}")

@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -154,10 +155,35 @@ def test_the_next_impact_of_the_bouncing_ball():
         assert float(low) - 2e-4 <= value <= float(high) + 2e-4 and high - low < 1e-9
 
 
+def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
+    """Church and Fortin's table for (1, 1, 1) has it: impacts at 1/4 and 3/4, steps of times."""
+    near = {"s": "0.25", "x": "-0.69178462", "v": "-4.85072416", "w": "-3.50594969"}
+    (orbit,) = accepted(System.example("billiard").orbits(2, near=[near]))
+    assert orbit.turns == (1,)
+    assert all(
+        abs(sum(side) / 2 - Fraction(near[x])) < 1e-7
+        for side, x in zip(orbit.box, "sxvw", strict=True)
+    )
+
+
 @pytest.mark.slow
 def test_a_horseshoe_of_the_bouncing_ball():
     entropy, cone = accepted(BALL.horseshoe())
     assert (entropy.growth, entropy.length) == (2, 1) and not cone.forward
+
+
+@pytest.mark.parametrize(
+    ("name", "state", "told"),
+    [
+        ("bouncing-ball", {"phi": "1.02", "v": "-3"}, "rests or sticks"),
+        ("bouncing-ball", {"phi": "0", "v": "1"}, "chatter"),
+        ("two-walls", {"a": "0", "v": "3"}, "rests or sticks"),
+    ],
+)
+def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, state, told):
+    with pytest.raises(Undecided, match=told) as reason:
+        System.example(name).impact(**state)
+    assert "give" in str(reason.value) and "\n" not in str(reason.value)
 
 
 def test_orbits_with_two_walls():

@@ -247,7 +247,7 @@ class _Search:
     def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, bool]]:
         """Iterate over low < high, and whether the gap falls between; else gap > 0 on (0, high]."""
         low, step, leaving = Fraction(0), _FIRST_STEP, self.gap.order > 0
-        least, falling = self._at(low).lo, None
+        least, falling, is_new = self._at(low).lo, None, True
         if not leaving and least <= 0:
             raise Unproved(f"a gap is not proved > 0 at launch, {_place(self.x)}")
         while low < end:
@@ -266,9 +266,12 @@ class _Search:
                     raise Unproved(f"{self._reason(low)}, {_place(self.x)}")
                 step /= 2
                 continue
+            if falls and falling is None and is_new and after <= 0 <= self._at(high).hi:
+                step, is_new = step * 3 / 4, False  # `high` is next to the impact: not the best end
+                continue
             falling = None if stays or after > 0 else low if falling is None else falling
             yield low if falling is None else falling, high, falling is not None
-            low, step, least, leaving = high, 2 * step, after, leaves
+            low, step, least, leaving, is_new = high, 2 * step, after, leaves, True
 
     def _reason(self, low: Fraction) -> str:
         """Say why no step after a time is proved."""
