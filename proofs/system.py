@@ -112,15 +112,15 @@ class System(Map):
 
         if wall and wall not in self.walls:
             raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
-        reason, before = Undecided("there is no wall"), self.walls.index(wall) if wall else 0
+        before, reasons = self.walls.index(wall) if wall else 0, []
         for after in range(len(self.walls)):
             timed = Derivation({"Impact": self._file.flight(before, after, timed=True)})
             try:
                 return self._image(timed, "Impact", state)
             except Undecided as error:
-                reason = error
-        advice = (x for begins, x in _ADVICE.items() if str(reason).startswith(begins))
-        raise Undecided(": ".join([str(reason), *advice][:2]))
+                reasons.append(str(error))
+        told = (f"{why}: {advice}" for x, advice in _ADVICE.items() for why in reasons if x in why)
+        raise Undecided(next(told, reasons[-1]))
 
 
 class _Read:
