@@ -32,10 +32,10 @@ class Derivation:
 
     def add(self, rule: str, witness: Mapping[str, Any]) -> str:
         """Add a step that its rule concludes, and return its name; raises Unproved otherwise."""
-        derive, number = find_rule(rule), 1 + sum(x["rule"] == rule for x in self.steps.values())
+        derive, kind = find_rule(rule), rule.removeprefix("formula-")
         if derive is None:
             raise ValueError(f"no rule {rule}")
-        name = f"{rule}-{number}"
+        name = f"{kind}-{1 + sum(x['rule'] == rule for x in self.steps.values())}"
         self.context.known[name] = derive(self.context, Reader(dict(witness)))
         self.steps[name] = {"rule": rule, "witness": dict(witness)}
         return name

@@ -9,7 +9,7 @@ from typing import Any
 
 import intervals
 from intervals import Interval, IntervalError, Undecided
-from proofs.trusted.kernel.covers import HSet, Rows
+from proofs.trusted.kernel.covers import Rows
 from proofs.trusted.kernel.enclose import ARITHMETIC, Box, centre_of, point_box
 from proofs.trusted.kernel.formulas import Formulas
 
@@ -51,75 +51,23 @@ def jacobian(formula: Formulas, x: Values, roots: tuple[int, ...] | None = None)
     return [values(formula, x, tuple(row)) for row in rows]
 
 
-def mean_value_form(
-    of: Callable[[Values], Values], derivatives: Callable[[Values], Matrix], box: Box
-) -> Values:
-    """Enclose a map on a box by its natural and its mean value form."""
-    x = [Interval(*side) for side in box]
-    centre = [Interval(*side) for side in point_box(centre_of(box))]
-    result = []
-    steps = [a - m for a, m in zip(x, centre, strict=True)]
-    for whole, value, row in zip(of(x), of(centre), derivatives(x), strict=True):
-        common = whole.intersection(dot(row, steps) + value)
-        if common is None:
-            raise Undecided("two enclosures of the same values are disjoint")
-        result.append(common)
-    return result
-
-
 def dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
     """Return the sum of the products."""
     return sum((a * b for a, b in zip(row, column, strict=True)), 0)
 
 
 def enclosed(formula: Formulas, box: Box) -> Values:
-    """Enclose the components on a box."""
-    return mean_value_form(lambda x: values(formula, x), lambda x: jacobian(formula, x), box)
-
-
-@dataclass(frozen=True)
-class Local:
-    """The k-th iterate of a function from one h-set to another, in their coordinates."""
-
-    formula: Formulas
-    power: int
-    source: HSet
-    target: HSet
-
-    def values(self, q: Values) -> Values:
-        """Enclose B^-1 (F^k(c + A q) - d)."""
-        points = self._points(q)
-        for _ in range(self.power):
-            points = values(self.formula, points)
-        moved = [p - d for p, d in zip(points, self.target.centre, strict=True)]
-        return [dot(row, moved) for row in self.target.inverse]
-
-    def jacobian(self, q: Values) -> Matrix:
-        """Enclose the derivatives, by the chain rule."""
-        points, product = self._points(q), [list(row) for row in self.source.matrix]
-        _, product = followed(self.formula, points, product, self.power)
-        return multiply(self.target.inverse, product)
-
-    def on(self, box: Box) -> Values:
-        """Enclose the map on a box of coordinates."""
-        return mean_value_form(self.values, self.jacobian, box)
-
-    def _points(self, q: Values) -> Values:
-        pairs = zip(self.source.matrix, self.source.centre, strict=True)
-        return [dot(row, q) + c for row, c in pairs]
-
-
-def followed(formula: Formulas, x: Values, first: Any, power: int) -> tuple[Values, Any]:
-    """Enclose F^k(x), and the derivative of F^k there times a matrix (chain rule)."""
-    for _ in range(power):
-        x, first = values(formula, x), multiply(jacobian(formula, x), first)
-    return x, first
-
-
-def multiply(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> list[list[Any]]:
-    """Return a product of matrices."""
-    columns = list(zip(*b, strict=True))
-    return [[dot(row, column) for column in columns] for row in a]
+    """Enclose the components on a box by the natural and the mean value form."""
+    x = [Interval(*side) for side in box]
+    centre = [Interval(*side) for side in point_box(centre_of(box))]
+    steps, result = [a - m for a, m in zip(x, centre, strict=True)], []
+    parts = (values(formula, x), values(formula, centre), jacobian(formula, x))
+    for whole, value, row in zip(*parts, strict=True):
+        common = whole.intersection(dot(row, steps) + value)
+        if common is None:
+            raise Undecided("two enclosures of the same values are disjoint")
+        result.append(common)
+    return result
 
 
 def inverse(matrix: Rows) -> Rows:

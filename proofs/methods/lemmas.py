@@ -100,9 +100,9 @@ def solution_witness(found: Expressions) -> dict[str, Any]:
 
 @dataclass
 class Lemmas:
-    """A lemma file in the making: functions {name: (variables, texts)}, and its steps."""
+    """A lemma file in the making: functions {name: (variables, texts) or JSON}, and its steps."""
 
-    functions: Mapping[str, tuple[Sequence[str], Sequence[str]]] = field(default_factory=dict)
+    functions: Mapping[str, Any] = field(default_factory=dict)
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def document(self, *claims: str) -> dict[str, Any]:
@@ -111,18 +111,22 @@ class Lemmas:
         return {
             "schema": SCHEMA,
             "parameters": None,
-            "functions": {name: self._json(name) for name in self.functions},
+            "functions": {name: self.json(name) for name in self.functions},
             "steps": self.steps,
             "claims": list(claims) or named,
         }
 
-    def _json(self, name: str) -> dict[str, Any]:
-        variables, texts_of = self.functions[name]
+    def json(self, name: str) -> Mapping[str, Any]:
+        """Return a function as it is written in a file."""
+        function = self.functions[name]
+        if isinstance(function, Mapping):
+            return function
+        variables, texts_of = function
         return {"variables": list(variables), "values": list(texts_of)}
 
     def function(self, name: str) -> Formulas:
         """Return a function as the checker reads it."""
-        return read_function(name, Reader(self._json(name)))
+        return read_function(name, Reader(self.json(name)))
 
     def add(self, rule: str, witness: dict[str, Any]) -> str:
         """Add a step, return its name."""

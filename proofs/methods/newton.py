@@ -11,16 +11,19 @@ import numpy as np
 from intervals import Interval, Undecided
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.derivation import Derivation
-from proofs.methods.periodic import periodic_orbits
+from proofs.methods.formulas import dot, inverse
+from proofs.methods.periodic import Orbit, periodic_orbits
 from proofs.methods.sampling import Floats, Power, Sampled
-from proofs.methods.symbolic import RADIUS, orbit_witness
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
 _STEPS, _NEAR = 12, 1e-9  # of Newton's method
+_BITS, _PLACE, _RADIUS = 160, Fraction(1, 10**26), Fraction(1, 10**22)  # of exact points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _WIDE = ("1/10000", "1/1000", "1/100")  # where parameters have ranges
 
@@ -178,9 +181,30 @@ def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence
         raise Undecided("all orbits are found for formulas without angles and ranges alone")
     sides = tuple(Interval(*side) for side in box)
     cover = invariant_cover(function_of(formula), Region(sides))
-    orbits = [orbit_witness(formula, each) for each in periodic_orbits(cover, period)]
+    orbits = [_orbit_witness(formula, each) for each in periodic_orbits(cover, period)]
     witness = {"function": function, "period": str(period), "box": [texts(side) for side in box]}
-    return file.add("periodic-orbits", {**witness, "radius": str(RADIUS), "orbits": orbits})
+    return file.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": orbits})
+
+
+def _orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
+    """Return a point of an orbit to many digits, by Newton's method, as the rule reads it."""
+    point, matrix = [x.mid for x in orbit.points[0]], []
+    closing = Closing(formula, orbit.period, ())
+    for _ in range(_STEPS):
+        x = enclosed(point_box(point), _BITS)
+        slopes = tuple(_middles(row) for row in closing.jacobian(x))
+        matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(slopes)]
+        missed = _middles(closing.values(x))
+        last, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
+        point = [round(x / _PLACE) * _PLACE for x in moved]
+        if point == last:
+            break
+    entries = [texts(row) for row in matrix]
+    return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
+
+
+def _middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
+    return centre_of(tuple(value.range for value in values))
 
 
 def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:

@@ -29,6 +29,7 @@ from intervals.systems import Function, jacobian
 from proofs.methods.cyclic import CyclicSystem, stacked
 from proofs.methods.periodic import Orbit
 from proofs.methods.symbolic import SymbolicLemmas
+from proofs.trusted.kernel.arithmetic import Unproved
 
 Floats = NDArray[np.floating[Any]]
 Indices = NDArray[np.intp]
@@ -115,15 +116,14 @@ def lemma(file: SymbolicLemmas, function: str, sets: Rectangles, digits: int = 9
     for i, j in sets.arrows.tolist():
         try:
             proved[i, j] = file.covers(function, 1, names[i], names[j])
-        except Undecided:
+        except (Undecided, Unproved):
             continue
     kept = _recurrent(np.array(list(proved)).reshape(-1, 2))
     if not len(kept):
         raise Undecided("no closed path of covering relations is proved")
     relations = [proved.pop((i, j)) for i, j in kept.tolist()]
     unused = [name for i, name in names.items() if i not in kept]
-    for name in (*proved.values(), *unused):
-        del file.steps[name]
+    file.forget({*proved.values(), *unused})
     return file.entropy(file.graph(relations), _LONGEST)
 
 

@@ -18,8 +18,8 @@ from proofs.methods.newton import distance, iterated
 from proofs.methods.sampling import Floats, Power, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.cones import check_cone
-from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
+from proofs.trusted.kernel.cones import Form, check_cone
+from proofs.trusted.kernel.covers import HSet, LocalMap, Rows, beyond, cube
 from proofs.trusted.kernel.enclose import Box, attempts, enclosed
 from proofs.trusted.kernel.graph import Graph
 from proofs.trusted.kernel.maps import Map
@@ -35,24 +35,30 @@ _PARTS = 16  # of an h-set, on which derivatives are enclosed
 _CUBE = (Fraction(-1), Fraction(1))
 
 
-def add_h_sets(file: Derivation, candidates: Frames) -> list[str]:
-    """Add a step `h-set` for each candidate; return their names."""
-    names = []
-    for centre, matrix in zip(candidates.centres, candidates.matrices, strict=True):
-        rows = tuple(tuple(_short(entry) for entry in row) for row in matrix)
-        witness: dict[str, Any] = {"centre": texts(tuple(_short(c) for c in centre))}
-        parts = {"matrix": rows, "inverse": inverse(rows)}
-        witness |= {name: [texts(row) for row in part] for name, part in parts.items()}
-        names.append(file.add("h-set", witness))
-    return names
+def add_h_set(file: Derivation, centre: tuple[Fraction, ...], matrix: Rows) -> str:
+    """Add a step `h-set`; the first column is the unstable direction."""
+    parts = {"matrix": matrix, "inverse": inverse(matrix)}
+    witness = {name: [texts(row) for row in part] for name, part in parts.items()}
+    return file.add("h-set", {"centre": texts(centre), **witness})
 
 
-def _short(value: float) -> Fraction:
-    return Fraction(f"{value:.6g}")
+def _short(values: Floats) -> tuple[Fraction, ...]:
+    return tuple(Fraction(f"{value:.6g}") for value in values)
 
 
-def add_covers(file: Derivation, function: str, power: int, source: str, target: str) -> str:
-    """Add a step `covers`, its trees found by halving; raises Undecided or Unproved."""
+def add_covers(
+    file: Derivation,
+    function: str,
+    power: int,
+    source: str,
+    target: str,
+    *,
+    most: int = _MOST_BOXES,
+) -> str:
+    """Add a step `covers`, its trees found by halving; raises Undecided or Unproved.
+
+    most: how many boxes a tree may have.
+    """
     one, two = (file.context.known[name] for name in (source, target))
     if not (isinstance(one, HSet) and isinstance(two, HSet)):
         raise TypeError("covers is about h-sets")
@@ -62,9 +68,9 @@ def add_covers(file: Derivation, function: str, power: int, source: str, target:
     way = 1 if tip.lo + tip.hi > 0 else -1
     ends = [((end, end), *cube(n - 1)) for end in _CUBE]
     trees = {
-        "left": _tree(local, ends[0], lambda values: beyond(values[0], -way)),
-        "right": _tree(local, ends[1], lambda values: beyond(values[0], way)),
-        "support": _tree(local, cube(n), _clear),
+        "left": _tree(local, ends[0], lambda values: beyond(values[0], -way), most),
+        "right": _tree(local, ends[1], lambda values: beyond(values[0], way), most),
+        "support": _tree(local, cube(n), _clear, most),
     }
     place = {"function": function, "power": str(power), "source": source, "target": target}
     turns = {"turns": list(map(str, local.turns))} if map_.circles else {}
@@ -84,23 +90,59 @@ def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
 
 
-def _tree(local: LocalMap, box: Box, holds: Any) -> Tree:
+def _tree(local: LocalMap, box: Box, holds: Any, most: int) -> Tree:
     def decided(part: Box) -> bool:
         return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
 
-    return subdivide(box, decided, most=_MOST_BOXES)
+    return subdivide(box, decided, most=most)
 
 
-def add_cone(file: Derivation, graph: str) -> str:
-    """Add a step `cone`, with one form for all h-sets; raises Undecided or Unproved."""
-    step = file.conclusion(graph)
+def add_entropy(file: Derivation, graph: str, longest: int) -> str:
+    """Add a step `entropy`: the best of the bounds from path lengths up to `longest`."""
+    step = _graph(file, graph)
+    vector = _perron(step.edges, len(step.nodes))
+    image, best = vector, (0.0, 1, 0)
+    for length in range(1, longest + 1):
+        image = [sum(image[j] for i, j in step.edges if i == k) for k in range(len(vector))]
+        growth = min(a // b for a, b in zip(image, vector, strict=True) if b)
+        if growth ** (1 / length) > best[0] + 1e-9:
+            best = (growth ** (1 / length), length, growth)
+    _, length, growth = best
+    if growth < 1:
+        raise Undecided("the graph has no closed path, or the vector shows none")
+    found = {"length": str(length), "vector": list(map(str, vector)), "growth": str(growth)}
+    return file.add("entropy", {"graph": graph, **found})
+
+
+def _perron(edges: Sequence[tuple[int, int]], count: int) -> list[int]:
+    """Return about a positive eigenvector of A + 1, A the matrix of a graph, in integers."""
+    vector = [1] * count
+    for _ in range(200):
+        vector = [v + sum(vector[j] for i, j in edges if i == k) for k, v in enumerate(vector)]
+        largest = max(vector)
+        if largest > 10**12:
+            vector = [v * 10**9 // largest for v in vector]
+    return vector
+
+
+def _graph(file: Derivation, name: str) -> Graph:
+    step = file.conclusion(name)
     if not isinstance(step, Graph):
-        raise TypeError("cone is about a graph")
+        raise TypeError(f"{name} is not a graph")
+    return step
+
+
+def add_cone(file: Derivation, graph: str, forms: Sequence[Form] = (), parts: int = _PARTS) -> str:
+    """Add a step `cone`, with one form for all h-sets, the first that is proved of some.
+
+    parts: how many of an h-set derivatives are enclosed on. Raises Undecided or Unproved.
+    """
+    step = _graph(file, graph)
     n = len(step.nodes[0].centre)
-    bounds = [_derivatives(cover.local, n) for cover in step.covers]
-    trees = [_halved(cube(n), _PARTS)[0]] * len(bounds)
-    for weight in map(Fraction, _WEIGHTS if n > 1 else _WEIGHTS[:1]):
-        form = (Fraction(1), *(-weight,) * (n - 1))
+    bounds = [_derivatives(cover.local, n, parts) for cover in step.covers]
+    trees = [_halved(cube(n), parts)[0]] * len(bounds)
+    usual = [(Fraction(1), *(-Fraction(weight),) * (n - 1)) for weight in _WEIGHTS]
+    for form in forms or usual[: len(_WEIGHTS) if n > 1 else 1]:
         try:
             matrices = [_cone_tree(jacobian, form) for jacobian in bounds]
         except Undecided:
@@ -115,16 +157,16 @@ def add_cone(file: Derivation, graph: str) -> str:
             }
             for jacobian, tree, part in zip(bounds, trees, matrices, strict=True)
         ]
-        forms = [texts(form)] * len(step.nodes)
-        return file.add("cone", {"graph": graph, "forms": forms, "relations": relations})
+        witness = {"forms": [texts(form)] * len(step.nodes), "relations": relations}
+        return file.add("cone", {"graph": graph, **witness})
     raise Undecided("no form of the cone condition is found")
 
 
-def _derivatives(local: LocalMap, n: int) -> Box:
+def _derivatives(local: LocalMap, n: int, parts: int) -> Box:
     """Return bounds of few digits on the derivatives on a whole h-set, row by row."""
     rows = [
         [entry.range for row in local.jacobian(enclosed(part, _BITS)) for entry in row]
-        for part in _halved(cube(n), _PARTS)[1]
+        for part in _halved(cube(n), parts)[1]
     ]
     unit = Fraction(1, 2**20)
     return tuple(
@@ -145,7 +187,7 @@ def _halved(box: Box, parts: int) -> tuple[Tree, list[Box]]:
     return [str(axis + 1), str(cut), one, two], first + second
 
 
-def _cone_tree(jacobian: Box, form: tuple[Fraction, ...]) -> Tree:
+def _cone_tree(jacobian: Box, form: Form) -> Tree:
     def decided(part: Box) -> bool:
         try:
             check_cone(part, form, form)
@@ -165,7 +207,10 @@ def prove_shift(
     growth: how many arrows lead to each set. Returns the steps of the consequences; raises
     Undecided or Unproved.
     """
-    names = add_h_sets(file, candidates)
+    names = [
+        add_h_set(file, _short(centre), tuple(map(_short, matrix)))
+        for centre, matrix in zip(candidates.centres, candidates.matrices, strict=True)
+    ]
     relations = [
         add_covers(file, function, power, names[i], names[j]) for i, j in candidates.arrows
     ]

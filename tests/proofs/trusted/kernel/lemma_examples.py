@@ -9,7 +9,6 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.kernel.values import Equal, Series
-from tests.proofs.trusted.kernel.map_lemmas import MapLemmas
 from tests.proofs.trusted.kernel.systems import BALL, RATTLE, RATTLE_BACK
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
@@ -194,10 +193,37 @@ def flips():
     return file
 
 
+def add_orbit(file, period, box, matrix, turns):
+    """A step `periodic-orbit` of the map P with one angle."""
+    rows = [[str(Fraction(entry)) for entry in row] for row in matrix]
+    witness = {"function": "P", "period": str(period), "box": box, "matrix": rows}
+    return file.add("periodic-orbit", {**witness, "turns": [turns]})
+
+
+def horseshoe(file):
+    """Words of two letters over two saddles of the ball on a table: four sets, entropy log 2."""
+    sets = {}
+    for word, centre, (u, v), (s, w) in (
+        ("00", ("1.019727", "1.570796"), ("-0.793", "1"), ("1", "-0.0676")),
+        ("11", ("-1.019727", "1.570796"), ("-0.773", "-1"), ("-1", "0.0658")),
+        ("01", ("1.158856", "1.411681"), ("-0.738", "1"), ("1", "-0.0646")),
+        ("10", ("-0.876519", "1.722933"), ("0.857", "1"), ("1", "-0.0684")),
+    ):
+        columns = [(Fraction(u), Fraction(v)), (Fraction(s), Fraction(w))]
+        sides = Fraction("0.014"), Fraction("0.04")
+        rows = [
+            [x * r for x, r in zip(row, sides, strict=True)] for row in zip(*columns, strict=True)
+        ]
+        sets[word] = file.h_set(centre, rows)
+    arrows = [(a, b) for a in sets for b in sets if a[1] == b[0]]
+    return file.entropy(file.graph([file.covers("P", 1, sets[a], sets[b]) for a, b in arrows]))
+
+
 def ball():
     """A ball on a vibrating table: a saddle of three periods, and its cones."""
-    file, start, turns = MapLemmas({"P": BALL}), (1.2512, 0.9425), (3,)
-    file.periodic_orbit("P", start, 1, turns, Fraction(1, 10**4))
+    file = SymbolicLemmas({"P": BALL})
+    box = [["10009/8000", "50053/40000"], ["471189/500000", "471289/500000"]]
+    add_orbit(file, 1, box, [["-1.0351", "-0.7022"], ["0.0667", "0"]], "3")
     rows = [["-71/40000", "1/400"], ["1/400", "-67/400000"]]
     around = file.h_set(["1251/1000", "471/500"], rows)
     graph = file.graph([file.covers("P", 1, around, around)])
@@ -211,8 +237,9 @@ def rattle():
     """A tooth between two walls, for all restitutions of a range: an attracting orbit."""
     more = {"parameters": {**RATTLE["parameters"], "e": ["3/5", "60001/100000"]}}
     walls = {"U": {**RATTLE, **more}, "V": {**RATTLE_BACK, **more}}
-    file = MapLemmas({**walls, "P": {"maps": ["U", "V"]}})
-    file.periodic_orbit("P", (-0.7876, 0.5024), 1, (1,), Fraction(1, 1000))
+    file = SymbolicLemmas({**walls, "P": {"maps": ["U", "V"]}})
+    box = [["-39433/50000", "-39333/50000"], ["6267/12500", "1573/3125"]]
+    add_orbit(file, 1, box, [["-0.6181", "-1.8879"], ["0.0433", "-1.0784"]], "1")
     return file
 
 

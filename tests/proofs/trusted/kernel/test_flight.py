@@ -21,8 +21,8 @@ from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.maps import read_map
 from tests.effort import examples
 from tests.oracles.flights import Simulation, system_of
+from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
 from tests.proofs.trusted.kernel.lemma_examples import ball as ball_example
-from tests.proofs.trusted.kernel.map_lemmas import horseshoe
 from tests.proofs.trusted.kernel.systems import BALL, SYSTEMS, box_of
 
 SLOW, LONG = pytest.mark.slow, pytest.mark.long
@@ -347,8 +347,9 @@ def barred(script, text=""):
 @pytest.mark.slow
 def test_a_horseshoe_of_the_ball_needs_nothing_of_the_paper():
     file = ball_example()  # has cones, too
-    file.periodic_orbit("P", (1.1589, 1.4117), 2, (10,), Fraction(1, 10**6))
-    entropy, orbit = horseshoe(file), "periodic-orbit-2"
+    box = [["28971361/25000000", "28971411/25000000"], ["70584009/50000000", "70584109/50000000"]]
+    orbit = add_orbit(file, 2, box, [["-1.0497", "-0.7723"], ["0.0676", "0.0471"]], "10")
+    entropy = horseshoe(file)
     document = file.document("cone-1", entropy, orbit)
     rules = {step["rule"] for step in document["steps"].values()}
     assert rules == {"h-set", "covers", "graph", "entropy", "cone", "periodic-orbit", "image"}
