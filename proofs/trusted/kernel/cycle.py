@@ -69,7 +69,10 @@ def periodic_orbit(context: Context, reader: Reader) -> PeriodicOrbit:
     taken modulo their periods. Conclusion: F has exactly one orbit of period n that begins in X and
     whose angles have increased by p after it; n is its least period.
 
-    With one or two variables: let M enclose (F^n)' on X, T its trace and D its determinant. If
+    Proof. The points from which orbits of period n go on so are the zeros of that function; the n
+    points of the one that begins in X are different.
+
+    With one or two variables let M enclose (F^n)' on X, T its trace and D its determinant. If
     |D| < 1 and |T| < 1 + D, the orbit is attracting: both multipliers, the zeros of
     z^2 - T z + D, are inside the unit circle (Jury). If (1 + D)^2 < T^2, it is a saddle: the
     polynomial has opposite signs at 1 and -1, so exactly one zero lies between them. If |D| > 1 and

@@ -38,7 +38,8 @@ def image(context: Context, reader: Reader) -> Image:
 
     Hypothesis: on each leaf of the tree, which divides the box, an enclosure of F, in the natural
     or in the mean value form, lies within the bounds. Conclusion: F is defined on the box, and its
-    values there are in the bounds; those of angles are not reduced.
+    values there are in the bounds; those of angles are not reduced. Proof. The leaves cover the
+    box; an enclosure contains all values on its leaf, and exists only where F is defined.
     """
     function_of, box_of, tree, bounds_of = reader.fields("function", "box", "tree", "bounds")
     function = context.function(function_of)

@@ -83,7 +83,7 @@ FALSE = {
     "eta = 0.21": (everywhere(("2121 / 10000", "2100 / 10000")), "end0_0", NUMERICAL),
     "nu = -0.21": (everywhere(("nu := (-1 / 5)", "nu := (-21 / 100)")), "piece0_0", NUMERICAL),
     "nu = 0.2": (everywhere(("nu := (-1 / 5)", "nu := (1 / 5)")), "launch0_0", NUMERICAL),
-    "the mass below the table": (everywhere(("side := -1", "side := 1")), "launch0_0", NUMERICAL),
+    "the mass below the table": (everywhere(("side := -1", "side := 1")), "model", "No applicable"),
     "branches swapped": (only_in("corrected_theorem", (SETS, SWAPPED)), "corrected_theorem", UNIFY),
     "f decreases on I0": (
         only_in("corrected_theorem", ("(33 / 25) (1) (1)", "(33 / 25) (-1) (1)")),

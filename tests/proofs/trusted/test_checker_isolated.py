@@ -185,7 +185,7 @@ def test_lemma_files_and_rules(code):
     folder = ROOT / "tests" / "certificates" / "lemmas"
     result = run(folder / "accepted" / "cubic.json", code=code)
     assert result.returncode == 0 and result.stderr == ""
-    assert "x**3 - 3*x + 1 has a zero x in [-2, 2]." in result.stdout
+    assert "`x**3 - 3*x + 1` has a zero `x` in [-2, 2]." in result.stdout
     assert complains(run(folder / "rejected" / "false_sign.json", code=code), status=1)
     assert complains(run(folder / "malformed" / "unused_step.json", code=code), status=2)
     rules = run("--rules", code=code)

@@ -44,7 +44,7 @@ def test_what_is_said(family, known):
     (claim,) = check(render(family)).claims
     assert claim.verdict.value == "VERIFIED"
     said = family["claims"][0]["corrected"]
-    assert "for every epsilon from 0 to 0.06;" in said
+    assert "epsilon in [0, 0.06]: for each epsilon there are disjoint sets V1 and V2" in said
     assert "conjugate to the two-sided full shift" in said and "one-sided full shift" in said
     found = shoes(known)
     assert hasattr(found[0].strips, "velocities") and hasattr(found[-1].strips, "after_first")
