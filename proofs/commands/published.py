@@ -31,8 +31,9 @@ _BILLIARD = [f"orbits-2-{k}" for k in range(1, 9)]  # each within the checker's 
 EPILOG = """\
 exit status: 0 written; 2 a certificate is wrong, or something is not proved any more
 
-example:
-  python -m proofs published --fresh
+examples:
+  python -m proofs published            what is there is checked, pages are written
+  python -m proofs published --fresh    everything is proved again
 """
 
 
