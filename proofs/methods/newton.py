@@ -158,6 +158,8 @@ def fates(sampled: Sampled, box: Sequence[Range], cycles: Sequence[Cycle]) -> li
     """Say what becomes of points at random: they come to attracting orbits, get lost, or go on."""
     x = seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
     ends = [f"of {_FOLLOWED} points at random {x.shape[1]} are followed for {_SETTLING} steps"]
+    if lost := _FOLLOWED - x.shape[1]:
+        ends.append(f"{lost} are lost before: they rest, go far away, or have no impact soon")
     near = [
         {k for k, each in enumerate(cycles) if _comes_to(sampled, point, each)} for point in x.T
     ]
