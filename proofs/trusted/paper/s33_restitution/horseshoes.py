@@ -158,7 +158,7 @@ def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
     Zgliczynski, Covering relations for multidimensional dynamical systems, J. Differential
     Equations 202 (2004).
     """
-    METER.get().spend(500)  # all in fractions, which nobody counts
+    METER.get().spend(2000)  # all in fractions, which nobody counts
     names, cone_of = reader.fields("rectangles", "cone")
     maps, cone = read_maps(context, names, 4), Cone(*cone_of.numbers(2, 2))
     if len(maps) == 2:
