@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from typing import Any, Self
+from typing import Any
 
 from intervals import Undecided, fraction
 from proofs.methods.grammar import GrammarError, canonical, name, names
@@ -69,13 +69,6 @@ class Map:
         except (Malformed, Unproved) as error:
             reason = str(error)
             raise GrammarError(reason.partition(": ")[2] if reason[0] == "$" else reason) from None
-
-    @classmethod
-    def _of(cls, functions: Mapping[str, Any], function: str, box: Box) -> Self:
-        made = cls.__new__(cls)
-        made._begin(functions, function)
-        made.box = dict(box)
-        return made
 
     @property
     def variables(self) -> tuple[str, ...]:

@@ -12,14 +12,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 
 
+def run(*arguments):
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+
+
 def test_import_contracts_hold():
-    done = subprocess.run(
-        [sys.executable, "-c", "from importlinter.cli import lint_imports_command as c; c()"],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=False,
-    )
+    done = run("-c", "from importlinter.cli import lint_imports_command as c; c()")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "5 kept, 0 broken" in done.stdout
 
@@ -107,11 +106,5 @@ def test_another_distribution_s_intervals_is_a_line(module, text, tmp_path):
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="files are counted by git")
 def test_budgets_are_kept():
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.budgets"],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=False,
-    )
+    done = run("-m", "tests.budgets")
     assert done.returncode == 0, done.stdout + done.stderr
