@@ -71,13 +71,6 @@ def _solved(matrices: Floats, right: Floats) -> Floats:
     return result
 
 
-def iterated(sampled: Sampled, x: Floats, count: int) -> Floats:
-    """Return the images of points under an iterate."""
-    for _ in range(count):
-        x = sampled(x)
-    return x
-
-
 def _distinct(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
     """Return each orbit once, from its first point in lexicographic order."""
     found: list[Cycle] = []
@@ -212,11 +205,11 @@ def _middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
 def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
     """Add a step `periodic-orbit` about an orbit; raises Unproved where that is not concluded."""
     map_, n = file.map(function), len(cycle.points)
-    sampled = Sampled(map_)
+    sampled = Power(map_, n)
     matrix = np.linalg.inv(cycle.derivative - np.eye(len(map_.variables)))
     witness: dict[str, Any] = {"function": function, "period": str(n)}
     if map_.circles:
-        end = iterated(sampled, cycle.points[:1].T, n)[:, 0] - cycle.points[0]
+        end = sampled(cycle.points[:1].T)[:, 0] - cycle.points[0]
         turns = np.round(end / sampled.periods)
         witness["turns"] = [str(int(turns[circle.place])) for circle in map_.circles]
     for radius in map(Fraction, _RADII + (_WIDE if _has_ranges(file, function) else ())):

@@ -14,7 +14,7 @@ from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import Tree, inverse, subdivide
 from proofs.methods.frames import Frames, crossing, frames, laps
-from proofs.methods.newton import distance, iterated
+from proofs.methods.newton import distance
 from proofs.methods.sampling import Floats, Power, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -84,9 +84,9 @@ def _clear(values: Sequence[Any]) -> bool:
 
 def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]:
     """Return how many periods lie between the image of one centre and the other."""
-    sampled = Sampled(map_)
+    sampled = Power(map_, power)
     start = np.array(source.centre, float)[:, None]
-    apart = iterated(sampled, start, power)[:, 0] - np.array(target.centre, float)
+    apart = sampled(start)[:, 0] - np.array(target.centre, float)
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
 
 
