@@ -31,13 +31,14 @@ class Trust(NamedTuple):
 
 def trusted_for(source: str, work: float) -> Iterator[Trust]:
     """Check each claim of a certificate alone, with the steps that it needs; watch the calls."""
-    document: dict[str, Any] = json.loads(source)
     reader = parse(source)
-    steps_of = dict(reader.entries())["steps"]
+    document: dict[str, Any] = reader.value
+    members = dict(reader.entries())
     for claim in document["claims"]:
         own = claim if isinstance(claim, str) else claim["id"]
-        steps = used_steps(steps_of, {claim} if isinstance(claim, str) else {*claim["proof"]})
-        functions = {*used_steps(dict(reader.entries())["functions"], steps)}
+        proof = {claim} if isinstance(claim, str) else {*claim["proof"]}
+        steps = used_steps(members["steps"], proof)
+        functions = {*used_steps(members["functions"], steps)}
         alone = {
             **document,
             "functions": {x: y for x, y in document["functions"].items() if x in functions},
