@@ -108,9 +108,10 @@ class Map:
 
     def stable(self, longest: int = 8, box: Box | None = None) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        from proofs.methods.newton import attractors
+        from proofs.methods.newton import attractors, settled
 
-        cycles = attractors(self._sampled, self.region(box), longest)
+        sampled = self._sampled
+        cycles = attractors(sampled, settled(sampled, self.region(box)), longest)
         reason = f"no attracting orbit of a period up to {longest} is found and proved"
         return self._proved(cycles, reason)
 
@@ -189,11 +190,11 @@ class Map:
 
     def seen(self) -> list[str]:
         """Say what floating point sees points at random come to; nothing of it is proved."""
-        from proofs.methods.newton import attractors, fates
+        from proofs.methods.newton import attractors, fates, settled
 
-        sampled, sides = self._sampled, self.region()
-        cycles = attractors(sampled, sides, _LONGEST)
-        return fates(sampled, sides, cycles)
+        sampled = self._sampled
+        points = settled(sampled, self.region())
+        return fates(sampled, points, attractors(sampled, points, _LONGEST))
 
     def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""

@@ -133,9 +133,13 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
     return x
 
 
-def attractors(sampled: Sampled, box: Sequence[Range], longest: int) -> list[Cycle]:
-    """Return the attracting periodic orbits, up to a period, that points of a box come to."""
-    x = seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
+def settled(sampled: Sampled, box: Sequence[Range]) -> Floats:
+    """Return where points at random in a box are after many steps, without those that are lost."""
+    return seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
+
+
+def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
+    """Return the attracting periodic orbits, up to a period, that settled points come to."""
     found: list[Cycle] = []
     after = x
     for period in range(1, longest + 1):
@@ -147,9 +151,11 @@ def attractors(sampled: Sampled, box: Sequence[Range], longest: int) -> list[Cyc
     return found
 
 
-def fates(sampled: Sampled, box: Sequence[Range], cycles: Sequence[Cycle]) -> list[str]:
-    """Say what becomes of points at random: they come to attracting orbits, get lost, or go on."""
-    x = seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
+def fates(sampled: Sampled, x: Floats, cycles: Sequence[Cycle]) -> list[str]:
+    """Say what becomes of points at random: they come to attracting orbits, get lost, or go on.
+
+    x: those of them that are settled.
+    """
     ends = [f"of {_FOLLOWED} points at random {x.shape[1]} are followed for {_SETTLING} steps"]
     if lost := _FOLLOWED - x.shape[1]:
         ends.append(f"{lost} are lost before: they rest, go far away, or have no impact soon")

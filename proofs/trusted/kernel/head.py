@@ -75,8 +75,9 @@ class Head(NamedTuple):
         circles = tuple(self._circle(placer, *each) for each in self.periods.items())
         parts = tuple(part for part in dict.fromkeys(placer.parts) if tape.may_fail(part))
         ranges = tuple(self.ranges.values())
-        head = Formulas(self.variables, tuple(trees), tape, roots, parts, name, ranges)
-        return replace(head, circles=circles, given=self.given)
+        return Formulas(
+            self.variables, tuple(trees), tape, roots, parts, name, ranges, circles, self.given
+        )
 
 
 def read_head(name: str, reader: Reader) -> Head:
