@@ -20,7 +20,7 @@ from time import monotonic
 from typing import Any, NamedTuple
 
 from intervals import Undecided
-from proofs.map import Ends, Map
+from proofs.map import Map
 from proofs.shell.cli import Parser, heard, number, progress, share
 from proofs.shell.files import write_files
 from proofs.shell.screen import say
@@ -138,7 +138,7 @@ def _question(text: str) -> str:
     return text
 
 
-def _ends(text: str) -> Ends:
+def _ends(text: str) -> str | tuple[str, str]:
     low, colon, high = text.partition(":")
     return (low, high) if colon else low
 
@@ -160,11 +160,11 @@ def _subject(options: Namespace) -> Map:
     return made
 
 
-def _side(text: str) -> Sequence[str]:
-    low, colon, high = text.partition(":")
-    if not colon:
+def _side(text: str) -> tuple[str, str]:
+    ends = _ends(text)
+    if isinstance(ends, str):
         raise ValueError(f"LOW:HIGH is expected, not {text[:40]!r}")
-    return low, high
+    return ends
 
 
 def _answer(system: Map, asked: str, options: Namespace) -> Answer:

@@ -82,8 +82,7 @@ class Head(NamedTuple):
 
 def read_head(name: str, reader: Reader) -> Head:
     """Read the variables, the time, the parameters and the periods of a map."""
-    if not FUNCTION_NAME.fullmatch(name):
-        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
+    require_function_name(reader, name)
     fields = dict(reader.entries())
     state = tuple(item.string() for item in fields["variables"].items(1, MAX_VARIABLES))
     time = (fields["time"].string(),) if "time" in fields else ()
@@ -117,6 +116,12 @@ def read_function(name: str, reader: Reader) -> Formulas:
         raise values_of.fail(str(error)) from None
     require_periods(reader, formulas, formulas.roots)
     return replace(formulas, variables=head.state)
+
+
+def require_function_name(reader: Reader, name: str) -> None:
+    """Raise Malformed unless a name is one of a function: h-sets and matrices have the others."""
+    if not FUNCTION_NAME.fullmatch(name):
+        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
 
 
 def require_name(reader: Reader, name: str, is_parameter: bool = False) -> None:

@@ -16,8 +16,8 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
-from proofs.trusted.kernel.formulas import FUNCTION_NAME, Circle
-from proofs.trusted.kernel.head import read_function
+from proofs.trusted.kernel.formulas import Circle
+from proofs.trusted.kernel.head import read_function, require_function_name
 
 _MOST_MAPS = 20
 
@@ -99,8 +99,7 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
 
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:
     (names_of,) = reader.fields("maps")
-    if not FUNCTION_NAME.fullmatch(name):
-        raise reader.fail("functions are named like F or Gap2, not N, N1, M, A or D")
+    require_function_name(reader, name)
     chain = []
     for each in names_of.items(2, _MOST_MAPS):
         if each.string() not in maps:
