@@ -36,7 +36,8 @@ def launch(module: str) -> NoReturn:
     It ends at once: all is written and closed, and to take its objects apart takes a tenth of the
     main job. Who traces or profiles it sees it leave in the ordinary way.
     """
-    prog = f"python -m {module.removesuffix('.__main__').replace('.', ' ', 1)}"
+    name = module.removesuffix(".__main__").replace(".commands", "")
+    prog = f"python -m {name.replace('.', ' ', 1)}"
     gc.set_threshold(_SELDOM)
     status = guarded(prog, lambda: run_command(module))
     if sys.gettrace() is None and sys.getprofile() is None:

@@ -8,7 +8,7 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Interval
-from proofs import resonance
+from proofs.commands import resonance
 from proofs.motion.resonant import TooManyImpacts, angles, motion
 from proofs.motion.system import System
 from proofs.report import subharmonics

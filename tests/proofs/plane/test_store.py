@@ -17,9 +17,9 @@ from hashlib import sha256
 
 import pytest
 
-from proofs import atlas
 from proofs.check import _mapped
 from proofs.check import main as check
+from proofs.commands import atlas
 from proofs.plane import picture, summary
 from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
@@ -50,7 +50,16 @@ def proved(folder):
 
 
 def start(folder, *more):
-    command = [sys.executable, "-m", "proofs.atlas", *LARGE, "--depth", "3", "--chunk", "3"]
+    command = [
+        sys.executable,
+        "-m",
+        "proofs.commands.atlas",
+        *LARGE,
+        "--depth",
+        "3",
+        "--chunk",
+        "3",
+    ]
     return subprocess.Popen([*command, "--out", str(folder), "--quiet", *more])
 
 
@@ -206,7 +215,7 @@ def test_a_second_head_is_refused(tmp_path, capsys):
     with opened(tmp_path, None):
         with pytest.raises(Held, match="another run"), opened(tmp_path, None):
             pass
-        command = [sys.executable, "-m", "proofs.atlas", "--out", str(tmp_path)]
+        command = [sys.executable, "-m", "proofs", "atlas", "--out", str(tmp_path)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert "another run writes to" in done.stderr

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from proofs import atlas
+from proofs.commands import atlas
 from proofs.plane import summary
 from proofs.plane.store import opened
 from proofs.trusted.numbers import show_range

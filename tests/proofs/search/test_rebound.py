@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs import impact
+from proofs.commands import impact
 from proofs.motion.system import System
 from proofs.search.rebound import Impossible, rebound
 from tests.proofs.trusted.paper import reference

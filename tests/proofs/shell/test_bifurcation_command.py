@@ -5,8 +5,8 @@ import json
 import pytest
 import sympy
 
-from proofs import bifurcation
-from proofs.bifurcation import main
+from proofs.commands import bifurcation
+from proofs.commands.bifurcation import main
 from proofs.methods.bifurcation import closed
 from proofs.trusted.verify import Rejected, check
 

@@ -8,7 +8,15 @@ from time import perf_counter
 
 import pytest
 
-from proofs import atlas, bifurcation, impact, orbits, period_doubling, resonance, single_impact
+from proofs.commands import (
+    atlas,
+    bifurcation,
+    impact,
+    orbits,
+    period_doubling,
+    resonance,
+    single_impact,
+)
 from proofs.commands.groups import GROUPS
 from proofs.search import periodic
 from proofs.shell.runner import run
@@ -70,7 +78,7 @@ def refused(capsys, command, arguments):
     assert leave.value.code == 2 and said.out == ""
     assert said.err.count("\n") == 1 and said.err.endswith("\n")
     assert (
-        said.err.startswith(f"python -m {command.__name__.replace('.', ' ')}: ")
+        said.err.startswith(f"python -m proofs {command.__name__.rpartition('.')[2]}: ")
         and "Traceback" not in said.err
     )
     assert perf_counter() - began < 5
@@ -309,8 +317,8 @@ def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
 @pytest.mark.parametrize(
     ("module", "arguments", "name"),
     [
-        ("impact", ["--phi", "1.1", "--phi=1.3"], "--phi"),
-        ("single_impact", ["--eta", "0.3", "--nu", "0.2", "--eta", "0.4"], "--eta"),
+        ("commands.impact", ["--phi", "1.1", "--phi=1.3"], "--phi"),
+        ("commands.single_impact", ["--eta", "0.3", "--nu", "0.2", "--eta", "0.4"], "--eta"),
         ("horseshoe", ["--left", "1.1", "1.15", "--left", "1.1", "1.14"], "--left"),
     ],
 )

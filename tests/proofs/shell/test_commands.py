@@ -11,7 +11,8 @@ from importlib import import_module
 import pytest
 
 from proofs import __main__ as every
-from proofs import __version__, check, impact, ledger
+from proofs import __version__, check
+from proofs.commands import impact, ledger
 from proofs.commands.groups import GROUPS
 from proofs.shell.groups import FILES, produce, wanted
 from proofs.trusted.manifest import command

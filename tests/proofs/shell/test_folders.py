@@ -10,7 +10,8 @@ from time import monotonic, sleep
 
 import pytest
 
-from proofs import horseshoe, ledger
+from proofs import horseshoe
+from proofs.commands import ledger
 from proofs.shell import files
 from proofs.shell.files import writing
 from proofs.shell.runner import claims_of

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 
-from proofs import impact
+from proofs.commands import impact
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 

@@ -15,7 +15,7 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray, Undecided
-from proofs import orbits
+from proofs.commands import orbits
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words, lyndon
 from proofs.search import periodic

@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 from flint import arb, ctx
 
+from proofs.commands.period_doubling import main
 from proofs.motion.soft import Springs
-from proofs.period_doubling import main
 
 
 def answer(capsys, *arguments):

@@ -56,7 +56,8 @@ def test_a_plain_install_runs_what_the_readme_says(name, tmp_path):
 def test_pages_and_figures_name_what_they_need(module, tmp_path):
     """The report without its page: a line and status 1."""
     folder = ["--out", str(tmp_path)]
-    assert without(OPTIONAL["report"], "proofs.ledger", ["--only", "H16", *folder]).returncode == 0
+    done = without(OPTIONAL["report"], "proofs", ["ledger", "--only", "H16", *folder])
+    assert done.returncode == 0
     done = without(OPTIONAL["report"], module, folder)
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert "pip install 'impact-proofs[report]'" in done.stdout + done.stderr

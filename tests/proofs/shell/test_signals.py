@@ -137,7 +137,7 @@ def test_a_signal_is_not_lost(where, ended):
 def test_what_is_ignored_stays_ignored():
     """As in a background job of a shell without job control."""
     code = "import signal, subprocess, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
-    code += "sys.exit(subprocess.call([sys.executable, '-m', 'proofs.period_doubling']))"
+    code += "sys.exit(subprocess.call([sys.executable, '-m', 'proofs', 'period_doubling']))"
     process = subprocess.Popen([sys.executable, "-c", code], start_new_session=True, stdout=-3)
     sleep(0.3)
     os.killpg(process.pid, signal.SIGINT)

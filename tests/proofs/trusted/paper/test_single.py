@@ -14,7 +14,7 @@ import pytest
 from mpmath import mp, mpf
 
 from intervals import Undecided
-from proofs import single_impact
+from proofs.commands import single_impact
 from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
 from proofs.motion.window_ends import earlier, eta_end, graze_end, nu_end

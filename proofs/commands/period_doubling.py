@@ -17,7 +17,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.period_doubling")
+    launch("proofs.commands.period_doubling")
 
 from argparse import ArgumentTypeError, Namespace
 from collections.abc import Iterable

@@ -3,7 +3,7 @@
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.ledger")
+    launch("proofs.commands.ledger")
 
 from proofs.shell import ledger
 

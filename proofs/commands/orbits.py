@@ -16,7 +16,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.orbits")
+    launch("proofs.commands.orbits")
 
 import csv
 import io

@@ -14,7 +14,7 @@ This is the plastic map. With a coefficient of restitution EPSILON and the veloc
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.impact")
+    launch("proofs.commands.impact")
 
 import sys
 from argparse import Namespace

@@ -10,7 +10,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.single_impact")
+    launch("proofs.commands.single_impact")
 
 from argparse import Namespace
 from collections.abc import Callable, Sequence

@@ -14,7 +14,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.bifurcation")
+    launch("proofs.commands.bifurcation")
 
 import sys
 from argparse import ArgumentTypeError, Namespace

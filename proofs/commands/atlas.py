@@ -10,7 +10,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.atlas")
+    launch("proofs.commands.atlas")
 
 import json
 import sys

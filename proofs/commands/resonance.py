@@ -8,7 +8,7 @@ from __future__ import annotations
 if __name__ == "__main__":
     from proofs.shell.entry import launch
 
-    launch("proofs.resonance")
+    launch("proofs.commands.resonance")
 
 import sys
 from argparse import Namespace
