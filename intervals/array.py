@@ -212,24 +212,26 @@ class IntervalArray(Relations[Mask], Elementary):
     def __iter__(self) -> Iterator[IntervalArray]:
         return (self[i] for i in range(len(self)))
 
+    def __contains__(self, _value: object) -> NoReturn:
+        raise TypeError("an IntervalArray is many sets: use contains or subset, which say which")
+
     def __getitem__(self, index: Any) -> IntervalArray:
         """Select intervals, by any index that numpy knows, on the element axes."""
         if isinstance(index, slice):
             return self._like(self._rows[:, index])
         return self._like(joined(self._rows[0][index], self._rows[1][index]))
 
-    def reshape(self, *shape: int | tuple[int, ...]) -> IntervalArray:
+    def reshape(self, *shape: int | Sequence[int]) -> IntervalArray:
         """Return the same intervals in another shape."""
-        sizes = shape[0] if len(shape) == 1 and isinstance(shape[0], tuple) else shape
-        return self._like(self._rows.reshape(2, *sizes))
+        return self._like(self._rows.reshape(2, *_sizes(shape)))
 
     def flatten(self) -> IntervalArray:
         """Return the intervals along one axis."""
         return self.reshape(-1)
 
-    def transpose(self, *axes: int) -> IntervalArray:
+    def transpose(self, *axes: int | Sequence[int]) -> IntervalArray:
         """Return the array with its axes in another order, the opposite one if none is given."""
-        order = axes or range(self.ndim)[::-1]
+        order = _sizes(axes) or range(self.ndim)[::-1]
         return self._like(self._rows.transpose(0, *(i % self.ndim + 1 for i in order)))
 
     def copy(self) -> IntervalArray:
@@ -551,6 +553,12 @@ def _make(rows: Rows, kind: type[_A]) -> _A:
     new = object.__new__(kind)
     new._rows = rows
     return new
+
+
+def _sizes(given: tuple[int | Sequence[int], ...]) -> Sequence[int]:
+    """Return ints that were given one by one, or as one sequence."""
+    first = given[0] if len(given) == 1 else given
+    return (first,) if isinstance(first, int | np.integer) else cast("Sequence[int]", first)
 
 
 def _quiet() -> np.errstate:

@@ -10,7 +10,7 @@ import operator
 from collections.abc import Callable
 from importlib import import_module
 from itertools import accumulate
-from math import prod
+from math import inf, prod
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -67,6 +67,10 @@ def apply_ufunc(kind: Kind, ufunc: Any, method: str, inputs: tuple[Any, ...], op
     known = {"axis", "keepdims", "initial"}
     if method == "reduce" and ufunc in _REDUCTIONS and options.keys() <= known:
         return getattr(inputs[0], _REDUCTIONS[ufunc])(**{"axis": 0} | options)
+    if options.get("out") is not None:
+        raise TypeError(
+            f"an IntervalArray does not change: take what numpy.{ufunc.__name__} returns"
+        )
     if method != "__call__" or options or not (ufunc in _OPERATORS or ufunc in _METHODS):
         asked = ".".join([ufunc.__name__, *([] if method == "__call__" else [method]), *options])
         raise TypeError(f"numpy.{asked} is not defined for IntervalArrays")
@@ -255,8 +259,17 @@ def _cross(x: Any, y: Any) -> Any:
     return np.stack((b * w - c * v, c * u - a * w, a * v - b * u), axis=-1)
 
 
-def _norm(x: Any, axis: Any = None, keepdims: bool = False) -> Any:
-    return np.sqrt(x.sqr().sum(axis=axis, keepdims=keepdims))
+def _norm(x: Any, ord: Any = None, axis: Any = None, keepdims: bool = False) -> Any:
+    """Return the length of a vector, of all entries, or one of numpy's norms 1, 2, inf, "fro"."""
+    options, size = {"axis": axis, "keepdims": keepdims}, abs(x)
+    vectors = x.ndim == 1 if axis is None else not isinstance(axis, tuple)
+    if ord is None or ord == (2 if vectors else "fro"):
+        return np.sqrt(x.sqr().sum(**options))
+    if ord not in (1, inf) or not (vectors or (x.ndim == 2 and axis is None and not keepdims)):
+        raise TypeError(f"numpy.linalg.norm of the order {ord!r} is not defined for IntervalArrays")
+    if vectors:
+        return size.sum(**options) if ord == 1 else size.max(**options)
+    return size.sum(axis=0 if ord == 1 else 1).max()
 
 
 def _by_linalg(name: str) -> Callable[..., Any]:
@@ -288,6 +301,7 @@ _ASKING: dict[Any, Callable[..., Any]] = {
     np.linalg.norm: _norm,
     np.linalg.solve: _by_linalg("solve"),
     np.linalg.inv: _by_linalg("inverse"),
+    np.linalg.det: _by_linalg("determinant"),
     np.linalg.eigvals: _by_linalg("eigenvalues"),
     np.trace: lambda x, offset=0: np.diagonal(x, offset).sum(axis=-1),
     np.max: _largest,
