@@ -7,7 +7,6 @@ neighbour of it and at most x, is x: so `outward`, which only asks that, makes a
 
 import json
 from collections.abc import Callable
-from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -46,6 +45,8 @@ _ZERO_INSIDE = "division by an interval that contains 0"
 
 def aligned(a: Rows, b: Rows) -> tuple[Rows, Rows]:
     """Give both the same number of axes, the missing element axes (length 1) on the left."""
+    if a.ndim == b.ndim:
+        return a, b
     return _with_axes(a, b.ndim), _with_axes(b, a.ndim)
 
 
@@ -70,11 +71,21 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     """
     first, ends = operands[0], _BY_ENDS.get(operation)
     if ends and 0 < first.size <= 2 * _FEW and first.shape == operands[-1].shape:
-        columns = [column for x in operands for column in x.reshape(2, -1).tolist()]
-        with suppress(OverflowError):
-            return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
+        try:
+            return _few(ends, first, operands[-1])
+        except OverflowError:
+            pass
     with np.errstate(all="ignore"):
         return _in_blocks(operation, *operands)
+
+
+def _few(ends: Callable[..., tuple[float, float]], a: Rows, b: Rows) -> Rows:
+    x, y = a.ravel().tolist(), b.ravel().tolist()
+    if len(x) == 2:
+        return np.array(ends(*x, *y)).reshape(a.shape)
+    n = len(x) // 2
+    columns = map(ends, x[:n], x[n:], y[:n], y[n:])
+    return np.array([*zip(*columns, strict=True)]).reshape(a.shape)
 
 
 def _in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
