@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from intervals import display, numpy_protocol, tight
 from intervals.elementary import binary64
 from intervals.elementary.binary64.pair import bounds, least_bounds
+from intervals.entry import ends, exact_rows, float_rows, scalar_rows
 from intervals.errors import DomainError
 from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
@@ -32,15 +33,11 @@ from intervals.rounding import (
 from intervals.rows import (
     STEPS,
     aligned,
-    ends,
-    exact_rows,
-    float_rows,
     in_blocks,
     magnitude,
     power,
     product,
     quotient,
-    scalar_rows,
     square_root,
     total,
 )

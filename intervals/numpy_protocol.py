@@ -15,9 +15,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from intervals.entry import integer_rows
 from intervals.exact import is_time, whole
 from intervals.functions import TABLE
-from intervals.rows import integer_rows
 
 _HINT = "bare floats do not mix with intervals: IntervalArray.from_floats says that they are exact"
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from intervals.few import MOST
 from intervals.rounding import Rows, all_of, constant, require_nearest
 
-FEW = 10  # intervals: they are done sooner without numpy
 CHUNK = 16384  # elements at a time: the temporaries stay in the cache
 _SIGNS = np.array((-1.0, 1.0))  # of rows
 SMALL, LARGE = constant(2.0**-400), constant(2.0**400)
@@ -33,7 +33,7 @@ def in_blocks(
     """
     require_nearest()
     rows = operands[0]
-    if few and 0 < rows.size <= 2 * FEW:
+    if few and 0 < rows.size <= 2 * MOST:
         with suppress(ArithmeticError, ValueError):
             columns = [few(*ends) for ends in zip(*rows.reshape(2, -1).tolist(), strict=True)]
             return _as_rows(columns, rows.shape)
