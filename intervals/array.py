@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import partial
 from math import inf
@@ -41,6 +41,7 @@ from intervals.rows import (
     square_root,
     total,
 )
+from intervals.shapes import Shaped
 
 if TYPE_CHECKING:
     from intervals.interval import Interval
@@ -54,7 +55,7 @@ Operand: TypeAlias = "IntervalArray | Interval | Fraction | int"
 np.empty(4_000_000)
 
 
-class IntervalArray(Relations[Mask], Elementary):
+class IntervalArray(Shaped, Relations[Mask], Elementary):
     """An array of sets {x real : inf <= x <= sup}, inf <= sup in binary64 or infinite.
 
     `IntervalArray(values)` is `from_exact`; binary64 numbers enter through `from_floats`. Shapes
@@ -181,80 +182,7 @@ class IntervalArray(Relations[Mask], Elementary):
         r = fraction(radius)
         return self + IntervalArray((-r, r))
 
-    # -- the shape -----------------------------------------------------------------------------
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the array of intervals."""
-        return self._rows.shape[1:]
-
-    @property
-    def ndim(self) -> int:
-        """The number of element axes."""
-        return self._rows.ndim - 1
-
-    @property
-    def size(self) -> int:
-        """The number of intervals."""
-        return self._rows.size // 2
-
-    @property
-    def T(self) -> IntervalArray:  # noqa: N802 - numpy's name
-        """The transposed array."""
-        return self._like(np.moveaxis(self._rows.T, -1, 0))
-
-    def __len__(self) -> int:
-        return len(self._rows[1, ...])
-
-    def __iter__(self) -> Iterator[IntervalArray]:
-        return (self[i] for i in range(len(self)))
-
-    def __contains__(self, _value: object) -> NoReturn:
-        raise TypeError("an IntervalArray is many sets: use contains or subset, which say which")
-
-    def __getitem__(self, index: Any) -> IntervalArray:
-        """Select intervals, by any index that numpy knows, on the element axes."""
-        if isinstance(index, slice):
-            return self._like(self._rows[:, index])
-        return self._like(joined(self._rows[0][index], self._rows[1][index]))
-
-    def reshape(self, *shape: int | Sequence[int]) -> IntervalArray:
-        """Return the same intervals in another shape."""
-        return self._like(self._rows.reshape(2, *_sizes(shape)))
-
-    def flatten(self) -> IntervalArray:
-        """Return the intervals along one axis."""
-        return self.reshape(-1)
-
-    def transpose(self, *axes: int | Sequence[int]) -> IntervalArray:
-        """Return the array with its axes in another order, the opposite one if none is given."""
-        order = _sizes(axes) or range(self.ndim)[::-1]
-        return self._like(self._rows.transpose(0, *(i % self.ndim + 1 for i in order)))
-
-    def copy(self) -> IntervalArray:
-        """Return the array, which does not change."""
-        return self
-
-    @property
-    def dtype(self) -> np.dtype[np.float64]:
-        """The type of the endpoints."""
-        return self._rows.dtype
-
-    def dot(self, other: Any) -> Any:
-        """Do as np.dot."""
-        return np.dot(self, other)
-
-    def mean(self, axis: Any = None, *, keepdims: bool = False) -> Any:
-        """Return the means over some axes, or over all elements."""
-        return np.mean(self, axis=axis, keepdims=keepdims)
-
-    def max(self, axis: Any = None, *, keepdims: bool = False) -> Any:
-        """Return the range of the largest element along some axes, or of all."""
-        return np.max(self, axis=axis, keepdims=keepdims)
-
-    def min(self, axis: Any = None, *, keepdims: bool = False) -> Any:
-        """Return the range of the smallest element along some axes, or of all."""
-        return np.min(self, axis=axis, keepdims=keepdims)
+    # -- the elements: see also `Shaped` ---------------------------------------------------------
 
     def item(self) -> Interval:
         """Return the only element, exactly, as an Interval; OverflowError if it is not bounded."""
@@ -550,12 +478,6 @@ def _make(rows: Rows, kind: type[_A]) -> _A:
     new = object.__new__(kind)
     new._rows = rows
     return new
-
-
-def _sizes(given: tuple[int | Sequence[int], ...]) -> Sequence[int]:
-    """Return ints that were given one by one, or as one sequence."""
-    first = given[0] if len(given) == 1 else given
-    return (first,) if isinstance(first, int | np.integer) else cast("Sequence[int]", first)
 
 
 def _quiet() -> np.errstate:
