@@ -246,13 +246,11 @@ def test_chunks_do_not_show():
     for upper in (lower, lower + 0.5):
         x = IntervalArray.from_floats(lower, upper)
         sin, cos = x.sincos()
-        parts = [x[i : i + 1000].sincos() for i in range(0, len(x), 1000)]
-        assert (np.concatenate([p[0] for p in parts]) == sin).all()
-        assert (np.concatenate([p[1] for p in parts]) == cos).all()
+        parts = zip(*(x[i : i + 1000].sincos() for i in range(0, len(x), 1000)), strict=True)
+        assert all((np.concatenate(p) == y).all() for p, y in zip(parts, (sin, cos), strict=True))
         assert (x.reshape(1, -1).sin() == sin).all()
-        ones = [x[i : i + 1].sincos() for i in range(0, len(x), 300)]  # by Python's floats
-        assert (np.concatenate([o[0] for o in ones]) == sin[::300]).all()
-        assert (np.concatenate([o[1] for o in ones]) == cos[::300]).all()
+        for i in range(0, len(x), 300):  # by Python's floats
+            assert all((a == b[i]).all() for a, b in zip(x[i].sincos(), (sin, cos), strict=True))
     mixed = IntervalArray.from_floats(lower, np.where(np.arange(len(lower)) % 2, lower, lower + 1))
     points_alone = IntervalArray.from_floats(lower).sin()
     assert (mixed.sin() == points_alone)[1::2].all()

@@ -18,13 +18,8 @@ from intervals.rounding import MAX, float_down, float_up
 from tests.intervals.binary64_oracle import distances, plane_points
 from tests.intervals.boxes import for_all
 from tests.intervals.foreign_states import STATES, foreign, x86_linux
+from tests.intervals.test_array import BINARY
 
-OPERATIONS = {
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-}
 mantissas = st.integers(-(2**53) + 1, 2**53 - 1) | st.integers(-9, 9)
 # mantissas that differ in the last bits only have ties, and products next to midpoints
 near = st.integers(2**52, 2**52 + 9) | st.integers(2**53 - 9, 2**53 - 1)
@@ -38,12 +33,12 @@ def exact(name, x, y):
     """The range at the corners, in fractions; None where 0 is in a divisor."""
     if name == "/" and y[0] <= 0 <= y[1]:
         return None
-    values = [OPERATIONS[name](Fraction(a), Fraction(b)) for a, b in product(x, y)]
+    values = [BINARY[name](Fraction(a), Fraction(b)) for a, b in product(x, y)]
     return min(values), max(values)
 
 
 @for_all(
-    st.sampled_from(sorted(OPERATIONS)), st.lists(st.tuples(sides, sides), min_size=1, max_size=14)
+    st.sampled_from(sorted(BINARY)), st.lists(st.tuples(sides, sides), min_size=1, max_size=14)
 )
 def test_bounds_are_the_least(name, pairs):
     pairs = [(x, y) for x, y in pairs if exact(name, x, y)]
@@ -51,7 +46,7 @@ def test_bounds_are_the_least(name, pairs):
         return
     for kind in (TightArray, IntervalArray):
         X, Y = (kind.from_floats(*np.array(ends).T) for ends in zip(*pairs, strict=True))
-        found = OPERATIONS[name](X, Y)
+        found = BINARY[name](X, Y)
         assert type(found) is kind
         for low, high, (x, y) in zip(found.inf.tolist(), found.sup.tolist(), pairs, strict=True):
             least, most = exact(name, x, y)
@@ -214,9 +209,9 @@ def test_long_results_are_not_taken_for_exact(pairs, name):
     """Where the first and the last number are short, and those between them need not be."""
     numbers = [(0.5, 1.5), *pairs, (2.0, 4.0)]
     x, y = np.array([n for n in numbers if n[1]]).T
-    found = OPERATIONS[name](IntervalArray.from_floats(x), IntervalArray.from_floats(y))
+    found = BINARY[name](IntervalArray.from_floats(x), IntervalArray.from_floats(y))
     for low, high, a, b in zip(*(v.tolist() for v in (found.inf, found.sup, x, y)), strict=True):
-        true = OPERATIONS[name](Fraction(a), Fraction(b))
+        true = BINARY[name](Fraction(a), Fraction(b))
         assert Fraction(low) <= true <= Fraction(high)
 
 
