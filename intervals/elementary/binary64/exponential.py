@@ -23,13 +23,14 @@ the first a multiple of 2^-43. The products with log 2 and log 10, of pairs, hav
 err by less than 2^-20 u |s|.
 """
 
-from fractions import Fraction
 from functools import lru_cache
-from math import factorial
+from itertools import accumulate
+from math import factorial, isqrt
 from typing import Any
 
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, two_sum
 from intervals.elementary.binary64.primitives import (
+    BITS,
     Table,
     horner,
     nearest_integers,
@@ -134,8 +135,9 @@ def _series(s: Any, t: Any) -> Any:
 
 @lru_cache(maxsize=2)
 def _powers(places: int) -> tuple[Table, Table]:
-    """Return 2^(j/64), j < 64, in two parts."""
-    from intervals.interval import Interval
-
-    powers = (Interval(Fraction(j, _STEPS), precision=160).exp2().inf for j in range(_STEPS))
+    """Return 2^(j/64), j < 64, in two parts; as integers, of BITS places, they err by 2^8 units."""
+    root = 2 << BITS
+    for _ in range(6):
+        root = isqrt(root << BITS)
+    powers = accumulate(range(1, _STEPS), lambda x, _: x * root >> BITS, initial=1 << BITS)
     return tables(powers, places)

@@ -31,7 +31,8 @@ import numpy as np
 
 from intervals.elementary.binary64.exponential import LN_2, LN_10
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, two_product, two_sum
-from intervals.elementary.binary64.primitives import Table, horner, split, tables
+from intervals.elementary.binary64.primitives import BITS, Table, horner, split, tables
+from intervals.elementary.constants import arc_of_ratio
 
 LOG_2 = float.fromhex("0x1.62e42fefa3800p-1"), float.fromhex("0x1.ef35793c76730p-45")
 _LEAST_BITS = (1023 << 52) - (299 << 43)  # of 1 - 149.5 / 512
@@ -125,11 +126,10 @@ def _log(v: Any, *rest: Any, sharp: bool = False) -> Pair:
 
 @lru_cache(maxsize=1)
 def _cells() -> tuple[Table, Table, Table]:
-    """Return R of each cell, and -log R in two parts."""
-    from intervals.interval import Interval
-
+    """Return R of each cell, and -log R = 2 atanh((1 - R) / (1 + R)) in two parts."""
     sizes = [Fraction(1, 512 if cell < 149.5 else 256) for cell in range(256)]
     centres = [1 + (cell - 149) * size for cell, size in enumerate(sizes)]
-    inverses = [Fraction(round(512 / c), 512) for c in centres]
-    logs = (-Interval(x, precision=160).log().inf for x in inverses)
-    return Table(map(float, inverses)), *tables(logs, 42)
+    inverses = [round(512 / c) for c in centres]  # times 2^9
+    arcs = (arc_of_ratio(abs(512 - r), 512 + r, BITS, 1)[0] for r in inverses)
+    logs = [2 * arc if r < 512 else -2 * arc for arc, r in zip(arcs, inverses, strict=True)]
+    return Table(r / 512 for r in inverses), *tables(logs, 42)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 SHIFT = 1.5 * 2.0**52
 SHIFT_BITS = int(np.array(SHIFT).view(np.int64))
 _SPLIT = 2.0**27 + 1
+BITS = 160  # of the integers that tables are made from
 
 
 class _Floats:
@@ -51,12 +51,12 @@ class Table:
         return self._array.take(index, mode="clip")
 
 
-def tables(values: Iterable[Fraction], places: int) -> tuple[Table, Table]:
-    """Return the multiples of 2^-places that are next to numbers, and the rests."""
-    exact = [*values]
-    heads = [Fraction(round(x * 2**places), 2**places) for x in exact]
-    rests = [float(x - head) for x, head in zip(exact, heads, strict=True)]
-    return Table(map(float, heads)), Table(rests)
+def tables(values: Iterable[int], places: int) -> tuple[Table, Table]:
+    """Return the multiples of 2^-places that are next to x / 2^BITS, and the rests."""
+    unit, numbers = 1 << (BITS - places), [*values]
+    heads = [(x + (unit >> 1)) // unit for x in numbers]
+    rests = [(x - head * unit) / (1 << BITS) for x, head in zip(numbers, heads, strict=True)]
+    return Table(math.ldexp(head, -places) for head in heads), Table(rests)
 
 
 def horner(z: Any, coefficients: tuple[float, ...]) -> Any:
