@@ -166,8 +166,10 @@ class Theorems(Lemmas):
         return None
 
     def graphs(self) -> None:
-        """Write the graphs of the sets beside the horseshoe."""
-        for number, staying in enumerate(self.plan.others, 1):
+        """Write the graphs of the sets that stay, beside the horseshoe."""
+        sets = self.plan.sets
+        others = sets[1:] if sets and sets[0].is_horseshoe else sets  # the first has its theorem
+        for number, staying in enumerate(others, 1):
             try:
                 graph(self, self.hints, number, staying)
             except NoHint as failure:

@@ -41,8 +41,8 @@ class Headline:
 class Plan:
     """What is to be stated: a horseshoe, if there is one, and what is decided of the claims.
 
-    points: the phases by which claims are refuted; roots: of Moran's equation; others: sets that
-    stay beside the horseshoe.
+    points: the phases by which claims are refuted; roots: of Moran's equation; sets: those that
+    stay, a horseshoe first.
     """
 
     of: Parameters
@@ -51,7 +51,7 @@ class Plan:
     statements: dict[str, str]
     points: dict[str, Impact]
     roots: tuple[MoranRoot, ...]
-    others: tuple[StayingSet, ...]
+    sets: tuple[StayingSet, ...]
 
     def holds(self, *claims: str) -> bool:
         """Whether claims are verified."""
@@ -90,7 +90,7 @@ def plan(source: str, report: Report | None = None) -> Plan:
         {name: each.statement for name, each in claims.items()},
         points,
         tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
-        tuple(_staying(found)[1:]),
+        tuple(_staying(found)),
     )
     if not claims and result.headline is None:
         raise Malformed("$.claims: none is of python -m proofs horseshoe, or rests on a horseshoe")
