@@ -51,7 +51,9 @@ def mutants():
     for line in (ROOT / "tests" / "mutants.txt").read_text(encoding="utf-8").splitlines():
         mark, _, rest = line.partition(" ")
         if mark == "==":
-            path, *tests = rest.replace(":", "").split()
+            name, *tests = rest.replace(":", "").split()
+            path = f"proofs/trusted/{name}.py"
+            tests = [f"tests/proofs/trusted/{test}.py" for test in tests]
         elif mark == "--":
             listed.append(Mutant(rest, path, tuple(tests), "", ""))
         elif listed and mark in ("-", "+"):
