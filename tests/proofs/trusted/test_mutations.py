@@ -100,6 +100,7 @@ def test_every_rule_is_mutated_in_many_ways():
 SEVENS = "7" * 1000
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("claim", "edit", "error", "message"),
     [
@@ -121,6 +122,7 @@ def test_numbers_of_many_digits(claim, edit, error, message):
         check(text_of(document))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "number",
     ["-0", "1/1", "0/1", "-0/3", "01", "1/02", "1.0", "1/-3", "\u0661", "1" * 401, "1" * 5000],

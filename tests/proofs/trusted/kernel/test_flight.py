@@ -289,6 +289,7 @@ def enclosed_values(data, box):
     return flight(data).values(enclosed([tuple(map(Fraction, side)) for side in box], 64))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("data", "box", "first"), [x[1:] for x in TRUTHS], ids=[x[0] for x in TRUTHS]
 )
@@ -297,6 +298,7 @@ def test_truths(data, box, first):
     assert low - Fraction(1, 10**6) <= first <= high + Fraction(1, 10**6)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("data", "box", "reason"), [x[1:] for x in LIES], ids=[x[0] for x in LIES])
 def test_lies(data, box, reason):
     with pytest.raises((Unproved, Malformed)) as caught:

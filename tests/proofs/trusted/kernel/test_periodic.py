@@ -68,14 +68,10 @@ def test_the_cycles_of_the_henon_map_are_as_many_as_published(period):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("period", [10, 12, 14])
+@pytest.mark.parametrize(
+    "period", [10, 12, *(pytest.param(n, marks=pytest.mark.long) for n in (14, 18, 20))]
+)
 def test_longer_cycles_of_the_henon_map(period):
-    assert counts(source(HENON, period)) == of_galias(period)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("period", [18, 20])
-def test_the_longest_cycles_of_the_henon_map(period):
     assert counts(source(HENON, period)) == of_galias(period)
 
 
@@ -238,7 +234,7 @@ def test_another_function():
         check(json.dumps(document))
 
 
-@pytest.mark.parametrize("value", ["x + x**2", "x"])
+@pytest.mark.parametrize("value", [pytest.param("x + x**2", marks=pytest.mark.slow), "x"])
 def test_points_that_are_not_isolated_or_not_simple(value):
     orbit = {"point": ["0"], "period": "1", "matrix": [["1"]]}
     witness = {"function": "F", "period": "1", "box": [["-1", "2"]], "radius": "1/1000"}

@@ -43,6 +43,7 @@ def test_series():
         prove({"a": "2*x", "b": "2*x + h"}, lemma)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("expressions", "lemma"),
     [
