@@ -60,7 +60,7 @@ EQUAL = [  # the same function, in other words; bound names and factors that rea
     ("resonance", "f12", "at(2*epsilon, truth=1)"),
     ("resonance", "f12", "at(2*epsilon, the_paper_is_right_after_all=1)"),
     ("resonance", "o12", "epsilon*1"),
-    ("soft", "j12", "-epsilon*(1+epsilon)/2"),
+    pytest.param("soft", "j12", "-epsilon*(1+epsilon)/2", marks=pytest.mark.long),
     ("soft", "lam", "-1*c"),
 ]
 
