@@ -263,6 +263,13 @@ def test_false_equations(left, right):
         "not(x)",
         "x\\\n",
         "9" * 5000,
+        "х",  # cyrillic
+        "x y",
+        "`x`",
+        "_1",
+        "x**(1/2)",
+        "at(at(x*_1, x=2), _1=3)",
+        "D(x, _1)",
     ],
 )
 def test_what_is_no_formula(text):
