@@ -149,6 +149,12 @@ def test_capture_is_refused(text, places):
         substitute(formula(text), {name: formula(value) for name, value in places.items()})
 
 
+def test_what_is_bound_captures_nothing():
+    """Also not what no text can say: a formula with the name that the reader gave."""
+    with pytest.raises(Unproved, match="captures"):
+        substitute(formula("at(x*w, w=2)"), {"x": Variable("_1")})
+
+
 @pytest.mark.every
 @pytest.mark.parametrize(
     ("text", "places", "expected"),
