@@ -17,6 +17,7 @@ from proofs.trusted.kernel.meter import METER
 
 FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
 _MAX_TAPE = 20_000
+_NODE = 25  # work, for the room that one takes
 
 T = TypeVar("T")
 
@@ -52,6 +53,7 @@ class Tape:
         if place == len(self.nodes):
             if place >= _MAX_TAPE:
                 raise Unproved("derivatives of a formula with too many operations")
+            METER.get().spend(_NODE)
             self.nodes.append(node)
         return place
 
