@@ -12,6 +12,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Enclosures, Matrix, enclosed
 from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     At,
     Derivative,
@@ -124,6 +125,13 @@ def on_tape(*trees: Tree, variables: tuple[str, ...] = (), name: str = "") -> Fo
     placer = Placer(tape, places, [])
     roots = tuple(map(placer.place, trees))
     return Formulas(variables, trees, tape, roots, tuple(dict.fromkeys(placer.parts)), name)
+
+
+def agree(tape: Tape, one: int, two: int) -> bool:
+    """Whether two functions have the same normal form: they are equal where both are defined."""
+    forms = NormalForms(MAX_VARIABLES)
+    left, right = tape.evaluate((one, two), forms, forms.inputs())
+    return forms.is_zero(plus(left, right, -1))
 
 
 @dataclass
