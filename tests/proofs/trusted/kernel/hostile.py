@@ -296,6 +296,13 @@ def many_terms():
     return many("formula-equal", [equal(product(25))])
 
 
+def long_series():
+    """A pole of an order beyond all memory."""
+    pole = "(((x**(-1))**1000)**1000)**1000"
+    lists = {"coefficients": ["0"], "nonzero": []}
+    return many("formula-series", [{"function": pole, "variable": "x", **lists}])
+
+
 def many_unknowns(count=20_000):
     expressions = {f"a{k}": "1" for k in range(count)}
     return many("formula-solution", [{"expressions": expressions, "lemmas": [equal("x", "x")]}])
