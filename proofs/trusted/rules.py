@@ -71,7 +71,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",
         "settles": "paper.beyond.boxes.prove_settles",
-        "covering-shift": "paper.beyond.boxes.prove_covering_shift",
     }
 )
 

@@ -1,20 +1,21 @@
-"""How much chaos is there in all? Branches of f with long flights, their covering graph. Row G9."""
+"""How much chaos is there in all? Branches of f, and their covering graph. Row G9."""
 
 from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, lifted
+from proofs.trusted.flights import FirstImpact, Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.gaps import brackets, falls
+from proofs.trusted.kernel.enclose import integer
+from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,
@@ -31,7 +32,7 @@ from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
-_MOST_TURNS = 20_000
+MOST_TURNS = 20_000
 _HALVINGS = 12
 _LOG_BITS = 160
 
@@ -43,9 +44,8 @@ _LOG_BITS = 160
 class Branch(Conclusion):
     """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
 
-    A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], gap' < 0 on [begin, ends[i]] and
-    gap < 0 at ends[i]: its first impact is the one zero between. Images are counted from
-    2 pi turn.
+    A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], then one zero up to ends[i], where
+    gap < 0: that of its first impact. Images are counted from 2 pi turn.
     """
 
     at: Place
@@ -53,10 +53,12 @@ class Branch(Conclusion):
     turn: int
     begin: Fraction
     ends: tuple[Fraction, ...]
+    _proved: set[tuple[Fraction, Range]] = field(default_factory=set, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if not increasing(self.cuts):
             raise Unproved("the cuts of a branch must increase")
+        Phases(self.cuts[0], self.cuts[-1])
         if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
             raise Unproved("a branch has an end after each piece's impacts, all after its begin")
 
@@ -80,11 +82,22 @@ class Branch(Conclusion):
 
         On its branch the gap has one zero, falling: gap > 0 and gap < 0 at the ends bracket it.
         """
-        if not within(time, self.window(phase)):
-            raise Unproved("a bracket leaves the window of the first impact")
-        if not brackets(self.motion((phase, phase)).gap_of, time):
-            raise Unproved("a bracket does not have the signs +, - at its ends")
+        if (phase, time) not in self._proved:
+            self._require_bracket(phase, time)
+            self._proved.add((phase, time))
         return phase + time[0], phase + time[1]
+
+    def _require_bracket(self, phase: Fraction, time: Range) -> None:
+        window, motion = self.window(phase), self.motion((phase, phase))
+        if not within(time, window):
+            raise Unproved("a bracket leaves the window of the first impact")
+        signs = zip(time, window, (1, -1), strict=True)
+        asked = [(end, sign) for end, known, sign in signs if end != known]
+        if not any(
+            all((gap_of((end, end), 0) * sign).lo > 0 for end, sign in asked)
+            for gap_of in (motion.gap_of, motion.sharp_gap)
+        ):
+            raise Unproved("a bracket does not have the signs +, - at its ends")
 
     def direction(self, phases: Range, after: Fraction) -> tuple[Range, int]:
         """Return a window of the impacts after these launches, and the sign of f', the same on all.
@@ -119,19 +132,26 @@ class Branch(Conclusion):
 
 
 def branch(context: Context, reader: Reader) -> Branch:
-    """Rule `branch`: {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}, for -1 < nu < 0.
+    """Rule `branch`: {flights, turn}, or {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}.
 
-    Hypotheses: on phases [x_0, x_n], gap'' > 0 on [0, t_1]; gap > 0 after t_1 in each of the
-    windows of `Meetings` for the minima 0, ..., K - 1 of the table; window K starts at s > t_1.
-    On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and gap(e_i) < 0. Conclusion: `Branch`, begin = s.
+    flights: names of transversal first-impact steps whose phases follow one another; turn is any
+    whole number. Conclusion: `Branch`, with the windows of the flights. Proof. Their first impacts
+    are smooth in the phase; at a shared end they are the same.
+
+    The second form, of long flights, is for -1 < nu < 0. Hypotheses: on phases [x_0, x_n] gap'' > 0
+    on [0, t_1]; gap > 0 after t_1 in each of the windows of `Meetings` for the minima 0, ..., K - 1
+    of the table; window K starts at s > t_1. On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and
+    gap(e_i) < 0. Conclusion: `Branch`, begin = s.
 
     Proof. gap = gap' = 0 at launch, so gap > 0 on (0, t_1]. No impact lies outside the windows,
     none in the first K; and none at s, which is outside window K or its strict boundary: gap > 0
     on (0, s]. Then the gap falls to a negative value: one zero, transversal, so f is C^1 on each
     piece, and on the union since at a shared end the first impact is the same.
     """
+    if reader.has("flights"):
+        return _joined(context, *reader.fields("flights", "turn"))
     cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
-    cuts, turn = cuts_of.numbers(2, 200), read_turn(turn_of)
+    cuts, turn = cuts_of.numbers(2, 200), integer(turn_of, 1, MOST_TURNS)
     at, phases = context.place, Phases(cuts[0], cuts[-1])
     if not -1 < at.point[1] < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
@@ -152,12 +172,20 @@ def branch(context: Context, reader: Reader) -> Branch:
     return found
 
 
-def read_turn(reader: Reader) -> int:
-    """Read the number of a window."""
-    turn = reader.number()
-    if turn.denominator != 1 or not 1 <= turn <= _MOST_TURNS:
-        raise reader.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
-    return int(turn)
+def _joined(context: Context, names: Reader, turn_of: Reader) -> Branch:
+    """Join transversal first impacts to a branch."""
+    flights = [context.step(name, FirstImpact) for name in names.items(1, 1000)]
+    parts = [each.motion.phases for each in flights]
+    if not all(each.transversal for each in flights):
+        raise Unproved("a first impact is not transversal")
+    if any(one[1] != two[0] for one, two in pairwise(parts)):
+        raise Unproved("the parts of a branch do not follow one another")
+    if len(places := {each.at for each in flights}) != 1:
+        raise Unproved("the flights are about different oscillators")
+    cuts, windows = (parts[0][0], *(high for _, high in parts)), [x.windows[0] for x in flights]
+    ends = tuple(end for _, end in windows)
+    turn = integer(turn_of, 0, MOST_TURNS)
+    return Branch(places.pop(), cuts, turn, min(windows)[0], ends)
 
 
 # -- the covering graph ----------------------------------------------------------------------------
@@ -167,17 +195,22 @@ def read_turn(reader: Reader) -> int:
 class EntropyBound(Conclusion):
     """In the union of disjoint branches f has an invariant set with entropy >= log(growth).
 
-    By a covering graph on so many intervals, `states`.
+    By a covering graph on so many intervals, `states`. cells: closed intervals, one in each branch,
+    that f maps over them all, if that is the graph; else none.
     """
 
     at: Place
     branches: tuple[Branch, ...]
     states: int
     growth: Fraction
+    cells: tuple[Phases, ...] = ()
 
     def __post_init__(self) -> None:
         if any(one.phases[1] >= two.phases[0] for one, two in pairwise(self.branches)):
             raise Unproved("branches must be disjoint and in order")
+        inside = [b for x in self.cells for b, y in enumerate(self.branches) if within(x, y.phases)]
+        if self.cells and not (sorted({*inside}) == inside and len(inside) == self.growth):
+            raise Unproved("cells are in branches, one in each, and as many as the growth")
 
     @property
     def entropy(self) -> Range:
@@ -186,6 +219,8 @@ class EntropyBound(Conclusion):
 
     @property
     def sentence(self) -> str:
+        if self.cells:
+            return self._shift
         domain = hull([each.phases for each in self.branches])
         times = hull([(each.begin, max(each.ends)) for each in self.branches])
         return (
@@ -196,7 +231,22 @@ class EntropyBound(Conclusion):
         )
 
     @property
+    def _shift(self) -> str:
+        named = ", ".join(f"C{i} = {show_range(cell)}" for i, cell in enumerate(self.cells))
+        return (
+            f"f is continuous on each of {named}, all first impacts from there being transversal, "
+            "and maps each over the interval from the first to the last of them. So each sequence "
+            f"of the symbols 0 to {len(self.cells) - 1} is the itinerary of a phase whose orbit "
+            "stays in these sets, each periodic one that of a periodic orbit; on the compact set "
+            "of all phases whose orbits stay there, f has the full shift on "
+            f"{len(self.cells)} symbols as a factor, and entropy at least "
+            f"{floor_text(self.entropy[0])}."
+        )
+
+    @property
     def brief(self) -> str:
+        if self.cells:
+            return f"f maps {len(self.cells)} sets each over them all: a full shift is a factor"
         return (
             f"entropy >= log {show(self.growth)} >= {floor_text(self.entropy[0])}, by a covering "
             f"graph on {len(self.branches)} branches of f, {self.states} intervals"
@@ -222,7 +272,8 @@ def entropy_bound(
     D_i intervals, the states, and v_i >= 0 weights, not all 0. If the ends of the part X_ib that
     D_i and Z_b have in common have known images, f(X_ib) contains the interval between these. For
     each i let the sum over b of the greatest v_j with D_j in that interval, 0 if there is none, be
-    at least m v_i, m = growth >= 1. Then what `EntropyBound.sentence` says.
+    at least m v_i, m = growth >= 1. Then what `EntropyBound.sentence` says; with one state and as
+    large an m as there are branches, of the X_1b as cells.
 
     Proof. 1. Join i to such a j for each b: A v >= m v, so an i with v_i > 0 starts at least
     c m^n paths of length n, c > 0, to states with v_j > 0 (Collatz and Wielandt); they all go on.
@@ -231,6 +282,10 @@ def entropy_bound(
     infinite paths form a compact set K, f(K) in K. 3. Two paths from i part at some step, from one
     state by different b: the phases are then in disjoint closed Z_b, a fixed distance apart. So for
     one d > 0 and all n, K has (n, d)-separated sets of c m^n points (Bowen's definition).
+    4. With one state f maps each X_1b over it, and so over all of them: all sequences of the b are
+    followed. For one that repeats after p steps, f^p maps an interval in X_1b over itself, by
+    intermediate values: it has a fixed point there. As the X_1b are apart, the itinerary is a
+    continuous map of the phases that stay in them onto all sequences, and turns f into the shift.
     """
     if growth < 1 or min(weights) < 0 or not any(weights):
         raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
@@ -252,7 +307,9 @@ def entropy_bound(
         known = [(a, b) for a, b in parts if a < b and a in images and b in images]
         if sum(best(images[a], images[b]) for a, b in known) < growth * weight:
             raise Unproved("the graph does not multiply the weights by the growth")
-    return EntropyBound(places.pop(), tuple(branches), len(states), growth)
+    is_full = len(states) == 1 and growth == len(known) > 1
+    cells = tuple(Phases(*part) for part in known) if is_full else ()
+    return EntropyBound(places.pop(), tuple(branches), len(states), growth, cells)
 
 
 def covering_graph(context: Context, reader: Reader) -> EntropyBound:
