@@ -15,11 +15,11 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
-from proofs.trusted.paper.beyond.returning import StickingMotion
+from proofs.trusted.paper.beyond.returning import StickingMotion, led
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.staying import StayingSet, read_part
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import SlopeRange, image_range, inside
+from proofs.trusted.slopes import SlopeRange, image_range
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _MOST_IMPACTS = 200
@@ -198,9 +198,7 @@ def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
         raise Unproved("the hypotheses are about different oscillators")
     first = min(range(len(parts)), key=lambda i: parts[i].ends)
     parts = [*parts[first:], *parts[:first]]
-    following = zip(parts, [*parts[1:], parts[0]], strict=True)
-    if not all(inside(image_range(part), after.ends) for part, after in following):
-        raise Unproved("an image is not proved to be inside the next set")
+    led([image_range(parts[-1])], parts)
     zero, one = Fraction(0), Fraction(1)
     most = prod((part.steepest for part in parts), start=one)
     least = prod((max(part.minimum[0], -part.maximum[1], zero) for part in parts), start=one)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise
+from typing import NamedTuple, Self
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import FirstImpact, Motion, lifted
@@ -261,18 +262,33 @@ class EntropyBound(Conclusion):
         return {"entropy_lower_bound": self.entropy}
 
 
+class Weighted(NamedTuple):
+    """Intervals D_i, weights v_i >= 0, not all 0, and m = growth >= 1: by which a graph multiplies
+    the weights, at least or at most.
+    """
+
+    states: Sequence[Range]
+    weights: Sequence[Fraction]
+    growth: Fraction
+
+    @classmethod
+    def read(cls, states: Reader, weights: Reader, growth: Reader) -> Self:
+        """Read them."""
+        vector, ratio = weights.numbers(1, 2000), growth.number()
+        if ratio < 1 or min(vector) < 0 or not any(vector):
+            raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
+        ends = [state.range() for state in states.items(len(vector), len(vector))]
+        return cls(ends, vector, ratio)
+
+
 def entropy_bound(
-    branches: Sequence[Branch],
-    images: Mapping[Fraction, Range],
-    states: Sequence[Range],
-    weights: Sequence[Fraction],
-    growth: Fraction,
+    branches: Sequence[Branch], images: Mapping[Fraction, Range], graph: Weighted
 ) -> EntropyBound:
     """Theorem. Let Z_b be disjoint branches, in order, f of some of their phases lie in `images`,
-    D_i intervals, the states, and v_i >= 0 weights, not all 0. If the ends of the part X_ib that
+    D_i, v_i and m be those of `graph`, the D_i its states. If the ends of the part X_ib that
     D_i and Z_b have in common have known images, f(X_ib) contains the interval between these. For
     each i let the sum over b of the greatest v_j with D_j in that interval, 0 if there is none, be
-    at least m v_i, m = growth >= 1. Then what `EntropyBound.sentence` says; with one state and as
+    at least m v_i. Then what `EntropyBound.sentence` says; with one state and as
     large an m as there are branches, of the X_1b as cells.
 
     Proof. 1. Join i to such a j for each b: A v >= m v, so an i with v_i > 0 starts at least
@@ -287,8 +303,7 @@ def entropy_bound(
     intermediate values: it has a fixed point there. As the X_1b are apart, the itinerary is a
     continuous map of the phases that stay in them onto all sequences, and turns f into the shift.
     """
-    if growth < 1 or min(weights) < 0 or not any(weights):
-        raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
+    states, weights, growth = graph
     if len(places := {each.at for each in branches}) != 1:
         raise Unproved("the branches are about no oscillator, or about different ones")
     ranked = sorted(zip(weights, states, strict=True), reverse=True)
@@ -317,18 +332,9 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
 
     time brackets the first impact after a phase, as in `Branch.image`. Conclusion: `entropy_bound`.
     """
-    branches_of, images, states, weights, growth = reader.fields(
-        "branches", "images", "states", "weights", "growth"
-    )
-    branches = [context.step(name, Branch) for name in branches_of.items(1, 1000)]
-    vector = weights.numbers(1, 2000)
-    return entropy_bound(
-        branches,
-        read_images(branches, images),
-        [state.range() for state in states.items(len(vector), len(vector))],
-        vector,
-        growth.number(),
-    )
+    names, images, *graph = reader.fields("branches", "images", "states", "weights", "growth")
+    branches = [context.step(name, Branch) for name in names.items(1, 1000)]
+    return entropy_bound(branches, read_images(branches, images), Weighted.read(*graph))
 
 
 def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:

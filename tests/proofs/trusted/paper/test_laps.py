@@ -23,7 +23,7 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.expansion import (
     Expansion,
     beside,
@@ -32,7 +32,7 @@ from proofs.trusted.paper.s34_circle.expansion import (
 )
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
+from proofs.trusted.paper.s34_circle.laps import EntropyRange, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
 from proofs.trusted.paper.s34_circle.roots import Between
 from proofs.trusted.parameters import PAPER
@@ -539,7 +539,7 @@ def test_images_lie_between_those_of_the_ends_whatever_the_enclosures(known):
 
 def test_images_longer_than_the_circle_are_refused(known):
     (pieces,), (found,) = only(Pieces, known), only(EntropyRange, known)
-    whole = OuterGraph([pieces.region], [F(1)], F(100))
+    whole = Weighted([pieces.region], [F(1)], F(100))
     assert entropy_range(pieces, found.lower, lambda _: (F(1), F(2)), whole).growth == 100
     for image in ((F(-5), F(1)), (F(1), F(7))):
         with pytest.raises(Unproved, match="longer than the circle"):
