@@ -25,7 +25,8 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import Phases, Range
-from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange

@@ -28,8 +28,8 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, Range, hull
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, is_least, word_of
-from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.expansion import (
     BRACKET,
     Expansion,

@@ -167,24 +167,25 @@ def _between(view, ends):
 
 
 def branch(view, rng):
-    """On each piece gap > 0 up to `begin`, and then one zero before the piece's end."""
+    """On each piece gap > 0 up to its window, and then one zero in it."""
     told = []
     if any(b <= a for a, b in zip(view.cuts, view.cuts[1:], strict=False)):
         return ["the cuts do not increase"]
-    if len(view.ends) != len(view.cuts) - 1:
+    if len(view.windows) != len(view.cuts) - 1:
         return ["the lengths do not fit"]
-    for k in {0, len(view.ends) - 1, rng.randrange(len(view.ends))}:
+    for k in {0, len(view.windows) - 1, rng.randrange(len(view.windows))}:
+        end = view.windows[k][1]
         for phase in points((view.cuts[k], view.cuts[k + 1]), rng, 1):
-            found = _impact(view, phase, float(view.ends[k]) + 1)
+            found = _impact(view, phase, float(end) + 1)
             if isinstance(found, str):
                 told.append(f"the launch at {float(phase):.9g}: {found}")
             elif found is not None:
-                if not inside(found.time, (view.begin, view.ends[k])):
+                if not inside(found.time, view.windows[k]):
                     told.append(f"the impact after {float(phase):.9g} is at {found.time.str(9)}")
                 around = (float(found.lifted) - TURN / 4) / TURN - view.turn
                 if abs(around) > 0.7:
                     told.append(f"the impact after {float(phase):.9g} is not in turn {view.turn}")
-                rest = ball(view.ends[k]) - found.time
+                rest = ball(end) - found.time
                 below = [found.gap.at(found.time + rest * s / 8)[0] for s in (1, 4, 8)]
                 if max(map(float, below)) > 1e-12:
                     told.append(f"the gap does not stay below 0 after {float(phase):.9g}")
@@ -208,7 +209,7 @@ def entropy_bound(view, rng):
     matrix = np.zeros((size, size))
     for i, one in enumerate(view.branches):
         cuts = (*one.cuts[:: max(1, len(one.cuts) // 3)], one.cuts[-1])
-        images = [lifted(view, phase, float(max(one.ends)) + 1) for phase in cuts]
+        images = [lifted(view, phase, float(max(one.windows)[1]) + 1) for phase in cuts]
         if None in images:
             return told
         low, high = min(images) - 1e-6, max(images) + 1e-6

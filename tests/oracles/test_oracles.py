@@ -214,7 +214,11 @@ FALSE = {
     "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
     "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
     "Uncovered": LINEAR,
-    "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
+    "Branch": [
+        put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
+        put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
+        put("turn", lambda old: old + 2),
+    ],
     "EntropyBound": [
         offs("entropy"),
         _much_growth,

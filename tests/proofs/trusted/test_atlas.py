@@ -14,7 +14,8 @@ from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.paper.beyond.singles import StableSingles
-from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import question
 from proofs.trusted.verdicts import Verdict
@@ -322,7 +323,7 @@ def test_memory_does_not_grow_with_the_number_of_cells(lines):
 
 def test_more_sets_than_asked_for_are_enough_and_fewer_are_not():
     at = Place((F("0.2121"),) * 2, (F("-0.2"),) * 2)
-    branches = tuple(Branch(at, (F(k), F(k) + F(1, 2)), 1, F(1), (F(2),)) for k in range(4))
+    branches = tuple(Branch(at, (F(k), F(k) + F(1, 2)), 1, ((F(1), F(2)),)) for k in range(4))
     for count in (2, 3, 4):
         cells = tuple(branch.phases for branch in branches[:count])
         found = [EntropyBound(at, branches, 1, F(count), cells)]

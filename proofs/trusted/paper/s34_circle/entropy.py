@@ -1,22 +1,18 @@
-"""How much chaos is there in all? Branches of f, and their covering graph. Row G9."""
+"""How much chaos is there in all? The covering graph of branches of f. Row G9."""
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache
 from itertools import pairwise
 from typing import NamedTuple, Self
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import FirstImpact, Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import integer
-from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,
@@ -24,172 +20,15 @@ from proofs.trusted.numbers import (
     between,
     floor_text,
     hull,
-    increasing,
     show,
     show_range,
     within,
 )
+from proofs.trusted.paper.branches import Branch, read_images
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
-MOST_TURNS = 20_000
-_HALVINGS = 12
 _LOG_BITS = 160
-
-
-# -- branches --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Branch(Conclusion):
-    """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
-
-    A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], then one zero up to ends[i], where
-    gap < 0: that of its first impact. Images are counted from 2 pi turn.
-    """
-
-    at: Place
-    cuts: tuple[Fraction, ...]
-    turn: int
-    begin: Fraction
-    ends: tuple[Fraction, ...]
-    _proved: set[tuple[Fraction, Range]] = field(default_factory=set, compare=False, repr=False)
-
-    def __post_init__(self) -> None:
-        if not increasing(self.cuts):
-            raise Unproved("the cuts of a branch must increase")
-        Phases(self.cuts[0], self.cuts[-1])
-        if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
-            raise Unproved("a branch has an end after each piece's impacts, all after its begin")
-
-    @cached_property
-    def phases(self) -> Phases:
-        """The closed interval of phases."""
-        return Phases(self.cuts[0], self.cuts[-1])
-
-    def motion(self, phases: Range) -> Motion:
-        """Return the flights from some of the phases."""
-        return Motion(self.at, phases, BITS)
-
-    def window(self, phase: Fraction) -> Range:
-        """Return the times between which the first impact after a launch at a phase comes."""
-        if not within((phase, phase), self.phases):
-            raise Unproved("a phase outside the branch")
-        return self.begin, self.ends[max(0, bisect_left(self.cuts, phase) - 1)]
-
-    def image(self, phase: Fraction, time: Range) -> Range:
-        """Enclose phase + the time of the first impact, which is proved to be in `time`.
-
-        On its branch the gap has one zero, falling: gap > 0 and gap < 0 at the ends bracket it.
-        """
-        if (phase, time) not in self._proved:
-            self._require_bracket(phase, time)
-            self._proved.add((phase, time))
-        return phase + time[0], phase + time[1]
-
-    def _require_bracket(self, phase: Fraction, time: Range) -> None:
-        window, motion = self.window(phase), self.motion((phase, phase))
-        if not within(time, window):
-            raise Unproved("a bracket leaves the window of the first impact")
-        signs = zip(time, window, (1, -1), strict=True)
-        asked = [(end, sign) for end, known, sign in signs if end != known]
-        if not any(
-            all((gap_of((end, end), 0) * sign).lo > 0 for end, sign in asked)
-            for gap_of in (motion.gap_of, motion.sharp_gap)
-        ):
-            raise Unproved("a bracket does not have the signs +, - at its ends")
-
-    def direction(self, phases: Range, after: Fraction) -> tuple[Range, int]:
-        """Return a window of the impacts after these launches, and the sign of f', the same on all.
-
-        They come later than `after` if gap > 0 then. f' = (sin(eta t) / eta) A / gap' has one sign
-        if sin(eta t) has from then on.
-        """
-        if not self.begin <= after < min(self.ends):
-            raise Unproved("the window of the first impact begins later, or ends before")
-        if after > self.begin and not self._up(phases, after, _HALVINGS):
-            raise Unproved("an impact before the time given is not excluded")
-        window = after, max(self.ends)
-        along = self.motion(phases).clock(window).mass_sin
-        if along.has_zero:
-            raise Unproved("f' is not proved to have one sign on a branch")
-        return window, -1 if along.lo > 0 else 1
-
-    def _up(self, phases: Range, time: Fraction, halvings: int) -> bool:
-        """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
-        if level(self.motion(phases), time)[0] > 0:
-            return True
-        middle = (phases[0] + phases[1]) / 2
-        halves = (phases[0], middle), (middle, phases[1])
-        return halvings > 0 and all(self._up(half, time, halvings - 1) for half in halves)
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"f is C^1 on {show_range(self.phases)}, the first impact being transversal, after a "
-            f"time in {show_range((self.begin, max(self.ends)))}."
-        )
-
-
-def branch(context: Context, reader: Reader) -> Branch:
-    """Rule `branch`: {flights, turn}, or {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}.
-
-    flights: names of transversal first-impact steps whose phases follow one another; turn is any
-    whole number. Conclusion: `Branch`, with the windows of the flights. Proof. Their first impacts
-    are smooth in the phase; at a shared end they are the same.
-
-    The second form, of long flights, is for -1 < nu < 0. Hypotheses: on phases [x_0, x_n] gap'' > 0
-    on [0, t_1]; gap > 0 after t_1 in each of the windows of `Meetings` for the minima 0, ..., K - 1
-    of the table; window K starts at s > t_1. On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and
-    gap(e_i) < 0. Conclusion: `Branch`, begin = s.
-
-    Proof. gap = gap' = 0 at launch, so gap > 0 on (0, t_1]. No impact lies outside the windows,
-    none in the first K; and none at s, which is outside window K or its strict boundary: gap > 0
-    on (0, s]. Then the gap falls to a negative value: one zero, transversal, so f is C^1 on each
-    piece, and on the union since at a shared end the first impact is the same.
-    """
-    if reader.has("flights"):
-        return _joined(context, *reader.fields("flights", "turn"))
-    cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
-    cuts, turn = cuts_of.numbers(2, 200), integer(turn_of, 1, MOST_TURNS)
-    at, phases = context.place, Phases(cuts[0], cuts[-1])
-    if not -1 < at.point[1] < 0:
-        raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(at, phases, BITS)
-    meetings, launched = Meetings.of(whole), leaves(whole)
-    for low, high in meetings.before(turn):
-        if high > launched:
-            clear(whole, (max(low, launched), high))
-    begin = meetings.window(turn)[0]
-    if begin <= launched:
-        raise Unproved("the last window starts at launch")
-    found = Branch(at, cuts, turn, begin, ends_of.numbers())
-    for piece, end in zip(pairwise(cuts), found.ends, strict=True):
-        if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
-            raise Unproved("the gap is not proved to fall to the impact")
-        if level(found.motion(piece), end)[1] >= 0:
-            raise Unproved("the gap is not proved negative at an end")
-    return found
-
-
-def _joined(context: Context, names: Reader, turn_of: Reader) -> Branch:
-    """Join transversal first impacts to a branch."""
-    flights = [context.step(name, FirstImpact) for name in names.items(1, 1000)]
-    parts = [each.motion.phases for each in flights]
-    if not all(each.transversal for each in flights):
-        raise Unproved("a first impact is not transversal")
-    if any(one[1] != two[0] for one, two in pairwise(parts)):
-        raise Unproved("the parts of a branch do not follow one another")
-    if len(places := {each.at for each in flights}) != 1:
-        raise Unproved("the flights are about different oscillators")
-    cuts, windows = (parts[0][0], *(high for _, high in parts)), [x.windows[0] for x in flights]
-    ends = tuple(end for _, end in windows)
-    turn = integer(turn_of, 0, MOST_TURNS)
-    return Branch(places.pop(), cuts, turn, min(windows)[0], ends)
-
-
-# -- the covering graph ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -223,7 +62,7 @@ class EntropyBound(Conclusion):
         if self.cells:
             return self._shift
         domain = hull([each.phases for each in self.branches])
-        times = hull([(each.begin, max(each.ends)) for each in self.branches])
+        times = hull([each.times for each in self.branches])
         return (
             f"f has a compact set K in {show_range(domain)}, f(K) in K, on which it is continuous "
             f"and has topological entropy at least log {show(self.growth)} >= "
@@ -335,22 +174,6 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
     names, images, *graph = reader.fields("branches", "images", "states", "weights", "growth")
     branches = [context.step(name, Branch) for name in names.items(1, 1000)]
     return entropy_bound(branches, read_images(branches, images), Weighted.read(*graph))
-
-
-def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:
-    """Read phases on branches and brackets of their first impacts; enclose f there, on the line."""
-    return dict(read_image(branches, entry) for entry in entries.items(1, 5000))
-
-
-def read_image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
-    """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
-    phase_of, time_of = entry.fields("phase", "time")
-    phase = phase_of.number()
-    METER.get().spend(len(branches))
-    on = [each for each in branches if each.cuts[0] <= phase <= each.cuts[-1]]
-    if not on:
-        raise phase_of.fail("the phase lies on no branch")
-    return phase, lifted(on[0].image(phase, time_of.range()), -on[0].turn, BITS)
 
 
 # -- the row ---------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, increasing, show
-from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
 from proofs.trusted.windows import BITS

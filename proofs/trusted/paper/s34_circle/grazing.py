@@ -15,7 +15,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer, sqrt
 from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.numbers import Phases, Range, between, increasing, show_range
-from proofs.trusted.paper.s34_circle.entropy import MOST_TURNS
+from proofs.trusted.paper.branches import MOST_TURNS
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 

@@ -165,17 +165,17 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
     rejected(made, "string", Malformed)
     known = copy.deepcopy(premises(text()).known)
     with pytest.raises(Unproved, match="one eta and one nu"):
-        from proofs.trusted.paper.s34_circle.entropy import branch
+        from proofs.trusted.paper.branches import branch
 
         witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
         branch(Context(BOX, {}, known), Reader(witness))
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "itinerary", "lands", "passes-separation", "point",
+    "avoids", "branch", "first-impact", "itinerary", "lands", "passes-separation", "point",
     "separation", "slope-range", "staying-set", "superstable-motion",
 }  # fmt: skip
-ONE_OSCILLATOR = {
+ONE_OSCILLATOR = {  # of branches those with long flights
     "branch", "dimension", "grazing", "never-impacts",
 }  # fmt: skip
 

@@ -25,7 +25,8 @@ from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
@@ -415,7 +416,7 @@ def test_a_long_flight_is_proved_by_prover_and_checker():
         "ends": [str(F(round((found.time + 0.02) * 1000), 1000))],
     }
     branch = apply("branch", witness)
-    assert branch.begin < F(found.time) < branch.ends[0]
+    assert branch.times[0] < F(found.time) < branch.times[1]
     for turn in ("843", "845", "811"):
         with pytest.raises((Unproved, Malformed)):
             apply("branch", {**witness, "turn": turn})
@@ -543,7 +544,7 @@ def test_a_state_has_no_part_in_a_branch_beside_it(small, graphs):
 
 
 def test_g9_without_enough_growth_is_undecided():
-    branch = Branch(AT, (F(1), F("1.1")), 4, F(24), (F(25),))
+    branch = Branch(AT, (F(1), F("1.1")), 4, ((F(24), F(25)),))
     weak = EntropyBound(AT, (branch,), 1, F("1.9"))
     undecided = find("G9").decide(PAPER, [weak])
     assert undecided.verdict is Verdict.UNDECIDED

@@ -433,11 +433,11 @@ def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coar
     index, cell = next(
         (index, cell)
         for index, cell in enumerate(cells)
-        if half_turns(derived[cell["branch"]].begin) < half_turns(cell["after"])
+        if half_turns(derived[cell["branch"]].times[0]) < half_turns(cell["after"])
     )
     branch = derived[cell["branch"]]
-    late = (min(map(Fraction, cell["times"])) * UNIT + min(branch.ends)) / 2
-    for time, message in ((branch.begin, "one sign"), (late, "not excluded")):
+    late = (min(map(Fraction, cell["times"])) * UNIT + min(end for _, end in branch.windows)) / 2
+    for time, message in ((branch.times[0], "one sign"), (late, "not excluded")):
         refused(
             coarse,
             derived,

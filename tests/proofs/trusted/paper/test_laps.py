@@ -489,9 +489,10 @@ def test_an_orbit_that_is_not_given_is_left_open(steps, known):
 
 def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
     (found,), (bounds,) = only(Expansion, known), only(EntropyRange, known)
+    cuts, end = found.pieces.arcs[2].cuts, found.pieces.arcs[2].times[1]
     arcs = (
         *found.pieces.arcs[:2],
-        replace(found.pieces.arcs[2], begin=F(1)),
+        replace(found.pieces.arcs[2], windows=((F(1), end),) * (len(cuts) - 1)),
         *found.pieces.arcs[3:],
     )
     other = replace(found, pieces=replace(found.pieces, arcs=arcs))
@@ -513,8 +514,8 @@ def test_a_graze_that_only_one_half_has_is_none(known):
     """Parts that take turns: a branch where a graze should be, and the other way round."""
     (pieces,) = only(Pieces, known)
     low, high, *rest = pieces.arcs
-    first = replace(low, cuts=(low.cuts[0], F(1)), ends=low.ends[:1])
-    last = replace(low, cuts=(F(1), low.cuts[-1]), ends=low.ends[:1])
+    first = replace(low, cuts=(low.cuts[0], F(1)), windows=low.windows[:1])
+    last = replace(low, cuts=(F(1), low.cuts[-1]), windows=low.windows[:1])
     with pytest.raises(Unproved, match="take turns"):
         replace(pieces, arcs=(first, last, high, *rest))
     with pytest.raises(Unproved, match="adjoin it"):
