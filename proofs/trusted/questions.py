@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
-from proofs.trusted.paper.beyond.boxes import AllStick
+from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound

@@ -70,7 +70,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",
-        "settles": "paper.beyond.boxes.prove_settles",
+        "settles": "paper.beyond.attractors.prove_settles",
     }
 )
 

@@ -37,12 +37,14 @@ class Branch(Conclusion):
     cuts: tuple[Fraction, ...]
     turn: int
     windows: tuple[Range, ...]
-    _proved: set[tuple[Fraction, Range]] = field(default_factory=set, compare=False, repr=False)
+    _proved: set[tuple[Fraction, Range]] = field(
+        default_factory=set, init=False, compare=False, repr=False
+    )
 
     def __post_init__(self) -> None:
         if not increasing(self.cuts):
             raise Unproved("the cuts of a branch must increase")
-        Phases(self.cuts[0], self.cuts[-1])
+        Phases(self.cuts[0], self.cuts[-1])  # raises where this is no interval of them
         ordered = all(0 < begin < end for begin, end in self.windows)
         if len(self.windows) != len(self.cuts) - 1 or not ordered:
             raise Unproved("a branch has a window of the impacts after each piece")

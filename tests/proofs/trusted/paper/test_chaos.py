@@ -422,6 +422,15 @@ def test_a_long_flight_is_proved_by_prover_and_checker():
             apply("branch", {**witness, "turn": turn})
 
 
+def test_what_is_remembered_of_a_branch_is_not_said_of_another(small):
+    branch = small[2].branches[0]
+    phase, time = min(branch._proved)
+    assert branch.image(phase, time) == (phase + time[0], phase + time[1])
+    other = replace(branch, at=replace(PAPER, nu=F("-0.21")).place)
+    with pytest.raises(Unproved, match="signs"):
+        other.image(phase, time)
+
+
 def test_an_impact_overlooked_is_refused():
     """phi = 1.6: the gap falls through 0 in turn 877 too, 33 turns after the first impact."""
     bottom = math.pi / 2 - 1.6 + 2 * math.pi * 877
