@@ -13,8 +13,9 @@ from fractions import Fraction
 from functools import partial
 from types import MappingProxyType
 
-from intervals import Undecided
+from intervals import DomainError, Undecided
 from proofs.motion.candidate import next_impact
+from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.budget import EFFORT, FASTEST, Budget
@@ -37,6 +38,7 @@ _TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in coveri
 _LONGEST = 60  # period
 _NEAR = 1e-9
 _RADIUS = 1e-5  # of the sets around the points of an orbit
+_MOST_PERIODS, _BITS = 30, 60  # of orbits with one impact, that are looked for in closed form
 _LEAST = 1e-3  # the least |f'| that radii follow
 _THINNEST = 1e-12
 _PLACES = 14
@@ -190,8 +192,11 @@ def _stable(run: Run) -> Proof:
 
 
 def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
-    """Yield about the phases and slopes of stable orbits, each once."""
+    """Yield about the phases and slopes of stable orbits, each once: first those of (16)."""
     seen: list[float] = []
+    for point in _single_impacts(run):
+        seen.append(point[0])
+        yield [point]
     for k in range(run.budget.starts):
         phase = math.tau * (k + 0.5) / run.budget.starts
         for _ in range(run.budget.impacts):
@@ -206,6 +211,19 @@ def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
             if points:
                 seen += [phase for phase, _ in points]
                 yield points
+
+
+def _single_impacts(run: Run) -> Iterator[tuple[float, float]]:
+    """Yield the phase and slope of the stable orbits with one impact in a few table periods."""
+    last = last_period(run.system) or _MOST_PERIODS
+    for n in range(1, min(last, _MOST_PERIODS) + 1):
+        run.budget.check()
+        if n * run.system.eta % 1 == 0:
+            continue
+        with suppress(Undecided, DomainError):
+            for each in solutions(run.system, n, _BITS):
+                if each.stable and each.multiplier is not None:
+                    yield float(sum(each.phase)) / 2, float(each.multiplier[0])
 
 
 def _cycle(run: Run, phase: float) -> list[tuple[float, float]] | None:
