@@ -68,19 +68,3 @@ def separation_phase(system: System) -> float:
 def state_at(start: Launch, now: Clock) -> tuple[Number, Number]:
     """Return the gap and its rate."""
     return gap(start, now), gap(start, now, 1)
-
-
-def late_state(
-    system: System, epsilon: float, phase: float, speed: float, impacts: int
-) -> tuple[float, float] | None:
-    """Return the phase and speed so many impacts later, None if the mass rests or flies on."""
-    for _ in range(impacts):
-        kick = epsilon * speed
-        start = launch(system.side, float(system.eta), float(system.nu), phase)
-        if kick < WEAKEST and launch_acceleration(start) < NO_PUSH:
-            return None
-        found = next_impact(system, phase, kick, math.tau * TURNS)
-        if found is None:
-            return None
-        phase, speed = (phase + found[0]) % math.tau, found[1]
-    return phase, speed

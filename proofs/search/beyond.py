@@ -137,8 +137,8 @@ def _sticking(run: Run) -> Proof:
     name, arc = prove_arc(prover)
     parts: list[Part] = []
     if not arc.returns:
-        points = _orbit(run, float(sum(arc.arrival)) / 2 % math.tau)
-        if points is None:
+        points = [*_followed(run, float(sum(arc.arrival)) / 2 % math.tau)]
+        if len(points) == _LONGEST:
             raise Undecided(f"{_LONGEST} impacts after the separation the mass has not stuck")
         steep = math.prod(max(2 * abs(slope), 1.0) for _, slope in points)
         parts = _around(prover, points, min(_RADIUS, _LEAST / steep), 2.0)
@@ -147,16 +147,14 @@ def _sticking(run: Run) -> Proof:
     return [(prover.add("sticking-motion", witness), found)]
 
 
-def _orbit(run: Run, phase: float) -> list[tuple[float, float]] | None:
-    """Return about the phases and slopes of an orbit that sticks in the end; None if not soon."""
-    points: list[tuple[float, float]] = []
-    while len(points) < _LONGEST:
+def _followed(run: Run, phase: float) -> Iterator[tuple[float, float]]:
+    """Yield about the phases and slopes of an orbit, until it sticks or there are many."""
+    for _ in range(_LONGEST):
         found = next_impact(run.system, phase, run.budget.farthest)
         if found is None:
-            return points
-        points.append((phase, found[2]))
+            return
+        yield phase, found[2]
         phase = found[1]
-    return None
 
 
 def _around(
@@ -226,18 +224,12 @@ def _single_impacts(run: Run) -> Iterator[tuple[float, float]]:
                     yield float(sum(each.phase)) / 2, float(each.multiplier[0])
 
 
-def _cycle(run: Run, phase: float) -> list[tuple[float, float]] | None:
+def _cycle(run: Run, start: float) -> list[tuple[float, float]] | None:
     """Return the points of a stable cycle that a phase is on; None if it is on none."""
-    points, start = [], phase
-    for _ in range(_LONGEST):
-        found = next_impact(run.system, phase, run.budget.farthest)
-        if found is None:
-            return None
-        points.append((phase, found[2]))
-        phase = found[1]
-        if abs(phase - start) < _NEAR:
-            return points if abs(math.prod(slope for _, slope in points)) < 1 else None
-    return None
+    points = [*_followed(run, start)]
+    back = (k for k, (phase, _) in enumerate(points) if k and abs(phase - start) < _NEAR)
+    cycle = points[: next(back, 0)]
+    return cycle if cycle and abs(math.prod(slope for _, slope in cycle)) < 1 else None
 
 
 def _shares(run: Run) -> Proof:
