@@ -1,50 +1,25 @@
 """The reader's test: each sentence of README and of `docs/proof.md`, and what it stands on.
 
 A row is the beginning of a sentence, in the order of the page, and its source: claims of the
-ledger, rules of the checker, a count that is made here, or "-", where it defines, announces or
+ledger, rules of the checker, arithmetic of another test, or "-", where it defines, announces or
 tells how to use something; such a sentence has no number but the paper's own.
 """
 
 import json
 import re
-from collections import Counter
 from pathlib import Path
 
 import pytest
 
-from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.rules import find_rule
 
 ROOT = Path(__file__).parents[1]
 LEDGER = {x["id"]: x for x in json.loads((ROOT / "reports/ledger.json").read_text())["claims"]}
 NUMBER = re.compile(r"(?<![\d.])\d+\.\d+(?![\d.]*[\w])")
 _ENDS = re.compile(r"(?<=[.?])\*{0,2} (?=[A-Z`*\[])")
-OTHERS = "-", "counts", "inequalities"  # the last are those of a test in `test_docs`
+OTHERS = "-", "counts", "inequalities"  # the last two: `test_readme`, `test_docs`
 OWN = {"0.2121", "0.2", "0.22", "0.21", "0.215", "0.205", "0.195", "3.9", "0.01", "3.11"}
 SETS = {"1.1", "1.11", "1.15", "1.27", "1.32", "1.48"}  # printed, or repaired
-
-
-def counts():
-    """The words of the README about verdicts, from the ledger."""
-    rows = {claim: find(claim) for claim in LEDGER}
-    paper = [claim for claim, row in rows.items() if not row.own]
-    verdicts = Counter(LEDGER[claim]["verdict"] for claim in paper)
-    own = [claim for claim, row in rows.items() if row.own]
-    false = {
-        key: sum(LEDGER[claim]["verdict"] == "REFUTED" for claim in GROUPS[key] if claim in paper)
-        for key in ("soft", "resonance")
-    }
-    simulated = [claim for claim in paper if LEDGER[claim]["verdict"] == "SIMULATED"]
-    names = {7: "seven", 11: "eleven"}
-    return [
-        f"Of the {len(paper)} claims of the paper that we count {len(paper) - len(simulated)} are "
-        f"decided: {verdicts['VERIFIED']} true as printed, {verdicts['REFUTED']} false, "
-        f"{verdicts['CONDITIONAL']} true under conditions",
-        f"({', '.join(simulated)}) are observations",
-        f"{', '.join(own[:-1])} and {own[-1]} are questions of our own",
-        f"has {names[false['soft']]} of 23 claims false, section 6 on resonance "
-        f"{names[false['resonance']]} of 13",
-    ]
 
 
 SOURCES = {
@@ -197,8 +172,3 @@ def test_every_number_is_its_source_s(page):
         checked = names == ["inequalities"]
         missing += [(x, sentence[:50]) for x in numbers(sentence) if x not in said and not checked]
     assert not missing
-
-
-def test_the_counts_are_the_ledger_s():
-    text = " ".join((ROOT / "README.md").read_text().split())
-    assert [each for each in counts() if each not in text] == []
