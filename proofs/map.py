@@ -12,8 +12,8 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from intervals import Undecided, fraction
-from proofs.methods.grammar import GrammarError, canonical, name, names
+from intervals import Undecided
+from proofs.methods.grammar import GrammarError, canonical, exact, name, names
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -25,6 +25,7 @@ Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
 _SEEDS = 120
+EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
 
@@ -36,7 +37,7 @@ class Map:
     unless `variables` says otherwise. parameters: exact numbers, or ranges (low, high): what is
     proved then holds for all of them. periods: of those variables that are angles. Raises
     ValueError, in a sentence, where that is no map; the methods raise `intervals.Undecided` where
-    nothing is proved.
+    nothing is proved. effort: each more doubles the points and candidates that are looked at.
     """
 
     def __init__(
@@ -64,6 +65,7 @@ class Map:
 
         self.functions, self.function = dict(functions), function
         self.box: dict[str, Sequence[Exact]] = {}
+        self.effort = EFFORT
         try:
             self._kernel = Derivation(self.functions).map(function)
         except (Malformed, Unproved) as error:
@@ -120,17 +122,16 @@ class Map:
 
         longest: the last iterate that is looked at.
         """
-        from proofs.methods.shifts import find_horseshoe
+        from proofs.methods.shifts import Candidates, find_horseshoe
 
         file, reason = self._derivation(), Undecided("nothing was looked at")
         saddles: list[Any] = []
         for power in range(1, longest + 1):
             for cycle in self._cycles(power, box):
                 saddles += list(cycle.points) if cycle.is_saddle else []
+            candidates = Candidates(saddles, self.region(box), power, self._share)
             try:
-                return _theorem(
-                    file, find_horseshoe(file, self.function, saddles, self.region(box), power)
-                )
+                return _theorem(file, find_horseshoe(file, self.function, candidates))
             except Undecided as error:
                 reason = error
         raise reason
@@ -144,6 +145,10 @@ class Map:
         return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
 
     # -- what they share ---------------------------------------------------------------------------
+
+    @property
+    def _share(self) -> float:
+        return float(2.0 ** (self.effort - EFFORT))
 
     @property
     def _sampled(self) -> Any:
@@ -179,7 +184,7 @@ class Map:
         if near:
             starts = as_points([[exact(state[each]) for each in self.variables] for state in near])
         else:
-            starts = seeds(sampled, self.region(box), _SEEDS * period)
+            starts = seeds(sampled, self.region(box), int(_SEEDS * period * self._share))
         return cycles(sampled, period, starts)
 
     def sample(self) -> Any:
@@ -263,11 +268,3 @@ def ends_of(values: Ends) -> Range:
     if low > high:
         raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
     return low, high
-
-
-def exact(value: Exact) -> Fraction:
-    """Return an exact number; a float raises with the hint to write a text."""
-    if isinstance(value, float):
-        plain = float(value)  # numpy's shows its type
-        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
-    return fraction(value)

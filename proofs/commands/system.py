@@ -14,22 +14,30 @@ if __name__ == "__main__":
 import json
 import re
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from time import monotonic
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from intervals import Undecided
-from proofs.map import Map
-from proofs.shell.cli import Parser, heard, number, progress, share
+from proofs.map import EFFORT, Map
+from proofs.shell.backstop import Overrun, within
+from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import write_files
 from proofs.shell.screen import say
 from proofs.system import System
 from proofs.theorem import Theorem
+from proofs.trusted.numbers import show
 from proofs.trusted.verdicts import Verdict
 
 SCHEMA = "impact-proofs.system/1"
+_SECONDS, _MOST_EFFORT = Fraction(120), 6
+_MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
+T = TypeVar("T")
 _ASK = re.compile(r"orbits:[1-9][0-9]?|stable|horseshoe")
 _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
@@ -75,16 +83,20 @@ class Answer(NamedTuple):
 def main(arguments: list[str] | None = None) -> int:
     """Prove what is asked, print and write it; return the exit status."""
     options = _options(arguments)
-    system = _subject(options)
-    began = monotonic()
+    until = monotonic() + float(options.seconds)
+    late = f"stopped after {show(options.seconds)} seconds, as asked"
     with progress() as tell:
+        system = _within(until, lambda: _subject(options))
+        if system is None:
+            parser: Parser = options.parser
+            parser.error(f"{late}, before the motion was solved: give its `form`")
         answers = []
         for asked in options.ask or _ASKED:
             tell(asked)
-            late = options.seconds is not None and monotonic() - began > options.seconds
-            answers.append(
-                Answer(asked, None, "no time is left") if late else _answer(system, asked, options)
-            )
+            answer = _within(until, partial(_answer, system, asked))
+            answers.append(answer or Answer(asked, None, late))
+        tell("floating point")
+        seen = _within(until, system.seen) if heard(options) else None
     if options.out:
         _write(options, system, answers)
     if options.json:
@@ -94,9 +106,16 @@ def main(arguments: list[str] | None = None) -> int:
         else:
             Path(options.json).write_text(text, "utf-8")
     if heard(options):
-        for line in _told(system, answers):
+        for line in _told(answers, seen or [late]):
             say(line)
     return int(any(each.theorem is None for each in answers))
+
+
+def _within(until: float, work: Callable[[], T]) -> T | None:
+    """Return what work returns; None where it is not done in time."""
+    with suppress(Overrun), within(until - monotonic()):
+        return work()
+    return None
 
 
 def _options(arguments: list[str] | None) -> Namespace:
@@ -113,7 +132,11 @@ def _options(arguments: list[str] | None) -> Namespace:
     parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
     help_text = f"what to prove: orbits:N, stable, horseshoe (default {' '.join(_ASKED)})"
     parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
-    parser.add_argument("--seconds", type=number, metavar="S", help="begin nothing after that")
+    help_text = f"stop after that, all in all (default {_SECONDS})"
+    parser.add_argument("--seconds", type=number, default=_SECONDS, metavar="S", help=help_text)
+    help_text = f"how much is looked at; each more is twice as much (default {EFFORT})"
+    reader = whole("effort", _MOST_EFFORT)
+    parser.add_argument("--effort", type=reader, default=EFFORT, metavar="N", help=help_text)
     parser.add_argument("--figure", action="store_true", help="draw it as DIR/figure.svg, too")
     share(parser, "--out", "--json", "--quiet")
     options = parser.parse_args(arguments)
@@ -154,6 +177,7 @@ def _subject(options: Namespace) -> Map:
         else:
             made = System.read(options.file, **values)
         made.box |= {name: _side(value) for name, value in options.box or ()}
+        made.effort = options.effort
         made.region()
     except (ValueError, TypeError) as error:
         options.parser.error(str(error))
@@ -167,7 +191,7 @@ def _side(text: str) -> tuple[str, str]:
     return ends
 
 
-def _answer(system: Map, asked: str, options: Namespace) -> Answer:
+def _answer(system: Map, asked: str) -> Answer:
     kind, _, period = asked.partition(":")
     try:
         if kind == "orbits":
@@ -179,18 +203,18 @@ def _answer(system: Map, asked: str, options: Namespace) -> Answer:
     return Answer(asked, theorem, "")
 
 
-def _told(system: Map, answers: Sequence[Answer]) -> Iterator[str]:
+def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:
     for answer in answers:
         if answer.theorem is not None:
             yield f"{answer.id}  Theorem, VERIFIED:"
-            yield from (f"  {line}" for line in str(answer.theorem).split("\n"))
+            yield from (f"  {line}" for line in answer.theorem.text(_MOST).split("\n"))
             yield ""
     for answer in answers:
         why = f": {answer.why}" if answer.why else ""
         yield f"{answer.id:12} {answer.verdict.value:10} {answer.statement}{why}"
     yield ""
     yield "Seen in floating point, not proved:"
-    yield from (f"  {line}" for line in system.seen())
+    yield from (f"  {line}" for line in seen)
 
 
 def _machine(system: Map, answers: Sequence[Answer]) -> dict[str, Any]:

@@ -23,7 +23,14 @@ _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
 
-_OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
+_OPERATORS = {
+    "atan": "np.arctan({})",
+    "+": "{} + {}",
+    "-": "{} - {}",
+    "*": "{}*{}",
+    "/": "{}/{}",
+    "negative": "-{}",
+}
 
 
 def compiled(tape: Tape, roots: Sequence[int]) -> Function:

@@ -32,7 +32,7 @@ from proofs.trusted.numbers import show
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
 _SPELT = {"epsilon": r"\varepsilon", "lam": r"\lambda"}
 _SIGNED_NUMBER = re.compile(r"(<m\w+[^>]*>[(\[=,∈≤]</m\w+>(?:<mrow>)?)<mo>−</mo>")  # no difference
-_FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
+_FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\arctan", r"\partial")
 
 
 def lines(conclusion: Conclusion) -> list[str]:
@@ -112,6 +112,8 @@ class _Latex(Printer):
         match tree:
             case Operation(op="sqrt"):
                 return rf"\sqrt{{{first}}}"
+            case Operation(op="atan"):
+                return rf"\arctan{inside}"
             case Operation(op=name):
                 return rf"\{name}{inside}"
             case Derivative(by=by):

@@ -374,7 +374,7 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
             is_explicit = name in orders and len(by) < orders[name] and {*by} == {time}
         case Operation(op="/", parts=(top, bottom)):
             is_explicit, parts = not bottom.free & {*orders}, (top,)
-        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp"):
+        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp" | "atan"):
             is_explicit, parts = True, tree.parts
         case Power(exponent=n):
             is_explicit, parts = n > 0, tree.parts

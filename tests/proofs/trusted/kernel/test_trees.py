@@ -36,7 +36,7 @@ from tests.oracles.formulas import compiled, differ
 
 ROOT = Path(__file__).parents[4]
 NAMES = ("x", "y", "u", "u1", "epsilon")
-FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 
 
 def extended(inner):
