@@ -8,7 +8,6 @@ exactly one periodic orbit of least period 4 that begins at ...
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
@@ -163,12 +162,10 @@ class Map:
 
     def _proved(self, cycles: Sequence[Any], otherwise: str) -> Theorem:
         """Return the theorem about those of some orbits that are proved."""
-        from proofs.methods.newton import prove_orbit
+        from proofs.methods.newton import prove_orbits
 
-        file, steps = self._derivation(), []
-        for cycle in cycles:
-            with suppress(Unproved):
-                steps.append(prove_orbit(file, self.function, cycle))
+        file = self._derivation()
+        steps = prove_orbits(file, self.function, cycles)
         if not steps:
             raise Undecided(otherwise)
         return _theorem(file, steps)

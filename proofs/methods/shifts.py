@@ -15,7 +15,7 @@ from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import Tree, inverse, subdivide
 from proofs.methods.frames import Frames, crossing, frames, laps
 from proofs.methods.newton import distance
-from proofs.methods.sampling import Floats, Power, Sampled
+from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.cones import Form, check_cone
@@ -84,7 +84,7 @@ def _clear(values: Sequence[Any]) -> bool:
 
 def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]:
     """Return how many periods lie between the image of one centre and the other."""
-    sampled = Power(map_, power)
+    sampled = Sampled(map_).iterate(power)
     start = np.array(source.centre, float)[:, None]
     apart = sampled(start)[:, 0] - np.array(target.centre, float)
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
@@ -256,7 +256,7 @@ def find_horseshoe(file: Derivation, function: str, candidates: Candidates) -> l
     Returns the steps.
     """
     power, reason = candidates.power, "no candidate is seen"
-    sampled = Power(file.map(function), power)
+    sampled = Sampled(file.map(function)).iterate(power)
     with metered(_WORK * candidates.share):
         for sets in candidates.frames(sampled):
             kept = {*file.steps}

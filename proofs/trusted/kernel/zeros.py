@@ -168,13 +168,13 @@ def require_zero(
     """
     piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
     middle, sides = tuple(centre) or centre_of(box), inside or box
-    for image in tried(lambda bits: _krawczyk(function, piece, middle, matrix, (axis, bits))):
+    for image in tried(lambda bits: krawczyk(function, piece, middle, matrix, (axis, bits))):
         if all(sides[k][0] < low and high < sides[k][1] for k, (low, high) in image.items()):
             return
     raise Unproved("the Krawczyk operator does not map the box strictly inside")
 
 
-def _krawczyk(
+def krawczyk(
     function: Differentiable,
     piece: Piece,
     centre: Sequence[Fraction],
