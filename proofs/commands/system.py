@@ -14,16 +14,17 @@ if __name__ == "__main__":
 import json
 import re
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from time import monotonic
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from intervals import Undecided
-from proofs.map import EFFORT, Map
+from proofs.map import EFFORT, Ends, Map
 from proofs.shell.backstop import Overrun, within
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import write_files
@@ -86,11 +87,11 @@ def main(arguments: list[str] | None = None) -> int:
     until = monotonic() + float(options.seconds)
     late = f"stopped after {show(options.seconds)} seconds, as asked"
     with progress() as tell:
-        system = _within(until, lambda: _subject(options))
+        system = _within(until, lambda: subject(options))
         if system is None:
             parser: Parser = options.parser
             parser.error(f"{late}, before the motion was solved: give its `form`")
-        answers = []
+        system.effort, answers = options.effort, []
         for asked in options.ask or _ASKED:
             tell(asked)
             answer = _within(until, partial(_answer, system, asked))
@@ -120,16 +121,7 @@ def _within(until: float, work: Callable[[], T]) -> T | None:
 
 def _options(arguments: list[str] | None) -> Namespace:
     parser = Parser("proofs system", __doc__, EPILOG)
-    parser.add_argument("file", nargs="?", metavar="FILE", help="a system's file")
-    names = ", ".join(System.examples())
-    parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
-    parser.add_argument("--map", nargs="+", metavar="FORMULA", help="the formulas of a map")
-    help_text = "the period of a variable of --map that is an angle"
-    parser.add_argument("--period", nargs="+", type=_pair, metavar="NAME=P", help=help_text)
-    help_text = "parameters; a range, LOW:HIGH, means all of its values"
-    parser.add_argument("--set", nargs="+", type=_pair, metavar="NAME=VALUE", help=help_text)
-    help_text = "where orbits are looked for"
-    parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
+    add_subject(parser)
     help_text = f"what to prove: orbits:N, stable, horseshoe (default {' '.join(_ASKED)})"
     parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
     help_text = f"stop after that, all in all (default {_SECONDS})"
@@ -141,11 +133,23 @@ def _options(arguments: list[str] | None) -> Namespace:
     share(parser, "--out", "--json", "--quiet")
     options = parser.parse_args(arguments)
     options.parser = parser
-    if sum(map(bool, (options.file, options.example, options.map))) != 1:
-        parser.error("one of FILE, --example and --map is expected")
     if options.figure and not options.out:
         parser.error("--figure goes to the folder of --out")
     return options
+
+
+def add_subject(parser: Parser) -> None:
+    """Add the options by which a system or a map is given."""
+    parser.add_argument("file", nargs="?", metavar="FILE", help="a system's file")
+    names = ", ".join(System.examples())
+    parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
+    parser.add_argument("--map", nargs="+", metavar="FORMULA", help="the formulas of a map")
+    help_text = "the period of a variable of --map that is an angle"
+    parser.add_argument("--period", nargs="+", type=_pair, metavar="NAME=P", help=help_text)
+    help_text = "parameters; a range, LOW:HIGH, means all of its values"
+    parser.add_argument("--set", nargs="+", type=_pair, metavar="NAME=VALUE", help=help_text)
+    help_text = "where orbits are looked for"
+    parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -166,9 +170,15 @@ def _ends(text: str) -> str | tuple[str, str]:
     return (low, high) if colon else low
 
 
-def _subject(options: Namespace) -> Map:
-    """Return the system or the map; what is wrong with it is one line, status 2."""
+def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({})) -> Map:
+    """Return the system or the map; what is wrong with it is one line, status 2.
+
+    ranges: of parameters, beside those of --set.
+    """
+    if sum(map(bool, (options.file, options.example, options.map))) != 1:
+        options.parser.error("one of FILE, --example and --map is expected")
     values: dict[str, Any] = {name: _ends(value) for name, value in options.set or ()}
+    values |= ranges
     try:
         if options.map:
             made = Map(*options.map, periods=dict(options.period or ()), **values)
@@ -177,7 +187,6 @@ def _subject(options: Namespace) -> Map:
         else:
             made = System.read(options.file, **values)
         made.box |= {name: _side(value) for name, value in options.box or ()}
-        made.effort = options.effort
         made.region()
     except (ValueError, TypeError) as error:
         options.parser.error(str(error))
