@@ -9,7 +9,7 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.newton import Cycle, attractors, cycles, prove_orbits, seeds, settled
+from proofs.methods.newton import Cycle, cycles, prove_orbits, seeds
 from proofs.methods.sampling import Floats, Sampled
 from proofs.methods.shifts import Candidates, find_horseshoe
 from proofs.trusted.questions import Question
@@ -48,13 +48,16 @@ def _orbit(
 def _seen(
     sampled: Sampled, subject: Systems, asked: Question, near: Sequence[Floats]
 ) -> list[Cycle]:
-    """Return orbits of a period in floating point, those next to some points first."""
-    known = cycles(sampled, asked.size, np.array(near).T) if near else []
-    if asked.kind == "stable":
-        known = [each for each in known if each.multipliers[-1] < 1]
-        own = [] if known else attractors(sampled, settled(sampled, subject.region), asked.size)
-        return known or [each for each in own if len(each.points) == asked.size]
-    return known or cycles(sampled, asked.size, seeds(sampled, subject.region, _SEEDS * asked.size))
+    """Return orbits of a period in floating point, those next to some points if there are any."""
+    starts = [np.array(near).T] if near else []
+    for x in (*starts, seeds(sampled, subject.region, _SEEDS * asked.size)):
+        if known := [
+            each
+            for each in cycles(sampled, asked.size, x)
+            if asked.kind == "orbits" or each.multipliers[-1] < 1
+        ]:
+            return known
+    return []
 
 
 def _horseshoe(
