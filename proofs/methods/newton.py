@@ -14,10 +14,11 @@ from intervals import Interval, Undecided
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import dot, inverse
+from proofs.methods.lemmas import middles
 from proofs.methods.periodic import Orbit, periodic_orbits
 from proofs.methods.sampling import Floats, Sampled, ranges_of
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import Rows
 from proofs.trusted.kernel.enclose import Box, centre_of, enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
@@ -203,19 +204,15 @@ def _orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
     closing = Closing(formula, orbit.period, ())
     for _ in range(_STEPS):
         x = enclosed(point_box(point), _BITS)
-        slopes = tuple(_middles(row) for row in closing.jacobian(x))
+        slopes = tuple(middles(row) for row in closing.jacobian(x))
         matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(slopes)]
-        missed = _middles(closing.values(x))
+        missed = middles(closing.values(x))
         last, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
         point = [round(x / _PLACE) * _PLACE for x in moved]
         if point == last:
             break
     entries = [texts(row) for row in matrix]
     return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
-
-
-def _middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
-    return centre_of(tuple(value.range for value in values))
 
 
 def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
