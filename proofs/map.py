@@ -8,8 +8,9 @@ exactly one periodic orbit of least period 4 that begins at ...
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from fractions import Fraction
-from typing import Any
+from typing import Any, Self
 
 from intervals import Undecided
 from proofs.methods.grammar import GrammarError, canonical, exact, name, names
@@ -75,6 +76,16 @@ class Map:
     def variables(self) -> tuple[str, ...]:
         """The variables, in their order."""
         return self._kernel.variables
+
+    def at(self, **parameters: Ends) -> Self:
+        """Return the same with other values, or ranges, of some parameters."""
+        other = copy(self)
+        sides = {name: texts(ends_of(ends)) for name, ends in parameters.items()}
+        function = self.functions[self.function]
+        known = {**function.get("parameters", {}), **sides}
+        other._begin({self.function: {**function, "parameters": known}}, self.function)
+        other.box, other.effort = dict(self.box), self.effort
+        return other
 
     @property
     def ranges(self) -> tuple[str, ...]:
@@ -143,7 +154,49 @@ class Map:
         sides = self.region(box)
         return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
 
+    def branches(self, **parameter: Ends) -> Theorem:
+        """Follow the fixed points that are found at the low end of a parameter's range, up to high.
+
+        branches(g=("0.7", "0.8")): zeros of F(x) - x as graphs over the parameter; each ends where
+        no proof is found, as at a fold.
+        """
+        from proofs.methods.branches import branches
+
+        (moving,) = self._moving(parameter, 1)
+        file = self.at(**parameter)._derivation()
+        file = branches(file, self.function, moving, self.region())
+        return _theorem(file, [*file.steps])
+
+    def folds(self, **parameters: Ends) -> Theorem:
+        """Follow curves of fixed points with the multiplier 1 over the second of two parameters.
+
+        folds(g=("0.8", "1"), e=("0.4", "0.6")): points are looked for at the low end of the second.
+        """
+        return self._curves(1, parameters)
+
+    def flips(self, **parameters: Ends) -> Theorem:
+        """Do as `folds` for the multiplier -1."""
+        return self._curves(-1, parameters)
+
     # -- what they share ---------------------------------------------------------------------------
+
+    def _curves(self, multiplier: int, parameters: Mapping[str, Ends]) -> Theorem:
+        from proofs.methods.branches import curves
+
+        one, two = self._moving(parameters, 2)
+        file = self.at(**parameters)._derivation()
+        file = curves(file, self.function, (one, two), multiplier, self.region())
+        return _theorem(file, [*file.steps])
+
+    def _moving(self, parameters: Mapping[str, Ends], count: int) -> list[Any]:
+        from proofs.methods.branches import Moving
+
+        known = {name: 0 for each in self.functions.values() for name in each.get("parameters", {})}
+        if unknown := sorted({*parameters} - {*known}):
+            raise ValueError(f"{unknown[0]} is none of the parameters {', '.join(known)}")
+        if len(parameters) != count:
+            raise ValueError(f"ranges of {count} parameters are expected, as in g=('0.7', '0.8')")
+        return [Moving(each, ends_of(value)) for each, value in parameters.items()]
 
     @property
     def _share(self) -> float:

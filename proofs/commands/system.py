@@ -39,9 +39,16 @@ _SECONDS, _MOST_EFFORT = Fraction(120), 6
 _MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
 T = TypeVar("T")
-_ASK = re.compile(r"orbits:[1-9][0-9]?|stable|horseshoe")
+_SIDE = r"[a-z]\w*=[^:,]+:[^:,]+"
+_ASK = re.compile(
+    rf"orbits:[1-9][0-9]?|stable|horseshoe|branches:{_SIDE}|(folds|flips):{_SIDE},{_SIDE}"
+)
+_ASKABLE = "orbits:N, stable, horseshoe, branches:P=A:B, folds:P=A:B,Q=C:D and flips, as folds"
 _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
+    "branches": "branches of fixed points over this range of a parameter",
+    "folds": "curves of fixed points with the multiplier 1, over the second range",
+    "flips": "curves of fixed points with the multiplier -1, over the second range",
     "stable": "an attracting periodic orbit exists",
     "horseshoe": "the map, or its second iterate, has a full shift on two symbols",
 }
@@ -53,7 +60,8 @@ examples:
   python -m proofs system mine.toml --ask orbits:3 horseshoe --out runs/mine --figure
   python -m proofs system --map "1 - 1.4*x^2 + y" "0.3*x" --ask orbits:2
   python -m proofs system --map "r*x*(1 - x)" --set r=3.9 --box x=0:1 --json -
-  python -m proofs system --example bouncing-ball --set e=0.49:0.51 --ask orbits:1
+  python -m proofs system --example bouncing-ball --set e=0.499:0.501 --ask orbits:1
+  python -m proofs system --example bouncing-ball --ask folds:g=0.6:1,e=0.45:0.5
 """
 
 
@@ -78,7 +86,7 @@ class Answer(NamedTuple):
     @property
     def file(self) -> str:
         """The name of its certificate."""
-        return f"{self.id.replace(':', '-')}.json"
+        return f"{re.sub('[^a-z0-9]+', '-', self.id)}.json"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -94,7 +102,10 @@ def main(arguments: list[str] | None = None) -> int:
         system.effort, answers = options.effort, []
         for asked in options.ask or _ASKED:
             tell(asked)
-            answer = _within(until, partial(_answer, system, asked))
+            try:
+                answer = _within(until, partial(_answer, system, asked))
+            except ValueError as error:
+                options.parser.error(str(error))
             answers.append(answer or Answer(asked, None, late))
         tell("floating point")
         seen = _within(until, system.seen) if heard(options) else None
@@ -122,7 +133,7 @@ def _within(until: float, work: Callable[[], T]) -> T | None:
 def _options(arguments: list[str] | None) -> Namespace:
     parser = Parser("proofs system", __doc__, EPILOG)
     add_subject(parser)
-    help_text = f"what to prove: orbits:N, stable, horseshoe (default {' '.join(_ASKED)})"
+    help_text = f"what to prove: {_ASKABLE} (default {' '.join(_ASKED)})"
     parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
     help_text = f"stop after that, all in all (default {_SECONDS})"
     parser.add_argument("--seconds", type=number, default=_SECONDS, metavar="S", help=help_text)
@@ -161,7 +172,7 @@ def _pair(text: str) -> tuple[str, str]:
 
 def _question(text: str) -> str:
     if not _ASK.fullmatch(text):
-        raise ArgumentTypeError(f"orbits:N, stable and horseshoe can be asked, not {text[:40]!r}")
+        raise ArgumentTypeError(f"{_ASKABLE} can be asked, not {text[:40]!r}")
     return text
 
 
@@ -201,12 +212,13 @@ def _side(text: str) -> tuple[str, str]:
 
 
 def _answer(system: Map, asked: str) -> Answer:
-    kind, _, period = asked.partition(":")
+    kind, _, more = asked.partition(":")
     try:
-        if kind == "orbits":
-            theorem = system.orbits(int(period))
+        if kind in ("branches", "folds", "flips"):
+            sides = dict(map(_pair, more.split(",")))
+            theorem = getattr(system, kind)(**{name: _side(ends) for name, ends in sides.items()})
         else:
-            theorem = system.stable() if kind == "stable" else system.horseshoe()
+            theorem = system.orbits(int(more)) if more else getattr(system, kind)()
     except Undecided as error:
         return Answer(asked, None, str(error))
     return Answer(asked, theorem, "")

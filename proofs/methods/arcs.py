@@ -17,7 +17,7 @@ from proofs.trusted.kernel.zeros import Piece
 
 _UNIT = Fraction(1, 10**6)  # of the axis
 _FINE = Fraction(1, 10**10)  # of the other sides
-_PLACES = 2**20  # of matrices and slopes
+_PLACES = 10**6  # of matrices and slopes
 _SHORTEST = Fraction(1, 10**5)
 _ROOM = Fraction(13, 10)
 _TRIES = 4
