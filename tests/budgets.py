@@ -18,13 +18,14 @@ from proofs.shell.trust import watched
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 51_900,
-    "proofs/trusted": 19_600,
+    "proofs": 53_000,
+    "proofs/trusted": 20_100,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_750,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 50_700,
+    "tests": 51_600,
+    "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_010,
     "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
