@@ -12,7 +12,7 @@ from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Futile, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
@@ -142,13 +142,23 @@ def point_box(point: Sequence[Fraction]) -> Box:
     return tuple((value, value) for value in point)
 
 
-def tried(compute: Callable[[int], T]) -> Iterator[T]:
-    """Compute something at better and better precisions, where it is defined, while asked."""
-    for bits in PRECISIONS:
+def tried(compute: Callable[[int], T], precisions: Sequence[int] = PRECISIONS) -> Iterator[T]:
+    """Compute something at better and better precisions, where it is defined, while asked.
+
+    Futile where nothing could be computed, and more digits would not help.
+    """
+    is_computed = False
+    for bits in precisions:
         try:
-            yield compute(bits)
+            result = compute(bits)
+        except Futile:
+            if not is_computed:
+                raise
+            return
         except Unproved:
             continue
+        is_computed = True
+        yield result
 
 
 def attempts(
