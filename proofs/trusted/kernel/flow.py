@@ -6,7 +6,8 @@ A function {variables w, time t, state x, field, start, end, values}, with `para
 - field: formulas of x, t, w, one for each of the state; start: formulas of w, its values at t = 0.
 - end: {time: T}, T a formula of w, > 0; or {section: g, direction, count: k}: the k-th time t > 0
   at which g, a formula of x, t, w, falls ("-") or rises ("+") through 0. It falls through 0 at a
-  time if it is 0 then, and > 0 just before.
+  time if it is 0 then, and > 0 just before. Or {gaps: [g, ...]}: the first t > 0 at which g = 0,
+  all gaps being > 0 in between, the others at that time, too: an impact.
 - values: formulas of x, t, w, taken then.
 
 The map takes w to the values. What is enclosed is proved to exist: the solution up to there, and a
@@ -27,22 +28,26 @@ from proofs.trusted.kernel.enclose import Box, Matrix, enclosed, integer, multip
 from proofs.trusted.kernel.formulas import MAX_VALUES, Circle, Formulas
 from proofs.trusted.kernel.head import optional, read_head, require_periods, same_form
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
-from proofs.trusted.kernel.section import Journey, Section, hulls
+from proofs.trusted.kernel.section import Gap, Journey, Section, hulls
 from proofs.trusted.kernel.trees import At, Derivative, Operation, Tree, Variable, read_tree
 
-_MOST_STATES, _MOST_CROSSINGS = 8, 100
+_MOST_STATES, _MOST_CROSSINGS, _MOST_GAPS = 8, 100, 6
 _KEPT = 16  # boxes with their values and derivatives
-_GUARD = 64  # bits of a result beyond those in which a box is wide
+_GUARD = 64  # bits of the width of a box
 _DIRECTIONS = ("+", "-")
 
 
 class End(NamedTuple):
-    """Where a flow ends: at the fall of that number of a gap; in words; is_time: at a time."""
+    """Where a flow ends: at the fall of that number of the first gap; in words.
 
-    gap: Tree
+    walls: how many of the gaps stay > 0 until then. is_time: whether it is at a time.
+    """
+
+    gaps: tuple[Tree, ...]
     number: int
+    walls: int
     words: str
-    is_time: bool
+    is_time: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,21 +116,23 @@ class Flow:
         return [row[: self.first] for row in self._enclosed(x)[1]]
 
     def _enclosed(self, x: Sequence[Enclosure]) -> tuple[Point, Matrix]:
-        key = (x[0].bits, *(end for side in x for end in (side.lo, side.hi)))
+        """Enclose values and derivatives, with no more digits than are worth it for a wide box."""
+        w = [*x, *enclosed(self.ranges, x[0].bits)]
+        spare = max(0, max(side.hi - side.lo for side in w).bit_length() - _GUARD)
+        box = [Enclosure(a.lo >> spare, -(-a.hi >> spare), a.bits - spare) for a in w]
+        key = (box[0].bits, *(end for side in box for end in (side.lo, side.hi)))
         if key not in self._known:
             if len(self._known) == _KEPT:
                 self._known.clear()
-            self._known[key] = self._map([*x, *enclosed(self.ranges, x[0].bits)])
-        return self._known[key]
+            self._known[key] = self._map(box)
+        values, rows = self._known[key]
+        return finer(values, spare), [finer(row, spare) for row in rows]
 
     def _map(self, w: Point) -> tuple[Point, Matrix]:
-        """Enclose values and derivatives for all w; more bits than a wide box needs are refused."""
-        bits, widest = w[0].bits, max(side.hi - side.lo for side in w)
-        if widest.bit_length() >= bits // 2 + _GUARD:
-            raise Futile("not proved, and more digits do not help for so wide a box")
+        """Enclose values and derivatives for all w."""
         solutions = Solutions.of(self.equation, w)
         everywhere, middle = map(self._at_start, (w, solutions.middle))
-        if self.end.is_time and self.section.gap.values(everywhere)[0].lo <= 0:
+        if self.end.is_time and self.section.gap.at(everywhere)[0].lo <= 0:
             raise Futile("the time is not proved positive")
         slopes = [
             [*row[: self.first], *row[self.first + self.equation.n + 1 :]]
@@ -142,6 +149,11 @@ class Flow:
         """Return all variables at the time 0, for formulas that do not depend on the state."""
         nothing = w[0] * 0
         return self.equation.inputs(w, [nothing] * self.equation.n, nothing)
+
+
+def finer(x: Sequence[Enclosure], bits: int) -> Point:
+    """Return the same with more bits."""
+    return [Enclosure(a.lo << bits, a.hi << bits, a.bits + bits) for a in x]
 
 
 def read_flow(name: str, reader: Reader) -> Flow:
@@ -163,15 +175,18 @@ def read_flow(name: str, reader: Reader) -> Flow:
     if any(tree.free & {*states, time} for tree in starts):
         raise start_of.fail("a start does not depend on the state, nor on the time")
     end = _read_end(end_of, {*states}, time)
-    if any(_differentiates(tree, {*states}) for tree in (*rates, *values, end.gap)):
+    if any(_differentiates(tree, {*states}) for tree in (*rates, *values, *end.gaps)):
         raise reader.fail("no derivatives of what flows, and no substitution there")
     velocity, start, outcome = map(placed, (rates, starts, values))
-    gap = placed([end.gap, _rate(end.gap, rates, states, time)])
     begin = dict(zip((placer.places[x] for x in states), start.roots, strict=True))
-    require_periods(reader, outcome, outcome.roots, (*velocity.roots, gap.roots[0]), begin)
-    tape, zero = placer.tape, placer.tape.number(0)
-    (at_first,) = tape.moved(gap.roots[:1], begin | {placer.places[time]: zero})
-    section = Section(gap, velocity, end.number, same_form(tape, at_first, zero))
+    zero, gaps = placer.tape.number(0), []
+    for tree in end.gaps:
+        both = placed([tree, _rate(tree, rates, states, time)])
+        (at_first,) = placer.tape.moved(both.roots[:1], begin | {placer.places[time]: zero})
+        gaps.append(Gap(both, same_form(placer.tape, at_first, zero)))
+    others = (*velocity.roots, *(gap.formulas.roots[0] for gap in gaps))
+    require_periods(reader, outcome, outcome.roots, others, begin)
+    section = Section(gaps[0], velocity, end.number, tuple(gaps[: end.walls]))
     return Flow(first, start, section, outcome, numbers, linearized(velocity, first), end)
 
 
@@ -181,15 +196,23 @@ def _read_end(reader: Reader, states: set[str], time: str) -> End:
         tree = read_tree(when)
         if tree.free & {*states, time}:
             raise when.fail("a time depends on the variables of the map and on parameters alone")
-        return End(Operation("-", (tree, Variable(time))), 1, f"`{time} = {tree}`", True)
+        gap = Operation("-", (tree, Variable(time)))
+        return End((gap,), 1, 0, f"`{time} = {tree}`", is_time=True)
+    if reader.has("gaps"):
+        (gaps_of,) = reader.fields("gaps")
+        gaps = tuple(read_tree(each) for each in gaps_of.items(1, _MOST_GAPS))
+        others = ", ".join(f"`{gap}`" for gap in gaps[1:])
+        walls = f" and {others} > 0 after `{time} = 0` until it" if others else ""
+        words = f"the first `{time} > 0` at which `{gaps[0]} = 0`{walls}"
+        return End(gaps, 1, len(gaps), words)
     section_of, direction, count_of = reader.fields("section", "direction", "count")
     tree, number = read_tree(section_of), integer(count_of, 1, _MOST_CROSSINGS)
     if direction.string() not in _DIRECTIONS:
         raise direction.fail('"+" or "-" is expected')
     is_fall = direction.string() == "-"
-    gap = tree if is_fall else Operation("negative", (tree,))
     crosses = f"`{tree}` {'falls' if is_fall else 'rises'} through 0"
-    return End(gap, number, f"the {_ordinal(number)} `{time} > 0` at which {crosses}", False)
+    words = f"the {_ordinal(number)} `{time} > 0` at which {crosses}"
+    return End((tree if is_fall else Operation("negative", (tree,)),), number, 0, words)
 
 
 def _differentiates(tree: Tree, states: set[str]) -> bool:

@@ -17,13 +17,13 @@ from proofs.trusted.kernel.enclose import Matrix, multiply
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.lohner import Point, Set, Solutions, Step, middle_of, unit
 from proofs.trusted.kernel.meter import Exhausted
-from proofs.trusted.numbers import between, show
+from proofs.trusted.numbers import between, floor_text
 
 _EIGHTHS = (64, 70, 76, 83, 91, 99, 108, 117)  # 2^(j/8), about, in 64ths
 _FIRST, _SHORTEST, _LONGEST = -32, -192, 64  # lengths of steps, 2^(n/8)
 _SHORTER, _HALF, _LESS = -4, -8, -1  # changes of n
 _FINE, _UNITS = 20, 256  # the rest of a step is about 2^-20 of the set, and so many units
-_MOST_STEPS, _LATEST = 20_000, 2**16
+_MOST_STEPS, _LATEST = 10_000, 1024
 _NEWTON = 20
 _NOT_REACHED = "the section is not reached so often"
 
@@ -37,16 +37,29 @@ class Fate(Enum):
     PASSES, FALLING, FELL, OPEN = range(4)
 
 
-class Section(NamedTuple):
-    """The fall of that number of a gap through 0; is_left: the gap is 0 at every start.
+class Gap(NamedTuple):
+    """A gap and its rate along solutions, as formulas; is_left: it is 0 at every start."""
 
-    gap: formulas of the gap and of its rate along solutions; velocity: of the field.
+    formulas: Formulas
+    is_left: bool
+
+    def at(self, z: Point) -> tuple[Enclosure, Enclosure]:
+        """Enclose the gap and its rate."""
+        gap, rate = self.formulas.values(z)
+        return gap, rate
+
+
+class Section(NamedTuple):
+    """The fall of that number of a gap through 0; velocity: formulas of the field.
+
+    walls: gaps that are > 0 at all times between the start and the fall, this one perhaps among
+    them; the others at the fall as well.
     """
 
-    gap: Formulas
+    gap: Gap
     velocity: Formulas
     number: int
-    is_left: bool
+    walls: tuple[Gap, ...] = ()
 
 
 class Arrival(NamedTuple):
@@ -82,6 +95,8 @@ class Journey:
             for _ in range(_MOST_STEPS):
                 step, change = self._step(length)
                 fate = Fate.OPEN if step is None else self._watch(step)
+                if step and not all(self._stays(wall, step, fate) for wall in self.section.walls):
+                    fate = Fate.OPEN
                 if step is None or fate is Fate.OPEN:
                     length += change if step is None else _HALF
                     if length < _SHORTEST:
@@ -117,24 +132,37 @@ class Journey:
         Proof. At a fall the rate is <= 0. With a rate < 0 the gap has at most one zero; it has one
         if its sign changes (Bolzano), and is > 0 before it.
         """
-        gap, rate = self._gap(step.path, self._times(self.time, step, self._whole))
+        first = self.section.gap
+        gap, rate = first.at(self._during(step))
         if not self.falling and (not gap.has_zero or rate.lo > 0):
             return Fate.PASSES
         if rate.hi >= 0:
             return Fate.OPEN
         if not self.falling:
-            is_first = self.section.is_left and not self.time
-            before, _ = self._gap(self.now.states(self.solutions.q), rational(self.time, gap.bits))
-            if is_first or before.hi <= 0:
+            before, _ = first.at(self._here)
+            if before.hi <= 0 or self._leaves(first):
                 return Fate.PASSES
             if before.lo <= 0:
                 return Fate.OPEN
-        one = rational(Fraction(1), gap.bits)
-        end = self.solutions.at(step, one).all
-        after, _ = self._gap(end, self._times(self.time, step, one))
+        after, _ = first.at(self._after(step))
         if after.lo > 0:
             return Fate.PASSES
         return Fate.FELL if after.hi < 0 else Fate.FALLING
+
+    def _stays(self, wall: Gap, step: Step, fate: Fate) -> bool:
+        """Whether a wall's gap is proved > 0 in a step, but at the start if it is 0 there.
+
+        It is if it rises from >= 0 or falls to > 0; so is the gap of the section before its fall.
+        """
+        gap, rate = wall.at(self._during(step))
+        if gap.lo > 0 or (wall is self.section.gap and fate in (Fate.FALLING, Fate.FELL)):
+            return True
+        if rate.lo > 0:
+            return self._leaves(wall) or wall.at(self._here)[0].lo >= 0
+        return rate.hi < 0 and wall.at(self._after(step))[0].lo > 0
+
+    def _leaves(self, gap: Gap) -> bool:
+        return gap.is_left and not self.time
 
     def _move(self, step: Step, fate: Fate) -> None:
         """Go to the end of a step, unless it ends the journey."""
@@ -165,10 +193,10 @@ class Journey:
         if s is None:
             return None
         states, nothing = solutions.at(step, s), s * 0
-        z = own.inputs(solutions.w, states.all, self._times(begin, step, s))
+        z = self._all(states.all, self._times(begin, step, s))
         still = [nothing] * len(solutions.w)
         fixed = own.inputs(unit(len(still), s.bits), states.derivative, still)
-        (lead,) = multiply(self.section.gap.jacobian(z)[:1], fixed)
+        (lead,) = multiply(self.section.gap.formulas.jacobian(z)[:1], fixed)
         rate = self._rate(begin, step, s)
         time = [-g / rate for g in lead]
         velocity = own.inputs(still, self.section.velocity.values(z), nothing + 1)
@@ -194,7 +222,7 @@ class Journey:
             x, w = (states.middle, solutions.middle) if is_middle else (states.all, solutions.w)
             z = solutions.field.inputs(w, x, self._times(begin, step, m))
             slope = self._rate(begin, step, s) * rational(step.h, s.bits)
-            zero = m - self.section.gap.values(z)[0] / slope
+            zero = m - self.section.gap.at(z)[0] / slope
             if zero.hi < s.lo or s.hi < zero.lo:
                 return None
             s = s.meet(zero)
@@ -204,17 +232,29 @@ class Journey:
 
     def _rate(self, begin: Fraction, step: Step, s: Enclosure) -> Enclosure:
         """Enclose the rate of the gap at the times s h of a step, where it is < 0."""
-        times = self._times(begin, step, s)
-        path = self._gap(step.path, self._times(begin, step, self._whole))[1]
-        return path.meet(self._gap(self.solutions.at(step, s).all, times)[1])
+        gap, there = self.section.gap, self.solutions.at(step, s).all
+        path = self._all(step.path, self._times(begin, step, self._whole))
+        return gap.at(path)[1].meet(gap.at(self._all(there, self._times(begin, step, s)))[1])
+
+    # -- all variables z = (w, x, t), at some times ------------------------------------------------
+
+    def _all(self, x: Point, t: Enclosure) -> Point:
+        return self.solutions.field.inputs(self.solutions.w, x, t)
+
+    @property
+    def _here(self) -> Point:
+        now = self.now.states(self.solutions.q)
+        return self._all(now, rational(self.time, self.solutions.bits))
+
+    def _during(self, step: Step) -> Point:
+        return self._all(step.path, self._times(self.time, step, self._whole))
+
+    def _after(self, step: Step) -> Point:
+        one = rational(Fraction(1), self.solutions.bits)
+        return self._all(self.solutions.at(step, one).all, self._times(self.time, step, one))
 
     def _times(self, begin: Fraction, step: Step, s: Enclosure) -> Enclosure:
         return rational(begin, s.bits) + rational(step.h, s.bits) * s
-
-    def _gap(self, x: Point, t: Enclosure) -> tuple[Enclosure, Enclosure]:
-        """Enclose the gap and its rate."""
-        gap, rate = self.section.gap.values(self.solutions.field.inputs(self.solutions.w, x, t))
-        return gap, rate
 
     @property
     def _whole(self) -> Enclosure:
@@ -234,17 +274,17 @@ class Journey:
     def _reason(self, step: Step | None) -> str:
         if step is None:
             return "it is not proved that the solutions go on: they may end, or be too many"
-        time = rational(self.time, self.solutions.bits)
-        gap, _ = self._gap(self.now.states(self.solutions.q), time)
-        if gap.has_zero and not self.falling:
+        if any(not self._stays(wall, step, self._watch(step)) for wall in self.section.walls):
+            return "it is not proved that the gaps stay > 0"
+        if self.section.gap.at(self._here)[0].has_zero and not self.falling:
             return "there are states on both sides of the section"
         return "it is not decided whether the section is crossed or touched"
 
     def _place(self) -> str:
         """Say up to when the solutions are followed, and where they are then."""
-        states = " x ".join(between(x.range) for x in self.now.states(self.solutions.q))
-        when = f"up to the time {show(round(self.time, 6))}, then in {states}"
-        return f"they are followed {when}, {self.falls} crossings before"
+        place = ", ".join(between(x.range) for x in self.now.c)
+        when = f"up to the time {floor_text(self.time, 6)}, where they are about ({place})"
+        return f"the solutions are followed {when}, after {self.falls} crossings"
 
 
 def _joined(one: Arrival, two: Arrival) -> Arrival:
