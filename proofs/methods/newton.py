@@ -22,7 +22,7 @@ from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
-_STEPS, _NEAR = 12, 1e-9  # of Newton's method
+_STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _BITS, _PLACE, _RADIUS = 160, Fraction(1, 10**26), Fraction(1, 10**22)  # of exact points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _WIDE = ("1/10000", "1/1000", "1/100")  # where parameters have ranges
@@ -58,6 +58,8 @@ def cycles(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
             matrix, missed = derivatives - np.eye(len(x)), image - x.T
             step = _solved(matrix, missed - whole_periods(sampled, missed)).T
             x = x - step
+            if np.nanmax(np.abs(step), initial=0) < _STILL:
+                break
         good = (np.abs(step) < _NEAR * (1 + np.abs(x))).all(axis=0) & np.isfinite(x).all(axis=0)
     return _distinct(sampled, period, x[:, good])
 

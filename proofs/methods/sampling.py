@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.methods.flows import Flown
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
 
@@ -103,6 +105,8 @@ class Sampled:
         if isinstance(map_, Flight):
             time = self.times(map_, x)
             return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+        if isinstance(map_, Flow):
+            return Flown(map_, compiled)(x)
         if isinstance(map_, Formulas):
             return self._evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")

@@ -94,8 +94,10 @@ class Program:
             case "log":  # its own rate comes after it
                 place = self._add("log", places[0], len(self.nodes) + 1)
                 self._add("rate", place)
-            case _:
+            case "*" | "/" | "sqrt" | "pi":
                 place = self._add(op, *places)
+            case _:
+                raise Unproved(f"no series of {op}")
         return place
 
     def _power(self, place: int, n: int) -> int:
@@ -216,7 +218,7 @@ class Series:
                 rest, divisor = self._part(place, a[1], 0, k - 1, k), self._at(a[1], 0)
             case "sqrt":
                 rest, divisor = self._part(place, place, 1, k - 1, k), self._at(place, 0) * 2
-            case _:
+            case _:  # log
                 rest = _divided(*self._part(a[1], a[0], 1, k - 1, k), k)
                 divisor = self._at(a[0], 0)
         m, r = self._m[a[0]][k] - rest[0], self._r[a[0]][k] + rest[1]
