@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,8 @@ Floats = NDArray[np.float64]
 Compiled = Callable[..., Any]
 
 _ROW = (2, 4, 6, 8, 10, 12)  # midpoint rules of a step; exact to the order 12
-_EXACT, _FAR = 1e-13, 1e4  # the error of a step, as a part of states; where they are lost
-_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 16, 1 / 256, 1 / 4, 32.0
+_EXACT, _FAR = 1e-11, 1e4  # the error of a step, as a part of states; where they are lost
+_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 16, 1 / 64, 1 / 4, 32.0
 _NEWTON = 5
 _ZERO = 1e-12  # a gap that is so small at the start is 0
 
@@ -41,6 +41,7 @@ class Flown:
         first, rate = self._function(section.gap.formulas), self._function(section.velocity)
         x = self._function(flow.start)(w, np.zeros((flow.equation.n, count)), np.zeros(count))
         values, falls = np.full((flow.size, count), np.nan), np.zeros(count, int)
+        begin, arrivals = w, list[tuple[Floats, ...]]()
         above, time, h = first(w, x, np.zeros(count))[0] > _ZERO, 0.0, _FIRST
         while here.size and time < _LATEST:
             after, error = _step(rate, w, x, np.full(here.size, time), np.full(here.size, h))
@@ -52,15 +53,19 @@ class Flown:
             gap = first(w, after, t)[0]
             falls = falls + (above & (gap <= 0))
             arrived = falls == section.number
-            if arrived.any():
-                way = _Way(rate, first, w[:, arrived], x[:, arrived], t[arrived] - h)
-                values[:, here[arrived]] = self._function(flow.outcome)(way.w, *way.landed(h))
+            arrivals.append(
+                (here[arrived], x[:, arrived], t[arrived] - h, np.full(arrived.sum(), h))
+            )
             going = ~arrived & exact & (np.abs(after) < _FAR).all(axis=0)
             for wall in walls:
                 going &= wall(w, after, t)[0] > 0
             w, x, here, falls = w[:, going], after[:, going], here[going], falls[going]
             above, time = (gap > 0)[going], time + h
             h = min(2 * h if (error < _EXACT / 2**13).all() else h, _LONGEST)
+        if arrivals:
+            who, *way = (np.concatenate(each, axis=-1) for each in zip(*arrivals, strict=True))
+            end = _landed(rate, first, begin[:, who], way)
+            values[:, who] = self._function(flow.outcome)(begin[:, who], *end)
         return values
 
     def _function(self, formulas: Formulas) -> Compiled:
@@ -73,23 +78,19 @@ class Flown:
         return at
 
 
-class _Way(NamedTuple):
-    """Solutions before their fall: rates, the gap, variables, states and times."""
+def _landed(
+    rate: Compiled, gap: Compiled, w: Floats, way: Sequence[Floats]
+) -> tuple[Floats, Floats]:
+    """Return the states and the times at which the gap is 0, by Newton's method.
 
-    rate: Compiled
-    gap: Compiled
-    w: Floats
-    x: Floats
-    t: Floats
-
-    def landed(self, h: float) -> tuple[Floats, Floats]:
-        """Return the states and the times at which the gap is 0, by Newton's method."""
-        s = np.full(self.t.shape, h / 2)
-        for _ in range(_NEWTON):
-            x, _ = _step(self.rate, self.w, self.x, self.t, s)
-            value, slope = self.gap(self.w, x, self.t + s)
-            s = np.clip(s - value / slope, 0, h)
-        return _step(self.rate, self.w, self.x, self.t, s)[0], self.t + s
+    way: the states and times before, and the times after which the gap is <= 0.
+    """
+    x, t, h = way
+    s = h / 2
+    for _ in range(_NEWTON):
+        value, slope = gap(w, _step(rate, w, x, t, s)[0], t + s)
+        s = np.clip(s - value / slope, 0, h)
+    return _step(rate, w, x, t, s)[0], t + s
 
 
 def _step(rate: Compiled, w: Floats, x: Floats, t: Floats, h: Floats) -> tuple[Floats, Floats]:

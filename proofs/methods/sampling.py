@@ -24,6 +24,7 @@ _BITS = 64  # of periods
 _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
+_STARTS, _FEW = 120, 20  # points at random for a search
 
 _OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
 
@@ -65,6 +66,12 @@ class Sampled:
         """Return the images; angles are not reduced."""
         with np.errstate(all="ignore"):
             return self._images(self.map, x)
+
+    @property
+    def starts(self) -> int:
+        """The number of points at random for a search: fewer of a flow, where each is dear."""
+        parts = self.map.maps if isinstance(self.map, Composition) else (self.map,)
+        return _FEW if any(isinstance(part, Flow) for part in parts) else _STARTS
 
     @cached_property
     def periods(self) -> Floats:

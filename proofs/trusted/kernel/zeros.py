@@ -173,6 +173,8 @@ def require_zero(
     for image in tried(lambda bits: _krawczyk(function, piece, middle, matrix, (axis, bits))):
         if all(sides[k][0] < x.range[0] and x.range[1] < sides[k][1] for k, x in image.items()):
             return
+        if any(x.range[1] < sides[k][0] or sides[k][1] < x.range[0] for k, x in image.items()):
+            raise Unproved("the Krawczyk operator maps the box away from itself")
         if before and not is_narrower([*image.values()], before):
             break
         before = [*image.values()]

@@ -3,19 +3,24 @@
 `tests.oracles.ode` extrapolates midpoint rules in long doubles; mpmath has Taylor steps of its own.
 """
 
+import json
 import random
+import time
 from collections import Counter
 from fractions import Fraction
+from functools import cache
 
 import mpmath
 import numpy as np
 import pytest
 
-from proofs.trusted.certificate import Malformed, Reader
+from proofs import System
+from proofs.trusted.certificate import SCHEMA, Malformed, Reader, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
 from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.verify import Rejected, check
 from tests.effort import examples
 from tests.oracles.ode import LONG, MANY, Solver
 from tests.proofs.trusted.kernel.flows import (
@@ -28,9 +33,9 @@ from tests.proofs.trusted.kernel.flows import (
     box_of,
 )
 
-SLOW = pytest.mark.slow
-LATE = {False: SLOW, True: pytest.mark.long}
-BY_SPEED = [pytest.param(x, marks=() if x in ("van der pol", "pendulum") else SLOW) for x in FLOWS]
+LONG_ONLY = pytest.mark.long
+FAST = ("van der pol", "pendulum", "duffing", "made", "lorenz")
+BY_SPEED = [pytest.param(x, marks=() if x in FAST else LONG_ONLY) for x in FLOWS]
 SLIP = 1e-13  # of the integrator's values, as a part of them
 SLOPE_SLIP = 1e-7  # of its differences
 
@@ -77,7 +82,7 @@ def contained(name, count, rng):
 
 @pytest.mark.parametrize("name", BY_SPEED)
 def test_values_and_derivatives_are_enclosed(name):
-    counts = contained(name, examples(9), random.Random(name))
+    counts = contained(name, examples(12), random.Random(name))
     assert counts["unproved"] * 4 < counts["boxes"], counts
     assert not counts["values"] and not counts["derivatives"], counts
 
@@ -99,7 +104,8 @@ POINTS = {  # at which long doubles are not enough; the step of the integrator
 }
 
 
-@pytest.mark.parametrize("name", [pytest.param(x, marks=LATE[x != "lorenz"]) for x in POINTS])
+@pytest.mark.long
+@pytest.mark.parametrize("name", POINTS)
 def test_many_digits_at_points(name):
     """By mpmath's numbers: 28 digits of the values, 15 of the derivatives."""
     data, point, step = POINTS[name]
@@ -114,7 +120,9 @@ def test_many_digits_at_points(name):
                 assert high - low < 1e-28
 
 
-@pytest.mark.parametrize("name", BY_SPEED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=() if x in ("made", "pendulum") else LONG_ONLY) for x in FLOWS]
+)
 def test_precisions_agree_and_narrow_boxes_are_in_wide_ones(name):
     example, rng = FLOWS[name], random.Random(f"{name} twice")
     wide = box_of(example, rng)
@@ -267,7 +275,146 @@ LIES = [  # what is false, the function, a box, the reason
 
 @pytest.mark.parametrize(("data", "box", "reason"), [x[1:] for x in LIES], ids=[x[0] for x in LIES])
 def test_lies(data, box, reason):
-    with metered(3e6), pytest.raises((Unproved, Malformed, Exhausted)) as caught:
+    with metered(1e6), pytest.raises((Unproved, Malformed, Exhausted)) as caught:
         enclosures(data, box)
     assert reason in str(caught.value)
     assert len(str(caught.value).splitlines()) == 1
+
+
+# -- forgeries of certificates ---------------------------------------------------------------------
+
+
+@cache
+def orbit():
+    """A certificate of a periodic orbit of Roessler's flow."""
+    return System.example("roessler").orbits(1, near=[{"p": "-8.38", "q": "0.03"}]).certificate
+
+
+def edited(path, value):
+    """The certificate with another entry in its function, or in the witness of its step."""
+    document = json.loads(orbit())
+    place = document["functions"]["P"] if path[0] != "witness" else document["steps"][STEP]
+    for key in path[:-1]:
+        place = place[key]
+    assert not (isinstance(place, list) or path[-1] in place) or place[path[-1]] != value
+    place[path[-1]] = value
+    return render(document)
+
+
+STEP = "periodic-orbit-1"
+FORGERIES = [
+    ("another field", ("field", 1), "x + a*y + 1/1000000"),
+    ("another sign", ("field", 0), "-y + z"),
+    ("another parameter", ("parameters", "c"), ["57001/10000", "57001/10000"]),
+    ("a range of parameters", ("parameters", "c"), ["57/10", "5701/1000"]),
+    ("another section", ("end", "section"), "x - 1/1000000"),
+    ("another direction", ("end", "direction"), "-"),
+    ("one crossing more", ("end", "count"), "2"),
+    ("one crossing less", ("end", "count"), "0"),
+    ("a time", ("end",), {"time": "6"}),
+    ("a wall", ("end",), {"gaps": ["-x"]}),
+    ("another start", ("start", 0), "1/1000000"),
+    ("another value", ("values", 0), "y + 1/1000000"),
+    ("another order", ("values",), ["z", "y"]),
+    ("another period", ("witness", "period"), "2"),
+    ("another place", ("witness", "box", 0), ["-8380941743/1000000000", "-8380941742/1000000000"]),
+    ("an angle", ("periods",), {"p": "2*pi"}),
+]
+
+
+def test_an_orbit_is_checked_within_the_usual_work():
+    sentence = check(orbit()).sentences[0]
+    for text in ("D(z, t) = b + z*(x - c)", "1st `t > 0` at which `x` rises", "`c` = 5.7"):
+        assert text in sentence
+    assert len(orbit()) < 1200
+
+
+DEAR = ("another sign", "one crossing more", "another period", "a range of parameters")
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [pytest.param(*x[1:], id=x[0], marks=LONG_ONLY if x[0] in DEAR else ()) for x in FORGERIES],
+)
+def test_forgeries(path, value):
+    began = time.process_time()
+    with pytest.raises((Rejected, Malformed, Exhausted)):
+        check(edited(path, value))
+    assert time.process_time() - began < 15
+
+
+SADDLE = {**CIRCLE, "variables": ["a", "b"], "field": ["x", "-v"], "start": ["a", "b"]}
+
+
+@pytest.mark.parametrize(("wide", "is_covered"), [("2718279", True), ("2718284", False)])
+def test_a_covering_that_fails_by_a_millionth(wide, is_covered):
+    """x' = x, v' = -v, for a time 1: the half width e = 2.7182818... beside that of the target."""
+    unit = {"centre": ["0", "0"], "matrix": [["1", "0"], ["0", "1"]]}
+    target = {**unit, "matrix": [[str(Fraction(wide) / 10**6), "0"], ["0", "1"]]}
+    sets = {
+        name: {
+            **each,
+            "inverse": [
+                [str(1 / Fraction(x)) if x != "0" else x for x in row] for row in each["matrix"]
+            ],
+        }
+        for name, each in (("N", unit), ("M", target))
+    }
+    steps = {name: {"rule": "h-set", "witness": each} for name, each in sets.items()}
+    witness = {"function": "F", "power": "1", "source": "N", "target": "M", "sign": "+"}
+    whole = ["1", "0", None, None]
+    witness |= {"left": None, "right": None, "support": whole}
+    steps["over"] = {"rule": "covers", "witness": witness}
+    document = {"schema": SCHEMA, "parameters": None, "steps": steps, "claims": ["over"]}
+    text = render({**document, "functions": {"F": {**SADDLE, "end": {"time": "1"}}}})
+    if is_covered:
+        assert len(check(text).conclusions) == 1
+    else:
+        with pytest.raises(Rejected):
+            check(text)
+
+
+def test_every_part_of_a_flow_is_in_its_definition():
+    """What is not said is not part of a theorem."""
+    plain = {**DUFFING, "periods": {}}
+    said = flow(plain).definition
+    edits = [("field", k, "x + u + 1") for k in range(3)]
+    edits += [("start", k, "7/2") for k in (0, 1)] + [("values", 1, "u*x")]
+    for key, k, text in edits:
+        other = {**DUFFING, key: [text if i == k else x for i, x in enumerate(DUFFING[key])]}
+        assert (
+            flow({**other, "periods": {}}).definition != flow({**DUFFING, "periods": {}}).definition
+        )
+    for end in ({"gaps": ["x + 3"]}, section("x"), section("x", "+"), section("x", "+", 12)):
+        assert flow({**plain, "end": end}).definition != said
+    assert (
+        "at the 12th `t > 0` at which `x` rises through 0"
+        in flow({**DUFFING, "end": section("x", "+", 12), "periods": {}}).definition
+    )
+
+
+HOSTILE = {
+    "many states": {
+        **LINE,
+        "state": [f"x{i}" for i in range(8)],
+        "field": [f"sin({'*'.join(f'x{(i + k) % 8}' for k in range(8))})" for i in range(8)],
+        "start": ["a"] * 8,
+        "end": {"time": "1000"},
+        "values": ["x0"],
+    },
+    "a high power": line("cos(x**1000 + t)", {"time": "1000"}),
+    "long numbers": line(f"-x*{'7' * 3000}/{'9' * 3000}", {"time": "1000"}),
+    "a fast field": line("cos(1000000*t)", {"time": "1000"}),
+    "many crossings": circle(end=section("x", "-", 100)),
+    "never there": circle(end=section("x - 3")),
+    "a long sum": line(" + ".join(f"sin({k}*x)" for k in range(1, 140)), {"time": "1"}),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_costs_no_more_than_it_is_given(name):
+    began = time.process_time()
+    with metered(5e5) as meter, pytest.raises((Exhausted, Unproved)):
+        for bits in (64, 4096):
+            enclosures(HOSTILE[name], ONE, bits)
+    assert time.process_time() - began < 3, meter.spent
