@@ -16,15 +16,15 @@ from proofs.__main__ import main
 
 ROOT = Path(__file__).parents[1]
 BUDGETS = {
-    "proofs": 52_100,
-    "proofs/trusted": 19_700,
+    "proofs": 53_600,
+    "proofs/trusted": 20_900,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_750,
     "proofs/benchmark": 1_800,
     "proofs/stress": 1_350,
-    "tests": 51_200,
+    "tests": 52_000,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_010,
+    "tracked files": 1_040,
     "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,

@@ -94,7 +94,7 @@ class Journey:
         try:
             for _ in range(_MOST_STEPS):
                 step, change = self._step(length)
-                fate = Fate.OPEN if step is None else self._watch(step)
+                fate = Fate.OPEN if step is None else self.watch(step)
                 if step and not all(self._stays(wall, step, fate) for wall in self.section.walls):
                     fate = Fate.OPEN
                 if step is None or fate is Fate.OPEN:
@@ -123,7 +123,7 @@ class Journey:
         change = 8 * (wanted.bit_length() - size.bit_length()) // (order + 1)
         return (step if change >= _LESS else None), max(_HALF, min(change, -_HALF))
 
-    def _watch(self, step: Step) -> Fate:
+    def watch(self, step: Step) -> Fate:
         """Return what the gap does in a step.
 
         Theorem. It has no fall where it has no zero, or where its rate is > 0; nor where its rate
@@ -180,13 +180,14 @@ class Journey:
 
     def _arrival(self) -> Arrival:
         """Enclose what all solutions are at the section, in whichever step they reach it."""
-        return reduce(_joined, filter(None, (self._part(*each) for each in self.falling)))
+        return reduce(_joined, filter(None, (self.part(*each) for each in self.falling)))
 
-    def _part(self, begin: Fraction, step: Step) -> Arrival | None:
-        """Enclose the variables z = (w, x, t) where the gap is 0, of solutions for which it is.
+    def part(self, begin: Fraction, step: Step) -> Arrival | None:
+        """Enclose the variables z = (w, x, t) where the gap g is 0, of solutions for which it is.
 
-        Their derivatives by w, at the time T of the section: those at a fixed time, plus z_t T_w,
-        T_w = -(g_w + g_x x_w) / (g_t + g_x f) by the implicit function theorem.
+        And their derivatives by w. Proof. At the time T of the section they are those at a fixed
+        time, plus z_t T_w, where T_w = -(g_w + g_x x_w) / (g_t + g_x f) by the implicit function
+        theorem; the divisor is < 0 in the step.
         """
         solutions, own = self.solutions, self.solutions.field
         s = self._zero(begin, step, self._whole, is_middle=False)
@@ -274,7 +275,7 @@ class Journey:
     def _reason(self, step: Step | None) -> str:
         if step is None:
             return "it is not proved that the solutions go on: they may end, or be too many"
-        if any(not self._stays(wall, step, self._watch(step)) for wall in self.section.walls):
+        if any(not self._stays(wall, step, self.watch(step)) for wall in self.section.walls):
             return "it is not proved that the gaps stay > 0"
         if self.section.gap.at(self._here)[0].has_zero and not self.falling:
             return "there are states on both sides of the section"
