@@ -10,8 +10,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.methods.flows import Flown
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
 from proofs.trusted.numbers import Range
@@ -23,6 +25,7 @@ _BITS = 64  # of periods
 _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
+_STARTS, _FEW = 120, 20  # points at random for a search
 
 _OPERATORS = {
     "atan": "np.arctan({})",
@@ -92,6 +95,12 @@ class Sampled:
         with np.errstate(all="ignore"):
             return self._images(self.map, x)
 
+    @property
+    def starts(self) -> int:
+        """The number of points at random for a search: fewer of a flow, where each is dear."""
+        parts = self.map.maps if isinstance(self.map, Composition) else (self.map,)
+        return _FEW if any(isinstance(part, Flow) for part in parts) else _STARTS
+
     @cached_property
     def periods(self) -> Floats:
         """The period of each variable, inf for one that is no angle."""
@@ -131,6 +140,8 @@ class Sampled:
         if isinstance(map_, Flight):
             time = self.times(map_, x)
             return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+        if isinstance(map_, Flow):
+            return Flown(map_, compiled)(x)
         if isinstance(map_, Formulas):
             return self._evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")
