@@ -25,8 +25,8 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Futile
 from proofs.trusted.kernel.enclose import Box, Matrix, enclosed, integer, multiply
-from proofs.trusted.kernel.formulas import MAX_VALUES, Circle, Formulas
-from proofs.trusted.kernel.head import optional, read_head, require_periods, same_form
+from proofs.trusted.kernel.formulas import MAX_VALUES, Circle, Formulas, same_form
+from proofs.trusted.kernel.head import optional, read_head, require_periods
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
 from proofs.trusted.kernel.section import Gap, Journey, Section, hulls
 from proofs.trusted.kernel.trees import At, Derivative, Operation, Tree, Variable, read_tree

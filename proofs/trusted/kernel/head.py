@@ -62,10 +62,10 @@ class Head(NamedTuple):
         return Placer(tape, places | numbers, [])
 
     def _circle(self, placer: Placer, angle: str, period: Tree) -> Circle:
-        tape, root = placer.tape, placer.place(period)
-        if any(tape.nodes[place].op == "variable" for place in tape.order((root,))):
+        if not period.free <= {*self.numbers}:
             raise Unproved(f"a period is a number, and that of {angle} is none")
-        (value,) = tape.evaluate((root,), Enclosures(_BITS), ())
+        root = placer.place(period)
+        (value,) = placer.tape.evaluate((root,), Enclosures(_BITS), ())
         if value.lo <= 0:
             raise Unproved(f"a period is positive, and that of {angle} is not")
         values = (f"{name} = {self.numbers[name]}" for name in sorted(period.free))
@@ -178,13 +178,6 @@ def require_periods(
                 raise reader.fail(
                     f"the formulas are not proved to respect the period of {variable}"
                 )
-
-
-def same_form(tape: Tape, one: int, two: int) -> bool:
-    """Whether two functions have the same normal form: they agree where both are defined."""
-    forms = NormalForms(MAX_VARIABLES)
-    left, right = tape.evaluate((one, two), forms, forms.inputs())
-    return forms.is_zero(plus(left, right, -1))
 
 
 def _multiple(value: Polynomial, period: Polynomial) -> int:
