@@ -145,6 +145,7 @@ def test_size_is_limited():
 STATUS = {"accepted": 0, "rejected": 1, "malformed": 2}
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", corpus.CORPUS)
 def test_corpus(name, capsys):
     path, entry = corpus.path_of(name), corpus.CORPUS[name]
