@@ -18,15 +18,16 @@ from proofs.shell.trust import watched
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 51_900,
+    "proofs": 52_500,
     "proofs/trusted": 19_600,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_750,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 50_700,
+    "tests": 49_900,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_010,
+    "tracked files": 1_015,
+    "words of the docs": 12_000,
     "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
