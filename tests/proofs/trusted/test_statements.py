@@ -297,6 +297,7 @@ def test_every_interval_of_a_region_is_covered():
     assert staying_set([region[0], phases("1.27", "1.32")], [*both()], []).full
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("low", "high"), [("1.15", "1.11"), ("1.1", "1.1"), ("6.2", "6.3"), ("-1", "1")]
 )
