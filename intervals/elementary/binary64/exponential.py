@@ -77,12 +77,12 @@ def expm1(x: Pair) -> Pair:
     """Return exp x - 1 for -660 <= x <= 709, x.lo = 0, and 2^-400 <= |x| or x = 0; k = 1/16.
 
     Here T is a multiple of 2^-25, |T'| <= 2^-26, known to 2^-79, and s = a + b, of 26 bits each, so
-    that T a, at most 0.0109, is exact. exp x - 1 = (2^e T - 1) + 2^e T a + 2^e w, w = (T + T') v +
-    T b + T' s + T', below 2^-14.8. If n = 0, then T = 1, T' = t = 0: the error is at most 5
-    roundings of parts below 0.003 |s| and the tail, at most 2^-67 |s|. Else 2^e T - 1 is exact in
-    two parts, the first of which is larger than 2^e T a. In units of 2^e u, 2^-13.4 from v, 2^-22
-    from r, and 7 roundings of numbers below 2^-14.8, at most 2^-12.9: together 2^-12.1, beside |exp
-    x - 1| >= 0.0053 * 2^e: 0.043.
+    that T a, at most 0.0109, is exact. exp x - 1 = (2^e T - 1) + 2^e T a + 2^e w, where
+    w = (T + T') v + T b + T' s + T' is below 2^-14.8.
+    If n = 0, then T = 1, T' = t = 0: the error is at most 5 roundings of parts below 0.003 |s| and
+    the tail, at most 2^-67 |s|. Else 2^e T - 1 is exact in two parts, the first of which is larger
+    than 2^e T a. In units of 2^e u, 2^-13.4 from v, 2^-22 from r, and 7 roundings of numbers below
+    2^-14.8, at most 2^-12.9: together 2^-12.1, beside |exp x - 1| >= 0.0053 * 2^e: 0.043.
     """
     s, t, n = _halves(x.hi, 0.0, _STEPS_E, STEP_E)
     j, power, w = n & (_STEPS - 1), power_of_two(n >> 6), _series(s, t)
