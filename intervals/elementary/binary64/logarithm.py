@@ -19,7 +19,7 @@ of sums with it and of d, 4 of them, beside |r|, and the tail, r^7 / 8: 4 |r| + 
 is x, exactly, if v + e = 1 + x.
 Sharp: q goes up to r^6/9, r^2 is exact in two parts, r r' is there, and r^2 / 2 is subtracted in
 two parts, so that the sums are below 2^-26: 2^-24 u. With the 2^-23.6 this is 2^-12.7 beside
-2^-10.1; on the cell of 1 it is 8 r^2 / 3, below 2^-16. Measured on a million points: 0.0014 u.
+2^-10.1; on the cell of 1 it is 8 r^2 / 3, below 2^-16. Measured on a million points: 0.0015 u.
 """
 
 from fractions import Fraction
