@@ -70,7 +70,7 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "VERIFIED         16 cells, 1 of the area" in said and "Opposite: " in said
     made = json.loads((tmp_path / "atlas.json").read_text())
-    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
+    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"EntropyBound": 16}
     lines = tmp_path / LINES
     assert made["digest"] == f"sha256:{sha256(lines.read_bytes()).hexdigest()}"
     assert check([str(lines)]) == 0
