@@ -13,18 +13,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from proofs.__main__ import main
+from proofs.shell.trust import watched
 
 ROOT = Path(__file__).parents[1]
+GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 52_100,
-    "proofs/trusted": 19_700,
+    "proofs": 53_600,
+    "proofs/trusted": 20_900,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_750,
-    "proofs/benchmark": 1_800,
+    "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 51_200,
+    "tests": 52_000,
+    "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_010,
+    "tracked files": 1_040,
     "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
@@ -36,6 +39,7 @@ def counts():
     tracked = _tracked()
     python = [path for path in tracked if path.endswith(".py")]
     found = {"tracked files": len(tracked)}
+    found["words of the docs"] = sum(len((ROOT / x).read_text().split()) for x in _written(tracked))
     found["loose modules"] = sum(path.count("/") == 1 and path[:7] == "proofs/" for path in python)
     for name in BUDGETS:
         folders = tuple(f"{folder}/" for folder in name.split(", "))
@@ -46,6 +50,13 @@ def counts():
         proved = _run(["horseshoe", "--only", "H2", "--out", folder])
     found["headline"] = sum(map(_lines, checked))
     return found | {"way of H2": sum(map(_lines, proved)), "way of H2, files": len(proved)}
+
+
+def _written(tracked):
+    """Pages written by hand: generated ones are apart, and what `docs` only links to."""
+    pages = [x for x in tracked if x.startswith("docs/") and x.endswith(".md")]
+    own = [x for x in pages if not (ROOT / x).is_symlink() and x not in GENERATED]
+    return ["README.md", "proofs/methods/README.md", *own]
 
 
 def _tracked():
@@ -61,22 +72,11 @@ def _lines(path):
 
 def _run(arguments):
     """The files of both packages of which a function is called while a command runs."""
-    files, before = set(), sys.getprofile()
-    packages = tuple(str(ROOT / name) + "/" for name in ("proofs", "intervals"))
-
-    def observe(frame, event, _):
-        code = frame.f_code
-        if event == "call" and code.co_name != "<module>" and code.co_filename not in files:
-            files.add(code.co_filename)
-
-    sys.setprofile(observe)
-    try:
-        with redirect_stdout(StringIO()):
-            status = main([*arguments, "--quiet"])
-    finally:
-        sys.setprofile(before)
+    with redirect_stdout(StringIO()):
+        status, files = watched(lambda: main([*arguments, "--quiet"]))
     if status:
         raise RuntimeError(f"{arguments}: status {status}")
+    packages = tuple(str(ROOT / name) + "/" for name in ("proofs", "intervals"))
     return [str(Path(path).relative_to(ROOT)) for path in files if path.startswith(packages)]
 
 
