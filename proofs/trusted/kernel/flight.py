@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Matrix, add, enclosed
+from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
     Circle,
@@ -141,10 +141,27 @@ class Flight:
         return self.on(self.outcome, x, self.impact(x))
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
-        t, n = self.impact(x), self.state
+        """Enclose the derivative by the state."""
+        return self._slopes(x, range(self.state))
+
+    @property
+    def ranges(self) -> Box:
+        """Those of the parameters."""
+        return self.formulas.ranges
+
+    def pinned(self) -> Flight:
+        """Return the map at the middle of the ranges."""
+        return Flight(self.formulas.pinned(), self.state, self.gaps, self.motions)
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivative by the parameters."""
+        return self._slopes(x, [self.state + 1 + k for k in range(len(self.ranges))])
+
+    def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
+        """Enclose F_y - F_t gap_y / gap_t for inputs y (implicit function theorem: gap_t < 0)."""
+        t, n, tape = self.impact(x), len(by), self.formulas.tape
         roots = (self.gaps[0].orders[0], *self.outcome)
-        wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
+        wanted = [tape.derivative(root, v) for root in roots for v in (*by, self.state)]
         entries = self.on((*wanted, *roots), x, t)
         (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
         return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
@@ -365,7 +382,7 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
             is_explicit = name in orders and len(by) < orders[name] and {*by} == {time}
         case Operation(op="/", parts=(top, bottom)):
             is_explicit, parts = not bottom.free & {*orders}, (top,)
-        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp"):
+        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp" | "atan"):
             is_explicit, parts = True, tree.parts
         case Power(exponent=n):
             is_explicit, parts = n > 0, tree.parts

@@ -199,6 +199,7 @@ def test_the_oscillator_as_data_is_the_oscillator(phi):
 
 STILL = {"name": "y", "form": "x", "equation": "0", "start": ["x"]}
 CLOCK = {"variables": ["x"], "time": "t", "motion": [STILL], "gaps": ["2 - t"], "values": ["y"]}
+SIX = {"name": "p", "form": "6", "equation": "0", "start": ["6"]}
 KINK = {
     "name": "y",
     "form": "sqrt((t - 1)**2)",
@@ -279,6 +280,18 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("a gap that counts turns", ball(gaps=["(y - sin(phi + t))*(9 + phi)"]), LAUNCH, PERIOD),
     ("the period of another circle", ball(periods={"v": "2*pi"}), LAUNCH, PERIOD),
     ("a period that varies", ball(periods={"phi": "v"}), LAUNCH, "a period is a number"),
+    (
+        "a motion as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "p"}),
+        LAUNCH,
+        "a period is a number",
+    ),
+    (
+        "a velocity as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "6 + D(p, t)"}),
+        LAUNCH,
+        "a period is a number",
+    ),
     ("no period", ball(periods={"phi": "0"}), LAUNCH, "a period is positive"),
     ("a period of nothing", ball(periods={"y": "pi"}), LAUNCH, "what is no variable"),
     ("a name twice", clock(variables=["x", "t"]), STATE, "a name that is there twice"),
