@@ -88,9 +88,13 @@ def _told(point):
 # -- zeros -----------------------------------------------------------------------------------------
 
 
-def newton(function, start):
-    """A zero near a start, or None; function(point) gives values and the matrix, in floats."""
+def newton(function, start, box=()):
+    """A zero near a start, or None; function(point) gives values and the matrix, in floats.
+
+    box: what is not left by more than its width.
+    """
     point = np.array([float(x) for x in start])
+    far = [(float(2 * a - b), float(2 * b - a)) for a, b in box] or [(-1e9, 1e9)] * len(point)
     for _ in range(30):
         found, matrix = function(point)
         try:
@@ -98,7 +102,7 @@ def newton(function, start):
         except np.linalg.LinAlgError:
             return None
         point = point - step
-        if not np.all(np.isfinite(point)) or np.max(np.abs(point)) > 1e9:
+        if not all(a <= x <= b for x, (a, b) in zip(point, far, strict=True)):
             return None
         if np.max(np.abs(step)) < 1e-13:
             return point
@@ -125,11 +129,11 @@ def image(view, rng):
 
 
 def zeros_in(function, box, rng):
-    """The zeros that Newton's method finds clearly inside a box; function: as for `newton`."""
+    """The zeros that Newton's method finds inside a box; function: as for `newton`."""
     found = []
     with flint.ctx.workprec(BITS):
-        for start in list(sampled(box, rng, 5)):
-            zero = newton(function, start)
+        for start in rng.sample(list(sampled(box, rng, 5)), 4):
+            zero = newton(function, start, box)
             if zero is None:
                 continue
             inside = all(

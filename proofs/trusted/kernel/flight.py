@@ -26,17 +26,15 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
-from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
-    MAX_VARIABLES,
     Circle,
     Formulas,
     Placer,
+    same_form,
 )
 from proofs.trusted.kernel.gaps import stays_up
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
-from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     Derivative,
     Operation,
@@ -361,19 +359,12 @@ def _require_solution(placer: Placer, time: str, motion: Motion, orders: Mapping
         if tree.free & {time, *orders}:
             raise Unproved("a start does not depend on the time, nor on motions")
         placer.parts += rate, start
-        if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
+        if not same_form(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
             raise Unproved(f"the form of {motion.name} is not proved to start so")
         rate = tape.derivative(rate, int(tape.nodes[clock].datum))
     placer.parts += rate, right
-    if not _equal(tape, rate, right):
+    if not same_form(tape, rate, right):
         raise Unproved(f"the form of {motion.name} is not proved to solve this equation")
-
-
-def _equal(tape: Tape, one: int, two: int) -> bool:
-    """Whether two functions have the same normal form: they agree where both are defined."""
-    forms = NormalForms(MAX_VARIABLES)
-    left, right = tape.evaluate((one, two), forms, forms.inputs())
-    return forms.is_zero(plus(left, right, -1))
 
 
 def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
@@ -413,7 +404,7 @@ def _gap(placer: Placer, time: str, tree: Tree, reader: Reader) -> Gap:
         if order == len(orders):
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
-        if not _equal(tape, start, tape.number(0)):
+        if not same_form(tape, start, tape.number(0)):
             placer.parts += orders[: max(order, 2)]
             return Gap(tuple(orders), order)
     raise reader.fail("the gap is 0 at launch, with all its first derivatives")

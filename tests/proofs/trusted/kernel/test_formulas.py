@@ -131,6 +131,7 @@ def test_powers(low, high, n, expected):
     assert expected[0] - found[0] + found[1] - expected[1] < Fraction(1, 10**15)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("expression", "box"),
     [
@@ -178,6 +179,7 @@ def test_the_mean_value_form_and_more_bits_decide():
 # -- reading ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("name", "variables"),
     [
@@ -187,6 +189,9 @@ def test_the_mean_value_form_and_more_bits_decide():
         ("N", ["x"]),
         ("A", ["x"]),
         ("F-G", ["x"]),
+        ("the", ["x"]),
+        ("T h", ["x"]),
+        ("F`", ["x"]),
         ("F" * 21, ["x"]),
         ("F", []),
         ("F", ["x", "x"]),
@@ -259,6 +264,7 @@ def test_leaves_cover_the_box(tree, x, y):
     assert any(a <= x <= b and c <= y <= d for (a, b), (c, d) in parts)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "tree",
     [
