@@ -17,7 +17,7 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024, 2048, 4096)
-_LARGEST = 256  # results beyond 2^256 are not followed
+LARGEST = 256  # results beyond 2^256 are not followed
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
 _NO_DATUM = Fraction(0)
@@ -39,18 +39,19 @@ class Enclosures:
 
     def __init__(self, bits: int) -> None:
         self.bits = bits
+        self._limit = 1 << (bits + LARGEST)
 
     def apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         """Enclose op(arguments)."""
-        result = self._apply(op, arguments, datum)
-        if max(-result.lo, result.hi) >> (self.bits + _LARGEST):
+        arithmetic = ARITHMETIC.get(op)
+        result: Enclosure = (
+            arithmetic(*arguments) if arithmetic else self._other(op, arguments, datum)
+        )
+        if result.hi >= self._limit or -result.lo >= self._limit:
             raise Unproved("a value beyond 2^256")
         return result
 
-    def _apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
-        if op in ARITHMETIC:
-            result: Enclosure = ARITHMETIC[op](*arguments)
-            return result
+    def _other(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         if op == "number":
             METER.get().spend(size(datum) >> 8)
             return rational(datum, self.bits)

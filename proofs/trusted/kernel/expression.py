@@ -36,6 +36,10 @@ class Node(NamedTuple):
     datum: Fraction = Fraction(0)
 
 
+Step = tuple[int, Node]  # with its place
+Steps = Sequence[Step]
+
+
 @dataclass
 class Tape:
     """Nodes in the order of evaluation; equal nodes are stored once."""
@@ -44,6 +48,7 @@ class Tape:
     _places: dict[Node, int] = field(default_factory=dict)
     _orders: dict[tuple[int, ...], list[int]] = field(default_factory=dict)
     _derivatives: dict[tuple[int, int], int] = field(default_factory=dict)
+    _divided: dict[tuple[tuple[int, ...], int], tuple[Steps, Steps]] = field(default_factory=dict)
 
     def add(self, op: str, *arguments: int, datum: Fraction = Fraction(0)) -> int:
         """Return the place of a node, a new one where there is none like it."""
@@ -70,6 +75,22 @@ class Tape:
             METER.get().spend(len(needed))
             self._orders[roots] = sorted(needed)
         return self._orders[roots]
+
+    def divided(self, roots: tuple[int, ...], variable: int) -> tuple[Steps, Steps]:
+        """Return the nodes that roots need: those that do not change with a variable, the others.
+
+        Each in the order of evaluation, with its place.
+        """
+        if (roots, variable) not in self._divided:
+            changing, still, moving = set[int](), list[Step](), list[Step]()
+            for place in self.order(roots):
+                node = self.nodes[place]
+                own = node.op == "variable" and node.datum == variable
+                if own or not changing.isdisjoint(node.arguments):
+                    changing.add(place)
+                (moving if place in changing else still).append((place, node))
+            self._divided[roots, variable] = still, moving
+        return self._divided[roots, variable]
 
     def evaluate(self, roots: tuple[int, ...], numbers: Numbers[T], inputs: Sequence[T]) -> list[T]:
         """Return the roots' values at the inputs; every node that they need is evaluated."""

@@ -26,6 +26,7 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Matrix, add, enclosed
+from proofs.trusted.kernel.evaluation import Partial
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
@@ -34,7 +35,7 @@ from proofs.trusted.kernel.formulas import (
     Formulas,
     Placer,
 )
-from proofs.trusted.kernel.gaps import stays_up
+from proofs.trusted.kernel.gaps import fall, stays_up
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
@@ -56,11 +57,14 @@ _REMEMBERED = 8  # windows of times, for boxes inside boxes
 class Gap(NamedTuple):
     """A gap on the tape: its derivatives by the time, and the order of the first not 0 at launch.
 
-    order: 0 for a gap that is not 0 at launch.
+    order: 0 for a gap that is not 0 at launch. launch: that derivative there, of the state alone.
+    is_constant: whether the gap is the same at all times.
     """
 
     orders: tuple[int, ...]
     order: int
+    launch: int
+    is_constant: bool
 
 
 class Motion(NamedTuple):
@@ -82,6 +86,14 @@ class Motion(NamedTuple):
         return f"`{rates[n]}` = `{self.equation}` with {start} at `{time}` = 0"
 
 
+class Impact(NamedTuple):
+    """When all flights from a box of states end, and what they have in common at all times."""
+
+    states: Sequence[Enclosure]
+    time: Enclosure
+    partial: Partial
+
+
 @dataclass(frozen=True, eq=False)
 class Flight:
     """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
@@ -94,7 +106,8 @@ class Flight:
     gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
     _windows: list[tuple[list[Enclosure], Range]] = field(default_factory=list)
-    _last: list[tuple[list[Enclosure], Enclosure]] = field(default_factory=list)
+    _last: list[Impact] = field(default_factory=list)
+    _parameters: dict[int, list[Enclosure]] = field(default_factory=dict)  # by precision
 
     @property
     def name(self) -> str:
@@ -140,35 +153,42 @@ class Flight:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box of states."""
-        return self.on(self.outcome, x, self.impact(x))
+        return self._at_impact(self.outcome, x)
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
-        t, n = self.impact(x), self.state
-        roots = (self.gaps[0].orders[0], *self.outcome)
+        n, roots = self.state, (self.gaps[0].orders[0], *self.outcome)
         wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
-        entries = self.on((*wanted, *roots), x, t)
+        entries = self._at_impact((*wanted, *roots), x)
         (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
         return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
 
+    def _at_impact(self, roots: Sequence[int], x: Sequence[Enclosure]) -> list[Enclosure]:
+        impact = self._impact(x)
+        return self.on(roots, x, impact.time, (), impact.partial)
+
     def impact(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the time of the impact, for all states in a box: see `_Search`."""
-        if not (self._last and _same(self._last[0][0], x)):
-            t = self._sharp(x, self._window(x))
-            self._last[:] = [(list(x), t)]
-        return self._last[0][1]
+        return self._impact(x).time
 
-    def _window(self, x: Sequence[Enclosure]) -> Range:
+    def _impact(self, x: Sequence[Enclosure]) -> Impact:
+        if not (self._last and _same(self._last[0].states, x)):
+            partial = Partial(self.state)
+            time = self._sharp(x, self._window(x, partial), partial)
+            self._last[:] = [Impact(list(x), time, partial)]
+        return self._last[0]
+
+    def _window(self, x: Sequence[Enclosure], partial: Partial) -> Range:
         for box, window in self._windows:
             if _within(x, box):
                 return window
-        window = _Search(self, self.gaps[0], x).fall()
+        window = _Search(self, self.gaps[0], x, partial).fall()
         for gap in self.gaps[1:]:
-            _Search(self, gap, x).up_to(window[1])
+            _Search(self, gap, x, partial).up_to(window[1])
         self._windows[:] = [(list(x), window), *self._windows[: _REMEMBERED - 1]]
         return window
 
-    def _sharp(self, x: Sequence[Enclosure], window: Range) -> Enclosure:
+    def _sharp(self, x: Sequence[Enclosure], window: Range, partial: Partial) -> Enclosure:
         """Enclose the only zero of the gap in a window where gap_t < 0 (Newton's operator).
 
         For x in X, m its middle, s in T: gap(x, t) = 0 = gap(m, s) + gap_x (x - m) + gap_t (t - s)
@@ -177,20 +197,35 @@ class Flight:
         bits, tape, gap = x[0].bits, self.formulas.tape, self.gaps[0]
         t = Enclosure.of(*window, bits)
         sides = [*x, *enclosed(self.formulas.ranges, bits)]
-        places = [*range(self.state), *range(self.state + 1, len(sides) + 1)]
+        wide = [k for k, side in enumerate(sides) if side.hi - side.lo > 1]
+        places = [k if k < self.state else k + 1 for k in wide]  # on the tape the time is between
         slopes = tuple(tape.derivative(gap.orders[0], place) for place in places)
-        middle = [Enclosure(m := (a.lo + a.hi) >> 1, m, bits) for a in sides]
-        steps = [a - m for a, m in zip(sides, middle, strict=True)]
+        middle = list(sides)
+        for k in wide:
+            m = (sides[k].lo + sides[k].hi) >> 1
+            middle[k] = Enclosure(m, m, bits)
+        steps = [sides[k] - middle[k] for k in wide]
+        centre, parameters = middle[: self.state], middle[self.state :]
+        around = Partial(self.state)
         while True:
             width = t.hi - t.lo
             s = Enclosure(m := (t.lo + t.hi) >> 1, m, bits)
-            (fall,), row = self.on(gap.orders[1:2], x, t), self.on(slopes, x, s)
-            (value,) = self.on(gap.orders[:1], middle[: self.state], s, middle[self.state :])
-            if fall.hi >= 0:
-                raise Unproved(f"the impact is not proved transversal, {_place(x)}")
-            t = t.meet(s - add(value, row, steps) / fall)
+            rate = self._fall(x, t, partial)
+            row = self.on(slopes, x, s, (), partial)
+            (value,) = self.on(gap.orders[:1], centre, s, parameters, around)
+            t = t.meet(s - add(value, row, steps) / rate)
             if 2 * (t.hi - t.lo) >= width:
                 return t
+
+    def _fall(self, x: Sequence[Enclosure], t: Enclosure, partial: Partial) -> Enclosure:
+        """Enclose gap_t on a box of states and times, and require that it is < 0."""
+        (direct,) = self.on(self.gaps[0].orders[1:2], x, t, (), partial)
+        if direct.hi < 0:
+            return direct
+        sharper = fall(_Search(self, self.gaps[0], x, partial).of, t.range)
+        if sharper.hi >= 0:
+            raise Unproved(f"the impact is not proved transversal, {_place(x)}")
+        return sharper
 
     def on(
         self,
@@ -198,9 +233,17 @@ class Flight:
         x: Sequence[Enclosure],
         t: Enclosure,
         parameters: Sequence[Enclosure] = (),
+        partial: Partial | None = None,
     ) -> list[Enclosure]:
-        """Enclose formulas on a box of states and times; parameters: instead of their ranges."""
-        return self.formulas.enclose(tuple(roots), [*x, t], parameters)
+        """Enclose formulas on a box of states and times; parameters: instead of their ranges.
+
+        partial: what is known from other times.
+        """
+        if not parameters and self.formulas.ranges:
+            if t.bits not in self._parameters:
+                self._parameters[t.bits] = enclosed(self.formulas.ranges, t.bits)
+            parameters = self._parameters[t.bits]
+        return self.formulas.enclose(tuple(roots), [*x, t], parameters, partial)
 
 
 def _same(one: Sequence[Enclosure], two: Sequence[Enclosure]) -> bool:
@@ -230,22 +273,30 @@ class _Search:
     flight: Flight
     gap: Gap
     x: Sequence[Enclosure]
+    partial: Partial
+    _heights: dict[Fraction, Enclosure] = field(default_factory=dict)
+    _reach: Fraction = Fraction(0)
+    _known: Enclosure | None = None  # gap'' up to the time `_reach`
 
     def fall(self) -> Range:
         """Return times low < high, gap > 0 on (0, low], gap_t < 0 between, gap(high) < 0."""
-        for low, high, falls in self._steps(LATEST):
-            if falls and self._at(high).hi < 0:
+        for low, high, end in self._steps(LATEST):
+            if end is not None and end.hi < 0:
                 return low, high
         raise Unproved(f"no impact is proved before the time {show(LATEST)}, {_place(self.x)}")
 
     def up_to(self, end: Fraction) -> None:
         """Raise Unproved unless the gap is proved > 0 on (0, end]."""
-        for _, _, falls in self._steps(end):
-            if falls:
+        if self.gap.is_constant:
+            end = min(end, _FIRST_STEP)
+        for _, _, falling in self._steps(end):
+            if falling is not None:
                 raise Unproved(f"another gap is not proved > 0 until the impact, {_place(self.x)}")
 
-    def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, bool]]:
-        """Iterate over low < high, and whether the gap falls between; else gap > 0 on (0, high]."""
+    def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, Enclosure | None]]:
+        """Iterate over low < high, and the gap at `high` where it falls between; else, None, it is
+        > 0 on (0, high].
+        """
         low, step, leaving = Fraction(0), _FIRST_STEP, self.gap.order > 0
         least, falling, is_new = self._at(low).lo, None, True
         if not leaving and least <= 0:
@@ -253,12 +304,10 @@ class _Search:
         while low < end:
             high = min(low + step, end)
             try:
-                after = self._at(high).lo
-                leaves = leaving and self._of((low, high), self.gap.order).lo > 0
-                stays = leaves or (
-                    falling is None and stays_up(self._of, (low, high), min(least, after))
-                )
-                falls = not stays and low > 0 and self._of((low, high), 1).hi < 0
+                after = self._at(high)
+                leaves = leaving and self._leaves(low, high)
+                stays = leaves or (falling is None and self._stays(low, high, min(least, after.lo)))
+                falls = not stays and low > 0 and self.of((low, high), 1).hi < 0
             except Unproved:  # a formula is not proved defined for so long a time
                 leaves = stays = falls = False
             if not (stays or falls):
@@ -266,27 +315,67 @@ class _Search:
                     raise Unproved(f"{self._reason(low)}, {_place(self.x)}")
                 step /= 2
                 continue
-            if falls and falling is None and is_new and after <= 0 <= self._at(high).hi:
+            if falls and falling is None and is_new and after.lo <= 0 <= after.hi:
                 step, is_new = step * 3 / 4, False  # `high` is next to the impact: not the best end
                 continue
-            falling = None if stays or after > 0 else low if falling is None else falling
-            yield low if falling is None else falling, high, falling is not None
-            low, step, least, leaving, is_new = high, 2 * step, after, leaves, True
+            falling = None if stays or after.lo > 0 else low if falling is None else falling
+            yield low if falling is None else falling, high, None if falling is None else after
+            low, least, leaving, is_new = high, after.lo, leaves, True
+            step = 2 * step if leaving or falling is not None else self._likely(2 * step, least)
+
+    def _stays(self, low: Fraction, high: Fraction, least: int) -> bool:
+        """Whether the gap, `least` or more at both times, is > 0 between them."""
+        return stays_up(self.of, (low, high), least, self._bend(high))
+
+    def _likely(self, step: Fraction, least: int) -> Fraction:
+        """Return a step that is not too long for a gap of so much: w^2 gap'' is not far above 8."""
+        bend = self._bend(Fraction(0))
+        while bend is not None and step * step * bend.hi > 16 * least and step > _SHORTEST:
+            step /= 2
+        return step
+
+    def _bend(self, high: Fraction) -> Enclosure | None:
+        """Enclose gap'' up to a time, and some more; None where it is not proved defined."""
+        if self._reach < high or not self._reach:
+            self._reach = 2 * high + 8
+            try:
+                self._known = self.of((Fraction(0), self._reach), 2)
+            except Unproved:
+                self._known = None
+        return self._known
+
+    def _leaves(self, low: Fraction, high: Fraction) -> bool:
+        """Whether the derivative of the gap's order is > 0 until `high`, where it is on (0, low].
+
+        Between them it is > 0; or the next one is, and it is >= 0 at launch if that is `low`.
+        """
+        order = self.gap.order
+        if self.of((low, high), order).lo > 0:
+            return True
+        return self.of((low, high), order + 1).lo > 0 and (low > 0 or self._launch.lo >= 0)
 
     def _reason(self, low: Fraction) -> str:
         """Say why no step after a time is proved."""
         if low:
             return f"a graze is not excluded at the time {show(round(low, 6))}"
-        if self.gap.order and self._of((low, low), self.gap.order).hi < 0:
+        if self.gap.order and self.of((low, low), self.gap.order).hi < 0:
             return "the gap is < 0 right after launch: such a state does not leave the wall"
         return "it is not proved that the gap is > 0 right after launch"
 
-    def _of(self, time: Range, order: int) -> Enclosure:
+    @property
+    def _launch(self) -> Enclosure:
+        now = Enclosure(0, 0, self.x[0].bits)
+        return self.flight.on((self.gap.launch,), self.x, now, (), self.partial)[0]
+
+    def of(self, time: Range, order: int) -> Enclosure:
+        """Enclose a derivative of the gap on an interval of times."""
         t = Enclosure.of(*time, self.x[0].bits)
-        return self.flight.on(self.gap.orders[order : order + 1], self.x, t)[0]
+        return self.flight.on(self.gap.orders[order : order + 1], self.x, t, (), self.partial)[0]
 
     def _at(self, time: Fraction) -> Enclosure:
-        return self._of((time, time), 0)
+        if time not in self._heights:
+            self._heights[time] = self.of((time, time), 0)
+        return self._heights[time]
 
 
 def _place(x: Sequence[Enclosure]) -> str:
@@ -309,7 +398,10 @@ def read_flight(name: str, reader: Reader) -> Flight:
         _require_solution(placer, time, motion, orders)
     gaps = [read_tree(each) for each in gaps_of.items(1, _MOST_GAPS)]
     values = [read_tree(each) for each in values_of.items(1, MAX_VALUES)]
-    left = tuple(_gap(placer, time, *each) for each in zip(gaps, gaps_of.items(), strict=True))
+    try:
+        left = tuple(read_gap(placer, time, each) for each in gaps)
+    except Unproved as error:
+        raise gaps_of.fail(str(error)) from None
     formulas = head.formulas(name, placer, [*gaps, *values])
     roots, count = formulas.roots, len(gaps)
     require_periods(reader, formulas, roots[count:], roots[:count])
@@ -386,17 +478,23 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
         _require_explicit(part, time, orders)
 
 
-def _gap(placer: Placer, time: str, tree: Tree, reader: Reader) -> Gap:
-    """Return a gap with its derivatives, up to the first that is not 0 at launch for all states."""
+def read_gap(placer: Placer, time: str, tree: Tree, launch: Tree | None = None) -> Gap:
+    """Return a gap with its derivatives, up to the one after the first that is not 0 at launch.
+
+    launch: a formula of that one there, where a plain one encloses it better. Raises Unproved where
+    it is another function, or there is none.
+    """
     tape, clock = placer.tape, placer.places[time]
     orders = [placer.place(tree)]
-    while len(orders) < 3:
-        orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
     for order in range(_MOST_ORDERS + 1):
-        if order == len(orders):
+        while len(orders) < max(3, order + 2):
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
         if not _equal(tape, start, tape.number(0)):
-            placer.parts += orders[: max(order, 2)]
-            return Gap(tuple(orders), order)
-    raise reader.fail("the gap is 0 at launch, with all its first derivatives")
+            placer.parts += orders[:-1]
+            plain = start if launch is None else placer.place(launch)
+            if plain != start and not _equal(tape, plain, start):
+                raise Unproved("the gap does not leave 0 so")
+            is_constant = orders[1] == tape.number(0)
+            return Gap(tuple(orders), order, plain, is_constant)
+    raise Unproved("the gap is 0 at launch, with all its first derivatives")
