@@ -13,19 +13,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from proofs.__main__ import main
+from proofs.trusted.rules import RULES
 
 ROOT = Path(__file__).parents[1]
 BUDGETS = {
-    "proofs": 52_100,
-    "proofs/trusted": 19_700,
-    "proofs/search, proofs/motion": 9_500,
+    "proofs": 52_420,
+    "proofs/trusted": 20_200,
+    "proofs/search, proofs/motion": 9_350,
     "proofs/shell": 1_750,
     "proofs/benchmark": 1_800,
     "proofs/stress": 1_350,
     "tests": 51_200,
+    "rules outside the kernel": 34,
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_010,
-    "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
+    "headline": 8_600,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
@@ -36,6 +38,9 @@ def counts():
     tracked = _tracked()
     python = [path for path in tracked if path.endswith(".py")]
     found = {"tracked files": len(tracked)}
+    found["rules outside the kernel"] = sum(
+        not place.startswith("kernel.") for place in RULES.values()
+    )
     found["loose modules"] = sum(path.count("/") == 1 and path[:7] == "proofs/" for path in python)
     for name in BUDGETS:
         folders = tuple(f"{folder}/" for folder in name.split(", "))

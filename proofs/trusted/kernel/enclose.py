@@ -165,16 +165,20 @@ def attempts(
         try:
             values = map_.values(x)
             yield values
-            yield list(map(Enclosure.meet, values, _mean_value_form(map_, box, x)))
+            yield list(map(Enclosure.meet, values, mean_value_form(map_, x)))
         except Unproved:
             continue
 
 
-def _mean_value_form(map_: Differentiable, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
-    centre = centre_of(box)
-    values = map_.values(enclosed(point_box(centre), x[0].bits))
-    steps = [a - rational(m, a.bits) for a, m in zip(x, centre, strict=True)]
-    return [add(value, row, steps) for value, row in zip(values, map_.jacobian(x), strict=True)]
+def mean_value_form(map_: Differentiable, x: Sequence[Enclosure]) -> list[Enclosure]:
+    """Enclose f(m) + f'(X) (X - m), m the middle of X; a map of parameters may know better."""
+    own: Callable[..., list[Enclosure]] | None = getattr(map_, "mean_value_form", None)
+    if own is not None:
+        return own(x)
+    centre = [Enclosure(m := (a.lo + a.hi) >> 1, m, a.bits) for a in x]
+    steps = [a - m for a, m in zip(x, centre, strict=True)]
+    rows = zip(map_.values(centre), map_.jacobian(x), strict=True)
+    return [add(value, row, steps) for value, row in rows]
 
 
 def add(value: Enclosure, row: Sequence[Enclosure], column: Sequence[Enclosure]) -> Enclosure:

@@ -41,7 +41,7 @@ def enclose(
     still, moving = tape.divided(roots, partial.variable)
     lower, upper = partial.lower, partial.upper
     if roots not in partial.roots:
-        fresh = [step for step in still if step[0] not in lower] if lower else still
+        fresh = [step for step in still if step.place not in lower] if lower else still
         _run(fresh, inputs, bits, lower, upper)
         partial.roots.add(roots)
     if moving:
@@ -54,35 +54,29 @@ def _run(
     steps: Steps, inputs: Sequence[Enclosure], bits: int, lower: Bounds, upper: Bounds
 ) -> None:
     """Enclose nodes whose arguments are enclosed; a result beyond 2^256 raises Unproved."""
-    limit, numbers = 1 << (bits + LARGEST), Enclosures(bits)
+    limit, numbers, is_short = 1 << (bits + LARGEST), Enclosures(bits), bits < MANY
     pairs = dict[int, tuple[Enclosure, Enclosure]]()  # sin and cos of nodes
     METER.get().spend((3 + (bits >> 7)) * len(steps))
-    for place, (op, arguments, datum) in steps:
-        if op == "*" and bits < MANY:
-            i, j = arguments
+    for place, op, i, j, node in steps:
+        if op == "*" and is_short:
             low, high = _product(lower[i], upper[i], lower[j], upper[j])
             low, high = low >> bits, -(-high >> bits)
         elif op == "+":
-            i, j = arguments
             low, high = lower[i] + lower[j], upper[i] + upper[j]
         elif op == "-":
-            i, j = arguments
             low, high = lower[i] - upper[j], upper[i] - lower[j]
         elif op == "negative":
-            (i,) = arguments
             low, high = -upper[i], -lower[i]
-        elif op in ("sin", "cos"):
-            (i,) = arguments
-            if i not in pairs:
-                pairs[i] = Enclosure(lower[i], upper[i], bits).sincos()
-            result = pairs[i][op == "cos"]
-            low, high = result.lo, result.hi
         else:
             if op == "variable":
-                result = inputs[int(datum)]
+                result = inputs[int(node.datum)]
+            elif op in ("sin", "cos"):
+                if i not in pairs:
+                    pairs[i] = Enclosure(lower[i], upper[i], bits).sincos()
+                result = pairs[i][op == "cos"]
             else:
-                values = [Enclosure(lower[i], upper[i], bits) for i in arguments]
-                result = numbers.apply(op, values, datum)
+                values = [Enclosure(lower[k], upper[k], bits) for k in node.arguments]
+                result = numbers.apply(op, values, node.datum)
             low, high = result.lo, result.hi
         if high >= limit or -low >= limit:
             raise Unproved("a value beyond 2^256")

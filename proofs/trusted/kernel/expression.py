@@ -36,7 +36,16 @@ class Node(NamedTuple):
     datum: Fraction = Fraction(0)
 
 
-Step = tuple[int, Node]  # with its place
+class Step(NamedTuple):
+    """A node to be evaluated: its place, its operation, its first and its last argument."""
+
+    place: int
+    op: str
+    first: int
+    last: int
+    node: Node
+
+
 Steps = Sequence[Step]
 
 
@@ -79,7 +88,7 @@ class Tape:
     def divided(self, roots: tuple[int, ...], variable: int) -> tuple[Steps, Steps]:
         """Return the nodes that roots need: those that do not change with a variable, the others.
 
-        Each in the order of evaluation, with its place.
+        Each in the order of evaluation.
         """
         if (roots, variable) not in self._divided:
             changing, still, moving = set[int](), list[Step](), list[Step]()
@@ -88,7 +97,9 @@ class Tape:
                 own = node.op == "variable" and node.datum == variable
                 if own or not changing.isdisjoint(node.arguments):
                     changing.add(place)
-                (moving if place in changing else still).append((place, node))
+                ends = (*node.arguments[:1], *node.arguments[-1:], 0, 0)
+                step = Step(place, node.op, ends[0], ends[1], node)
+                (moving if place in changing else still).append(step)
             self._divided[roots, variable] = still, moving
         return self._divided[roots, variable]
 

@@ -18,9 +18,10 @@ where all gaps are > 0 in between, and the others at the impact too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
@@ -28,6 +29,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Matrix, add, enclosed
 from proofs.trusted.kernel.evaluation import Partial
 from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.firstzero import FirstZero, Gap, shown
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
     MAX_VARIABLES,
@@ -35,7 +37,7 @@ from proofs.trusted.kernel.formulas import (
     Formulas,
     Placer,
 )
-from proofs.trusted.kernel.gaps import fall, stays_up
+from proofs.trusted.kernel.gaps import fall
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
@@ -46,25 +48,13 @@ from proofs.trusted.kernel.trees import (
     Variable,
     read_tree,
 )
-from proofs.trusted.numbers import Range, between, show
+from proofs.trusted.numbers import Range
 
 LATEST = Fraction(1024)
-_FIRST_STEP, _SHORTEST = Fraction(1, 4), Fraction(1, 2**30)
 _MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
+_ENOUGH = 1024  # moves by a smaller part of the width do not pay
+_COARSE = 64  # bits, in which a window is looked for first
 _REMEMBERED = 8  # windows of times, for boxes inside boxes
-
-
-class Gap(NamedTuple):
-    """A gap on the tape: its derivatives by the time, and the order of the first not 0 at launch.
-
-    order: 0 for a gap that is not 0 at launch. launch: that derivative there, of the state alone.
-    is_constant: whether the gap is the same at all times.
-    """
-
-    orders: tuple[int, ...]
-    order: int
-    launch: int
-    is_constant: bool
 
 
 class Motion(NamedTuple):
@@ -86,28 +76,21 @@ class Motion(NamedTuple):
         return f"`{rates[n]}` = `{self.equation}` with {start} at `{time}` = 0"
 
 
-class Impact(NamedTuple):
-    """When all flights from a box of states end, and what they have in common at all times."""
-
-    states: Sequence[Enclosure]
-    time: Enclosure
-    partial: Partial
-
-
 @dataclass(frozen=True, eq=False)
 class Flight:
     """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
 
-    motions: the equations that the forms solve.
+    motions: the equations that the forms solve. latest: until when impacts are looked for.
     """
 
     formulas: Formulas
     state: int
     gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
-    _windows: list[tuple[list[Enclosure], Range]] = field(default_factory=list)
+    latest: Fraction = LATEST
+    _windows: list[tuple[Sequence[Enclosure], Range]] = field(default_factory=list)
     _last: list[Impact] = field(default_factory=list)
-    _parameters: dict[int, list[Enclosure]] = field(default_factory=dict)  # by precision
+    _taken: dict[int, list[int]] = field(default_factory=dict)  # steps of the last search, by bits
 
     @property
     def name(self) -> str:
@@ -153,97 +136,183 @@ class Flight:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box of states."""
-        return self._at_impact(self.outcome, x)
+        impact = self._impact(x)
+        return impact.launches.on(self.outcome, impact.time)
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
-        n, roots = self.state, (self.gaps[0].orders[0], *self.outcome)
-        wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
-        entries = self._at_impact((*wanted, *roots), x)
-        (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
-        return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
+        """Enclose the derivative in the state."""
+        return self._derivative(self._impact(x), range(self.state))
 
-    def _at_impact(self, roots: Sequence[int], x: Sequence[Enclosure]) -> list[Enclosure]:
+    def mean_value_form(self, x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose the values by those in the middle of the states and of the parameters.
+
+        F(x, p) is in F(m, q) + F_x (x - m) + F_p (p - q), by the mean value theorem.
+        """
         impact = self._impact(x)
-        return self.on(roots, x, impact.time, (), impact.partial)
+        launches = impact.launches
+        time = impact.time
+        enough = (time.hi - time.lo) >> 16
+        middle = Impact.sharp(launches.middle, time.range, enough)
+        values = middle.launches.on(self.outcome, middle.time)
+        rows = self._derivative(impact, launches.wide)
+        return [add(v, row, launches.steps) for v, row in zip(values, rows, strict=True)]
+
+    def _derivative(self, impact: Impact, places: Sequence[int]) -> Matrix:
+        """Enclose F_x - F_t gap_x / gap_t for some inputs x (implicit function theorem: gap_t < 0).
+
+        places: of these among the state and the parameters.
+        """
+        roots, n = (self.gaps[0].orders[0], *self.outcome), len(places) + 1
+        wanted = [root for each in roots for root in self.slopes(each, places)]
+        entries = impact.launches.on((*wanted, *roots), impact.time)
+        (*gap, fall), *rows = (entries[i * n : (i + 1) * n] for i in range(len(roots)))
+        return [[a - row[-1] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
+
+    def slopes(self, root: int, places: Sequence[int]) -> list[int]:
+        """Return the derivatives of a root in some of the state and the parameters, and in time."""
+        on_tape = [k if k < self.state else k + 1 for k in places]  # the time is between them
+        return [self.formulas.tape.derivative(root, k) for k in (*on_tape, self.state)]
 
     def impact(self, x: Sequence[Enclosure]) -> Enclosure:
-        """Enclose the time of the impact, for all states in a box: see `_Search`."""
+        """Enclose the time of the impact, for all states in a box: see `FirstZero`."""
         return self._impact(x).time
 
     def _impact(self, x: Sequence[Enclosure]) -> Impact:
-        if not (self._last and _same(self._last[0].states, x)):
-            partial = Partial(self.state)
-            time = self._sharp(x, self._window(x, partial), partial)
-            self._last[:] = [Impact(list(x), time, partial)]
+        if not (self._last and _same(self._last[0].launches.states, x)):
+            launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
+            self._last[:] = [Impact.sharp(launches, self._window(launches))]
         return self._last[0]
 
-    def _window(self, x: Sequence[Enclosure], partial: Partial) -> Range:
+    def _window(self, launches: Launches) -> Range:
         for box, window in self._windows:
-            if _within(x, box):
+            if _within(launches.states, box):
                 return window
-        window = _Search(self, self.gaps[0], x, partial).fall()
-        for gap in self.gaps[1:]:
-            _Search(self, gap, x, partial).up_to(window[1])
-        self._windows[:] = [(list(x), window), *self._windows[: _REMEMBERED - 1]]
+        try:
+            window = self._searched(launches.coarse)
+        except Unproved:
+            if launches.coarse is launches:
+                raise
+            window = self._searched(launches)
+        self._windows[:] = [(launches.states, window), *self._windows[: _REMEMBERED - 1]]
         return window
 
-    def _sharp(self, x: Sequence[Enclosure], window: Range, partial: Partial) -> Enclosure:
-        """Enclose the only zero of the gap in a window where gap_t < 0 (Newton's operator).
+    def _searched(self, launches: Launches) -> Range:
+        search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
+        window = search.window(self.latest)
+        for gap in self.gaps[1:]:
+            FirstZero(launches, gap).require_none(window[1])
+        self._taken[search.bits] = search.taken
+        return window
 
-        For x in X, m its middle, s in T: gap(x, t) = 0 = gap(m, s) + gap_x (x - m) + gap_t (t - s)
-        with derivatives on X x {s} and X x T (mean value theorem).
+
+@dataclass
+class Launches:
+    """All flights from a box of states, for all parameters of a box."""
+
+    flight: Flight
+    states: Sequence[Enclosure]
+    parameters: Sequence[Enclosure]
+
+    def __post_init__(self) -> None:
+        self._partial = Partial(self.flight.state)
+
+    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
+        """Enclose formulas at times."""
+        x = [*self.states, t]
+        return self.flight.formulas.enclose(tuple(roots), x, self.parameters, self._partial)
+
+    @cached_property
+    def coarse(self) -> Launches:
+        """These flights and some around, in few bits."""
+        if self.states[0].bits <= _COARSE:
+            return self
+        sides = (
+            [Enclosure.of(*x.range, _COARSE) for x in xs] for xs in (self.states, self.parameters)
+        )
+        return Launches(self.flight, *sides)
+
+    @cached_property
+    def _inputs(self) -> list[Enclosure]:
+        return [*self.states, *self.parameters]
+
+    @cached_property
+    def wide(self) -> list[int]:
+        """The places of those states and parameters that are no points."""
+        return [k for k, side in enumerate(self._inputs) if side.hi - side.lo > 1]
+
+    @cached_property
+    def middle(self) -> Launches:
+        """The flight in the middle of these sides."""
+        middle = list(self._inputs)
+        for k in self.wide:
+            m = (middle[k].lo + middle[k].hi) >> 1
+            middle[k] = Enclosure(m, m, middle[k].bits)
+        n = self.flight.state
+        return Launches(self.flight, middle[:n], middle[n:])
+
+    @cached_property
+    def steps(self) -> list[Enclosure]:
+        """How far these sides reach from there."""
+        return [self._inputs[k] - self.middle._inputs[k] for k in self.wide]
+
+
+@dataclass
+class Impact:
+    """When all flights from a box end."""
+
+    launches: Launches
+    window: Range
+    time: Enclosure
+
+    @classmethod
+    def sharp(cls, launches: Launches, window: Range, enough: int = 0) -> Impact:
+        """Enclose the only zero of the gap in a window where gap_t < 0, by Newton's operator.
+
+        From the middle of what is known; for a box from both ends, plainly and then by the mean
+        value form; while that gains a part of it, and more than `enough` is left.
         """
-        bits, tape, gap = x[0].bits, self.formulas.tape, self.gaps[0]
-        t = Enclosure.of(*window, bits)
-        sides = [*x, *enclosed(self.formulas.ranges, bits)]
-        wide = [k for k, side in enumerate(sides) if side.hi - side.lo > 1]
-        places = [k if k < self.state else k + 1 for k in wide]  # on the tape the time is between
-        slopes = tuple(tape.derivative(gap.orders[0], place) for place in places)
-        middle = list(sides)
-        for k in wide:
-            m = (sides[k].lo + sides[k].hi) >> 1
-            middle[k] = Enclosure(m, m, bits)
-        steps = [sides[k] - middle[k] for k in wide]
-        centre, parameters = middle[: self.state], middle[self.state :]
-        around = Partial(self.state)
-        while True:
-            width = t.hi - t.lo
-            s = Enclosure(m := (t.lo + t.hi) >> 1, m, bits)
-            rate = self._fall(x, t, partial)
-            row = self.on(slopes, x, s, (), partial)
-            (value,) = self.on(gap.orders[:1], centre, s, parameters, around)
-            t = t.meet(s - add(value, row, steps) / rate)
-            if 2 * (t.hi - t.lo) >= width:
-                return t
+        t, is_box = Enclosure.of(*window, launches.states[0].bits), bool(launches.wide)
+        for is_plain in (True, False)[: 1 + is_box]:
+            width = 2 * (t.hi - t.lo)
+            while t.hi - t.lo > enough and _ENOUGH * (width - t.hi + t.lo) > width:
+                width, middle = t.hi - t.lo, (t.lo + t.hi) >> 1
+                t = _newton(launches, t, is_plain, *((t.lo, t.hi) if is_box else (middle,)))
+        return cls(launches, window, t)
 
-    def _fall(self, x: Sequence[Enclosure], t: Enclosure, partial: Partial) -> Enclosure:
-        """Enclose gap_t on a box of states and times, and require that it is < 0."""
-        (direct,) = self.on(self.gaps[0].orders[1:2], x, t, (), partial)
-        if direct.hi < 0:
-            return direct
-        sharper = fall(_Search(self, self.gaps[0], x, partial).of, t.range)
-        if sharper.hi >= 0:
-            raise Unproved(f"the impact is not proved transversal, {_place(x)}")
-        return sharper
 
-    def on(
-        self,
-        roots: Sequence[int],
-        x: Sequence[Enclosure],
-        t: Enclosure,
-        parameters: Sequence[Enclosure] = (),
-        partial: Partial | None = None,
-    ) -> list[Enclosure]:
-        """Enclose formulas on a box of states and times; parameters: instead of their ranges.
+def _newton(launches: Launches, t: Enclosure, is_plain: bool, *starts: int) -> Enclosure:
+    """Return what Newton's operator leaves of times, from some of them.
 
-        partial: what is known from other times.
-        """
-        if not parameters and self.formulas.ranges:
-            if t.bits not in self._parameters:
-                self._parameters[t.bits] = enclosed(self.formulas.ranges, t.bits)
-            parameters = self._parameters[t.bits]
-        return self.formulas.enclose(tuple(roots), [*x, t], parameters, partial)
+    For x in X, s the start: gap(x, t) = 0 = gap(x, s) + gap_t (t - s), gap_t on X x T. gap(x, s) is
+    enclosed directly, and by gap(m, s) + gap_x (x - m), m the middle (mean value theorem).
+    """
+    gap, rate = launches.flight.gaps[0], _fall(launches, t)
+    slopes = launches.flight.slopes(gap.orders[0], launches.wide)[:-1]
+    for start in starts:
+        s = Enclosure(start, start, t.bits)
+        if is_plain:
+            (value,) = launches.on(gap.orders[:1], s)
+        else:
+            (value,) = launches.middle.on(gap.orders[:1], s)
+            height, *row = launches.on((gap.orders[0], *slopes), s)
+            value = height.meet(add(value, row, launches.steps))
+        t = t.meet(s - value / rate)
+    return t
+
+
+def _fall(launches: Launches, t: Enclosure) -> Enclosure:
+    """Enclose gap_t at times, and require that it is < 0."""
+    gap = launches.flight.gaps[0]
+
+    def gap_of(time: Range, order: int) -> Enclosure:
+        return launches.on(gap.orders[order : order + 1], Enclosure.of(*time, t.bits))[0]
+
+    (rate,) = launches.on(gap.orders[1:2], t)
+    if rate.hi >= 0:
+        rate = fall(gap_of, t.range)
+    if rate.hi >= 0:
+        raise Unproved(f"the impact is not proved transversal, {shown(launches.states)}")
+    return rate
 
 
 def _same(one: Sequence[Enclosure], two: Sequence[Enclosure]) -> bool:
@@ -256,131 +325,6 @@ def _within(x: Sequence[Enclosure], box: Sequence[Enclosure]) -> bool:
     return more >= 0 and all(
         b.lo << more <= a.lo and a.hi <= b.hi << more for a, b in zip(x, box, strict=True)
     )
-
-
-@dataclass
-class _Search:
-    """Goes through the times after launch, for all states in a box at once.
-
-    Invariant: the gap is > 0 on (0, low]. A step to `high` keeps it by one of these.
-    1. The first derivative that is not 0 at launch has been > 0 from 0 to `high`, the lower ones
-       being 0 there.
-    2. gap > 0 at both ends, so much that gap'' cannot bring it to 0 (`stays_up`).
-    3. gap_t < 0 from a time at which gap > 0 on, up to one at which gap < 0: there the gap has its
-       first zero, by Bolzano's theorem, and only one.
-    """
-
-    flight: Flight
-    gap: Gap
-    x: Sequence[Enclosure]
-    partial: Partial
-    _heights: dict[Fraction, Enclosure] = field(default_factory=dict)
-    _reach: Fraction = Fraction(0)
-    _known: Enclosure | None = None  # gap'' up to the time `_reach`
-
-    def fall(self) -> Range:
-        """Return times low < high, gap > 0 on (0, low], gap_t < 0 between, gap(high) < 0."""
-        for low, high, end in self._steps(LATEST):
-            if end is not None and end.hi < 0:
-                return low, high
-        raise Unproved(f"no impact is proved before the time {show(LATEST)}, {_place(self.x)}")
-
-    def up_to(self, end: Fraction) -> None:
-        """Raise Unproved unless the gap is proved > 0 on (0, end]."""
-        if self.gap.is_constant:
-            end = min(end, _FIRST_STEP)
-        for _, _, falling in self._steps(end):
-            if falling is not None:
-                raise Unproved(f"another gap is not proved > 0 until the impact, {_place(self.x)}")
-
-    def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, Enclosure | None]]:
-        """Iterate over low < high, and the gap at `high` where it falls between; else, None, it is
-        > 0 on (0, high].
-        """
-        low, step, leaving = Fraction(0), _FIRST_STEP, self.gap.order > 0
-        least, falling, is_new = self._at(low).lo, None, True
-        if not leaving and least <= 0:
-            raise Unproved(f"a gap is not proved > 0 at launch, {_place(self.x)}")
-        while low < end:
-            high = min(low + step, end)
-            try:
-                after = self._at(high)
-                leaves = leaving and self._leaves(low, high)
-                stays = leaves or (falling is None and self._stays(low, high, min(least, after.lo)))
-                falls = not stays and low > 0 and self.of((low, high), 1).hi < 0
-            except Unproved:  # a formula is not proved defined for so long a time
-                leaves = stays = falls = False
-            if not (stays or falls):
-                if step < _SHORTEST:
-                    raise Unproved(f"{self._reason(low)}, {_place(self.x)}")
-                step /= 2
-                continue
-            if falls and falling is None and is_new and after.lo <= 0 <= after.hi:
-                step, is_new = step * 3 / 4, False  # `high` is next to the impact: not the best end
-                continue
-            falling = None if stays or after.lo > 0 else low if falling is None else falling
-            yield low if falling is None else falling, high, None if falling is None else after
-            low, least, leaving, is_new = high, after.lo, leaves, True
-            step = 2 * step if leaving or falling is not None else self._likely(2 * step, least)
-
-    def _stays(self, low: Fraction, high: Fraction, least: int) -> bool:
-        """Whether the gap, `least` or more at both times, is > 0 between them."""
-        return stays_up(self.of, (low, high), least, self._bend(high))
-
-    def _likely(self, step: Fraction, least: int) -> Fraction:
-        """Return a step that is not too long for a gap of so much: w^2 gap'' is not far above 8."""
-        bend = self._bend(Fraction(0))
-        while bend is not None and step * step * bend.hi > 16 * least and step > _SHORTEST:
-            step /= 2
-        return step
-
-    def _bend(self, high: Fraction) -> Enclosure | None:
-        """Enclose gap'' up to a time, and some more; None where it is not proved defined."""
-        if self._reach < high or not self._reach:
-            self._reach = 2 * high + 8
-            try:
-                self._known = self.of((Fraction(0), self._reach), 2)
-            except Unproved:
-                self._known = None
-        return self._known
-
-    def _leaves(self, low: Fraction, high: Fraction) -> bool:
-        """Whether the derivative of the gap's order is > 0 until `high`, where it is on (0, low].
-
-        Between them it is > 0; or the next one is, and it is >= 0 at launch if that is `low`.
-        """
-        order = self.gap.order
-        if self.of((low, high), order).lo > 0:
-            return True
-        return self.of((low, high), order + 1).lo > 0 and (low > 0 or self._launch.lo >= 0)
-
-    def _reason(self, low: Fraction) -> str:
-        """Say why no step after a time is proved."""
-        if low:
-            return f"a graze is not excluded at the time {show(round(low, 6))}"
-        if self.gap.order and self.of((low, low), self.gap.order).hi < 0:
-            return "the gap is < 0 right after launch: such a state does not leave the wall"
-        return "it is not proved that the gap is > 0 right after launch"
-
-    @property
-    def _launch(self) -> Enclosure:
-        now = Enclosure(0, 0, self.x[0].bits)
-        return self.flight.on((self.gap.launch,), self.x, now, (), self.partial)[0]
-
-    def of(self, time: Range, order: int) -> Enclosure:
-        """Enclose a derivative of the gap on an interval of times."""
-        t = Enclosure.of(*time, self.x[0].bits)
-        return self.flight.on(self.gap.orders[order : order + 1], self.x, t, (), self.partial)[0]
-
-    def _at(self, time: Fraction) -> Enclosure:
-        if time not in self._heights:
-            self._heights[time] = self.of((time, time), 0)
-        return self._heights[time]
-
-
-def _place(x: Sequence[Enclosure]) -> str:
-    """Write a box for a message, its ends rounded outward."""
-    return f"for states in {' x '.join(between(each.range) for each in x)}"
 
 
 # -- reading ---------------------------------------------------------------------------------------
