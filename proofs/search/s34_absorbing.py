@@ -58,7 +58,6 @@ _HALVINGS, _NEWTON = 20, 5  # steps to an inverse image: close first, then by Ne
 _WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
 _SLOW = 3e-3  # gap' from which on floats seem to tell an impact's time
-Turn = int | None
 
 
 @dataclass

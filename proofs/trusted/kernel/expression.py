@@ -17,6 +17,7 @@ from proofs.trusted.kernel.meter import METER
 
 FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
 _MAX_TAPE = 20_000
+_NODE = 25  # work, for the room that one takes
 
 T = TypeVar("T")
 
@@ -66,6 +67,7 @@ class Tape:
         if place == len(self.nodes):
             if place >= _MAX_TAPE:
                 raise Unproved("derivatives of a formula with too many operations")
+            METER.get().spend(_NODE)
             self.nodes.append(node)
         return place
 
@@ -135,8 +137,9 @@ class Tape:
     def derivative(self, root: int, variable: int) -> int:
         """Return the place of the partial derivative, by the rules of calculus, node by node.
 
-        A product with the number 0 is left out, which is right where the other factor is
-        defined: so a derivative is used only together with the root itself.
+        A product with a derivative that is the number 0 is left out, which is right where the other
+        factor is defined: so a derivative is used only together with the root itself. No derivative
+        is left out, not even 0 times that of a root, which has none where its argument is 0.
         """
         if (root, variable) not in self._derivatives:
             tangents: dict[int, int] = {}
@@ -163,12 +166,12 @@ class Tape:
                 result = self._negative(slopes[0])
             case "*":
                 a, b = arguments
-                result = self._sum(self._product(slopes[0], b), self._product(a, slopes[1]))
+                result = self._sum(self._product(slopes[0], b), self._product(slopes[1], a))
             case "/":  # (a / b)' = (a' - (a / b) b') / b
-                fall = self._negative(self._product(place, slopes[1]))
+                fall = self._negative(self._product(slopes[1], place))
                 result = self.add("/", self._sum(slopes[0], fall), arguments[1])
             case _:
-                result = self._product(self._rate(op, place, arguments[0], datum), slopes[0])
+                result = self._product(slopes[0], self._rate(op, place, arguments[0], datum))
         return result
 
     def _rate(self, op: str, place: int, a: int, n: Fraction) -> int:
@@ -201,7 +204,7 @@ class Tape:
             return b
         return a if self._is(b, 0) else self.add("+", a, b)
 
-    def _product(self, a: int, b: int) -> int:
-        if self._is(a, 0) or self._is(b, 1):
-            return a
-        return b if self._is(b, 0) or self._is(a, 1) else self.add("*", a, b)
+    def _product(self, slope: int, factor: int) -> int:
+        if self._is(slope, 0) or self._is(factor, 1):
+            return slope
+        return factor if self._is(slope, 1) else self.add("*", slope, factor)

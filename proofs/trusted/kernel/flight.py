@@ -28,18 +28,16 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Matrix, add, enclosed
 from proofs.trusted.kernel.evaluation import Partial
-from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.firstzero import FirstZero, Gap, shown
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
-    MAX_VARIABLES,
     Circle,
     Formulas,
     Placer,
+    same_form,
 )
 from proofs.trusted.kernel.gaps import fall
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
-from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     Derivative,
     Operation,
@@ -380,19 +378,12 @@ def _require_solution(placer: Placer, time: str, motion: Motion, orders: Mapping
         if tree.free & {time, *orders}:
             raise Unproved("a start does not depend on the time, nor on motions")
         placer.parts += rate, start
-        if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
+        if not same_form(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
             raise Unproved(f"the form of {motion.name} is not proved to start so")
         rate = tape.derivative(rate, int(tape.nodes[clock].datum))
     placer.parts += rate, right
-    if not _equal(tape, rate, right):
+    if not same_form(tape, rate, right):
         raise Unproved(f"the form of {motion.name} is not proved to solve this equation")
-
-
-def _equal(tape: Tape, one: int, two: int) -> bool:
-    """Whether two functions have the same normal form: they agree where both are defined."""
-    forms = NormalForms(MAX_VARIABLES)
-    left, right = tape.evaluate((one, two), forms, forms.inputs())
-    return forms.is_zero(plus(left, right, -1))
 
 
 def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
@@ -434,10 +425,10 @@ def read_gap(placer: Placer, time: str, tree: Tree, launch: Tree | None = None) 
         while len(orders) < max(3, order + 2):
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
-        if not _equal(tape, start, tape.number(0)):
+        if not same_form(tape, start, tape.number(0)):
             placer.parts += orders[:-1]
             plain = start if launch is None else placer.place(launch)
-            if plain != start and not _equal(tape, plain, start):
+            if plain != start and not same_form(tape, plain, start):
                 raise Unproved("the gap does not leave 0 so")
             is_constant = orders[1] == tape.number(0)
             return Gap(tuple(orders), order, plain, is_constant)

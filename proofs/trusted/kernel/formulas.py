@@ -13,6 +13,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Enclosures, Matrix, enclosed
 from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     At,
     Derivative,
@@ -198,3 +199,10 @@ class Placer:
         if op == "/" and a.op == b[0].op == "number" and b[0].datum:
             return self.tape.number(a.datum / b[0].datum)
         return self.tape.add(op, *places)
+
+
+def same_form(tape: Tape, one: int, two: int) -> bool:
+    """Whether two functions have the same normal form: they agree where both are defined."""
+    forms = NormalForms(MAX_VARIABLES)
+    left, right = tape.evaluate((one, two), forms, forms.inputs())
+    return forms.is_zero(plus(left, right, -1))

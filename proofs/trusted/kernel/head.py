@@ -60,10 +60,10 @@ class Head(NamedTuple):
         return Placer(tape, places | numbers, [])
 
     def _circle(self, placer: Placer, angle: str, period: Tree) -> Circle:
-        tape, root = placer.tape, placer.place(period)
-        if any(tape.nodes[place].op == "variable" for place in tape.order((root,))):
+        if not period.free <= {*self.numbers}:
             raise Unproved(f"a period is a number, and that of {angle} is none")
-        (value,) = tape.evaluate((root,), Enclosures(_BITS), ())
+        root = placer.place(period)
+        (value,) = placer.tape.evaluate((root,), Enclosures(_BITS), ())
         if value.lo <= 0:
             raise Unproved(f"a period is positive, and that of {angle} is not")
         values = (f"{name} = {self.numbers[name]}" for name in sorted(period.free))

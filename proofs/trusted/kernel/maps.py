@@ -19,7 +19,7 @@ from proofs.trusted.kernel.flight import read_flight
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
 
-_MOST_MAPS = 20
+_MOST_MAPS = 100
 
 
 class Map(Differentiable, Protocol):
@@ -44,7 +44,7 @@ class Map(Differentiable, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Composition:
-    """The maps one after the other, the first first."""
+    """The maps one after the other, the first first; none of them is a composition."""
 
     name: str
     maps: tuple[Map, ...]
@@ -100,15 +100,16 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:
     (names_of,) = reader.fields("maps")
     require_function_name(reader, name)
-    chain = []
+    chain: list[Map] = []
     for each in names_of.items(2, _MOST_MAPS):
         if each.string() not in maps:
             raise each.fail(f"names no function before this one: {each.string()[:30]!r}")
-        chain.append(maps[each.string()])
-    first = chain[0]
-    for each, map_ in zip(names_of.items(), chain, strict=True):
-        if not same_state(first, map_) or map_.size != len(first.variables):
+        map_ = maps[each.string()]
+        chain += map_.maps if isinstance(map_, Composition) else [map_]
+        if not same_state(chain[0], map_) or map_.size != len(chain[0].variables):
             raise each.fail("maps that follow each other have one state, with the same angles")
+    if len(chain) > _MOST_MAPS:
+        raise names_of.fail(f"more than {_MOST_MAPS} maps, one after the other")
     return Composition(name, tuple(chain))
 
 

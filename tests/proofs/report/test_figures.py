@@ -192,7 +192,7 @@ def test_4_every_state_has_its_image_in_a_box(drawings):
             boxes = [box(x) for x in found[f"image of V{index} lies in here, proved"]]
             for phase in (low, rng.uniform(low, high), rng.uniform(low, high), high):
                 gamma = rng.uniform(-0.45, 0)
-                time, y = reference.rebound(ETA, NU, mpf("0.01"), mpf(phase), mpf(gamma), 0.01)
+                time, y = reference.rebound(ETA, NU, mpf("0.01"), mpf(phase), mpf(gamma))
                 x = float(phase + time) % math.tau
                 assert any(a <= x <= b and c <= y <= d for (a, b), (c, d) in boxes)
 

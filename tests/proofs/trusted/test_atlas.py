@@ -48,6 +48,7 @@ def test_a_region_is_cut_at_resonance_and_where_the_table_stands_still():
     assert len(Region((F("0.5"), F(1)), (F(0), F(3)), "attractor").roots) == 1
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("eta", "nu", "question", "match"),
     [
@@ -64,6 +65,7 @@ def test_what_is_no_region(eta, nu, question, match):
         Region(tuple(map(F, eta)), tuple(map(F, nu)), question)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("question", "epsilon", "match"),
     [
@@ -105,6 +107,7 @@ def test_a_region_is_read_as_it_is_written_and_all_cells_have_its_epsilon():
             Region.of(text)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("key", ["", "0", "1/", "0/4", "0/" + "0" * 41, "-1/", "00/", "0/0/"])
 def test_what_is_no_cell(key):
     with pytest.raises(Malformed):
@@ -189,6 +192,7 @@ def nested(line):
     return [line, inner]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", ORDER)
 def test_cells_that_do_not_make_up_the_region(lines, name):
     refused([lines[0], *ORDER[name](lines[1:])], "ended|no cell|missing")
@@ -218,6 +222,7 @@ LIES = {
 }
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", LIES)
 def test_a_cell_that_is_not_what_is_proved(lines, name):
     lines[1] |= LIES[name]

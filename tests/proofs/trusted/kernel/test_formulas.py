@@ -129,6 +129,7 @@ def test_powers(low, high, n, expected):
     assert expected[0] - found[0] + found[1] - expected[1] < Fraction(1, 10**15)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("expression", "box"),
     [
@@ -145,6 +146,9 @@ def test_powers(low, high, n, expected):
         ("1/x - 1/x", (-1, 1)),
         ("x/0", (1, 2)),
         ("D(x + 0*sqrt(x), x)", (-1, 1)),
+        ("D(x + 0*sqrt(x), x)", (0, 1)),
+        ("D(x + 0*sqrt(-x**2), x)", (0, 0)),  # of a function that is defined at 0 alone
+        ("D(x + sqrt(-x**2)*0, x)", (0, 0)),
     ],
 )
 def test_nothing_is_known_where_a_formula_is_not_defined_or_too_large(expression, box):
@@ -176,6 +180,7 @@ def test_the_mean_value_form_and_more_bits_decide():
 # -- reading ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("name", "variables"),
     [
@@ -185,6 +190,9 @@ def test_the_mean_value_form_and_more_bits_decide():
         ("N", ["x"]),
         ("A", ["x"]),
         ("F-G", ["x"]),
+        ("the", ["x"]),
+        ("T h", ["x"]),
+        ("F`", ["x"]),
         ("F" * 21, ["x"]),
         ("F", []),
         ("F", ["x", "x"]),
@@ -257,6 +265,7 @@ def test_leaves_cover_the_box(tree, x, y):
     assert any(a <= x <= b and c <= y <= d for (a, b), (c, d) in parts)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "tree",
     [

@@ -82,7 +82,7 @@ def orbit(epsilon):
     """The orbit of (14), (15) near that of epsilon = 0.29: 10 periods later it is there."""
     state = mpf("1.2211"), mpf("-1.4851")
     for _ in range(20):
-        time, velocity = reference.rebound(ETA, NU, epsilon, *state, "0.05")
+        time, velocity = reference.rebound(ETA, NU, epsilon, *state)
         state = (state[0] + time) % (2 * mp.pi), velocity
     return state
 

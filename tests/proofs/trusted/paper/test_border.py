@@ -75,25 +75,12 @@ def followed(epsilon):
         if kick < mpf("1e-9"):
             return count, False
         gamma = (-speed - NU * mp.cos(phase)) / ETA
-        step = 5 * kick  # the push is below 0.2: a bounce takes more than 2 kick / 0.2
-        time = step
-        while reference.left_side_14(ETA, NU, epsilon, phase, gamma, time) < 0:  # nu < 0
-            time += step
-            if phase + time > leave:
-                return count, True
-        last = _root(epsilon, phase, gamma, time - step, time)
-        arrived = reference.right_side_15(ETA, NU, epsilon, phase, gamma, last)
-        phase += last
+        time, arrived = reference.rebound(ETA, NU, epsilon, phase, gamma)
+        if phase + time > leave:
+            return count, True
+        phase += time
         speed = -(ETA * arrived + NU * mp.cos(phase))
     raise AssertionError("bounces have no end")
-
-
-def _root(epsilon, phase, gamma, low, high):
-    for _ in range(90):
-        middle = (low + high) / 2
-        flying = reference.left_side_14(ETA, NU, epsilon, phase, gamma, middle) < 0
-        low, high = (middle, high) if flying else (low, middle)
-    return low
 
 
 def test_the_printed_equation_agrees():

@@ -81,7 +81,7 @@ def bounces(epsilon, phase, speed):
     phases, time = [], 0
     while epsilon * speed > mpf("1e-6") and time < 3:
         gamma = (-speed - NU * mp.cos(phase)) / ETA
-        time, gamma = reference.rebound(ETA, NU, epsilon, phase, gamma, epsilon * speed / 2)
+        time, gamma = reference.rebound(ETA, NU, epsilon, phase, gamma)
         phase += time
         speed = -(ETA * gamma + NU * mp.cos(phase))
         phases.append(phase)
@@ -128,7 +128,7 @@ def test_the_boxes_of_the_other_orbit_are_mapped_by_the_printed_equations():
     for corner in ((0, 0), (0, 1), (1, 1)):
         state = [exact_number(ends[k]) for ends, k in zip(pair.boxes[0], corner, strict=True)]
         for target in pair.boxes[::-1]:
-            time, velocity = reference.rebound(ETA, NU, mpf("0.29"), *state, "0.05")
+            time, velocity = reference.rebound(ETA, NU, mpf("0.29"), *state)
             state = (state[0] + time) % (2 * mp.pi), velocity
             for value, (low, high) in zip(state, target, strict=True):
                 assert low < exact(value) < high
