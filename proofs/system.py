@@ -46,7 +46,7 @@ class System(Map):
     """
 
     def __init__(self, file: Mapping[str, Any], /, **parameters: Ends) -> None:
-        self._file = _Read(file, parameters)
+        self._file, self._given = _Read(file, parameters), dict(parameters)
         self.title = str(file.get("title", ""))
         self.notes = {key: str(file[key]) for key in ("source", "units") if key in file}
         self._turn(range(len(self._file.impacts)))
@@ -75,6 +75,12 @@ class System(Map):
             raise ValueError(f"walls are expected, of {', '.join(self.walls)}")
         other = copy(self)
         other._turn([self.walls.index(each) for each in walls])
+        return other
+
+    def at(self, **parameters: Ends) -> Self:
+        """Return the same with other values, or ranges, of some parameters."""
+        other = type(self)(self._file.file, **{**self._given, **parameters})
+        other.box, other.effort = dict(self.box), self.effort
         return other
 
     @classmethod

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
+from proofs.trusted.numbers import Range
 
 Floats = NDArray[np.float64]
 Function = Callable[..., Sequence[Any]]
@@ -23,7 +24,14 @@ _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
 
-_OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
+_OPERATORS = {
+    "atan": "np.arctan({})",
+    "+": "{} + {}",
+    "-": "{} - {}",
+    "*": "{}*{}",
+    "/": "{}/{}",
+    "negative": "-{}",
+}
 
 
 def compiled(tape: Tape, roots: Sequence[int]) -> Function:
@@ -50,14 +58,34 @@ def compiled(tape: Tape, roots: Sequence[int]) -> Function:
     return function
 
 
+def ranges_of(map_: Map) -> tuple[Range, ...]:
+    """Return the ranges of a map's parameters, which the maps of a composition have in common."""
+    if isinstance(map_, Composition):
+        return ranges_of(map_.maps[0])
+    if isinstance(map_, Flight | Formulas):
+        return map_.formulas.ranges if isinstance(map_, Flight) else map_.ranges
+    raise TypeError(f"no way to sample a {type(map_).__name__}")
+
+
 @dataclass(frozen=True)
 class Sampled:
     """A map on arrays of points, of the shape (n, points); nan where it is not defined.
 
-    A point of a parameter in a range is its middle.
+    shares: where each parameter is in its range, from 0 to 1; in the middle of those left out.
     """
 
     map: Map
+    shares: tuple[float, ...] = ()
+
+    def iterate(self, power: int) -> Power:
+        """Return an iterate of it."""
+        return Power(self.map, self.shares, power)
+
+    def varied(self) -> Iterator[tuple[Self, Self]]:
+        """Yield the map with one parameter at the ends of its range, for each of the parameters."""
+        for k in range(len(ranges_of(self.map))):
+            low, high = ((0.5,) * k + (end,) for end in (0.0, 1.0))
+            yield replace(self, shares=low), replace(self, shares=high)
 
     def __call__(self, x: Floats) -> Floats:
         """Return the images; angles are not reduced."""
@@ -148,7 +176,11 @@ class Sampled:
     def _function(self, formulas: Formulas, roots: Sequence[int]) -> Function:
         key = (id(formulas), tuple(roots))
         if key not in self._compiled:
-            parameters = [float(sum(ends) / 2) for ends in formulas.ranges]
+            shares = (*self.shares, *[0.5] * len(formulas.ranges))
+            parameters = [
+                float(low) + float(high - low) * share
+                for (low, high), share in zip(formulas.ranges, shares, strict=False)
+            ]
             function = compiled(formulas.tape, roots)
             self._compiled[key] = lambda *x: function(*x, *parameters)
         return self._compiled[key]

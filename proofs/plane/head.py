@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
+from logging import CRITICAL
 from typing import Any
 
 from proofs.plane.cells import decide
 from proofs.plane.store import SPLIT, Row, Store, quarters
-from proofs.shell.entry import workers
+from proofs.shell.entry import uninterrupted, workers
 
 _AHEAD = 2  # chunks for each worker
+_PATIENCE = 5  # seconds, with a scheduler that does not answer
 
 
 class Here(Executor):
@@ -41,9 +43,15 @@ def executor(jobs: int, where: str) -> Iterator[tuple[Executor, int]]:
 
         address = where.removeprefix("dask:")
         own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None}
-        with Client(address) if address else Client(**own) as client:
+        own |= {"silence_logs": CRITICAL}
+        with uninterrupted():  # workers end with their head, and have nothing to say
+            client = Client(address, timeout=_PATIENCE) if address else Client(**own)
+        try:
             count = sum(client.nthreads().values()) or 1
             yield client.get_executor(pure=False), count
+        finally:
+            with uninterrupted():
+                client.close()
 
 
 def run(

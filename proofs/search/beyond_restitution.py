@@ -22,7 +22,6 @@ from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_border import witness
 from proofs.search.s34_circle import prove_arc, prove_longest
-from proofs.search.s34_persistence import superstable_motion
 from proofs.search.shifts import pieces, symbols
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -81,13 +80,8 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
     """Prove the motion that rests and leaves again, and stable orbits of transversal impacts."""
     epsilon = prover.of.epsilon or Fraction(0)
     proof: Proof = []
-    with suppress(*FAILED), prover.plain.undone():
-        name, motion = superstable_motion(prover.plain, epsilon)
-        if motion.largest >= epsilon:
-            proof.append((name, motion))
-    if not proof:
-        with suppress(*FAILED), prover.attempt():
-            proof.append(_chattering(prover, epsilon))
+    with suppress(*FAILED), prover.attempt():
+        proof.append(_chattering(prover, epsilon))
     proof += stable_cycles(prover, epsilon, budget.starts)
     if not proof:
         raise Undecided("no motion is seen to come to a stable one, or none is proved")

@@ -9,7 +9,7 @@ from contextlib import suppress
 from fractions import Fraction
 
 from intervals import Undecided
-from proofs.motion.simulate import TURNS, late_state, next_impact
+from proofs.motion.simulate import TURNS, next_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver, function_of
@@ -143,19 +143,21 @@ def around_image(step: Differential) -> list[Range]:
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:
     """Yield about the states of periodic orbits that simulated motions tend to."""
+    from proofs.motion.transients import GOING, Motions
+
     generator = random.Random(1)
-    for _ in range(tries):
-        start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
-        state = late_state(system, epsilon, *start, _IMPACTS)
-        states: list[Floats] = []
-        while state is not None and len(states) < _LONGEST:
-            if states and math.dist(state, states[0]) < _SAME:
-                break
-            states.append(state)
-            state = late_state(system, epsilon, *state, 1)
-        inside = all(_EDGE < phase < float(TURN) - _EDGE for phase, _ in states)
-        if states and state is not None and math.dist(state, states[0]) < _SAME and inside:
-            yield states
+    starts = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(tries)]
+    motions, path = Motions(system, epsilon, starts), []
+    motions.follow(_IMPACTS)
+    for _ in range(_LONGEST + 1):
+        path.append([*zip(motions.phases.tolist(), motions.speeds.tolist(), strict=True)])
+        motions.follow(1)
+    for states, kind in zip(zip(*path, strict=True), motions.kinds, strict=True):
+        back = (k for k in range(1, len(path)) if math.dist(states[k], states[0]) < _SAME)
+        orbit = [*states[: next(back, 0)]]
+        inside = all(_EDGE < phase < float(TURN) - _EDGE for phase, _ in orbit)
+        if kind == GOING and orbit and inside:
+            yield orbit
 
 
 def state_before(system: System, phase: float, speed: float) -> State:

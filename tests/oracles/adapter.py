@@ -17,6 +17,7 @@ _BLIND = {
     "_windows",
     "_last",
     "_taken",
+    "_proved",
 }  # the checker's machinery inside of conclusions
 _MORE = {  # properties that sentences or rows rest on
     "Separation": ("returns",),

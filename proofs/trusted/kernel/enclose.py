@@ -100,12 +100,50 @@ def _log(x: Enclosure) -> Enclosure:
     return low.hull(high)
 
 
+_ATAN_HALVINGS = 3
+_ATAN_GUARD = 16  # bits
+
+
+def _atan(x: Enclosure) -> Enclosure:
+    """Enclose atan, which increases: from the two ends."""
+    low, high = (_atan_of_point(Enclosure(end, end, x.bits)) for end in (x.lo, x.hi))
+    return low.hull(high)
+
+
+def _atan_of_point(x: Enclosure) -> Enclosure:
+    """Enclose atan of a point.
+
+    Proof. atan is odd; atan(y) = pi/2 - atan(1/y) for y > 0; atan(y) = 2 atan(y / (1 + sqrt(1 +
+    y^2))) (half angles). After 3 halvings of y <= 1 it is tan(pi/32) < 1/8 at most, and the terms
+    of y - y^3/3 + y^5/5 - ... alternate and fall: what is left out is smaller than the first
+    term left out, which is below one unit of 2^-bits.
+    """
+    if x.lo < 0:
+        return -_atan_of_point(-x)
+    bits, guard = x.bits + _ATAN_GUARD, _ATAN_GUARD
+    y = Enclosure(x.lo << guard, x.hi << guard, bits)
+    if is_steep := x.lo > 1 << x.bits:
+        y = rational(Fraction(1), bits) / y
+    for _ in range(_ATAN_HALVINGS):
+        y = y / (sqrt(y * y + 1) + 1)
+    total, power, square, n = y, y, y * y, 1
+    while power.hi > 1:
+        power, n = power * square, n + 2
+        total = total - power / n if n % 4 == 3 else total + power / n
+    total = Enclosure(total.lo - 1, total.hi + 1, bits)
+    total = total * 2**_ATAN_HALVINGS
+    if is_steep:
+        total = arithmetic.pi(bits) / 2 - total
+    return Enclosure(total.lo >> guard, -(-total.hi >> guard), x.bits)
+
+
 _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
     "sqrt": sqrt,
     "exp": _exp,
     "log": _log,
     "sin": lambda x: x.sincos()[0],
     "cos": lambda x: x.sincos()[1],
+    "atan": _atan,
 }
 
 

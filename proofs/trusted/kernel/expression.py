@@ -15,7 +15,7 @@ from typing import NamedTuple, Protocol, TypeVar
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import METER
 
-FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 _MAX_TAPE = 20_000
 _NODE = 25  # work, for the room that one takes
 
@@ -188,8 +188,11 @@ class Tape:
                 rate = self.add("/", self.number(1), a)
             case "sin":
                 rate = self.add("cos", a)
-            case _:  # cos
+            case "cos":
                 rate = self.add("negative", self.add("sin", a))
+            case _:  # atan
+                square = self.add("^", a, datum=Fraction(2))
+                rate = self.add("/", self.number(1), self.add("+", self.number(1), square))
         return rate
 
     def _is(self, place: int, value: int) -> bool:

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Matrix, add, enclosed
+from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
 from proofs.trusted.kernel.evaluation import Partial
 from proofs.trusted.kernel.firstzero import FirstZero, Gap, shown
 from proofs.trusted.kernel.formulas import (
@@ -140,6 +140,20 @@ class Flight:
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the derivative in the state."""
         return self._derivative(self._impact(x), range(self.state))
+
+    @property
+    def ranges(self) -> Box:
+        """Those of the parameters."""
+        return self.formulas.ranges
+
+    def pinned(self) -> Flight:
+        """Return the map at the middle of the ranges."""
+        return type(self)(self.formulas.pinned(), self.state, self.gaps, self.motions, self.latest)
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivative by the parameters."""
+        places = range(self.state, self.state + len(self.ranges))
+        return self._derivative(self._impact(x), places)
 
     def mean_value_form(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values by those in the middle of the states and of the parameters.
@@ -401,7 +415,7 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
             is_explicit = name in orders and len(by) < orders[name] and {*by} == {time}
         case Operation(op="/", parts=(top, bottom)):
             is_explicit, parts = not bottom.free & {*orders}, (top,)
-        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp"):
+        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp" | "atan"):
             is_explicit, parts = True, tree.parts
         case Power(exponent=n):
             is_explicit, parts = n > 0, tree.parts

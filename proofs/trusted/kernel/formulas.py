@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, Matrix, enclosed
+from proofs.trusted.kernel.enclose import Enclosures, Matrix, centre_of, enclosed, point_box
 from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.normalform import NormalForms, plus
@@ -81,8 +81,19 @@ class Formulas:
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the partial derivatives, a row a function, which are proved defined, too."""
-        n = len(self.variables)
-        partials = [self.tape.derivative(root, v) for root in self.roots for v in range(n)]
+        return self._slopes(x, range(len(self.variables)))
+
+    def pinned(self) -> Formulas:
+        """Return the map with each parameter at the middle of its range."""
+        return replace(self, ranges=point_box(centre_of(self.ranges)))
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivatives by the parameters."""
+        return self._slopes(x, [len(self.variables) + k for k in range(len(self.ranges))])
+
+    def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
+        n = len(by)
+        partials = [self.tape.derivative(root, v) for root in self.roots for v in by]
         entries = self.enclose((*partials, *self.roots), x)
         return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
 

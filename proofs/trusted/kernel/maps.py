@@ -14,10 +14,11 @@ from typing import Protocol
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
-from proofs.trusted.kernel.enclose import Differentiable, Matrix, multiply
+from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
+from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
 
 _MOST_MAPS = 100
 
@@ -74,6 +75,22 @@ class Composition:
     def periods(self, bits: int) -> dict[int, Enclosure]:
         """Enclose the periods."""
         return self.maps[0].periods(bits)
+
+    @property
+    def ranges(self) -> Box:
+        """Those of all maps; none where one of them has no derivatives by its parameters."""
+        known = all(isinstance(each, Parametric) for each in self.maps)
+        return tuple(side for each in self.maps for side in ranges_of(each)) if known else ()
+
+    def pinned(self) -> Composition:
+        """Return the map at the middle of the ranges."""
+        maps = [each.pinned() for each in self.maps if isinstance(each, Parametric)]
+        return Composition(self.name, tuple(maps))
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivatives by the parameters, by those of each map in turn."""
+        maps = [each for each in self.maps if isinstance(each, Parametric)]
+        return chained(maps, x, shared=False)
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box."""

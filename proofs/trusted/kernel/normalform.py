@@ -240,7 +240,7 @@ class NormalForms:
         return self.times(plus(one, other, -1), {((self.imaginary, 1),): Fraction(-1, 2)})  # / 2i
 
     def _function(self, op: str, argument: Polynomial) -> Polynomial:
-        """Return log or sqrt of an argument: a generator, or the number that it is."""
+        """Return log, atan or sqrt of an argument: a generator, or the number that it is."""
         exact = _exact(op, argument)
         if exact is not None:
             return number(exact)
@@ -257,12 +257,12 @@ class NormalForms:
 
 
 def _exact(op: str, argument: Polynomial) -> Fraction | None:
-    """Return log(1) = 0, and the root of 0 or of the square of a rational number."""
+    """Return log(1) = atan(0) = 0, and the root of 0 or of the square of a rational number."""
     if not set(argument) <= {()}:
         return None
     value = argument.get((), Fraction(0))
-    if op == "log":
-        return Fraction(0) if value == 1 else None
+    if op != "sqrt":
+        return Fraction(0) if value == int(op == "log") else None
     if value < 0:
         return None
     root = Fraction(isqrt(value.numerator), isqrt(value.denominator))

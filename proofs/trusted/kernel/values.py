@@ -264,7 +264,7 @@ def _divisors(formulas: Formulas) -> list[int]:
     found = []
     for place in formulas.tape.order((formulas.roots[0], *formulas.parts)):
         op, arguments, datum = formulas.tape.nodes[place]
-        if op in ("sqrt", "log"):
+        if op in ("sqrt", "log", "atan"):
             raise Unproved(f"no series of {op}")
         if op == "/" or (op == "^" and datum < 0):
             found.append(arguments[-1])

@@ -24,6 +24,7 @@ def formula(*texts, variables=("x", "y"), name="F"):
 rationals = st.builds(
     lambda p, q: f"({p}/{q})", st.integers(-40, 40), st.sampled_from([1, 2, 3, 7, 10, 64])
 )
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 leaf = st.sampled_from(["x", "y", "x", "pi"]) | rationals
 
 
@@ -34,7 +35,7 @@ def extend(inner):
         st.builds("({}) + ({})".format, inner, inner),
         st.builds("({}) - ({})".format, inner, inner),
         st.builds("-({})".format, inner),
-        st.builds("{}({})".format, st.sampled_from(["sqrt", "exp", "log", "sin", "cos"]), inner),
+        st.builds("{}({})".format, st.sampled_from(FUNCTIONS), inner),
         st.builds("({})**{}".format, inner, st.sampled_from([-3, -2, -1, 1, 2, 3, 4, 7])),
     )
 
@@ -97,6 +98,7 @@ def test_derivatives_contain_the_slopes(expression, x, y, variable):
         ("log", "1/1000", 2, ("-6.907755278982137052", "0.69314718055994530941723212145818")),
         ("sin", 1, 4, ("-0.756802495307928251372639094511829", "1")),
         ("cos", 3, 4, ("-1", "-0.653643620863611914639168183097750")),
+        ("atan", -1, 1000, ("-0.785398163397448309615660845819876", "1.56979632712822975256")),
     ],
 )
 @pytest.mark.parametrize("bits", [64, 256])

@@ -39,7 +39,7 @@ from tests.proofs.trusted.kernel.lemma_examples import text as example
 
 ROOT = Path(__file__).parents[4]
 NAMES = ("x", "y", "u", "u1", "epsilon")
-FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 
 
 def extended(inner):
