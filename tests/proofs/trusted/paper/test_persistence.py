@@ -122,6 +122,8 @@ def test_a_pair_of_invented_boxes():
     assert no_pair(steps(one)), "an isometry contracts nothing"
     once = cycle(steps(half, low))
     assert (len(once.boxes), once.rounds) == (1, 2), "a fixed point is no 2-periodic orbit"
+    there_and_back = [*box_of(low, 6 * one, Fraction(3, 2)), *box_of(low, one / 24, Fraction(3, 2))]
+    assert no_pair(there_and_back), "after one impact a state may be elsewhere"
     wide = replace(steps(half)[0].at, epsilon=(Fraction("0.1"), Fraction("0.2")))
     all_of_them = [replace(x, at=wide) for x in steps(half)]
     assert cycle(all_of_them).at == wide
