@@ -24,9 +24,13 @@ _ZERO = 1e-12  # a gap that is so small at the start is 0
 
 @dataclass(frozen=True)
 class Flown:
-    """A flow in floating point; compile: functions of arrays from a tape and its roots."""
+    """A flow in floating point, at values of the parameters that have ranges.
+
+    compile: makes a function of arrays from a tape and its roots.
+    """
 
     flow: Flow
+    parameters: Sequence[float]
     compile: Callable[..., Compiled]
 
     def __call__(self, w: Floats) -> Floats:
@@ -35,8 +39,8 @@ class Flown:
         Gaps are looked at after each step: what is passed twice within one is missed.
         """
         flow, count, section = self.flow, w.shape[1], self.flow.section
-        middles = [np.full(count, float(low + high) / 2) for low, high in flow.ranges]
-        w, here = np.array([*w, *middles]), np.arange(count)
+        given = [np.full(count, value) for value in self.parameters]
+        w, here = np.array([*w, *given]), np.arange(count)
         walls = [self._function(wall.formulas) for wall in section.walls]
         first, rate = self._function(section.gap.formulas), self._function(section.velocity)
         x = self._function(flow.start)(w, np.zeros((flow.equation.n, count)), np.zeros(count))

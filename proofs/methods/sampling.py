@@ -65,6 +65,8 @@ def ranges_of(map_: Map) -> tuple[Range, ...]:
     """Return the ranges of a map's parameters, which the maps of a composition have in common."""
     if isinstance(map_, Composition):
         return ranges_of(map_.maps[0])
+    if isinstance(map_, Flow):
+        return map_.ranges
     if isinstance(map_, Flight | Formulas):
         return map_.formulas.ranges if isinstance(map_, Flight) else map_.ranges
     raise TypeError(f"no way to sample a {type(map_).__name__}")
@@ -141,7 +143,7 @@ class Sampled:
             time = self.times(map_, x)
             return self._evaluated(map_.formulas, map_.outcome, [*x, time])
         if isinstance(map_, Flow):
-            return Flown(map_, compiled)(x)
+            return Flown(map_, self._parameters(map_.ranges), compiled)(x)
         if isinstance(map_, Formulas):
             return self._evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")
@@ -184,14 +186,15 @@ class Sampled:
         values = self._function(formulas, tuple(roots))(*x)
         return np.array([np.broadcast_to(value, np.shape(x[0])) for value in values])
 
+    def _parameters(self, ranges: Sequence[Range]) -> list[float]:
+        shares = (*self.shares, *[0.5] * len(ranges))
+        sides = zip(ranges, shares, strict=False)
+        return [float(low) + float(high - low) * share for (low, high), share in sides]
+
     def _function(self, formulas: Formulas, roots: Sequence[int]) -> Function:
         key = (id(formulas), tuple(roots))
         if key not in self._compiled:
-            shares = (*self.shares, *[0.5] * len(formulas.ranges))
-            parameters = [
-                float(low) + float(high - low) * share
-                for (low, high), share in zip(formulas.ranges, shares, strict=False)
-            ]
+            parameters = self._parameters(formulas.ranges)
             function = compiled(formulas.tape, roots)
             self._compiled[key] = lambda *x: function(*x, *parameters)
         return self._compiled[key]

@@ -31,7 +31,7 @@ LONG = Numbers(
     np.longdouble,
     np.longdouble,
     {name: getattr(np, name) for name in FUNCTIONS}
-    | {"pi": np.longdouble("3.14159265358979323846264338327950288")},
+    | {"atan": np.arctan, "pi": np.longdouble("3.14159265358979323846264338327950288")},
     1 / 16,
     (2, 4, 6, 8, 12, 16, 20, 24),
     1e-5,
@@ -39,7 +39,8 @@ LONG = Numbers(
 MANY = Numbers(
     object,
     mpmath.mpf,
-    {name: np.frompyfunc(getattr(mpmath, name), 1, 1) for name in FUNCTIONS} | {"pi": mpmath.pi},
+    {name: np.frompyfunc(getattr(mpmath, name), 1, 1) for name in (*FUNCTIONS, "atan")}
+    | {"pi": mpmath.pi},
     1 / 16,
     tuple(range(2, 34, 2)),
     1e-10,

@@ -24,7 +24,15 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Futile
-from proofs.trusted.kernel.enclose import Box, Matrix, enclosed, integer, multiply
+from proofs.trusted.kernel.enclose import (
+    Box,
+    Matrix,
+    centre_of,
+    enclosed,
+    integer,
+    multiply,
+    point_box,
+)
 from proofs.trusted.kernel.formulas import MAX_VALUES, Circle, Formulas, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_periods
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
@@ -114,6 +122,14 @@ class Flow:
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the derivative on a box."""
         return [row[: self.first] for row in self._enclosed(x)[1]]
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivatives by the parameters in ranges, on a box."""
+        return [row[self.first :] for row in self._enclosed(x)[1]]
+
+    def pinned(self) -> Flow:
+        """Return the map at the middle of the ranges."""
+        return replace(self, ranges=point_box(centre_of(self.ranges)), _known={})
 
     def _enclosed(self, x: Sequence[Enclosure]) -> tuple[Point, Matrix]:
         """Enclose values and derivatives, with no more digits than are worth it for a wide box."""

@@ -115,7 +115,7 @@ class Journey:
         bits, h = self.solutions.bits, _EIGHTHS[length % 8] * Fraction(2) ** (length // 8 - 6)
         spread = max(x.hi - x.lo for x in self.now.states(self.solutions.q))
         wanted = (spread >> _FINE) + _UNITS
-        order = max(6, 4 + 3 * (bits - wanted.bit_length()) // 10)
+        order = 6 + 3 * max(0, bits - wanted.bit_length()) // 10
         step = self.solutions.step(self.now, self.time, h, order)
         if step is None:
             return None, _SHORTER

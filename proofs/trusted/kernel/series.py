@@ -92,8 +92,11 @@ class Program:
                 place = sin if op == "sin" else cos
             case "exp":
                 place = self._add("exp", places[0], self._add("rate", places[0]))
-            case "log":  # its own rate comes after it
-                place = self._add("log", places[0], len(self.nodes) + 1)
+            case "log" | "atan":  # (log a)' = a' / a, (atan a)' = a' / (1 + a^2)
+                divisor, one = places[0], Fraction(1)
+                if op == "atan":
+                    divisor = self._node({_ONE: one, self._add("square", divisor): one})
+                place = self._add(op, places[0], len(self.nodes) + 1, divisor)
                 self._add("rate", place)
             case "*" | "/" | "sqrt" | "pi":
                 place = self._add(op, *places)
@@ -221,9 +224,9 @@ class Series:
                 rest, divisor = self._part(place, a[1], 0, k - 1, k), self._at(a[1], 0)
             case "sqrt":
                 rest, divisor = self._part(place, place, 1, k - 1, k), self._at(place, 0) * 2
-            case _:  # log
-                rest = _divided(*self._part(a[1], a[0], 1, k - 1, k), k)
-                divisor = self._at(a[0], 0)
+            case _:  # log and atan, whose rate, the next node, is known for i < k
+                rest = _divided(*self._part(a[1], a[2], 1, k - 1, k), k)
+                divisor = self._at(a[2], 0)
         m, r = self._m[a[0]][k] - rest[0], self._r[a[0]][k] + rest[1]
         return ball(Enclosure(m - r, m + r, self.bits) / divisor)
 

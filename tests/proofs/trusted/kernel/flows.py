@@ -60,7 +60,7 @@ MADE = {  # every operation, a start and an end that move
     "state": ["x", "y"],
     "field": [
         "sqrt(1 + x**2)/(2 + cos(y)) - x*exp(-t)",
-        "log(2 + y**2) - x**3/(1 + x**2)**2 + sin(t*b)/y**2",
+        "log(2 + y**2)*atan(x - y) - x**3/(1 + x**2)**2 + sin(t*b)/y**2",
     ],
     "start": ["a*b", "a + 2"],
     "end": {"time": "1/2 + a/10"},
