@@ -54,7 +54,7 @@ class Program:
         for place in tape.order((*rates.values(), *parts)):
             op, arguments, datum = tape.nodes[place]
             form = self._form(op, [self._forms[i] for i in arguments], datum)
-            METER.get().spend(2 + len(form))
+            METER.get().spend(10 + 2 * len(form))  # and for the room that it takes
             self._forms[place] = {self._node(form): Fraction(1)} if len(form) > _LONGEST else form
         self.rates = {1 + x: _combination(self._forms[root]) for x, root in rates.items()}
         long = [n for node in (*self.nodes, *self.rates.values()) for n in node.factors]
