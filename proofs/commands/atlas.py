@@ -175,8 +175,13 @@ def _epsilon(given: list[Fraction] | None) -> Range | None:
 
 def _make(parser: Parser, options: Namespace, store: Store) -> int:
     """Do what is left to do, then print and write what there is."""
-    with progress() as tell, executor(options.jobs, options.executor) as doing:
-        done = run(store, options.depth, doing, options.chunk, tell)
+    try:
+        with progress() as tell, executor(options.jobs, options.executor) as doing:
+            done = run(store, options.depth, doing, options.chunk, tell)
+    except KeyboardInterrupt as stop:
+        command = f"python -m proofs atlas --out {options.out} --depth {options.depth}"
+        stop.add_note(f"what is done is saved, and {command} goes on")
+        raise
     made = summary.summary(store)
     with writing(options.out) as put:
         put(LINES, store.lines())
@@ -184,12 +189,13 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
         for path in options.out.glob("cell-*.json"):
             if (cell := store.row(key_of(path.name))) and cell.certificate:
                 put(path.name, cell.text)
+    shown = LINES
     if packages := missing():
         say(f"{parser.prog}: no pictures and page, {', '.join(packages)} missing: {INSTALL}")
     else:
         with progress() as tell:
             tell("pictures")
-            _draw(options.out, store, made)
+            shown = _draw(options.out, store, made)
     write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
     if heard(options):
         for line in summary.lines(made, store.region):
@@ -197,11 +203,12 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
         work = int(made["checker_work"])
         more = f" --work {work}" if work > DEFAULT else ""
         say(f"{done} cells looked at now; python -m proofs check {options.out / LINES}{more}")
+        say(f"all of it: {options.out / shown}")
     return int(made["cells"].get(Verdict.UNDECIDED.value, 0) > 0)
 
 
-def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
-    """Write the pictures, and the page with all cells unless these are too many."""
+def _draw(folder: Path, store: Store, made: dict[str, Any]) -> str:
+    """Write the pictures, and the page with all cells unless these are too many; return which."""
     from proofs.plane import page, picture
     from proofs.report.figures.style import style, svg_of
 
@@ -218,6 +225,7 @@ def _draw(folder: Path, store: Store, made: dict[str, Any]) -> None:
         put("atlas.png", image)
         for name, content in files.items():
             put(name, content)
+    return list(files)[-1]
 
 
 def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
@@ -14,7 +14,7 @@ from proofs.trusted.numbers import TURN, show
 from proofs.trusted.parameters import Parameters
 
 if TYPE_CHECKING:
-    from proofs.search.portrait import Stretch
+    from proofs.search.portrait import Fate, Stretch
 
 _NARROW = 0.005  # of stretches that are counted only
 _SMALL = 50  # a denominator of eta after which touches are common
@@ -39,11 +39,11 @@ def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
     """Say what motions with restitution come to."""
     from proofs.search.portrait import rebounding_fates
 
-    ends = rebounding_fates(
-        System(of.eta, of.nu), float(of.epsilon or 0), budget.starts, budget.impacts
+    system, epsilon = System(of.eta, of.nu), float(of.epsilon or 0)
+    yield from (f"Of {budget.starts} motions from random impacts:", "")
+    yield from _listed(
+        rebounding_fates(system, epsilon, budget.starts, budget.impacts, budget.check)
     )
-    yield from (f"Of {budget.starts} motions from random impacts, after {budget.impacts} more:", "")
-    yield from (f"- {100 * fate.share:.0f} percent: {fate.name}" for fate in ends)
 
 
 def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
@@ -61,8 +61,13 @@ def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
     yield from ("", *markdown_table([HEAD, *shown]), "", *_others(seen))
     yield f"Of {budget.starts} orbits from phases all around, in up to {budget.impacts} impacts:"
     yield ""
-    for fate in fates(system, budget.starts, budget.impacts, budget.farthest, budget.check):
-        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts}"
+    yield from _listed(fates(system, budget.starts, budget.impacts, budget.farthest, budget.check))
+
+
+def _listed(ends: Iterable[Fate]) -> Iterator[str]:
+    """Say what shares of the orbits come to."""
+    for fate in ends:
+        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts} impacts"
 
 
 def _others(seen: list[Stretch]) -> Iterator[str]:

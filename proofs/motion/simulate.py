@@ -54,29 +54,17 @@ def pull_ends(system: System, phase: Number) -> Number:
 
     It falls through 0 where the sine is the paper's and the cosine has the sign of eta - 1.
     """
-    sine = system.separation_sine
-    if sine is None or system.sticking_arc != "some":
+    if system.sticking_arc != "some":
         return math.inf
-    root = math.asin(float(sine))
-    return ((math.pi - root if system.eta < 1 else root) - phase) % math.tau
+    return (math.pi - separation_phase(system) - phase) % math.tau
+
+
+def separation_phase(system: System) -> float:
+    """Return about the phase at which a mass that sticks leaves the table, where there is one."""
+    root = math.asin(float(system.separation_sine or 0))
+    return root if system.eta < 1 else math.pi - root
 
 
 def state_at(start: Launch, now: Clock) -> tuple[Number, Number]:
     """Return the gap and its rate."""
     return gap(start, now), gap(start, now, 1)
-
-
-def late_state(
-    system: System, epsilon: float, phase: float, speed: float, impacts: int
-) -> tuple[float, float] | None:
-    """Return the phase and speed so many impacts later, None if the mass rests or flies on."""
-    for _ in range(impacts):
-        kick = epsilon * speed
-        start = launch(system.side, float(system.eta), float(system.nu), phase)
-        if kick < WEAKEST and launch_acceleration(start) < NO_PUSH:
-            return None
-        found = next_impact(system, phase, kick, math.tau * TURNS)
-        if found is None:
-            return None
-        phase, speed = (phase + found[0]) % math.tau, found[1]
-    return phase, speed

@@ -64,6 +64,49 @@ def next_impacts(
     return time, speed
 
 
+GOING, RESTS, FLIES, TOUCHES = 0, -1, -2, -3
+
+
+class Motions:
+    """Motions from impacts at these phases and speeds before them, and what has become of each.
+
+    kinds: the period of the stable orbit that it has come to, or one of the four numbers above;
+    counts: of the impacts that were followed.
+    """
+
+    def __init__(self, system: System, epsilon: float, states: Sequence[tuple[float, float]]):
+        self._system, self._epsilon = system, epsilon
+        self.phases, self.speeds = np.array(states, float).T
+        self.kinds, self.counts = (np.full(len(states), GOING) for _ in range(2))
+
+    def follow(self, impacts: int) -> None:
+        """Go on with those that have no end yet."""
+        for _ in range(impacts):
+            going = np.flatnonzero(self.kinds == GOING)
+            if not going.size:
+                return
+            phases, kicks = self.phases[going], self._epsilon * self.speeds[going]
+            push = launch_acceleration(float_launch(self._system, phases))
+            still = (kicks < WEAKEST) & (push < NO_PUSH)
+            horizons = np.where(still, 0.0, math.tau * TURNS)
+            times, speeds = next_impacts(self._system, phases, kicks, horizons)
+            hit = np.isfinite(times)
+            self.kinds[going] = np.where(still, RESTS, np.where(hit, GOING, FLIES))
+            on = going[hit]
+            self.phases[on], self.speeds[on] = (phases + times)[hit] % math.tau, speeds[hit]
+            self.counts[on] += 1
+
+    def find_cycles(self, longest: int, near: float) -> None:
+        """Name the periods of those that are back where they are now after so many impacts."""
+        phases, speeds = self.phases.copy(), self.speeds.copy()
+        for period in range(1, longest + 1):
+            self.follow(1)
+            soft = (self.speeds < WEAKEST) & (speeds < WEAKEST)
+            same = soft | (abs(self.speeds - speeds) <= near * speeds)
+            back = (self.kinds == GOING) & same & (abs(self.phases - phases) < near)
+            self.kinds[back] = np.where(soft[back], TOUCHES, period)
+
+
 def until_rest(
     system: System, epsilons: Floats, phases: Floats, speeds: Floats, turns: float = TURNS
 ) -> tuple[Flags, Floats]:

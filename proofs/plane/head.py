@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
+from logging import CRITICAL
 from typing import Any
 
 from proofs.plane.cells import decide
@@ -12,6 +14,7 @@ from proofs.plane.store import SPLIT, Row, Store, quarters
 from proofs.shell.entry import workers
 
 _AHEAD = 2  # chunks for each worker
+_PATIENCE = 5  # seconds, with a scheduler that does not answer
 
 
 class Here(Executor):
@@ -41,9 +44,27 @@ def executor(jobs: int, where: str) -> Iterator[tuple[Executor, int]]:
 
         address = where.removeprefix("dask:")
         own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None}
-        with Client(address) if address else Client(**own) as client:
+        own |= {"silence_logs": CRITICAL}
+        with _uninterrupted():  # workers end with their head, and have nothing to say
+            client = Client(address, timeout=_PATIENCE) if address else Client(**own)
+        try:
             count = sum(client.nthreads().values()) or 1
             yield client.get_executor(pure=False), count
+        finally:
+            with _uninterrupted():
+                client.close()
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Take no SIGINT, nor its repetition by an alarm; nor do processes that begin in here."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "setitimer"):  # not on Windows
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def run(

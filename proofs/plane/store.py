@@ -178,7 +178,7 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
         if own is None:
             raise Held(f"{path} has no region: its run ended before it began")
         if region not in (None, own):
-            raise Held(f"{path} is about another region or question")
+            raise Held(f"{path} is about another region or question: choose a folder by --out")
         connection.executescript(_TABLES)
         if known is None:
             with connection:

@@ -19,7 +19,7 @@ from proofs.trusted.subjects import Box
 _VERDICTS = [verdict.value for verdict in LEAVES]
 _LINE = 300  # work of the checker on a line, beside the certificate
 _WORDS = {
-    "CoveringShift": "a full shift is a factor of f",
+    "EntropyBound": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
     "ReturningMotion": "a stable periodic motion, sticking or not",
     "StableOrbit": "a stable periodic orbit that does not stick",

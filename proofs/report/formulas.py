@@ -6,9 +6,11 @@ A formula is printed as it stands, nothing is simplified or put in another order
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from functools import cache
 from html import unescape
 
+from proofs.report.layout import enclosure
 from proofs.report.typeset import GREEK
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.solutions import Expressions
@@ -27,9 +29,11 @@ from proofs.trusted.kernel.trees import (
     Variable,
 )
 from proofs.trusted.kernel.values import Equal, Series, Value
-from proofs.trusted.numbers import show
+from proofs.trusted.numbers import ceil_text, floor_text, show
 
 _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
+_BETWEEN = re.compile(r"(-?\d+\.\d+) \\le (.+?) \\le (-?\d+\.\d+)")
+_PLACES = 18  # of decimals in a formula, that it fits a narrow screen
 _SPELT = {"epsilon": r"\varepsilon", "lam": r"\lambda"}
 _SIGNED_NUMBER = re.compile(r"(<m\w+[^>]*>[(\[=,∈≤]</m\w+>(?:<mrow>)?)<mo>−</mo>")  # no difference
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\arctan", r"\partial")
@@ -45,7 +49,18 @@ def lines(conclusion: Conclusion) -> list[str]:
         return [latex(conclusion.function), *_bounds(conclusion)]
     if isinstance(conclusion, Expressions):
         return [f"{_symbol(name)} = {latex(value)}" for name, value in conclusion.expressions]
-    return conclusion.latex.split(r",\quad ") if conclusion.latex else []
+    return [*map(_shared, conclusion.latex.split(r",\quad "))] if conclusion.latex else []
+
+
+def _shared(line: str) -> str:
+    """Write a number between long decimals by the digits that they share, rounded outward."""
+    match = _BETWEEN.fullmatch(line)
+    if match is None or max(len(match[1]), len(match[3])) < _PLACES:
+        return line
+    low, high = Fraction(match[1]), Fraction(match[3])
+    digits = enclosure(floor_text(low, _PLACES), ceil_text(high, _PLACES))
+    shared, _, rest = digits.partition("[")
+    return rf"{match[2]} = {shared}[{rest}" if shared else line
 
 
 def latex(tree: Tree) -> str:

@@ -13,8 +13,9 @@ from fractions import Fraction
 from functools import partial
 from types import MappingProxyType
 
-from intervals import Undecided
+from intervals import DomainError, Undecided
 from proofs.motion.candidate import next_impact
+from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.budget import EFFORT, FASTEST, Budget
@@ -28,8 +29,6 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.beyond.attractors import stable_orbit
-from proofs.trusted.paper.beyond.returning import sticking_motion
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
@@ -37,6 +36,7 @@ _TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in coveri
 _LONGEST = 60  # period
 _NEAR = 1e-9
 _RADIUS = 1e-5  # of the sets around the points of an orbit
+_MOST_PERIODS, _BITS = 30, 60  # of orbits with one impact, that are looked for in closed form
 _LEAST = 1e-3  # the least |f'| that radii follow
 _THINNEST = 1e-12
 _PLACES = 14
@@ -135,26 +135,23 @@ def _sticking(run: Run) -> Proof:
     name, arc = prove_arc(prover)
     parts: list[Part] = []
     if not arc.returns:
-        points = _orbit(run, float(sum(arc.arrival)) / 2 % math.tau)
-        if points is None:
+        points = [*_followed(run, float(sum(arc.arrival)) / 2 % math.tau)]
+        if len(points) == _LONGEST:
             raise Undecided(f"{_LONGEST} impacts after the separation the mass has not stuck")
         steep = math.prod(max(2 * abs(slope), 1.0) for _, slope in points)
         parts = _around(prover, points, min(_RADIUS, _LEAST / steep), 2.0)
-    found = sticking_motion(arc, [part for _, part in parts])
     witness = {"separation": name, "cells": _cells(parts), "beyond": None, "landing": None}
-    return [(prover.add("sticking-motion", witness), found)]
+    return [prover.derive("sticking-motion", witness)]
 
 
-def _orbit(run: Run, phase: float) -> list[tuple[float, float]] | None:
-    """Return about the phases and slopes of an orbit that sticks in the end; None if not soon."""
-    points: list[tuple[float, float]] = []
-    while len(points) < _LONGEST:
+def _followed(run: Run, phase: float) -> Iterator[tuple[float, float]]:
+    """Yield about the phases and slopes of an orbit, until it sticks or there are many."""
+    for _ in range(_LONGEST):
         found = next_impact(run.system, phase, run.budget.farthest)
         if found is None:
-            return points
-        points.append((phase, found[2]))
+            return
+        yield phase, found[2]
         phase = found[1]
-    return None
 
 
 def _around(
@@ -182,16 +179,18 @@ def _stable(run: Run) -> Proof:
         with suppress(*FAILED), prover.undone():
             slope = math.prod(max(abs(slope), _LEAST) for _, slope in points)
             parts = _around(prover, points, _RADIUS, slope ** (-1 / len(points)))
-            found = stable_orbit([part for _, part in parts])
-            proof.append((prover.add("stable-orbit", {"cells": _cells(parts)}), found))
+            proof.append(prover.derive("stable-orbit", {"cells": _cells(parts)}))
     if not proof:
         raise Undecided("no orbit is seen to come to a stable one without sticking")
     return proof
 
 
 def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
-    """Yield about the phases and slopes of stable orbits, each once."""
+    """Yield about the phases and slopes of stable orbits, each once: first those of (16)."""
     seen: list[float] = []
+    for point in _single_impacts(run):
+        seen.append(point[0])
+        yield [point]
     for k in range(run.budget.starts):
         phase = math.tau * (k + 0.5) / run.budget.starts
         for _ in range(run.budget.impacts):
@@ -208,18 +207,25 @@ def _cycles(run: Run) -> Iterator[list[tuple[float, float]]]:
                 yield points
 
 
-def _cycle(run: Run, phase: float) -> list[tuple[float, float]] | None:
+def _single_impacts(run: Run) -> Iterator[tuple[float, float]]:
+    """Yield the phase and slope of the stable orbits with one impact in a few table periods."""
+    last = last_period(run.system) or _MOST_PERIODS
+    for n in range(1, min(last, _MOST_PERIODS) + 1):
+        run.budget.check()
+        if n * run.system.eta % 1 == 0:
+            continue
+        with suppress(Undecided, DomainError):
+            for each in solutions(run.system, n, _BITS):
+                if each.stable and each.multiplier is not None:
+                    yield float(sum(each.phase)) / 2, float(each.multiplier[0])
+
+
+def _cycle(run: Run, start: float) -> list[tuple[float, float]] | None:
     """Return the points of a stable cycle that a phase is on; None if it is on none."""
-    points, start = [], phase
-    for _ in range(_LONGEST):
-        found = next_impact(run.system, phase, run.budget.farthest)
-        if found is None:
-            return None
-        points.append((phase, found[2]))
-        phase = found[1]
-        if abs(phase - start) < _NEAR:
-            return points if abs(math.prod(slope for _, slope in points)) < 1 else None
-    return None
+    points = [*_followed(run, start)]
+    back = (k for k, (phase, _) in enumerate(points) if k and abs(phase - start) < _NEAR)
+    cycle = points[: next(back, 0)]
+    return cycle if cycle and abs(math.prod(slope for _, slope in cycle)) < 1 else None
 
 
 def _shares(run: Run) -> Proof:

@@ -14,7 +14,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.motion.candidate import next_impact
-from proofs.motion.simulate import late_state
+from proofs.motion.simulate import TURNS, separation_phase
+from proofs.motion.simulate import next_impact as rebound
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
@@ -22,6 +23,8 @@ _NARROWEST = 1e-9  # to which the ends of branches are located
 _MOST_ENDS = 400  # that are located; branches are infinitely many where flights are ever longer
 _STEEP, _FLAT = 30.0, 1e-3  # |f'| at an end where f' is unbounded, or 0
 _NEAR = 1e-7  # of an orbit to itself, in phase
+_AFTER = 1e-8  # the separation: the derivative of the next impact's phase is 0 there
+_ROUNDS = 5  # of impacts, until orbits with restitution have come to their ends
 _LONGEST = 60  # period
 _TOUCH = 1e-4  # how exactly the time of a touch is found: the gap has a double zero there
 STICKS, TOUCHES, FLIES = "sticks", "touches, no impact", "flies on"
@@ -117,82 +120,116 @@ def continues(one: Seen, two: Seen) -> bool:
 
 # -- where orbits go -------------------------------------------------------------------------------
 
-
 _NAMES = {
-    STICKS: "the mass sticks",
     TOUCHES: "it only touches the table, again and again",
     FLIES: "no impact is seen so far",
 }
-
-
-_WANDERS = "no end of it: they wander"
+_RESTS = "it rests on the table for ever"
+_LEAVES = "it sticks or rests on the table in each period, and leaves it again"
+_WANDERS = "no end of it is seen"
 
 
 @dataclass(frozen=True)
 class Fate:
-    """What a share of the orbits that were followed comes to; impacts: the most until then."""
+    """What a share of the orbits that were followed comes to; impacts: the most until then.
+
+    impacts counts those up to the first sticking, from where on all that stick are one motion.
+    """
 
     name: str
     share: float
     impacts: int
 
 
+def _counted(ends: Sequence[tuple[str, int]]) -> list[Fate]:
+    """Return the fates, the most frequent first, from what each orbit comes to, and when."""
+    counts = Counter(name for name, _ in ends)
+    return [
+        Fate(name, count / len(ends), max(until for each, until in ends if each == name))
+        for name, count in counts.most_common()
+    ]
+
+
 def fates(
     system: System, starts: int, impacts: int, farthest: float, check: Check = lambda: None
 ) -> list[Fate]:
-    """Follow orbits of phases all around the circle, and count what they come to."""
-    ends: dict[str, list[int]] = {}
-    for k in range(starts):
-        phase, count = math.tau * (k + 0.5) / starts, 0
-        while count < impacts:
+    """Follow orbits of phases all around the circle to their ends, and count these.
+
+    A mass that sticks leaves at the separation phase: all that stick go on as one motion.
+    """
+
+    def end(phase: float) -> tuple[str, int]:
+        for count in range(impacts):
             check()
             seen = look(system, phase, farthest)
             if seen.kind not in (RISES, FALLS):
-                break
-            phase, count = seen.image % math.tau, count + 1
-        name = _NAMES.get(seen.kind) or _cycle_name(system, phase, farthest)
-        ends.setdefault(name, []).append(count)
-    counted = sorted(ends.items(), key=lambda item: -len(item[1]))
-    return [Fate(name, len(counts) / starts, max(counts)) for name, counts in counted]
+                return seen.kind, count
+            phase = seen.image % math.tau
+        return _cycle_name(system, phase, farthest), impacts
+
+    ends = [end(math.tau * (k + 0.5) / starts) for k in range(starts)]
+    names = _NAMES | {STICKS: _after_rest(system, farthest, lambda phase, _: end(phase)[0])}
+    return _counted([(names.get(name, name), until) for name, until in ends])
+
+
+def _after_rest(system: System, farthest: float, end: Callable[[float, float], str]) -> str:
+    """Return what a mass that sticks comes to.
+
+    end: of a motion from an impact, given by phase and speed; STICKS where it sticks.
+    """
+    if system.sticking_arc != "some":
+        return _RESTS
+    phase = separation_phase(system) + _AFTER
+    landing = rebound(system, phase, 0.0, farthest)
+    name = FLIES if landing is None else end((phase + landing[0]) % math.tau, landing[1])
+    return _LEAVES if name == STICKS else _NAMES.get(name, name)
 
 
 def _cycle_name(system: System, phase: float, farthest: float) -> str:
-    """Say on which orbit a phase is, if it is on one."""
-    points = [phase]
+    """Say on which orbit a phase is, if it is on a stable one."""
+    points, multiplier = [phase], 1.0
     for period in range(1, _LONGEST + 1):
         seen = look(system, points[-1], farthest)
         if seen.kind not in (RISES, FALLS):
             break
+        multiplier *= seen.slope
         if abs(seen.image % math.tau - phase) < _NEAR:
-            return f"a stable orbit of period {period} near {min(points):.6f}"
+            return f"{_stable(period)} near {min(points):.6f}" if abs(multiplier) < 1 else _WANDERS
         points.append(seen.image % math.tau)
     return _WANDERS
 
 
-def rebounding_fates(system: System, epsilon: float, starts: int, impacts: int) -> list[Fate]:
-    """Follow motions with restitution from random impacts, and count what they come to."""
-    import numpy as np
+def _stable(period: int) -> str:
+    return f"a stable orbit of period {period}"
 
-    from proofs.motion.transients import until_rest
 
-    generator, ends = random.Random(1), Counter[str]()
-    for _ in range(starts):
-        start = generator.uniform(0, math.tau), generator.uniform(0, 0.4)
-        first = state = late_state(system, epsilon, *start, impacts)
-        period = 0
-        while state is not None and period < _LONGEST:
-            state, period = late_state(system, epsilon, *state, 1), period + 1
-            if state is not None and first is not None and math.dist(first, state) < _NEAR:
-                break
-        else:
-            period = 0
-        if first is not None:
-            ends[f"a stable orbit of period {period}" if period else _WANDERS] += 1
-        else:
-            one, phase, speed = (np.array([x]) for x in (epsilon, *start))
-            (rests,), _ = until_rest(system, one, phase, speed)
-            ends["it rests on the table for a while" if rests else _NAMES[FLIES]] += 1
-    return [Fate(name, count / starts, impacts) for name, count in ends.most_common()]
+def rebounding_fates(
+    system: System, epsilon: float, starts: int, impacts: int, check: Check = lambda: None
+) -> list[Fate]:
+    """Follow motions with restitution from random impacts to their ends, and count these."""
+    from proofs.motion import transients
+
+    kinds = {
+        transients.GOING: _WANDERS,
+        transients.RESTS: STICKS,
+        transients.FLIES: FLIES,
+        transients.TOUCHES: TOUCHES,
+    }
+
+    def ends(states: Sequence[tuple[float, float]]) -> list[tuple[str, int]]:
+        motions = transients.Motions(system, epsilon, states)
+        for _ in range(_ROUNDS):
+            check()
+            motions.follow(impacts)
+            motions.find_cycles(_LONGEST, _NEAR)
+        each = zip(motions.kinds.tolist(), motions.counts.tolist(), strict=True)
+        return [(kinds.get(kind) or _stable(kind), count) for kind, count in each]
+
+    generator = random.Random(1)
+    states = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(starts)]
+    rests = _after_rest(system, math.tau * TURNS, lambda *state: ends([state])[0][0])
+    names = _NAMES | {STICKS: rests}
+    return _counted([(names.get(name, name), until) for name, until in ends(states)])
 
 
 # -- in words --------------------------------------------------------------------------------------

@@ -21,7 +21,8 @@ from proofs.trusted.numbers import Range
 _SPARES = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)  # by how much edges overshoot, from the most
 _STEPS = 4  # of epsilon, from 0
 _ROUNDS = 12  # until the edges and the velocities settle
-_HALVINGS = 45
+_CUTS, _CLOSE = 45, 1e-11  # until the image of an edge is so close
+_BLIND = 8  # cuts, until images on both sides are seen
 _SAMPLES = 9
 _FARTHEST = 400.0  # the longest flight
 _ROOM = 0.2  # of the velocities' range, kept around the images
@@ -140,13 +141,28 @@ def _edges(
 def _moved(
     moving: _Map, end: float, width: float, gammas: Floats, goal: tuple[float, int, bool]
 ) -> float | None:
-    """Return about the phase near an end whose edge has this image at worst, by bisection."""
+    """Return about the phase near an end whose edge has this image at worst."""
     image, worst, falls = goal
+    way = -1 if falls else 1
     low, high = end - width / 3, end + width / 3
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
+    below, above, kept = None, None, 0
+    for cut in range(_CUTS):
+        if below is None or above is None:
+            if cut > _BLIND:
+                return None
+            middle = (low + high) / 2
+        else:  # regula falsi, Illinois: an end that stays twice counts half
+            middle = high - above * (high - low) / (above - below)
         found = moving.edge(middle, gammas, worst)
         if found is None:
             return None
-        low, high = (middle, high) if (found < image) is not falls else (low, middle)
-    return low if end - width / 3 < low and high < end + width / 3 else None
+        value = way * (found - image)
+        if abs(value) < _CLOSE:
+            return middle
+        if value < 0:
+            above = above and above / (2 if kept > 0 else 1)
+            low, below, kept = middle, value, 1
+        else:
+            below = below and below / (2 if kept < 0 else 1)
+            high, above, kept = middle, value, -1
+    return low

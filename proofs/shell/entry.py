@@ -56,8 +56,8 @@ def run_command(module: str, arguments: list[str] | None = None) -> int:
 def guarded(prog: str, work: Callable[[], int]) -> int:
     """Return the status of the work, or of what ended it, said in a line that begins with `prog`.
 
-    130 and 143 after SIGINT and SIGTERM, 141 where the reader of standard output has gone, 2 where
-    something cannot be written, standard output as well.
+    130 and 143 after SIGINT and SIGTERM, which the notes of what they raised follow; 141 where the
+    reader of standard output has gone, 2 where something cannot be written, this as well.
     """
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started this
@@ -69,7 +69,8 @@ def guarded(prog: str, work: Callable[[], int]) -> int:
     except BaseException as error:
         if received or isinstance(error, KeyboardInterrupt):
             number = next(iter(received), int(signal.SIGINT))
-            return _ended(128 + number, f"{prog}: {_SIGNALS[number]}")
+            more = "".join(f"; {note}" for note in getattr(error, "__notes__", ()))
+            return _ended(128 + number, f"{prog}: {_SIGNALS[number]}{more}")
         if isinstance(error, BrokenPipeError):
             return _ended(PIPE_CLOSED)
         if isinstance(error, OSError):

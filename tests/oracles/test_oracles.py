@@ -148,9 +148,27 @@ def _much_growth(record):
     record.entropy = middle - F(1, 10**9), middle + F(1, 10**9)
 
 
+def _cells(change):
+    """Change the cells of a full shift, where there are some."""
+    return put("cells", lambda old: old and change(old))
+
+
 def _derivative(record):
-    (p, q), rows = record.derivative
-    record.derivative = (off(p), q), rows
+    (p, q), rows = record.matrix
+    record.matrix = (off(p), q), rows
+
+
+def _image(record):
+    record.values = off(record.values[0]), record.values[1]
+
+
+def _speed(record):
+    record.values = record.values[0], off(record.values[1])
+
+
+def _edge(record):
+    (phase, velocity), right = record.edges
+    record.edges = (off(phase), velocity), right
 
 
 def _window(record):
@@ -209,8 +227,19 @@ FALSE = {
     "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
     "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
     "Uncovered": LINEAR,
-    "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
-    "EntropyBound": [offs("entropy"), _much_growth, _swap("branches")],
+    "Branch": [
+        put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
+        put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
+        put("turn", lambda old: old + 2),
+    ],
+    "EntropyBound": [
+        offs("entropy"),
+        _much_growth,
+        _swap("branches"),
+        _cells(lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
+        _cells(lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
+        _cells(lambda old: old[::-1]),
+    ],
     "Grazing": [
         *map(offs, ("phases", "time", "root")),
         put("turn", lambda old: old + 2),
@@ -335,8 +364,18 @@ FALSE = {
         put("late", lambda old: (off(old[0]), off(old[1]))),
     ],
     "NuWindows": [_window, put("below", ())],
-    "Rebound": [offs("phase"), offs("velocity"), _derivative, put("turns", lambda old: old + 1)],
-    "RectangleMap": [offs("left"), offs("right"), offs("velocity"), _derivative],
+    "Differential": [_image, _speed, _derivative, put("turns", lambda old: (old[0] + 1,))],
+    "Rectangle": [
+        _edge,
+        put("parts", lambda old: old[1:]),
+        lambda record: [_derivative(part) for part in record.parts],
+        lambda record: [_speed(part) for part in record.parts],
+    ],
+    "Horseshoe": [
+        put("margin", F(1, 2)),
+        put("rates", lambda old: (F(99), *old[1:])),
+        put("boxes", lambda old: tuple((phases, (F(-9, 20), F(-2, 5))) for phases, _ in old)),
+    ],
     "BarredWord": [put("word", (0, 0)), put("short", lambda old: old + 1)],
     "RectangleHorseshoe": [
         put("margin", F(1, 2)),
@@ -405,12 +444,6 @@ FALSE = {
     ],
     "AllStick": [_of("arc", offs("arrival")), _of("arc", put("nu", F(1)))],
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
-    "CoveringShift": [
-        put("cells", lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
-        put("cells", lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
-        put("cells", lambda old: old[::-1]),
-        put("eta", F("0.2")),
-    ],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
     "FlightsEnd": [put("nu", F("-0.2"))],

@@ -4,6 +4,8 @@
   const claims = [...document.querySelectorAll(".claim")];
   const chapters = [...document.querySelectorAll(".chapter")];
   const nothing = document.querySelector(".nothing");
+  const results = document.querySelector(".results");
+  const homes = claims.map((claim) => claim.parentElement);
   const names = {α: "alpha", β: "beta", γ: "gamma", δ: "delta", ε: "epsilon", η: "eta", θ: "theta",
     λ: "lambda", μ: "mu", ν: "nu", π: "pi", ρ: "rho", σ: "sigma", τ: "tau", φ: "phi", ψ: "psi",
     ω: "omega", Λ: "lambda", Δ: "delta", "≤": "<=", "≥": ">=", "−": "-", "′": "'"};
@@ -17,6 +19,42 @@
       index.set(claim, `${text} ${text.replaceAll("_", "")}`);
     }
     return index.get(claim);
+  };
+
+  // where a word stands in the claim itself, and then how often in all that is said of it
+  const score = (claim, words) => {
+    const head = spelt(claim.firstElementChild.textContent);
+    const count = (text, word) => text.split(word).length - 1;
+    return words.reduce((sum, word) =>
+      sum + 10 * count(head, word) + Math.min(20, count(textOf(claim), word)), 0);
+  };
+
+  const arrange = (words, seen) => {
+    results.hidden = !words.length;
+    if (!words.length) return claims.forEach((claim, k) => homes[k].append(claim));
+    const scores = new Map(seen.map((claim) => [claim, score(claim, words)]));
+    results.append(...seen.sort((a, b) => scores.get(b) - scores.get(a)));
+  };
+
+  const highlight = (words, seen) => {
+    if (!CSS.highlights) return;
+    CSS.highlights.delete("found");
+    const ranges = [];
+    for (const word of words.filter((each) => each.length > 1)) {
+      for (const claim of seen) {
+        const nodes = document.createTreeWalker(claim, NodeFilter.SHOW_TEXT);
+        while (nodes.nextNode() && ranges.length < 5000) {
+          const text = nodes.currentNode.data.toLowerCase();
+          for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
+            const range = new Range();
+            range.setStart(nodes.currentNode, at);
+            range.setEnd(nodes.currentNode, at + word.length);
+            ranges.push(range);
+          }
+        }
+      }
+    }
+    if (ranges.length) CSS.highlights.set("found", new Highlight(...ranges));
   };
 
   const filter = () => {
@@ -33,10 +71,12 @@
       shown += fits;
     }
     for (const figures of document.querySelectorAll(".figures")) figures.hidden = shown < claims.length;
+    const seen = claims.filter((claim) => !claim.hidden);
+    arrange(words, [...seen]);
+    highlight(words, seen);
     for (const chapter of chapters) chapter.hidden = !chapter.querySelector(".claim:not([hidden])");
     nothing.hidden = shown > 0;
     const own = (list) => list.filter((claim) => "own" in claim.dataset).length;
-    const seen = claims.filter((claim) => !claim.hidden);
     const paper = claims.length - own(claims);
     const counted = shown === claims.length ? `${paper}` : `${seen.length - own(seen)} of ${paper}`;
     form.shown.value = `${counted} claims of the paper` + (own(seen) ? `, ${own(seen)} of our own` : "");

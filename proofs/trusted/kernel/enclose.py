@@ -12,12 +12,12 @@ from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Futile, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024, 2048, 4096)
-_LARGEST = 256  # results beyond 2^256 are not followed
+LARGEST = 256  # results beyond 2^256 are not followed
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
 _NO_DATUM = Fraction(0)
@@ -39,18 +39,19 @@ class Enclosures:
 
     def __init__(self, bits: int) -> None:
         self.bits = bits
+        self._limit = 1 << (bits + LARGEST)
 
     def apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         """Enclose op(arguments)."""
-        result = self._apply(op, arguments, datum)
-        if max(-result.lo, result.hi) >> (self.bits + _LARGEST):
+        arithmetic = ARITHMETIC.get(op)
+        result: Enclosure = (
+            arithmetic(*arguments) if arithmetic else self._other(op, arguments, datum)
+        )
+        if result.hi >= self._limit or -result.lo >= self._limit:
             raise Unproved("a value beyond 2^256")
         return result
 
-    def _apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
-        if op in ARITHMETIC:
-            result: Enclosure = ARITHMETIC[op](*arguments)
-            return result
+    def _other(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         if op == "number":
             METER.get().spend(size(datum) >> 8)
             return rational(datum, self.bits)
@@ -180,13 +181,23 @@ def point_box(point: Sequence[Fraction]) -> Box:
     return tuple((value, value) for value in point)
 
 
-def tried(compute: Callable[[int], T]) -> Iterator[T]:
-    """Compute something at better and better precisions, where it is defined, while asked."""
-    for bits in PRECISIONS:
+def tried(compute: Callable[[int], T], precisions: Sequence[int] = PRECISIONS) -> Iterator[T]:
+    """Compute something at better and better precisions, where it is defined, while asked.
+
+    Futile where nothing could be computed, and more digits would not help.
+    """
+    is_computed = False
+    for bits in precisions:
         try:
-            yield compute(bits)
+            result = compute(bits)
+        except Futile:
+            if not is_computed:
+                raise
+            return
         except Unproved:
             continue
+        is_computed = True
+        yield result
 
 
 def attempts(
@@ -196,22 +207,42 @@ def attempts(
 
     At each precision the natural form, then its intersection with the mean value form: on a box
     X that contains m, f(x) lies in f(m) + f'(X) (X - m). Both contain the values, so they meet.
+    It ends where more digits no longer help.
     """
+    before: list[Enclosure] = []
     for bits in precisions:
         x = enclosed(box, bits)
         try:
-            values = map_.values(x)
+            natural = map_.values(x)
+            yield natural
+            values = list(map(Enclosure.meet, natural, mean_value_form(map_, x)))
             yield values
-            yield list(map(Enclosure.meet, values, _mean_value_form(map_, box, x)))
+        except Futile:
+            if not before:
+                raise
+            return
         except Unproved:
             continue
+        if before and not is_narrower(values, before):
+            return
+        before = values
 
 
-def _mean_value_form(map_: Differentiable, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
-    centre = centre_of(box)
-    values = map_.values(enclosed(point_box(centre), x[0].bits))
-    steps = [a - rational(m, a.bits) for a, m in zip(x, centre, strict=True)]
-    return [add(value, row, steps) for value, row in zip(values, map_.jacobian(x), strict=True)]
+def is_narrower(values: Sequence[Enclosure], before: Sequence[Enclosure]) -> bool:
+    """Whether the widest of some enclosures is at most half as wide as before, in fewer bits."""
+    now, then = (max(x.hi - x.lo for x in each) for each in (values, before))
+    return 2 * now <= then << (values[0].bits - before[0].bits)
+
+
+def mean_value_form(map_: Differentiable, x: Sequence[Enclosure]) -> list[Enclosure]:
+    """Enclose f(m) + f'(X) (X - m), m the middle of X; a map of parameters may know better."""
+    own: Callable[..., list[Enclosure]] | None = getattr(map_, "mean_value_form", None)
+    if own is not None:
+        return own(x)
+    centre = [Enclosure(m := (a.lo + a.hi) >> 1, m, a.bits) for a in x]
+    steps = [a - m for a, m in zip(x, centre, strict=True)]
+    rows = zip(map_.values(centre), map_.jacobian(x), strict=True)
+    return [add(value, row, steps) for value, row in rows]
 
 
 def add(value: Enclosure, row: Sequence[Enclosure], column: Sequence[Enclosure]) -> Enclosure:

@@ -17,6 +17,7 @@ from proofs.trusted.kernel.meter import METER
 
 FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 _MAX_TAPE = 20_000
+_NODE = 25  # work, for the room that one takes
 
 T = TypeVar("T")
 
@@ -36,6 +37,19 @@ class Node(NamedTuple):
     datum: Fraction = Fraction(0)
 
 
+class Step(NamedTuple):
+    """A node to be evaluated: its place, its operation, its first and its last argument."""
+
+    place: int
+    op: str
+    first: int
+    last: int
+    node: Node
+
+
+Steps = Sequence[Step]
+
+
 @dataclass
 class Tape:
     """Nodes in the order of evaluation; equal nodes are stored once."""
@@ -44,6 +58,7 @@ class Tape:
     _places: dict[Node, int] = field(default_factory=dict)
     _orders: dict[tuple[int, ...], list[int]] = field(default_factory=dict)
     _derivatives: dict[tuple[int, int], int] = field(default_factory=dict)
+    _divided: dict[tuple[tuple[int, ...], int], tuple[Steps, Steps]] = field(default_factory=dict)
 
     def add(self, op: str, *arguments: int, datum: Fraction = Fraction(0)) -> int:
         """Return the place of a node, a new one where there is none like it."""
@@ -52,6 +67,7 @@ class Tape:
         if place == len(self.nodes):
             if place >= _MAX_TAPE:
                 raise Unproved("derivatives of a formula with too many operations")
+            METER.get().spend(_NODE)
             self.nodes.append(node)
         return place
 
@@ -70,6 +86,24 @@ class Tape:
             METER.get().spend(len(needed))
             self._orders[roots] = sorted(needed)
         return self._orders[roots]
+
+    def divided(self, roots: tuple[int, ...], variable: int) -> tuple[Steps, Steps]:
+        """Return the nodes that roots need: those that do not change with a variable, the others.
+
+        Each in the order of evaluation.
+        """
+        if (roots, variable) not in self._divided:
+            changing, still, moving = set[int](), list[Step](), list[Step]()
+            for place in self.order(roots):
+                node = self.nodes[place]
+                own = node.op == "variable" and node.datum == variable
+                if own or not changing.isdisjoint(node.arguments):
+                    changing.add(place)
+                ends = (*node.arguments[:1], *node.arguments[-1:], 0, 0)
+                step = Step(place, node.op, ends[0], ends[1], node)
+                (moving if place in changing else still).append(step)
+            self._divided[roots, variable] = still, moving
+        return self._divided[roots, variable]
 
     def evaluate(self, roots: tuple[int, ...], numbers: Numbers[T], inputs: Sequence[T]) -> list[T]:
         """Return the roots' values at the inputs; every node that they need is evaluated."""
@@ -103,8 +137,9 @@ class Tape:
     def derivative(self, root: int, variable: int) -> int:
         """Return the place of the partial derivative, by the rules of calculus, node by node.
 
-        A product with the number 0 is left out, which is right where the other factor is
-        defined: so a derivative is used only together with the root itself.
+        A product with a derivative that is the number 0 is left out, which is right where the other
+        factor is defined: so a derivative is used only together with the root itself. No derivative
+        is left out, not even 0 times that of a root, which has none where its argument is 0.
         """
         if (root, variable) not in self._derivatives:
             tangents: dict[int, int] = {}
@@ -124,19 +159,19 @@ class Tape:
             return self.number(0)
         match op:
             case "+":
-                result = self._sum(*slopes)
+                result = self.sum(*slopes)
             case "-":
-                result = self._sum(slopes[0], self._negative(slopes[1]))
+                result = self.sum(slopes[0], self._negative(slopes[1]))
             case "negative":
                 result = self._negative(slopes[0])
             case "*":
                 a, b = arguments
-                result = self._sum(self._product(slopes[0], b), self._product(a, slopes[1]))
+                result = self.sum(self.product(slopes[0], b), self.product(slopes[1], a))
             case "/":  # (a / b)' = (a' - (a / b) b') / b
-                fall = self._negative(self._product(place, slopes[1]))
-                result = self.add("/", self._sum(slopes[0], fall), arguments[1])
+                fall = self._negative(self.product(slopes[1], place))
+                result = self.add("/", self.sum(slopes[0], fall), arguments[1])
             case _:
-                result = self._product(self._rate(op, place, arguments[0], datum), slopes[0])
+                result = self.product(slopes[0], self._rate(op, place, arguments[0], datum))
         return result
 
     def _rate(self, op: str, place: int, a: int, n: Fraction) -> int:
@@ -144,7 +179,7 @@ class Tape:
         match op:
             case "^":
                 lower = self.number(1) if n == 1 else self.add("^", a, datum=n - 1)
-                rate = self._product(self.number(n), lower)
+                rate = self.product(self.number(n), lower)
             case "sqrt":
                 rate = self.add("/", self.number(Fraction(1, 2)), place)
             case "exp":
@@ -167,12 +202,14 @@ class Tape:
     def _negative(self, a: int) -> int:
         return a if self._is(a, 0) else self.add("negative", a)
 
-    def _sum(self, a: int, b: int) -> int:
+    def sum(self, a: int, b: int) -> int:
+        """Return the place of a + b; b where a is the number 0, and so on."""
         if self._is(a, 0):
             return b
         return a if self._is(b, 0) else self.add("+", a, b)
 
-    def _product(self, a: int, b: int) -> int:
-        if self._is(a, 0) or self._is(b, 1):
-            return a
-        return b if self._is(b, 0) or self._is(a, 1) else self.add("*", a, b)
+    def product(self, slope: int, factor: int) -> int:
+        """Return the place of a product; 0 where the slope is the number 0 (see `derivative`)."""
+        if self._is(slope, 0) or self._is(factor, 1):
+            return slope
+        return factor if self._is(slope, 1) else self.add("*", slope, factor)

@@ -132,11 +132,15 @@ class Series(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the series."""
-        where = ", ".join(f"`{each}`" for each in self.nonzero)
+        coefficients = on_tape(*self.coefficients)
+        nonzero = ", ".join(f"`{each}`" for each in self.nonzero)
+        where = [f"{nonzero} are not 0"] if nonzero else []
+        if any(map(coefficients.tape.may_fail, coefficients.roots)):
+            where.append("the coefficients are defined")
         rest = Power(len(self.coefficients), (self.variable,))
         return (
             f"`{self.function} = {self.polynomial} + O({rest})` as `{self.variable}` -> 0"
-            f"{f' where {where} are not 0' if where else ''}."
+            f"{' where ' if where else ''}{' and '.join(where)}."
         )
 
 

@@ -114,7 +114,7 @@ def test_many_cells_are_a_small_page():
 
 
 def test_kinds_that_nobody_named_have_words():
-    assert summary.words("CoveringShift").startswith("a full shift")
+    assert summary.words("EntropyBound").startswith("a full shift")
     assert summary.words("SomeOtherThing") == "some other thing"
     assert summary.kinds(["Zebra", "AtRest", "StableOrbit"]) == ["StableOrbit", "AtRest", "Zebra"]
 

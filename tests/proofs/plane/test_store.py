@@ -39,7 +39,7 @@ LARGE = ["--eta", "0.211", "0.2134", "--nu", "-0.204", "-0.2", "--ask", "horsesh
 def draw(monkeypatch):
     """Pictures take longer than all else here: what makes one is returned, not done."""
     made = atlas._draw
-    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made: None)
+    monkeypatch.setattr(atlas, "_draw", lambda folder, store, made: "atlas.html")
     return made
 
 
@@ -49,18 +49,10 @@ def proved(folder):
         return check_atlas(store.lines(), math.inf)
 
 
-def start(folder, *more):
-    command = [
-        sys.executable,
-        "-m",
-        "proofs.commands.atlas",
-        *LARGE,
-        "--depth",
-        "3",
-        "--chunk",
-        "3",
-    ]
-    return subprocess.Popen([*command, "--out", str(folder), "--quiet", *more])
+def start(folder, depth=3, **streams):
+    command = [sys.executable, "-m", "proofs.commands.atlas", *LARGE, "--depth", str(depth)]
+    command += ["--chunk", "3", "--out", str(folder), "--quiet"]
+    return subprocess.Popen(command, **streams)
 
 
 @pytest.mark.slow
@@ -70,7 +62,7 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "VERIFIED         16 cells, 1 of the area" in said and "Opposite: " in said
     made = json.loads((tmp_path / "atlas.json").read_text())
-    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
+    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"EntropyBound": 16}
     lines = tmp_path / LINES
     assert made["digest"] == f"sha256:{sha256(lines.read_bytes()).hexdigest()}"
     assert check([str(lines)]) == 0
@@ -143,7 +135,9 @@ def test_it_goes_on_and_deeper(tmp_path, capsys):
     assert atlas.main([*SMALL, "--depth", "1", *out]) == 1
     assert "4 cells undecided" in capsys.readouterr().out
     assert atlas.main([*SMALL, "--depth", "1", *out]) == 1
-    assert "0 cells looked at now" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "0 cells looked at now" in said
+    assert said.splitlines()[-1] == f"all of it: {tmp_path / 'atlas.html'}"
     assert atlas.main(["--depth", "2", *out]) == 0
     assert "16 cells looked at now" in capsys.readouterr().out
     assert proved(tmp_path).shares == {"VERIFIED": 1}
@@ -168,6 +162,27 @@ def survives(tmp_path, kills, seed):
             rows = now
     assert start(tmp_path).wait() in (0, 1)
     return proved(tmp_path)
+
+
+def has_rows(path):
+    with closing(sqlite3.connect(path)) as store:
+        try:
+            return store.execute("SELECT count(*) FROM cells").fetchone()[0] > 0
+        except sqlite3.OperationalError:  # no table yet, or it is being written
+            return False
+
+
+def test_an_interrupt_says_that_all_is_saved_and_what_goes_on(tmp_path):
+    process = start(tmp_path, 12, stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not has_rows(tmp_path / NAME):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    (said,) = process.communicate()[1].splitlines()
+    assert process.returncode == 130 and "interrupted; what is done is saved" in said
+    goes_on = said.partition("python -m proofs atlas ")[2].removesuffix(" goes on").split()
+    assert goes_on == ["--out", str(tmp_path), "--depth", "12"]
+    with opened(tmp_path, None) as store:
+        assert store.left()
 
 
 def whole(found):
@@ -455,7 +470,8 @@ def test_another_region_in_the_same_folder_is_refused(tmp_path, capsys):
     assert atlas.main([*SMALL, "--depth", "0", "--out", str(tmp_path)]) == 1
     with pytest.raises(SystemExit) as left:
         atlas.main([*LARGE, "--depth", "0", "--out", str(tmp_path)])
-    assert left.value.code == 2 and "another region" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert left.value.code == 2 and "another region" in said and "--out" in said
 
 
 def test_a_region_across_resonance_is_cut_there(tmp_path, capsys):

@@ -32,6 +32,8 @@ def test_search_and_filters_show_what_fits(view):
     tab.fill("[name=query]", "Hausdorff dimension")
     found = shown(tab)
     assert {"H12", "H13"} <= set(found) and len(found) < 20
+    tab.fill("[name=query]", "dimension")
+    assert shown(tab)[0] == "H13" and tab.evaluate("CSS.highlights.get('found').size") > 20
     tab.fill("[name=query]", "omega_n")
     assert {"M1", "S7"} <= set(shown(tab))  # as it is spelt in ASCII
     tab.fill("[name=query]", "I0")
@@ -59,6 +61,13 @@ def test_a_deep_link_opens_what_it_names_whatever_is_filtered(view):
     assert tab.is_visible("[id='H2.2']")
     box = tab.locator("[id='H2.2']").bounding_box()
     assert 0 <= box["y"] < 900
+
+
+def test_a_lower_case_link_and_no_formula_cut_off(view):
+    tab = view("#h13", width=390)
+    assert tab.get_attribute("#H13", "open") is not None
+    wide = "all => all.filter(x => x.scrollWidth > x.clientWidth + 1).length"
+    assert tab.eval_on_selector_all("#H13 .formula", wide) == 0
 
 
 def test_the_counts_lead_to_the_claims(view):

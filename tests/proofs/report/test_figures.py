@@ -181,7 +181,12 @@ def test_3_the_first_levels_are_the_sets(drawings):
         witness = step("dimension", name)
         drawn = {label: [box(each)[0] for each in polygons] for label, polygons in axes.items()}
         assert drawn["I, exact"] == [tuple(numbers(witness["hull"]))]
-        assert drawn["I0 and I1, exact"] == [tuple(x) for x in numbers(witness["domains"])]
+        branches = [step("dimension", each)["flights"] for each in witness["branches"]]
+        domains = [
+            (step("dimension", each[0])["phases"][0], step("dimension", each[-1])["phases"][1])
+            for each in branches
+        ]
+        assert drawn["I0 and I1, exact"] == [tuple(numbers(x)) for x in domains]
 
 
 def test_4_every_state_has_its_image_in_a_box(drawings):

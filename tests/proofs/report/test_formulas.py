@@ -3,6 +3,7 @@
 import math
 import re
 from fractions import Fraction
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import pytest
@@ -104,3 +105,17 @@ def test_expressions_stand_below_each_other():
         r"j_{11} = \frac{-(a \varepsilon + 2)}{2}",
         rf"{latex('lam')} = -c",
     ]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "expected"),
+    [
+        ("0.12345678901234567811", "0.12345678901234567923", "0.1234567890123456[78, 80]"),
+        ("-0.12345678901234567823", "-0.12345678901234567811", "-0.12345678901234567[9, 8]"),
+    ],
+)
+def test_long_decimals_are_shared_digits_rounded_outward(low, high, expected):
+    shown = SimpleNamespace(latex=rf"{low} \le \dim A \le {high}")
+    assert lines(shown) == [rf"\dim A = {expected}"]
+    short = rf"{low[:6]} \le x \le {high[:6]}"
+    assert lines(SimpleNamespace(latex=short)) == [short]

@@ -187,6 +187,76 @@ def wide_cone():
     return made
 
 
+def product(count):
+    """A polynomial of 2^count terms."""
+    return "*".join(f"(1 + a{k})" for k in range(count))
+
+
+def added(terms):
+    """A sum that is not nested deeply."""
+    while len(terms) > 1:
+        terms = [f"({' + '.join(terms[k : k + 12])})" for k in range(0, len(terms), 12)]
+    return terms[0]
+
+
+def many_quotients():
+    terms = [f"{k}/q" for k in range(2, 1000)]
+    return many("formula-equal", [equal(f"at({added(terms)}, q={product(12)})")])
+
+
+def many_sums():
+    terms = [f"(-({k} - q))" for k in range(2, 600)]
+    return many("formula-equal", [equal(f"at({added(terms)}, q={product(12)})")])
+
+
+def many_terms():
+    return many("formula-equal", [equal(product(25))])
+
+
+def long_series():
+    """A pole of an order beyond all memory."""
+    pole = "(((x**(-1))**1000)**1000)**1000"
+    lists = {"coefficients": ["0"], "nonzero": []}
+    return many("formula-series", [{"function": pole, "variable": "x", **lists}])
+
+
+def many_unknowns(count=20_000):
+    expressions = {f"a{k}": "1" for k in range(count)}
+    return many("formula-solution", [{"expressions": expressions, "lemmas": [equal("x", "x")]}])
+
+
+def many_functions():
+    function = {"variables": ["x"], "values": ["x + " + added([str(k) for k in range(1, 60)])]}
+    return document([], {f"F{k}": function for k in range(9_000)}, ["none"])
+
+
+def long_decimals(count=50):
+    """Binary fractions, each with thousands of decimals."""
+    unit = [[str(int(i == j)) for i in range(6)] for j in range(6)]
+    h_set = {"centre": [f"1/{2**9940}"] * 6, "matrix": unit, "inverse": unit}
+    return many("h-set", [h_set] * count)
+
+
+def many_points(count=2000):
+    """An arc of very many pieces, in the last of which are as many points."""
+    line, none, one = {"variables": ["x", "y"], "values": ["y"]}, ["0", "0"], [["1"]]
+    sides = [[str(k), str(k + 1)] for k in range(count)]
+    pieces = [{"box": [side, ["-1", "1"]], "slope": none, "matrix": one} for side in sides]
+    points = [{"box": [[f"{count}"] * 2, ["-1/2", "1/2"]], "matrix": one}] * count
+    witness = {"function": "F", "axis": "x", "pieces": pieces, "points": points}
+    return document([("s", "arc", witness)], {"F": line})
+
+
+def tower_of_maps(count=1500):
+    maps = {f"F{k}": {"maps": [f"F{k - 1}", "F0"]} for k in range(1, count)}
+    box = {"function": f"F{count - 1}", "box": [["0", "1"]], "tree": None, "bounds": ["0", "1"]}
+    return document([("s", "image", box)], {"F0": {"variables": ["x"], "values": ["x"]}} | maps)
+
+
+def deep_json():
+    return "[" * 2_000_000
+
+
 def deep_tree():
     made = json.dumps(many("formula-value", [value("x", x=["0", "1"])]))
     cuts = "".join(f'["1", "{2 ** (k + 2) - 1}/{2 ** (k + 1)}", ' for k in range(200))
@@ -199,6 +269,7 @@ HOSTILE = {
     if callable(made)
     and getattr(made, "__module__", "") == __name__
     and name not in ("document", "many", "value", "equal", "balanced", "source_of", "outcome")
+    and name not in ("product", "added")
 }
 
 

@@ -199,6 +199,7 @@ def test_the_oscillator_as_data_is_the_oscillator(phi):
 
 STILL = {"name": "y", "form": "x", "equation": "0", "start": ["x"]}
 CLOCK = {"variables": ["x"], "time": "t", "motion": [STILL], "gaps": ["2 - t"], "values": ["y"]}
+SIX = {"name": "p", "form": "6", "equation": "0", "start": ["6"]}
 KINK = {
     "name": "y",
     "form": "sqrt((t - 1)**2)",
@@ -229,6 +230,7 @@ TRUTHS = [
     ("y' = y", moving("x*exp(t)", "y", "x", values=["y/x"]), [("1/10", "1/5")], 7.389056),
     ("y' = 2 t", moving("t**2", "2*t", "0", values=["y"]), STATE, 4),
     ("a ball", ball(values=["v", "phi"], periods={}), LAUNCH, 2),
+    ("at rest or faster", clock(gaps=["x*t + t**2 - t**3"], values=["t"]), [("0", "0")], 1),
 ]
 NOT_0 = "a gap is not proved > 0 at launch"
 LEAVES, GRAZE = "right after launch", "a graze is not excluded at the time 1,"
@@ -243,6 +245,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("a double zero at launch", BALL, [("0", "0"), ("1", "1")], LEAVES),
     ("a launch that may be both", BALL, [("1/2", "1/2"), ("1/2", "1")], LEAVES),
     ("a wrong order of leaving", clock(gaps=["-t**3 + t**4"]), STATE, LEAVES),
+    ("slower than at rest", clock(gaps=["t**2 - x*t - t**3"]), STATE, LEAVES),
     ("a gap that is 0", clock(gaps=["0*t"]), STATE, "the gap is 0 at launch"),
     ("a graze before", clock(gaps=["(t - 1)**2*(2 - t)"]), STATE, GRAZE),
     ("a graze as the impact", clock(gaps=["(t - 1)**2"]), STATE, GRAZE),
@@ -252,7 +255,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("another wall first", clock(gaps=["2 - t", "1 - t"]), STATE, OTHER),
     ("another wall at once", clock(gaps=["2 - t", "2 - t"]), STATE, OTHER),
     ("another wall for some", clock(gaps=["2 - t", "2 + x - t"]), STATE, OTHER),
-    ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, GRAZE),
+    ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, OTHER),
     ("a gap undefined between", clock(gaps=["2 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another gap undefined", clock(gaps=["2 - t", "3 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another equation", moving("t**2", "3", "0", "0"), STATE, SOLVES),
@@ -279,6 +282,18 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("a gap that counts turns", ball(gaps=["(y - sin(phi + t))*(9 + phi)"]), LAUNCH, PERIOD),
     ("the period of another circle", ball(periods={"v": "2*pi"}), LAUNCH, PERIOD),
     ("a period that varies", ball(periods={"phi": "v"}), LAUNCH, "a period is a number"),
+    (
+        "a motion as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "p"}),
+        LAUNCH,
+        "a period is a number",
+    ),
+    (
+        "a velocity as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "6 + D(p, t)"}),
+        LAUNCH,
+        "a period is a number",
+    ),
     ("no period", ball(periods={"phi": "0"}), LAUNCH, "a period is positive"),
     ("a period of nothing", ball(periods={"y": "pi"}), LAUNCH, "what is no variable"),
     ("a name twice", clock(variables=["x", "t"]), STATE, "a name that is there twice"),

@@ -148,6 +148,9 @@ def test_powers(low, high, n, expected):
         ("1/x - 1/x", (-1, 1)),
         ("x/0", (1, 2)),
         ("D(x + 0*sqrt(x), x)", (-1, 1)),
+        ("D(x + 0*sqrt(x), x)", (0, 1)),
+        ("D(x + 0*sqrt(-x**2), x)", (0, 0)),  # of a function that is defined at 0 alone
+        ("D(x + sqrt(-x**2)*0, x)", (0, 0)),
     ],
 )
 def test_nothing_is_known_where_a_formula_is_not_defined_or_too_large(expression, box):

@@ -60,7 +60,7 @@ def test_values_and_derivatives_for_all_parameters(name, count):
 
 def test_definitions_say_parameters_and_periods():
     said = read(MAPS)["U"].definition
-    head = "`U` is `T`, then `S`, where `T` is `S`, then `S`, where `S(x, y) = (x + y + k*sin(x)"
+    head = "`U` is `S`, then `S`, then `S`, where `S(x, y) = (x + y + k*sin(x)"
     assert said.startswith(head)
     assert ", for all `k` in [0.5, 0.6], `x` modulo `2*pi`, `y` modulo `2*pi`" in said
 
@@ -78,6 +78,8 @@ LIES = [
     ("a negative period", {"F": with_(DOUBLING, periods={"x": "-1"})}, "positive"),
     ("a range as a period", {"F": with_(STANDARD, periods={"x": "k"})}, "a period is a number"),
     ("the state as a period", {"F": with_(DOUBLING, periods={"x": "x"})}, "a period is a number"),
+    ("the state, bound away", {"F": with_(DOUBLING, periods={"x": "at(1, k=x)"})}, "is a number"),
+    ("a derivative as a period", {"F": with_(DOUBLING, periods={"x": "D(x, x)"})}, "is a number"),
     ("e as a variable", {"F": {"variables": ["e"], "parameters": {}, "values": ["e"]}}, "not a n"),
     ("a parameter of no range", {"F": with_(STANDARD, parameters={"k": ["1", "0"]})}, "reversed"),
     ("an unknown name", {"F": with_(STANDARD, parameters={"r": ["1", "2"]})}, "unknown variable"),
@@ -92,6 +94,8 @@ LIES = [
     ("a circle of another number", {"F": TWO, "G": with_(TWO, parameters={"c": ["2", "2"]}),
      "P": {"maps": ["F", "G"]}}, "one state, with the same angles"),
     ("named as the derivative", {"D": DOUBLING}, "functions are named like F"),
+    ("a tower of maps", {"F": DOUBLING, "G0": {"maps": ["F", "F"]}} | {
+     f"G{k}": {"maps": [f"G{k - 1}", f"G{max(k - 2, 0)}"]} for k in range(1, 40)}, "more than 100"),
     ("too few values", {"F": {"variables": ["x", "y"], "values": ["x"]},
      "G": {"maps": ["F", "F"]}}, "one state"),
 ]  # fmt: skip

@@ -350,6 +350,16 @@ def test_a_derivative_is_one_where_the_function_is_defined():
         value(hidden, ["1", "1"], x=["0", "1"])
 
 
+def test_a_series_says_where_its_coefficients_are_defined():
+    assert series("sin(x)", "0", "1").sentence == "`sin(x) = 1*x + O(x**2)` as `x` -> 0."
+    said = [
+        series(*x, nonzero=y).sentence
+        for x, y in ((("x", "1/y - 1/y"), ()), (("x/y", "0", "1/y"), ["y"]))
+    ]
+    assert said[0].endswith("-> 0 where the coefficients are defined.")
+    assert said[1].endswith("-> 0 where `y` are not 0 and the coefficients are defined.")
+
+
 def test_forms_of_series():
     for arguments in (
         {"variable": "y"},
