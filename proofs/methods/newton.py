@@ -169,8 +169,8 @@ def fates(sampled: Sampled, x: Floats, cycles: Sequence[Cycle]) -> list[str]:
 
     x: those of them that are settled.
     """
-    count = f"of {_FOLLOWED} points at random in the region {x.shape[1]}"
-    ends = [f"{count} are followed for {_SETTLING} steps"]
+    followed = f"of {_FOLLOWED} points at random in the region {x.shape[1]}"
+    ends = [f"{followed} are followed for {_SETTLING} steps"]
     if lost := _FOLLOWED - x.shape[1]:
         ends.append(
             f"{lost} are lost before: they come to rest, perhaps by chatter, go far away, or have "
