@@ -24,7 +24,6 @@ Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
 Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
-_SEEDS = 120
 EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
@@ -234,7 +233,7 @@ class Map:
         if near:
             starts = as_points([[exact(state[each]) for each in self.variables] for state in near])
         else:
-            starts = seeds(sampled, self.region(box), int(_SEEDS * period * self._share))
+            starts = seeds(sampled, self.region(box), int(sampled.starts * period * self._share))
         return cycles(sampled, period, starts)
 
     def sample(self) -> Any:

@@ -79,6 +79,9 @@ def _systems() -> list[Published]:
     ball = System.example("bouncing-ball")
     near = System.example("bouncing-ball", e=["0.4999", "0.5001"])
     slow = System.example("bouncing-ball", g="0.3", e="0.1")
+    hardly = {"e": ["0.499", "0.501"], "g": ["0.0999", "0.1001"]}
+    chaotic = System.example("bouncing-ball", **hardly)
+    calm = System.example("bouncing-ball", e=["0.498", "0.502"], g=["0.798", "0.802"])
     billiard = System.example("billiard")
     inelastic = System.example("billiard", e="0.95")
     lossy = System.example("billiard", a="2", e="0.8")
@@ -95,6 +98,11 @@ def _systems() -> list[Published]:
                 "orbits-1-range": lambda: near.orbits(1),
                 "stable": slow.stable,
                 "horseshoe": ball.horseshoe,
+                "stable-range": lambda: calm.stable(1),
+                "horseshoe-range": chaotic.horseshoe,
+                "branches": lambda: calm.branches(g=("0.7", "0.9")),
+                "folds": lambda: calm.folds(g=("0.6", "1"), e=("0.45", "0.5")),
+                "flips": lambda: calm.flips(g=("0.3", "0.9"), e=("0.45", "0.46")),
             },
             [
                 'Vogel and Linz (2011) write in their abstract: "Using extensive numerical '
@@ -103,7 +111,7 @@ def _systems() -> list[Published]:
                 "1/2 settles that there is an invariant set on which the exact map is chaotic. It "
                 "is no attractor, and the theorem says nothing about what most motions do.",
             ],
-            ["a horseshoe for all parameters of a box", "curves of the flip of periodic orbits"],
+            ["that the points of `folds` and `flips` are bifurcations: their normal forms"],
         ),
         _of(
             "billiard",
@@ -181,6 +189,63 @@ def _systems() -> list[Published]:
                 '"quadratically tangent to the curve of grazing bifurcations" at resonance.',
             ],
             ["curves of grazing, folds and flips, and their tangency"],
+        ),
+        *_flows(),
+    ]
+
+
+def _flows() -> list[Published]:
+    """Return the systems whose flow has no closed form."""
+    roessler, lorenz = System.example("roessler"), System.example("lorenz")
+    oscillator, duffing = System.example("van-der-pol"), System.example("duffing-wall")
+    stiff = System.example("van-der-pol", m="2")
+    return [
+        _of(
+            "roessler",
+            roessler,
+            {
+                "orbits-1": lambda: roessler.orbits(1),
+                "orbits-2": lambda: roessler.orbits(2),
+                "orbits-3": lambda: roessler.orbits(3),
+            },
+            [
+                "The map is the first return to the half plane x = 0, x rising. In the direction "
+                "that contracts a turn takes distances to 10^-11 of themselves or less.",
+            ],
+            [
+                "that there are no other orbits of these periods",
+                "a horseshoe: covering relations of wide sets need more work than a file is given "
+                "by default",
+                "an attractor: no rule says that an image lies in the interior of a box",
+            ],
+        ),
+        _of(
+            "lorenz",
+            lorenz,
+            {"orbits-2": lambda: lorenz.orbits(2), "orbits-3": lambda: lorenz.orbits(3)},
+            [
+                "Periodic orbits are called by words in A and B in the literature, for turns about "
+                "the two outer equilibria. As floating point sees them, the orbit of period 2 is "
+                "AB, those of period 3 are AAB and ABB.",
+            ],
+            ["that there are no other orbits of these periods", "an attractor"],
+        ),
+        _of(
+            "van-der-pol",
+            oscillator,
+            {"stable": lambda: oscillator.stable(1), "stable-2": lambda: stiff.stable(1)},
+            ["For each damping m > 0 there is exactly one limit cycle, by Lienard's theorem."],
+            ["that all other motions but rest come to it"],
+        ),
+        _of(
+            "duffing-wall",
+            duffing,
+            {
+                "impact": lambda: duffing.impact(a="3.3", v="1.1"),
+                "stable": lambda: duffing.stable(1),
+            },
+            ["The system is this file's: a hardening spring, a harmonic force, a wall at rest."],
+            ["orbits that hit the wall more than once a period", "a horseshoe: none is found"],
         ),
     ]
 

@@ -273,7 +273,8 @@ def krawczyk(
     """
     piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
     with undecided():
-        return zeros.krawczyk(map_, piece, centre or centre_of(box), matrix, (axis, bits))
+        image = zeros.krawczyk(map_, piece, centre or centre_of(box), matrix, (axis, bits))
+        return {k: each.range for k, each in image.items()}
 
 
 @contextmanager

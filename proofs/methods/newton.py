@@ -27,7 +27,7 @@ from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
-_STEPS, _NEAR = 12, 1e-9  # of Newton's method
+_STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _BITS, _PLACE, _RADIUS = 160, Fraction(1, 10**26), Fraction(1, 10**22)  # of exact points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _FIRST, _MORE, _INFLATIONS = Fraction(1, 10**6), 1.3, 12  # of boxes where parameters have ranges
@@ -69,6 +69,8 @@ def _fixed(iterate: Sampled, starts: Floats) -> Floats:
             matrix, missed = derivatives - np.eye(len(x)), image - x.T
             step = _solved(matrix, missed - whole_periods(iterate, missed)).T
             x = x - step
+            if np.nanmax(np.abs(step), initial=0) < _STILL:
+                break
         good = (np.abs(step) < _NEAR * (1 + np.abs(x))).all(axis=0) & np.isfinite(x).all(axis=0)
     return np.where(good, x, np.nan)
 
@@ -259,7 +261,8 @@ def _boxes(closing: Closing, point: Floats, matrix: Rows, has_ranges: bool) -> I
     for _ in range(_INFLATIONS):
         middle = centre_of(box)
         flat = Piece(box, (Fraction(0),) * len(box))
-        image = krawczyk(closing, flat, middle, matrix, (None, _BITS))
+        enclosures = krawczyk(closing, flat, middle, matrix, (None, _BITS))
+        image = {k: each.range for k, each in enclosures.items()}
         if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
             yield box
             return

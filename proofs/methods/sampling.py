@@ -10,8 +10,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.methods.flows import Flown
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
 from proofs.trusted.numbers import Range
@@ -23,6 +25,7 @@ _BITS = 64  # of periods
 _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
+_STARTS, _FEW = 120, 20  # points at random for a search
 
 _OPERATORS = {
     "atan": "np.arctan({})",
@@ -62,6 +65,8 @@ def ranges_of(map_: Map) -> tuple[Range, ...]:
     """Return the ranges of a map's parameters, which the maps of a composition have in common."""
     if isinstance(map_, Composition):
         return ranges_of(map_.maps[0])
+    if isinstance(map_, Flow):
+        return map_.ranges
     if isinstance(map_, Flight | Formulas):
         return map_.formulas.ranges if isinstance(map_, Flight) else map_.ranges
     raise TypeError(f"no way to sample a {type(map_).__name__}")
@@ -91,6 +96,12 @@ class Sampled:
         """Return the images; angles are not reduced."""
         with np.errstate(all="ignore"):
             return self._images(self.map, x)
+
+    @property
+    def starts(self) -> int:
+        """The number of points at random for a search: fewer of a flow, where each is dear."""
+        parts = self.map.maps if isinstance(self.map, Composition) else (self.map,)
+        return _FEW if any(isinstance(part, Flow) for part in parts) else _STARTS
 
     @cached_property
     def periods(self) -> Floats:
@@ -131,6 +142,8 @@ class Sampled:
         if isinstance(map_, Flight):
             time = self.times(map_, x)
             return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+        if isinstance(map_, Flow):
+            return Flown(map_, self._parameters(map_.ranges), compiled)(x)
         if isinstance(map_, Formulas):
             return self._evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")
@@ -173,14 +186,15 @@ class Sampled:
         values = self._function(formulas, tuple(roots))(*x)
         return np.array([np.broadcast_to(value, np.shape(x[0])) for value in values])
 
+    def _parameters(self, ranges: Sequence[Range]) -> list[float]:
+        shares = (*self.shares, *[0.5] * len(ranges))
+        sides = zip(ranges, shares, strict=False)
+        return [float(low) + float(high - low) * share for (low, high), share in sides]
+
     def _function(self, formulas: Formulas, roots: Sequence[int]) -> Function:
         key = (id(formulas), tuple(roots))
         if key not in self._compiled:
-            shares = (*self.shares, *[0.5] * len(formulas.ranges))
-            parameters = [
-                float(low) + float(high - low) * share
-                for (low, high), share in zip(formulas.ranges, shares, strict=False)
-            ]
+            parameters = self._parameters(formulas.ranges)
             function = compiled(formulas.tape, roots)
             self._compiled[key] = lambda *x: function(*x, *parameters)
         return self._compiled[key]

@@ -92,7 +92,10 @@ def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]
 
 def _tree(local: LocalMap, box: Box, holds: Any, most: int) -> Tree:
     def decided(part: Box) -> bool:
-        return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
+        try:
+            return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
+        except Unproved:
+            return False
 
     return subdivide(box, decided, most=most)
 

@@ -12,7 +12,7 @@ from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Futile, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
@@ -181,13 +181,23 @@ def point_box(point: Sequence[Fraction]) -> Box:
     return tuple((value, value) for value in point)
 
 
-def tried(compute: Callable[[int], T]) -> Iterator[T]:
-    """Compute something at better and better precisions, where it is defined, while asked."""
-    for bits in PRECISIONS:
+def tried(compute: Callable[[int], T], precisions: Sequence[int] = PRECISIONS) -> Iterator[T]:
+    """Compute something at better and better precisions, where it is defined, while asked.
+
+    Futile where nothing could be computed, and more digits would not help.
+    """
+    is_computed = False
+    for bits in precisions:
         try:
-            yield compute(bits)
+            result = compute(bits)
+        except Futile:
+            if not is_computed:
+                raise
+            return
         except Unproved:
             continue
+        is_computed = True
+        yield result
 
 
 def attempts(
@@ -197,15 +207,31 @@ def attempts(
 
     At each precision the natural form, then its intersection with the mean value form: on a box
     X that contains m, f(x) lies in f(m) + f'(X) (X - m). Both contain the values, so they meet.
+    It ends where more digits no longer help.
     """
+    before: list[Enclosure] = []
     for bits in precisions:
         x = enclosed(box, bits)
         try:
-            values = map_.values(x)
+            natural = map_.values(x)
+            yield natural
+            values = list(map(Enclosure.meet, natural, mean_value_form(map_, x)))
             yield values
-            yield list(map(Enclosure.meet, values, mean_value_form(map_, x)))
+        except Futile:
+            if not before:
+                raise
+            return
         except Unproved:
             continue
+        if before and not is_narrower(values, before):
+            return
+        before = values
+
+
+def is_narrower(values: Sequence[Enclosure], before: Sequence[Enclosure]) -> bool:
+    """Whether the widest of some enclosures is at most half as wide as before, in fewer bits."""
+    now, then = (max(x.hi - x.lo for x in each) for each in (values, before))
+    return 2 * now <= then << (values[0].bits - before[0].bits)
 
 
 def mean_value_form(map_: Differentiable, x: Sequence[Enclosure]) -> list[Enclosure]:

@@ -159,19 +159,19 @@ class Tape:
             return self.number(0)
         match op:
             case "+":
-                result = self._sum(*slopes)
+                result = self.sum(*slopes)
             case "-":
-                result = self._sum(slopes[0], self._negative(slopes[1]))
+                result = self.sum(slopes[0], self._negative(slopes[1]))
             case "negative":
                 result = self._negative(slopes[0])
             case "*":
                 a, b = arguments
-                result = self._sum(self._product(slopes[0], b), self._product(slopes[1], a))
+                result = self.sum(self.product(slopes[0], b), self.product(slopes[1], a))
             case "/":  # (a / b)' = (a' - (a / b) b') / b
-                fall = self._negative(self._product(slopes[1], place))
-                result = self.add("/", self._sum(slopes[0], fall), arguments[1])
+                fall = self._negative(self.product(slopes[1], place))
+                result = self.add("/", self.sum(slopes[0], fall), arguments[1])
             case _:
-                result = self._product(slopes[0], self._rate(op, place, arguments[0], datum))
+                result = self.product(slopes[0], self._rate(op, place, arguments[0], datum))
         return result
 
     def _rate(self, op: str, place: int, a: int, n: Fraction) -> int:
@@ -179,7 +179,7 @@ class Tape:
         match op:
             case "^":
                 lower = self.number(1) if n == 1 else self.add("^", a, datum=n - 1)
-                rate = self._product(self.number(n), lower)
+                rate = self.product(self.number(n), lower)
             case "sqrt":
                 rate = self.add("/", self.number(Fraction(1, 2)), place)
             case "exp":
@@ -202,12 +202,14 @@ class Tape:
     def _negative(self, a: int) -> int:
         return a if self._is(a, 0) else self.add("negative", a)
 
-    def _sum(self, a: int, b: int) -> int:
+    def sum(self, a: int, b: int) -> int:
+        """Return the place of a + b; b where a is the number 0, and so on."""
         if self._is(a, 0):
             return b
         return a if self._is(b, 0) else self.add("+", a, b)
 
-    def _product(self, slope: int, factor: int) -> int:
+    def product(self, slope: int, factor: int) -> int:
+        """Return the place of a product; 0 where the slope is the number 0 (see `derivative`)."""
         if self._is(slope, 0) or self._is(factor, 1):
             return slope
         return factor if self._is(slope, 1) else self.add("*", slope, factor)

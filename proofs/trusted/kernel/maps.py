@@ -1,8 +1,9 @@
-"""Maps of a file: formulas, flights, compositions; their parameters, and their angles.
+"""Maps of a file: formulas, flights, flows, compositions; their parameters, and their angles.
 
 A function of a file is an object {variables, values}: a formula; with `parameters` {name: range}
 too, and with `periods` {variable: formula} of those variables that are angles. It is a flight if it
-has `time`, `motion` and `gaps` as well (see `flight`), a composition if it has `maps` alone.
+has `time`, `motion` and `gaps` as well (see `flight`), a flow without a closed form if it has a
+`field` (see `flow`), a composition if it has `maps` alone.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
+from proofs.trusted.kernel.flow import read_flow
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
@@ -109,6 +111,8 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
     """Read a function of a file; maps: those before it, of which a composition may be made."""
     if reader.has("maps"):
         return _read_composition(name, reader, maps)
+    if reader.has("field"):
+        return read_flow(name, reader)
     if reader.has("gaps"):
         return read_flight(name, reader)
     return read_function(name, reader)

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
@@ -18,6 +18,7 @@ from proofs.trusted.kernel.enclose import (
     box_text,
     centre_of,
     enclosed,
+    is_narrower,
     point_box,
     read_box,
     sign_on,
@@ -170,9 +171,15 @@ def require_zero(
     """
     piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
     middle, sides = tuple(centre) or centre_of(box), inside or box
+    before: list[Enclosure] = []
     for image in tried(lambda bits: krawczyk(function, piece, middle, matrix, (axis, bits))):
-        if all(sides[k][0] < low and high < sides[k][1] for k, (low, high) in image.items()):
+        if all(sides[k][0] < x.range[0] and x.range[1] < sides[k][1] for k, x in image.items()):
             return
+        if any(x.range[1] < sides[k][0] or sides[k][1] < x.range[0] for k, x in image.items()):
+            raise Unproved("the Krawczyk operator does not map the box strictly inside, but away")
+        if before and not is_narrower([*image.values()], before):
+            break
+        before = [*image.values()]
     raise Unproved("the Krawczyk operator does not map the box strictly inside")
 
 
@@ -182,7 +189,7 @@ def krawczyk(
     centre: Sequence[Fraction],
     matrix: Rows,
     how: tuple[int | None, int],
-) -> dict[int, Range]:
+) -> dict[int, Enclosure]:
     """Enclose K by variables, but the axis; how: the axis, or None, and the precision."""
     METER.get().spend(100 * len(matrix) ** 2)
     axis, bits = how
@@ -198,5 +205,5 @@ def krawczyk(
     for i, entries in zip((k for k in range(len(x)) if k != axis), matrix, strict=True):
         c = [rational(entry, bits) for entry in entries]
         defect = [int(i == j) - add(nothing, c, column) for j, column in enumerate(columns)]
-        image[i] = add(middle[i] - values.combined(c), defect, steps).range
+        image[i] = add(middle[i] - values.combined(c), defect, steps)
     return image
